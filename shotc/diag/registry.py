@@ -1,0 +1,70 @@
+"""All codes in one table: slug, severity, explanation and the examples that tests run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from typing import Literal
+
+from shotc.diag.model import Diagnostic, Severity
+
+FAMILIES = {
+    "Y": ("yaml", "text and YAML"),
+    "S": ("schema", "schema"),
+    "N": ("names", "names and references"),
+    "U": ("units", "units"),
+    "G": ("geometry", "geometry and framing"),
+    "K": ("keyframes", "keyframes and kinds"),
+    "Q": ("convex", "convex solve"),
+    "R": ("refinement", "refinement"),
+    "T": ("timing", "timing"),
+    "V": ("verification", "verification"),
+    "E": ("emission", "emission"),
+    "P": ("plugins", "plugins and options"),
+    "X": ("internal", "our bug"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class CodeInfo:
+    """What ``shotc explain`` prints about one code.
+
+    phase    : the command that finds it; ``other`` where a mission alone cannot show it
+    failing  : a mission (or its bytes, backslash-escaped, for Y codes) that raises the code
+    passing  : the same mission mended
+    """
+
+    code: str
+    slug: str
+    severity: Severity
+    summary: str
+    explanation: str
+    failing: str
+    passing: str
+    phase: Literal["check", "plan", "other"] = "check"
+    since: str = "0.1"
+
+
+@cache
+def registry() -> dict[str, CodeInfo]:
+    """Return every known code, in order of family and number."""
+    table: dict[str, CodeInfo] = {}
+    for module, _ in FAMILIES.values():
+        codes: tuple[CodeInfo, ...] = import_module(f"shotc.diag.codes.{module}").CODES
+        for info in codes:
+            if info.code in table:
+                raise ValueError(f"code {info.code} is registered twice")
+            table[info.code] = info
+    return table
+
+
+def severity_of(diagnostic: Diagnostic) -> Severity:
+    """Return the severity that the registry gives this diagnostic's code."""
+    return registry()[diagnostic.code].severity
+
+
+def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
+    """Tell whether any of the diagnostics rejects the mission."""
+    return any(severity_of(d) is Severity.ERROR for d in diagnostics)

@@ -1,0 +1,1 @@
+"""Emitters: verified plans to files."""

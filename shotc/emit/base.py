@@ -1,0 +1,39 @@
+"""What an emitter is: verified plan in, named bytes out. It never touches the disk."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Protocol
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.trajectory import VerifiedIR
+
+
+@dataclass(frozen=True, slots=True)
+class Artifact:
+    """One output file: its name inside the output folder, and its bytes."""
+
+    name: str
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Emission:
+    """What one emitter made, with warnings about what the format could not carry.
+
+    notes : facts for the user, one line each (e.g. the screen error that a format adds)
+    """
+
+    artifacts: tuple[Artifact, ...]
+    diagnostics: tuple[Diagnostic, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+class Emitter(Protocol):
+    """Writes one family of output formats."""
+
+    name: ClassVar[str]
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return the artifacts of a verified plan."""
+        ...

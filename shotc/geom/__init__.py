@@ -1,0 +1,1 @@
+"""Geometry: frames, solids, the camera, piecewise polynomials."""

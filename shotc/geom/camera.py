@@ -1,0 +1,164 @@
+"""The pinhole camera and what a cylinder looks like in it.
+
+Frames: W is East, North, Up; C is x right, y down, z forward; roll is zero. Yaw is counter-clockwise
+from East, pitch is positive up. Screen (u, v) lies in [-1, 1]^2, u right, v up. The functions use
+plain arithmetic only, so they take floats and numpy arrays alike (``S`` below is either).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan, atan2, cos, hypot, pi, sin, sqrt, tan
+from typing import Any
+
+S = Any  # float or NDArray[float64]; arithmetic is the same for both
+Vec2 = tuple[float, float]
+Vec3 = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """Direction cosines of a camera, and half its screen: tan of half the fields of view."""
+
+    cos_yaw: S
+    sin_yaw: S
+    cos_pitch: S
+    sin_pitch: S
+    half_width: S
+    half_height: S
+
+    def to_camera(self, d: tuple[S, S, S]) -> tuple[S, S, S]:
+        """Turn a vector of W into C: components right, down, forward."""
+        along = self.cos_yaw * d[0] + self.sin_yaw * d[1]
+        right = self.sin_yaw * d[0] - self.cos_yaw * d[1]
+        forward = self.cos_pitch * along + self.sin_pitch * d[2]
+        down = self.sin_pitch * along - self.cos_pitch * d[2]
+        return right, down, forward
+
+    def project(self, d: tuple[S, S, S]) -> tuple[S, S, S]:
+        """Project an offset from the camera (W, metres) to (u, v, depth); only depth > 0 is seen."""
+        right, down, forward = self.to_camera(d)
+        return right / (forward * self.half_width), -down / (forward * self.half_height), forward
+
+
+def view(yaw: float, pitch: float, hfov: float, aspect: float) -> View:
+    """Return the view of one camera pose; angles in rad, aspect = width / height."""
+    half = tan(hfov / 2)
+    return View(cos(yaw), sin(yaw), cos(pitch), sin(pitch), half, half / aspect)
+
+
+def frustum_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> tuple[S, S, S, S]:
+    """Return how far inside each frustum plane a whole upright cylinder lies, metres.
+
+    offset : its centre less the camera, W. Order left, right, bottom, top; negative is cropped.
+    Exact: a cylinder lies inside a plane with inward unit normal n through the camera iff
+    n.p >= h/2 |n.up| + r sqrt(1 - (n.up)^2).
+    """
+    right, down, forward = camera.to_camera(offset)
+    across = 1.0 / (1.0 + camera.half_width**2) ** 0.5
+    along = 1.0 / (1.0 + camera.half_height**2) ** 0.5
+    # World up in C is (0, -cos pitch, sin pitch).
+    up_side = camera.half_width * across * camera.sin_pitch
+    up_bottom = along * (camera.half_height * camera.sin_pitch + camera.cos_pitch)
+    up_top = along * (camera.half_height * camera.sin_pitch - camera.cos_pitch)
+
+    def reach(n_up: S) -> S:
+        return height / 2 * abs(n_up) + radius * abs(1.0 - n_up * n_up) ** 0.5
+
+    side = reach(up_side)
+    return (
+        across * (camera.half_width * forward + right) - side,
+        across * (camera.half_width * forward - right) - side,
+        along * (camera.half_height * forward - down) - reach(up_bottom),
+        along * (camera.half_height * forward + down) - reach(up_top),
+    )
+
+
+def silhouette_bounds(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> tuple[S, S, S, S]:
+    """Return the exact screen box (u_min, u_max, v_min, v_max) of an upright cylinder.
+
+    offset : its centre less the camera, W. Meaningless unless the whole cylinder is in front of the
+    camera (see ``nearest_depth``). The outline of a cylinder is the hull of its two rims, and the
+    screen extremes of a rim are the roots of a quadratic.
+    """
+    low = _rim_bounds(camera, (offset[0], offset[1], offset[2] - height / 2), radius)
+    high = _rim_bounds(camera, (offset[0], offset[1], offset[2] + height / 2), radius)
+    return (
+        _smaller(low[0], high[0]),
+        -_smaller(-low[1], -high[1]),
+        _smaller(low[2], high[2]),
+        -_smaller(-low[3], -high[3]),
+    )
+
+
+def nearest_depth(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> S:
+    """Return the depth of the cylinder's point nearest to the image plane, metres (negative: behind)."""
+    forward = camera.to_camera(offset)[2]
+    return forward - height / 2 * abs(camera.sin_pitch) - radius * abs(camera.cos_pitch)
+
+
+def _rim_bounds(camera: View, centre: tuple[S, S, S], radius: S) -> tuple[S, S, S, S]:
+    # Rim in C: (x + r sin, y + r sin(pitch) cos, z + r cos(pitch) cos). The extremes m of x/z and
+    # y/z satisfy (x - m z)^2 = sum of squares of the harmonic terms, a quadratic in m.
+    x, y, z = camera.to_camera(centre)
+    lean_y, lean_z = radius * camera.sin_pitch, radius * camera.cos_pitch
+    a = z * z - lean_z * lean_z
+    b = x * z
+    root = abs(b * b - a * (x * x - radius * radius)) ** 0.5
+    c = y * z - lean_y * lean_z
+    fall = abs(c * c - a * (y * y - lean_y * lean_y)) ** 0.5
+    width, tall = a * camera.half_width, a * camera.half_height
+    return (b - root) / width, (b + root) / width, -(c + fall) / tall, -(c - fall) / tall
+
+
+def _smaller(a: S, b: S) -> S:
+    return 0.5 * (a + b - abs(a - b))
+
+
+def aim_at(offset: Vec3, uv: Vec2, hfov: float, aspect: float, yaw_if_vertical: float = 0.0) -> Vec2 | None:
+    """Return (yaw, pitch) that shows the point ``offset`` from the camera at screen place ``uv``.
+
+    None where no roll-free camera does (the point too steeply above or below for that u). Of the
+    two solutions for a pitch the one with the smaller magnitude is taken.
+    """
+    half = tan(hfov / 2)
+    ray = (uv[0] * half, uv[1] * half / aspect, 1.0)  # right, up, forward
+    norm = sqrt(ray[0] ** 2 + ray[1] ** 2 + 1.0)
+    right, up, forward = (c / norm for c in ray)
+    length = hypot(*offset)
+    if length == 0:
+        return None
+    # Up component of the ray after pitching: up cos(p) + forward sin(p) = offset_z / length.
+    reach = hypot(up, forward)
+    wanted = offset[2] / length
+    if abs(wanted) > reach:
+        return None
+    lean = atan2(up, forward)
+    rise = atan2(wanted, sqrt(max(0.0, reach**2 - wanted**2)))
+    pitch = min((rise - lean, pi - rise - lean), key=lambda p: abs(_wrap(p)))
+    pitch = _wrap(pitch)
+    along = forward * cos(pitch) - up * sin(pitch)
+    horizontal = hypot(offset[0], offset[1])
+    if horizontal < 1e-9 * length:
+        return (yaw_if_vertical, pitch)
+    return (_wrap(atan2(offset[1], offset[0]) + atan2(right, along)), pitch)
+
+
+def vertical_fov(hfov: float, aspect: float) -> float:
+    """Return the vertical field of view, rad."""
+    return 2 * atan(tan(hfov / 2) / aspect)
+
+
+def heading_of(yaw: float) -> float:
+    """Return the compass heading in [0, 2 pi) of a yaw that is counter-clockwise from East."""
+    return (pi / 2 - yaw) % (2 * pi)
+
+
+def yaw_of(heading: float) -> float:
+    """Return the yaw in (-pi, pi] of a compass heading."""
+    return _wrap(pi / 2 - heading)
+
+
+def _wrap(angle: float) -> float:
+    wrapped = (angle + pi) % (2 * pi) - pi
+    return pi if wrapped == -pi else wrapped

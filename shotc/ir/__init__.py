@@ -1,0 +1,1 @@
+"""The compiler's intermediate representations, one module a level."""

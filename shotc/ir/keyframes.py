@@ -1,0 +1,48 @@
+"""KeyframeIR: keyframes whose camera angles place their target on the composition. Plain Python."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from shotc.ir.mission import MissionIR, Shot, Vec2, Vec3
+from shotc.ir.origin import KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedKeyframe:
+    """A camera pose with the screen position its target is to have there.
+
+    at : p_WC; yaw : camera yaw in (-pi, pi], rad; pitch : rad, up positive; hfov : rad
+    target : the subject, or None for a keyframe that frames nothing
+    reference : (u, v) of the target's centre, or None
+    asked : (u, v) that the user's own framing gave, or None
+    hold, time, placed : as in Keyframe
+    """
+
+    at: Vec3
+    yaw: float
+    pitch: float
+    hfov: float
+    target: str | None
+    reference: Vec2 | None
+    asked: Vec2 | None
+    hold: float
+    time: float | None
+    placed: bool
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedShot:
+    """A shot and its placed keyframes (at least one; one alone is a still camera)."""
+
+    shot: Shot
+    keyframes: tuple[PlacedKeyframe, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class KeyframeIR:
+    """The mission with every shot's keyframes placed, in the order the shots are flown."""
+
+    mission: MissionIR
+    shots: tuple[PlacedShot, ...]

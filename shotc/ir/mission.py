@@ -1,0 +1,252 @@
+"""MissionIR: the mission with every name, preset, unit and kind resolved. Plain Python, no numpy.
+
+World frame W (East, North, Up, metres), radians, seconds; ``path`` is where an element stands in
+the mission file (see ``OriginMap``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeVar
+
+from shotc.geom.solids import Solid
+from shotc.ir.origin import KeyPath, OriginMap
+
+Vec2 = tuple[float, float]
+Vec3 = tuple[float, float, float]
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class GeoOrigin:
+    """The WGS84 place of W's origin.
+
+    lat_deg, lon_deg : degrees
+    alt : metres above mean sea level
+    """
+
+    lat_deg: float
+    lon_deg: float
+    alt: float
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A named volume that the body sphere stays out of, or inside."""
+
+    name: str
+    keep: Literal["in", "out"]
+    solid: Solid
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A standing camera target: an upright cylinder about its centre."""
+
+    name: str
+    centre: Vec3
+    radius: float
+    height: float
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a drone may do; norms as in the language definition.
+
+    speed : horizontal speed over ground, world.wind already taken off, m/s
+    climb, descent : vertical speed, both positive, m/s
+    acceleration : 3D norm, m/s^2
+    jerk : 3D norm, m/s^3
+    yaw_rate, yaw_acceleration : of the body, rad/s, rad/s^2
+    """
+
+    speed: float
+    climb: float
+    descent: float
+    acceleration: float
+    jerk: float
+    yaw_rate: float
+    yaw_acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Gimbal:
+    """Camera angles the gimbal reaches: pitch against the horizon, yaw against the body.
+
+    pitch, yaw : (lowest, highest), rad; rate, acceleration : per axis, rad/s, rad/s^2
+    """
+
+    pitch: Range
+    yaw: Range
+    rate: float
+    acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Drone:
+    """A drone with its presets filled in.
+
+    home : p_WB at rest on its pad
+    hfov : horizontal field of view, rad; aspect : width / height
+    radius : of the body sphere, m; endurance : s
+    """
+
+    name: str
+    model: str
+    home: Vec3
+    limits: Limits
+    gimbal: Gimbal
+    hfov: float
+    aspect: float
+    radius: float
+    endurance: float
+    priority: int
+    body: Literal["forward", "follow-camera", "free"]
+    autopilot: Literal["px4", "ardupilot"]
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class Composition:
+    """Screen positions a target may take: points, lines, or wherever the user put it (``keep``).
+
+    points : (u, v) in [-1, 1]^2, u right, v up
+    u_lines, v_lines : vertical lines u = c, horizontal lines v = c
+    """
+
+    name: str
+    points: tuple[Vec2, ...] = ()
+    u_lines: tuple[float, ...] = ()
+    v_lines: tuple[float, ...] = ()
+    keep: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Keyframe:
+    """Where the camera is to be and what it looks at, before composition.
+
+    at : p_WC
+    aim : (yaw, pitch) as the user wrote them, rad, camera yaw counter-clockwise from East; a point
+        of W to look at; or None to look at ``target``
+    target : name of the subject that is framed here, if any
+    composition : the set this keyframe's target is placed on (shot's or own)
+    hold : seconds at rest; time : seconds from the shot's start, if fixed
+    placed : True where the user gave the position (it binds), False where a kind generated it
+    """
+
+    at: Vec3
+    aim: Vec2 | Vec3 | None
+    target: str | None
+    composition: Composition
+    hfov: float
+    hold: float
+    time: float | None
+    placed: bool
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """When a shot is filmed; all None is ``auto``. Seconds; ``after`` names a shot."""
+
+    start: float | None = None
+    after: str | None = None
+    duration: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Promise:
+    """What a shot promises and verification holds it to (``require``); None promises nothing.
+
+    in_frame : share of samples with the whole target in frame, 0 to 1
+    screen_error : largest distance to the reference on screen, (u, v) units
+    size : (lowest, highest) projected height over frame height
+    """
+
+    in_frame: float | None = None
+    screen_error: float | None = None
+    size: Range | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Shot:
+    """One shot of one drone as keyframes.
+
+    pace : share of the limits used where the duration is not given, 0 to 1
+    subject : the target as the shot names it, or None
+    """
+
+    id: str
+    kind: str
+    drone: str
+    subject: str | None
+    keyframes: tuple[Keyframe, ...]
+    timing: Timing
+    pace: float
+    promise: Promise
+    refine_optional: bool
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """Mission-wide rules, metres."""
+
+    separation: float
+    ground_clearance: float
+    target_clearance: float
+
+
+@dataclass(frozen=True, slots=True)
+class Deferred:
+    """A part of the language that is checked but that this version cannot plan yet."""
+
+    feature: str
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True)
+class MissionIR:
+    """The whole mission.
+
+    shots : in the order they are written
+    rate : output samples a second, Hz
+    emit : emitters the mission asks for
+    source_sha256 : of the mission file's bytes, hexadecimal
+    deferred : what only a later version can plan; planning refuses it, checking does not
+    """
+
+    name: str
+    origin: GeoOrigin | None
+    wind: float
+    zones: tuple[Zone, ...]
+    targets: tuple[Target, ...]
+    drones: tuple[Drone, ...]
+    rules: Rules
+    shots: tuple[Shot, ...]
+    rate: float
+    emit: tuple[str, ...]
+    source_sha256: str
+    deferred: tuple[Deferred, ...]
+    origins: OriginMap
+
+    def drone(self, name: str) -> Drone:
+        """Return the drone of that name; KeyError if there is none."""
+        return next_named(self.drones, name)
+
+    def target(self, name: str) -> Target:
+        """Return the target of that name; KeyError if there is none."""
+        return next_named(self.targets, name)
+
+
+_Named = TypeVar("_Named", Drone, Target)
+
+
+def next_named(items: tuple[_Named, ...], name: str) -> _Named:
+    """Return the first item called ``name``; KeyError if there is none."""
+    for item in items:
+        if item.name == name:
+            return item
+    raise KeyError(name)

@@ -1,0 +1,39 @@
+"""Where an IR element comes from in the mission file: key paths and the map from them to spans."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from shotc.diag.model import Label
+from shotc.source.file import WHOLE_FILE, Span
+
+KeyPath = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OriginMap:
+    """Spans of the keys and values of one mission, looked up by key path.
+
+    file   : the name the mission is shown under
+    keys   : span of the key that leads to a path (list items have none)
+    values : span of the value at a path
+    """
+
+    file: str = "<mission>"
+    keys: Mapping[KeyPath, Span] = field(default_factory=dict)
+    values: Mapping[KeyPath, Span] = field(default_factory=dict)
+
+    def value(self, path: KeyPath, text: str = "") -> Label:
+        """Return a label on the value at ``path``, or at the nearest ancestor's key that is written down."""
+        if path in self.values:
+            return Label(self.file, self.values[path], text)
+        return self.key(path, text)
+
+    def key(self, path: KeyPath, text: str = "") -> Label:
+        """Return a label on the key at ``path``, or on its nearest ancestor that is written down."""
+        for end in range(len(path), 0, -1):
+            span = self.keys.get(path[:end]) or self.values.get(path[:end])
+            if span is not None:
+                return Label(self.file, span, text)
+        return Label(self.file, WHOLE_FILE, text)

@@ -1,0 +1,107 @@
+"""TrajectoryIR and VerifiedIR: motion over mission time t, and the proof that it may be flown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from shotc.geom.bernstein import Piecewise
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.path import Deviation, PhaseName
+
+Method = Literal["exact", "bounded", "sampled"]
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A stretch of mission time, seconds; ``shot`` is set where phase is "shot"."""
+
+    name: PhaseName
+    shot: str | None
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True)
+class KeyframeTime:
+    """When a shot's keyframe is reached (the start of its hold), seconds of mission time."""
+
+    shot: str
+    index: int
+    time: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reference:
+    """A stretch of a shot on which one target is framed.
+
+    reference : (u, v) wanted of the target's centre, curve over t, or None
+    """
+
+    shot: str
+    target: str
+    start: float
+    end: float
+    reference: Piecewise | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DroneTrajectory:
+    """One drone from take-off to touch-down.
+
+    curve : channels ir.path.CHANNELS over mission time, piecewise quintic, C2; from t = 0
+    phases : in order, without gaps, covering the curve
+    """
+
+    drone: str
+    curve: Piecewise
+    phases: tuple[Phase, ...]
+    keyframes: tuple[KeyframeTime, ...]
+    framing: tuple[Reference, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TrajectoryIR:
+    """All drones' motion on one clock. stats as in PathIR."""
+
+    keyframes: KeyframeIR
+    drones: tuple[DroneTrajectory, ...]
+    deviations: tuple[Deviation, ...]
+    stats: tuple[tuple[str, float | str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """One line of the certificate.
+
+    constraint : e.g. "speed", "climb", "zone tree", "gimbal pitch", "screen error"
+    subject : drone name; shot : the shot it speaks of, or None for the whole flight
+    limit, worst : in ``unit``; upper : whether worst must stay below (True) or above the limit
+    time : seconds, where the worst value occurs; position : p_WC there, or None
+    method : exact (arithmetic), bounded (proved for all t), sampled (at the output rate)
+    hard : whether breaking it refuses the plan
+    path : the mission line that sets the limit
+    """
+
+    constraint: str
+    subject: str
+    shot: str | None
+    limit: float
+    worst: float
+    unit: str
+    upper: bool
+    time: float | None
+    position: tuple[float, float, float] | None
+    method: Method
+    hard: bool
+    holds: bool
+    path: KeyPath
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class VerifiedIR:
+    """A trajectory with its certificate, made by the verify pass alone; emitters take nothing else."""
+
+    trajectory: TrajectoryIR
+    certificate: tuple[Claim, ...]

@@ -1,0 +1,1 @@
+"""Shot kinds, one module each."""

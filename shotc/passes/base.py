@@ -1,0 +1,46 @@
+"""What a pass is: a frozen value with a name that turns one IR into the next, or says why it cannot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, Generic, Protocol, TypeVar
+
+from shotc.diag.model import Diagnostic
+
+In_contra = TypeVar("In_contra", contravariant=True)
+Out_co = TypeVar("Out_co", covariant=True)
+Value_co = TypeVar("Value_co", covariant=True)
+
+
+def silent(_message: str) -> None:
+    """Report progress to nobody."""
+
+
+@dataclass(frozen=True, slots=True)
+class PassContext:
+    """What every pass may read besides its input.
+
+    seed : for anything random; progress : call with a short text on long work
+    """
+
+    seed: int = 0
+    progress: Callable[[str], None] = silent
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome(Generic[Value_co]):
+    """What a pass gives: the next IR, or None where an error stopped it, and its diagnostics."""
+
+    value: Value_co | None
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+class Pass(Protocol[In_contra, Out_co]):
+    """A lowering from one IR to the next. User faults are diagnostics; an exception is a bug."""
+
+    name: ClassVar[str]
+
+    def run(self, ir: In_contra, ctx: PassContext) -> Outcome[Out_co]:
+        """Lower ``ir``."""
+        ...

@@ -1,0 +1,1 @@
+"""Adapters to the solvers: arrays in, results out."""

@@ -1,0 +1,1 @@
+"""Mission text: files, spans and the hardened YAML reader."""

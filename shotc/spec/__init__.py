@@ -1,0 +1,1 @@
+"""The mission as written: pydantic models and units at the door."""
