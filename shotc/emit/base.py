@@ -30,9 +30,14 @@ class Emission:
 
 
 class Emitter(Protocol):
-    """Writes one family of output formats."""
+    """Writes one family of output formats (entry-point group ``shotc.emitters``).
+
+    summary : one line for `shotc list emitters`; api : the plugin api it was written against (1)
+    """
 
     name: ClassVar[str]
+    summary: ClassVar[str]
+    api: ClassVar[int]
 
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the artifacts of a verified plan."""

@@ -1,7 +1,100 @@
-"""The codes of this family; see shotc.diag.registry."""
+"""P: plugins and options."""
 
 from __future__ import annotations
 
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-CODES: tuple[CodeInfo, ...] = ()
+_PASSING = """\
+shotc: 1
+mission: pan
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -30, 0]}}
+shots:
+  - id: look
+    kind: keyframes
+    drone: cam
+    target: mast
+    keyframes:
+      - {at: [-12, -20, 8], look_at: mast}
+      - {at: [12, -20, 10], look_at: mast}
+"""
+
+_MOVING = """\
+shotc: 1
+mission: pan
+targets: {runner: {track: {start: [0, 0, 0.9], velocity: [1.5, 0, 0]}, radius: 0.4, height: 1.8}}
+drones: {cam: {model: x500, home: [0, -30, 0]}}
+shots:
+  - {id: side, kind: lateral, drone: cam, target: runner, side: left, distance: 8, altitude: 4, timing: {duration: 10}}
+"""
+
+CODES: tuple[CodeInfo, ...] = (
+    CodeInfo(
+        "P001",
+        "plugin-clash",
+        Severity.ERROR,
+        "two packages register one plugin name",
+        "Kinds, refiners and emitters are found by name. Where two installed packages claim the same name, shotc "
+        "uses neither, since the choice would be a guess. Remove or rename one of them.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "P002",
+        "plugin-broken",
+        Severity.ERROR,
+        "a plugin cannot be imported",
+        "An installed package registers a plugin whose import raises. The mission may depend on it, so it is not "
+        "passed over in silence. Update the package, or uninstall it.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "P003",
+        "plugin-version",
+        Severity.ERROR,
+        "a plugin was written for another plugin api",
+        "A plugin states the api version it was written against, and its own name. Both have to match what this "
+        "version of shotc offers. Update the plugin or shotc.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "P004",
+        "solvers-not-installed",
+        Severity.ERROR,
+        "planning needs the solvers, and they are not installed",
+        "The base install checks missions and explains codes. Planning brings numpy, cvxpy, Clarabel and toppra, "
+        "which weigh several hundred megabytes; they come with `pip install 'shotc[plan]'`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "P005",
+        "viewer-not-installed",
+        Severity.WARNING,
+        "an output needs a library that is not installed",
+        "The rerun recording needs rerun-sdk, which weighs half a gigabyte and comes with "
+        "`pip install 'shotc[view]'`. The other outputs are written; this one is left out.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "P006",
+        "not-planned-yet",
+        Severity.ERROR,
+        "the mission uses a part of the language that this version checks but cannot plan",
+        "The whole language is parsed and validated, so that missions can be written and reviewed today. Moving "
+        "targets, several cameras in one mission, scenes and drone shows are planned by later versions; until then "
+        "`shotc plan` refuses the mission instead of flying a part of it.",
+        _MOVING,
+        _PASSING,
+        "plan",
+    ),
+)

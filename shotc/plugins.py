@@ -1,0 +1,108 @@
+"""Where kinds, refiners and emitters come from: entry points, ours and third parties' by one route.
+
+An entry point names an object with ``name``, ``summary`` and ``api`` (the version it was written
+against). Nothing is imported until it is asked for; a clash of names, a failed import or another api
+version is a diagnostic that names the package, never a silent choice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any
+
+from shotc.diag.model import Diagnostic
+
+API_VERSION = 1
+GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """The plugins of one group that can be used, by name, and what is wrong with the others."""
+
+    plugins: Mapping[str, Any]
+    diagnostics: tuple[Diagnostic, ...]
+
+
+@cache
+def discover(group: str) -> Found:
+    """Load every plugin of ``group`` ("kinds", "refiners" or "emitters")."""
+    plugins: dict[str, Any] = {}
+    diagnostics: list[Diagnostic] = []
+    for name, entries in _by_name(group).items():
+        if len(entries) > 1:
+            diagnostics.append(_clash(group, name, entries))
+            continue
+        loaded = _load(entries[0])
+        if isinstance(loaded, Diagnostic):
+            diagnostics.append(loaded)
+        else:
+            plugins[name] = loaded
+    return Found(plugins, tuple(diagnostics))
+
+
+def names(group: str) -> list[str]:
+    """Return the names registered in ``group`` without importing any of them."""
+    return list(_by_name(group))
+
+
+def listing(group: str) -> list[tuple[str, str, str]]:
+    """Return (name, summary, package) of every plugin of ``group`` that can be used."""
+    found = discover(group).plugins
+    return [
+        (name, found[name].summary, _owner(entries[0]))
+        for name, entries in _by_name(group).items()
+        if name in found
+    ]
+
+
+def _by_name(group: str) -> dict[str, list[EntryPoint]]:
+    table: dict[str, list[EntryPoint]] = {}
+    for entry in entry_points(group=GROUPS[group]):
+        known = table.setdefault(entry.name, [])
+        # An editable install beside a wheel shows the same entry twice; that is no clash.
+        if all((e.value, _owner(e)) != (entry.value, _owner(entry)) for e in known):
+            known.append(entry)
+    return dict(sorted(table.items()))
+
+
+def _load(entry: EntryPoint) -> Any:
+    where = f"`{entry.value}` of package {_owner(entry)}"
+    try:
+        plugin = entry.load()
+        name, api = plugin.name, plugin.api
+    except Exception as fault:  # noqa: BLE001  a plugin may raise anything; it must not take us down
+        return Diagnostic(
+            "P002",
+            f"plugin `{entry.name}` cannot be loaded",
+            notes=(where, f"{type(fault).__name__}: {fault}"),
+            help=f"update or remove {_owner(entry)}",
+        )
+    if api != API_VERSION or name != entry.name:
+        return Diagnostic(
+            "P003",
+            f"plugin `{entry.name}` does not fit this version of shotc",
+            notes=(
+                where,
+                f"it says name `{name}`, api {api}; wanted name `{entry.name}`, api {API_VERSION}",
+            ),
+            help=f"update {_owner(entry)}",
+        )
+    return plugin
+
+
+def _clash(group: str, name: str, entries: list[EntryPoint]) -> Diagnostic:
+    owners = " and ".join(f"{_owner(e)} (`{e.value}`)" for e in entries)
+    return Diagnostic(
+        "P001",
+        f"two packages register `{name}` in {GROUPS[group]}",
+        notes=(owners,),
+        help="remove one of them; neither is used",
+    )
+
+
+def _owner(entry: EntryPoint) -> str:
+    return entry.dist.name if entry.dist is not None else "an unknown package"
