@@ -1,0 +1,114 @@
+"""What every command shares: exit codes, the decision about colour, and where text goes.
+
+Results go to standard output, messages to standard error. ``configure`` is called once, by the
+application's callback; commands only call ``out``, ``note``, ``report`` and ``exit_code``.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING, TextIO
+
+from shotc.diag.model import Diagnostic, Severity
+from shotc.diag.registry import has_errors, severity_of
+from shotc.source.file import SourceFile
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+EXIT_CLEAN = 0
+EXIT_REJECTED = 1
+EXIT_USAGE = 2
+EXIT_BUG = 70
+EXIT_INTERRUPTED = 130
+
+
+class Color(StrEnum):
+    """When to colour what is printed."""
+
+    AUTO = "auto"
+    ALWAYS = "always"
+    NEVER = "never"
+
+
+@dataclass(slots=True)
+class _Settings:
+    color: Color = Color.AUTO
+    quiet: bool = False
+
+
+_settings = _Settings()
+
+
+def configure(color: Color = Color.AUTO, *, quiet: bool = False) -> None:
+    """Keep the global flags for the rest of this process."""
+    _settings.color = color
+    _settings.quiet = quiet
+
+
+def is_quiet() -> bool:
+    """Tell whether the user asked for findings and results only."""
+    return _settings.quiet
+
+
+def colored(stream: TextIO) -> bool:
+    """Tell whether ``stream`` gets colour: the flag, then NO_COLOR, FORCE_COLOR, TERM, then the terminal."""
+    if _settings.color is not Color.AUTO:
+        return _settings.color is Color.ALWAYS
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR"):
+        return True
+    return os.environ.get("TERM") != "dumb" and stream.isatty()
+
+
+def out(text: str) -> None:
+    """Write a result to standard output, ending in one line end."""
+    _write(sys.stdout, text)
+
+
+def note(text: str) -> None:
+    """Write a message to standard error, unless the run is quiet."""
+    if not _settings.quiet:
+        _write(sys.stderr, text)
+
+
+def report(
+    diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile], stream: TextIO | None = None
+) -> None:
+    """Print diagnostics as text, with a summary line, to ``stream`` (standard error when not given).
+
+    A quiet run still shows errors, and keeps warnings to itself.
+    """
+    from shotc.diag.render.text import render
+
+    stream = stream or sys.stderr
+    shown = [d for d in diagnostics if not _settings.quiet or severity_of(d) is Severity.ERROR]
+    if shown:
+        _write(stream, render(shown, sources, color=colored(stream)))
+
+
+def exit_code(diagnostics: Iterable[Diagnostic]) -> int:
+    """Return 1 where a diagnostic rejects the mission, else 0: a warning never changes the exit status."""
+    return EXIT_REJECTED if has_errors(diagnostics) else EXIT_CLEAN
+
+
+def stderr_console() -> Console:
+    """Return a rich console on standard error for progress; it stays silent off a terminal."""
+    from rich.console import Console
+
+    return Console(stderr=True, quiet=_settings.quiet, no_color=not colored(sys.stderr), highlight=False)
+
+
+def _write(stream: TextIO, text: str) -> None:
+    """Write ``text`` with one line end; characters the stream cannot encode become escapes."""
+    line = text if text.endswith("\n") else text + "\n"
+    try:
+        stream.write(line)
+    except UnicodeEncodeError:
+        encoding = stream.encoding or "ascii"
+        stream.write(line.encode(encoding, "backslashreplace").decode(encoding))
