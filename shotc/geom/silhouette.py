@@ -1,0 +1,187 @@
+"""Outlines of solids as a camera sees them: cylinders in closed form, prisms by the hull of their corners.
+
+The outline is taken of the cone of sight: the contour of the solid as seen from the camera's place
+is built in W and clipped at a near plane before it is projected, so a solid that reaches behind the
+camera is drawn right, too. Screen coordinates are those of ``geom.camera``.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.camera import View
+from shotc.geom.solids import Cylinder, Prism, Solid, Vec2, Vec3, convex_hull, convex_parts
+
+Array = NDArray[np.float64]
+
+NEAR = 0.01
+"""Depth of the near plane, metres; small beside any clearance, so that the cut is never on screen."""
+
+
+def cylinder_contour(offset: Array, radius: float, height: float, count: int = 48) -> Array:
+    """Return the closed contour of an upright cylinder seen from a point, as offsets from that point.
+
+    offset : shape (..., 3), centre of the cylinder less the eye, W, metres
+    count  : points on each of the two rims
+    Result has shape (..., 2 count, 3), all NaN where the eye is inside the cylinder.
+
+    From outside its radius r an eye at distance d sees two generators, at azimuths +-acos(r / d) from
+    the direction to the eye. Between them runs one arc of each rim: the far one where the eye is
+    beyond that rim's plane, else the near one. Inside the radius it sees one whole rim.
+    """
+    x, y, z = offset[..., 0], offset[..., 1], offset[..., 2]
+    distance = np.hypot(x, y)
+    outside = distance > radius
+    ratio = radius / np.where(outside, distance, max(radius, 1.0))
+    half = np.where(outside, np.arccos(np.clip(ratio, -1.0, 1.0)), 0.0)[..., None]
+    facing = np.arctan2(-y, -x)[..., None]
+    above, below = z + height / 2 < 0, z - height / 2 > 0
+    sweep = np.linspace(-1.0, 1.0, count)
+    near = facing + half * sweep
+    far = facing + np.pi + (np.pi - half) * -sweep
+    top = np.where(above[..., None], far, near)
+    bottom = np.where(below[..., None], far, near)[..., ::-1]
+    top_z, bottom_z = z + height / 2, z - height / 2
+    # Over the disc only the rim that faces the eye is contour: fold the other one onto it.
+    top_z, bottom_z = (
+        np.where(~outside & below, bottom_z, top_z),
+        np.where(~outside & above, top_z, bottom_z),
+    )
+    angles = np.concatenate([top, bottom], axis=-1)
+    heights = np.concatenate(
+        [np.repeat(top_z[..., None], count, axis=-1), np.repeat(bottom_z[..., None], count, axis=-1)], axis=-1
+    )
+    loop = np.stack(
+        [x[..., None] + radius * np.cos(angles), y[..., None] + radius * np.sin(angles), heights], axis=-1
+    )
+    inside = ~outside & ~above & ~below
+    return np.asarray(np.where(inside[..., None, None], np.nan, loop))
+
+
+def project_loop(camera: View, loop: Array) -> Array:
+    """Return the screen polygon of one closed contour.
+
+    loop : shape (M, 3), offsets from the camera, W; result shape (K, 2) in (u, v), K = 0 where the
+    contour is behind the camera or not defined.
+    """
+    right, down, forward = camera.to_camera((loop[:, 0], loop[:, 1], loop[:, 2]))
+    seen = _clip_near(np.stack([right, down, forward], axis=-1))
+    return _to_screen(camera, seen)
+
+
+def cylinder_outline(camera: View, offset: Vec3, radius: float, height: float, count: int = 48) -> Array:
+    """Return the screen polygon of an upright cylinder, shape (K, 2); offset: centre less camera, W."""
+    return project_loop(camera, cylinder_contour(np.asarray(offset, dtype=np.float64), radius, height, count))
+
+
+def solid_outlines(camera: View, eye: Vec3, solid: Solid, count: int = 48) -> list[Array]:
+    """Return one convex screen polygon, shape (K, 2), for each convex part of a solid that is in view."""
+    outlines = [
+        cylinder_outline(camera, *_seen_from(eye, part), count)
+        if isinstance(part, Cylinder)
+        else _prism_outline(camera, eye, part)
+        for part in convex_parts(solid)
+    ]
+    return [outline for outline in outlines if len(outline)]
+
+
+def solid_edges(camera: View, eye: Vec3, solid: Solid, count: int = 48) -> list[Array]:
+    """Return the visible and hidden edges of a solid as screen polylines, each of shape (K, 2).
+
+    Prisms give every edge; cylinders their two rims.
+    """
+    strips: list[Array] = []
+    for ring in (edge - np.asarray(eye) for edge in edge_strips(solid, count)):
+        right, down, forward = camera.to_camera((ring[:, 0], ring[:, 1], ring[:, 2]))
+        points = np.stack([right, down, forward], axis=-1)
+        strips.extend(_to_screen(camera, run) for run in _clip_strip(points))
+    return strips
+
+
+def edge_strips(solid: Solid, count: int = 48) -> list[Array]:
+    """Return the edges of a solid in W as polylines of shape (K, 3), metres."""
+    if isinstance(solid, Cylinder):
+        angles = np.linspace(0.0, 2 * np.pi, count + 1)
+        x = solid.centre[0] + solid.radius * np.cos(angles)
+        y = solid.centre[1] + solid.radius * np.sin(angles)
+        footprint = np.stack([x, y], axis=-1)
+        uprights: list[Array] = []
+    else:
+        footprint = np.array([*solid.points, solid.points[0]], dtype=np.float64)
+        uprights = [np.array([[*p, solid.bottom], [*p, solid.top]]) for p in solid.points]
+    rings = [np.column_stack([footprint, np.full(len(footprint), z)]) for z in (solid.bottom, solid.top)]
+    return rings + uprights
+
+
+def _seen_from(eye: Vec3, solid: Cylinder) -> tuple[Vec3, float, float]:
+    middle = (solid.bottom + solid.top) / 2
+    offset = (solid.centre[0] - eye[0], solid.centre[1] - eye[1], middle - eye[2])
+    return offset, solid.radius, solid.top - solid.bottom
+
+
+def _prism_outline(camera: View, eye: Vec3, prism: Prism) -> Array:
+    # The part in front of the near plane is convex; its corners are those of the prism that lie in
+    # front and the points where edges cross the plane. Their hull on screen is the outline.
+    corners: list[Array] = []
+    for strip in edge_strips(prism):
+        ring = strip - np.asarray(eye)
+        right, down, forward = camera.to_camera((ring[:, 0], ring[:, 1], ring[:, 2]))
+        corners.extend(_clip_strip(np.stack([right, down, forward], axis=-1)))
+    if not corners:
+        return np.empty((0, 2))
+    screen = _to_screen(camera, np.concatenate(corners))
+    points: tuple[Vec2, ...] = tuple((float(u), float(v)) for u, v in screen)
+    hull = convex_hull(points)
+    return np.array(hull) if len(hull) > 2 else np.empty((0, 2))
+
+
+def _to_screen(camera: View, points: Array) -> Array:
+    if not len(points):
+        return np.empty((0, 2))
+    u = points[:, 0] / (points[:, 2] * camera.half_width)
+    v = -points[:, 1] / (points[:, 2] * camera.half_height)
+    return np.stack([u, v], axis=-1)
+
+
+def _clip_near(loop: Array) -> Array:
+    # Sutherland-Hodgman against one plane, in the camera frame.
+    if np.isnan(loop).any():
+        return np.empty((0, 3))
+    inside = loop[:, 2] >= NEAR
+    if inside.all():
+        return loop
+    kept: list[Array] = []
+    for i, p in enumerate(loop):
+        before = loop[i - 1]
+        if inside[i] != inside[i - 1]:
+            kept.append(_crossing(before, p))
+        if inside[i]:
+            kept.append(p)
+    return np.array(kept) if len(kept) > 2 else np.empty((0, 3))
+
+
+def _clip_strip(strip: Array) -> list[Array]:
+    inside = strip[:, 2] >= NEAR
+    if inside.all():
+        return [strip]
+    runs: list[list[Array]] = []
+    fresh = True
+    for (a, a_in), (b, b_in) in pairwise(zip(strip, inside, strict=True)):
+        if not (a_in or b_in):
+            fresh = True
+            continue
+        if fresh or not a_in:
+            runs.append([a if a_in else _crossing(a, b)])
+        runs[-1].append(b if b_in else _crossing(a, b))
+        fresh = not b_in
+    return [np.array(run) for run in runs]
+
+
+def _crossing(a: Array, b: Array) -> Array:
+    share = (NEAR - a[2]) / (b[2] - a[2])
+    point: Array = a + share * (b - a)
+    point[2] = NEAR
+    return point

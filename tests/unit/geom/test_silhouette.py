@@ -1,0 +1,147 @@
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from shotc.geom.camera import nearest_depth, silhouette_bounds, view
+from shotc.geom.silhouette import (
+    NEAR,
+    cylinder_contour,
+    cylinder_outline,
+    edge_strips,
+    solid_edges,
+    solid_outlines,
+)
+from shotc.geom.solids import Cylinder, Prism, Solid, box
+
+ASPECT = 16 / 9
+angle = st.floats(-pi, pi)
+pitch = st.floats(-1.5, 1.5)
+hfov = st.floats(0.3, 2.2)
+coordinate = st.floats(-60, 60)
+
+
+def surface(rng: np.random.Generator, radius: float, height: float, count: int = 400) -> np.ndarray:
+    """Points of a cylinder about the origin: rims, side and caps."""
+    a = rng.uniform(-pi, pi, count)
+    r = radius * np.sqrt(rng.uniform(0, 1, count))
+    r[: count // 2] = radius
+    z = rng.uniform(-height / 2, height / 2, count)
+    z[::4], z[1::4] = height / 2, -height / 2
+    return np.stack([r * np.cos(a), r * np.sin(a), z], axis=-1)
+
+
+def overshoot(polygon: np.ndarray, points: np.ndarray) -> float:
+    """How far points stick out of a convex polygon of either sense, in its own units."""
+    a, b = polygon, np.roll(polygon, -1, axis=0)
+    side = b - a
+    length = np.hypot(side[:, 0], side[:, 1])
+    keep = length > 1e-12
+    a, side, length = a[keep], side[keep], length[keep]
+    area = np.sum(polygon[:, 0] * np.roll(polygon[:, 1], -1) - np.roll(polygon[:, 0], -1) * polygon[:, 1])
+    normal = np.sign(area) * np.stack([side[:, 1], -side[:, 0]], axis=-1) / length[:, None]
+    return float(np.max(np.einsum("kd,nkd->nk", normal, points[:, None, :] - a[None])))
+
+
+@settings(max_examples=120, deadline=None)
+@given(
+    st.tuples(angle, pitch, hfov),
+    st.tuples(coordinate, coordinate, coordinate),
+    st.floats(0.3, 10),
+    st.floats(0.3, 40),
+)
+def test_outline_contains_every_point_and_touches_the_exact_extremes(
+    pose: tuple[float, float, float], offset: tuple[float, float, float], radius: float, height: float
+) -> None:
+    camera = view(*pose, ASPECT)
+    assume(nearest_depth(camera, offset, radius, height) > 0.5)
+    outline = cylinder_outline(camera, offset, radius, height, count=300)
+    points = surface(np.random.default_rng(1), radius, height) + np.array(offset)
+    u, v, _ = camera.project((points[:, 0], points[:, 1], points[:, 2]))
+    bounds = np.array(silhouette_bounds(camera, offset, radius, height))
+    scale = max(1e-9, float(np.ptp(bounds[:2])), float(np.ptp(bounds[2:])))
+    assert overshoot(outline, np.stack([u, v], axis=-1)) < 1e-3 * scale
+    found = [outline[:, 0].min(), outline[:, 0].max(), outline[:, 1].min(), outline[:, 1].max()]
+    np.testing.assert_allclose(found, bounds, atol=1e-3 * scale)
+
+
+@settings(max_examples=80, deadline=None)
+@given(angle, pitch, st.floats(-25, 25), st.floats(-25, 25), st.floats(-25, 25))
+def test_what_is_in_front_of_a_cut_cylinder_is_inside_its_outline(
+    yaw: float, tilt: float, x: float, y: float, z: float
+) -> None:
+    camera = view(yaw, tilt, 1.2, ASPECT)
+    radius, height = 6.0, 20.0
+    outside = np.hypot(x, y) > radius + 0.5 or abs(z) > height / 2 + 0.5
+    assume(outside)
+    points = surface(np.random.default_rng(2), radius, height) + np.array([x, y, z])
+    u, v, depth = camera.project((points[:, 0], points[:, 1], points[:, 2]))
+    on_screen = (depth > NEAR) & (abs(u) < 1) & (abs(v) < 1)
+    outline = cylinder_outline(camera, (x, y, z), radius, height, count=400)
+    assume(on_screen.any())
+    assert overshoot(outline, np.stack([u, v], axis=-1)[on_screen]) < 5e-3
+
+
+def test_eye_over_the_disc_sees_one_rim() -> None:
+    camera = view(0.0, -pi / 2 + 0.01, 1.0, 1.0)
+    outline = cylinder_outline(camera, (0.5, 0.2, -20.0), 3.0, 10.0)
+    rim = cylinder_contour(np.array([0.5, 0.2, -20.0]), 3.0, 10.0)
+    assert np.allclose(rim[:, 2], -15.0)
+    assert len(outline) == len(rim)
+
+
+def test_no_outline_from_inside_and_none_behind() -> None:
+    assert len(cylinder_outline(view(0, 0, 1, 1), (0.5, 0.0, 0.0), 3.0, 10.0)) == 0
+    assert len(cylinder_outline(view(0, 0, 1, 1), (-30.0, 0.0, 0.0), 3.0, 10.0)) == 0
+    assert solid_outlines(view(0, 0, 1, 1), (0, 0, 5), box((-20, 0, 5), (4, 4, 4), 0.3)) == []
+
+
+def test_contours_of_many_eyes_agree_with_those_of_each() -> None:
+    offsets = np.random.default_rng(3).uniform(-30, 30, (20, 3))
+    many = cylinder_contour(offsets, 2.0, 8.0)
+    for offset, loop in zip(offsets, many, strict=True):
+        np.testing.assert_array_equal(cylinder_contour(offset, 2.0, 8.0), loop)
+
+
+@settings(max_examples=60, deadline=None)
+@given(angle, pitch, coordinate, coordinate, st.floats(0, 40))
+def test_prism_outline_contains_its_points_even_when_cut(
+    yaw: float, tilt: float, x: float, y: float, z: float
+) -> None:
+    prism = box((0, 0, 6), (12, 5, 12), 0.4)
+    eye = (x, y, z)
+    assume(np.hypot(x, y) > 8 or z > 13)
+    camera = view(yaw, tilt, 1.2, ASPECT)
+    rng = np.random.default_rng(4)
+    weights = rng.dirichlet(np.ones(4), 300)
+    xy = weights @ np.array(prism.points)
+    points = np.column_stack([xy, rng.uniform(0, 12, 300)]) - np.array(eye)
+    u, v, depth = camera.project((points[:, 0], points[:, 1], points[:, 2]))
+    seen = depth > NEAR
+    assume(seen.any())
+    (outline,) = solid_outlines(camera, eye, prism)
+    inside = seen & (abs(u) < 3) & (abs(v) < 3)
+    assume(inside.any())
+    assert overshoot(outline, np.stack([u, v], axis=-1)[inside]) < 1e-9
+
+
+def test_a_hollow_prism_has_one_outline_per_convex_part() -> None:
+    ell = Prism(((0, 0), (10, 0), (10, 4), (4, 4), (4, 10), (0, 10)), 0.0, 5.0)
+    outlines = solid_outlines(view(0, -0.1, 1.2, ASPECT), (-30.0, 0.0, 8.0), ell)
+    assert len(outlines) >= 2
+
+
+@pytest.mark.parametrize(
+    ("solid", "strips"), [(box((0, 0, 2), (4, 4, 4), 0), 6), (Cylinder((0, 0), 2, 0, 4), 2)]
+)
+def test_edges_in_the_world_and_on_screen(solid: Solid, strips: int) -> None:
+    assert len(edge_strips(solid)) == strips
+    assert len(solid_edges(view(0, 0, 1.2, ASPECT), (-20.0, 0.0, 2.0), solid)) == strips
+    # From between its edges, looking away, some of them are cut at the near plane.
+    cut = solid_edges(view(0.5, 0, 1.2, ASPECT), (0.0, 0.0, 2.0), solid)
+    assert cut
+    assert all(np.isfinite(strip).all() for strip in cut)
