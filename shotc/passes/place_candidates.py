@@ -1,0 +1,185 @@
+"""Where on the screen a target may stand, and which of those places is nearest to where it stood.
+
+Equations 1 and 2 of *framing*: screen places are compared as unit view directions, not as points of
+the picture. A place at which the target would be cropped, or that the gimbal cannot point to, is no
+candidate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import hypot, inf, sqrt, tan
+
+from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, view
+from shotc.ir.mission import Composition, Range
+
+TOUCH = 1e-6  # metres out of the frame, or past the gimbal's stop at the target, that are rounding
+TIE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first
+STEPS = 64  # samples of a line where its nearest point is no candidate
+HALVINGS = 40
+GOLDEN = (sqrt(5) - 1) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A camera that stands still and may turn, and the target it frames.
+
+    offset : target's centre less camera, W, m; radius, height : of the target, m
+    hfov : rad; aspect : width / height; pitch : gimbal's range, rad
+    yaw_if_vertical : yaw to take where the target is straight above or below, rad
+    """
+
+    offset: Vec3
+    radius: float
+    height: float
+    hfov: float
+    aspect: float
+    pitch: Range
+    yaw_if_vertical: float = 0.0
+
+    def aim(self, uv: Vec2) -> Vec2 | None:
+        """Return (yaw, pitch) that shows the target's centre at ``uv``; None where no camera does."""
+        return aim_at(self.offset, uv, self.hfov, self.aspect, self.yaw_if_vertical)
+
+    def margin(self, aim: Vec2) -> float:
+        """Return how far inside the frame the whole cylinder lies, metres; negative is cropped."""
+        camera = view(aim[0], aim[1], self.hfov, self.aspect)
+        return min(frustum_margins(camera, self.offset, self.radius, self.height))
+
+    def slack(self, uv: Vec2) -> float:
+        """Return how far ``uv`` is from being no candidate, metres at the target; negative is none."""
+        aim = self.aim(uv)
+        if aim is None:
+            return -inf
+        swing = min(aim[1] - self.pitch[0], self.pitch[1] - aim[1])
+        return min(self.margin(aim), swing * hypot(*self.offset))
+
+    def screen(self, aim: Vec2) -> Vec2 | None:
+        """Return (u, v) of the target's centre under this aim; None behind the camera."""
+        u, v, forward = view(aim[0], aim[1], self.hfov, self.aspect).project(self.offset)
+        return (u, v) if forward > 0 else None
+
+    def direction(self, uv: Vec2) -> Vec3:
+        """Return the unit view direction of a screen place: right, up, forward."""
+        half = tan(self.hfov / 2)
+        x, y = uv[0] * half, uv[1] * half / self.aspect
+        norm = sqrt(x * x + y * y + 1.0)
+        return (x / norm, y / norm, 1.0 / norm)
+
+    def apart(self, a: Vec2, b: Vec2) -> float:
+        """Return the distance between two screen places as unit view directions (framing Eq. 2)."""
+        return hypot(*(p - q for p, q in zip(self.direction(a), self.direction(b), strict=True)))
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of the screen, u = c (upright) or v = c, run through by t in [-1, 1]."""
+
+    c: float
+    upright: bool
+
+    def point(self, t: float) -> Vec2:
+        """Return (u, v) at ``t``."""
+        return (self.c, t) if self.upright else (t, self.c)
+
+    def foot(self, setting: Setting, asked: Vec2) -> float:
+        """Return the t whose view direction is nearest to that of ``asked``.
+
+        With m the asked direction, the line's unit direction has the product
+        (a + b t) / sqrt(k + g^2 t^2) with m. It has one extreme, at t = b k / (a g^2), and falls off
+        to both sides of it; so clamping to the frame keeps it nearest.
+        """
+        half_w = tan(setting.hfov / 2)
+        fixed, free = (half_w, half_w / setting.aspect)
+        m_fixed, m_free, m_forward = setting.direction(asked)
+        if not self.upright:
+            fixed, free, m_fixed, m_free = free, fixed, m_free, m_fixed
+        a, b = m_fixed * self.c * fixed + m_forward, m_free * free
+        if a <= 0:
+            return 1.0 if b > 0 else -1.0
+        return max(-1.0, min(1.0, b * (1.0 + (self.c * fixed) ** 2) / (a * free * free)))
+
+
+def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
+    """Return the place of the set nearest to ``asked`` that is a candidate, or None."""
+    points = [p for p in composition.points if setting.slack(p) >= -TOUCH]
+    lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
+    return _nearest(setting, asked, (*points, *(_along(setting, line, asked) for line in lines)))
+
+
+def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
+    """Return the nearest candidate on the vertical lines through the set's points, or None.
+
+    This is what remains where the target is cropped at every place of the set itself.
+    """
+    verticals = dict.fromkeys((*(u for u, _ in composition.points), *composition.u_lines))
+    return _nearest(setting, asked, (_along(setting, Line(u, True), asked) for u in verticals))
+
+
+def roomiest(setting: Setting, composition: Composition) -> float:
+    """Return the largest slack on the set's points and lines and on the verticals through its points."""
+    verticals = dict.fromkeys((*(u for u, _ in composition.points), *composition.u_lines))
+    lines = (*(Line(u, True) for u in verticals), *(Line(c, False) for c in composition.v_lines))
+    return max(setting.slack(line.point(_best(setting, line))) for line in lines)
+
+
+def _nearest(setting: Setting, asked: Vec2, places: Iterable[Vec2 | None]) -> Vec2 | None:
+    best: Vec2 | None = None
+    for place in places:
+        if place is None:
+            continue
+        if best is None or setting.apart(asked, place) < setting.apart(asked, best) - TIE:
+            best = place
+    return best
+
+
+def _along(setting: Setting, line: Line, asked: Vec2) -> Vec2 | None:
+    """Return the candidate of the line nearest to ``asked``, or None.
+
+    Distance grows away from the foot, so going from it the first candidate on either side is that
+    side's nearest.
+    """
+    foot = line.foot(setting, asked)
+    if setting.slack(line.point(foot)) >= -TOUCH:
+        return line.point(foot)
+    roomy = _best(setting, line)
+    ends = [_first(setting, line, foot, end, roomy) for end in (-1.0, 1.0)]
+    return _nearest(setting, asked, (line.point(t) for t in ends if t is not None))
+
+
+def _best(setting: Setting, line: Line) -> float:
+    """Return the t of the largest slack: the best of an even sample, then golden section about it."""
+    ts = [-1.0 + 2.0 * i / STEPS for i in range(STEPS + 1)]
+    middle = max(ts, key=lambda t: setting.slack(line.point(t)))
+    low, high = max(-1.0, middle - 2.0 / STEPS), min(1.0, middle + 2.0 / STEPS)
+    for _ in range(HALVINGS):
+        left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        if setting.slack(line.point(left)) >= setting.slack(line.point(right)):
+            high = right
+        else:
+            low = left
+    return max(middle, (low + high) / 2, key=lambda t: setting.slack(line.point(t)))
+
+
+def _first(setting: Setting, line: Line, foot: float, end: float, roomy: float) -> float | None:
+    """Walk from the foot to one end of the line; where candidates begin, bisect their border."""
+    steps = [foot + (end - foot) * i / STEPS for i in range(1, STEPS + 1)]
+    if (roomy - foot) * (end - foot) > 0:  # a stretch of candidates too short for the sample is found here
+        steps = sorted([*steps, roomy], key=lambda t: abs(t - foot))
+    outside = foot
+    for step in steps:
+        if setting.slack(line.point(step)) >= -TOUCH:
+            return _border(setting, line, outside, step)
+        outside = step
+    return None
+
+
+def _border(setting: Setting, line: Line, outside: float, inside: float) -> float:
+    for _ in range(HALVINGS):
+        middle = (outside + inside) / 2
+        if setting.slack(line.point(middle)) >= -TOUCH:
+            inside = middle
+        else:
+            outside = middle
+    return inside
