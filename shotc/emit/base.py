@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.trajectory import VerifiedIR
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.ir.trajectory import VerifiedIR
 
 
 @dataclass(frozen=True, slots=True)

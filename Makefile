@@ -1,0 +1,75 @@
+# shotc: every task a contributor needs. `make` lists them.
+.DEFAULT_GOAL := help
+SHELL := /bin/bash
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+PLUGINS := $(wildcard plugins/*/pyproject.toml)
+UV := $(shell command -v uv 2>/dev/null)
+
+.PHONY: help setup demo test test-fast check lint type fmt layers gen gen-check bless bench build clean
+
+help: ## List the tasks
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 14
+
+setup: $(STAMP) ## Make .venv with shotc, its plugins and all tools in it
+
+$(STAMP): pyproject.toml $(PLUGINS)
+ifdef UV
+	uv venv --quiet --allow-existing --python '>=3.11' $(VENV)
+	uv pip install --quiet --python $(BIN)/python -e '.[dev]' $(foreach p,$(PLUGINS),-e $(dir $(p)))
+else
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+	  || { echo "shotc needs Python 3.11 or newer; try: make $(MAKECMDGOALS) PYTHON=python3.12" >&2; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]' $(foreach p,$(PLUGINS),-e $(dir $(p)))
+endif
+	@touch $@
+
+demo: $(STAMP) ## Plan a real mission and say where to look at it
+	$(BIN)/shotc plan specs/tower-reveal.yaml
+
+test: $(STAMP) ## Run every test
+	$(BIN)/pytest -n 2
+
+test-fast: $(STAMP) ## Run the tests that plan no whole mission
+	$(BIN)/pytest -n 2 --ignore=tests/e2e
+
+check: lint type layers gen-check test build ## Everything, as CI runs it
+
+lint: $(STAMP) ## Lint and formatting
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+type: $(STAMP) ## Strict types
+	$(BIN)/mypy
+
+layers: $(STAMP) ## Imports point down only
+	$(BIN)/lint-imports
+
+fmt: $(STAMP) ## Format and fix
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+gen: $(STAMP) ## Write the generated files: schema, reference
+	$(BIN)/python -m shotc.cli.generate
+
+gen-check: $(STAMP) ## Fail where a generated file is out of date
+	$(BIN)/python -m shotc.cli.generate --check
+
+bless: $(STAMP) ## Rewrite the golden files of the tests; read the diff before you commit it
+	$(BIN)/pytest -n 2 --bless tests
+
+bench: $(STAMP) ## Measure: ratios to bare imports, growth, memory
+	$(BIN)/python tests/bench/bench.py
+
+build: $(STAMP) ## Build the wheel of shotc and of each plugin
+ifdef UV
+	@for package in . $(dir $(PLUGINS)); do uv build --quiet --wheel --out-dir dist $$package || exit 1; done
+else
+	$(BIN)/python -m pip wheel --quiet --disable-pip-version-check --no-deps -w dist . $(addprefix ./,$(dir $(PLUGINS)))
+endif
+
+clean: ## Remove everything that can be made again
+	rm -rf $(VENV) dist build out .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

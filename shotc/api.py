@@ -1,0 +1,188 @@
+"""check, compile, emit, verify and write: the only calls that the command line makes.
+
+Everything here takes bytes and gives values; ``write`` alone touches the disk.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from shotc import plugins
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.emit.base import Artifact
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.mission import MissionIR
+from shotc.passes.base import PassContext, silent
+from shotc.pipeline import PassReport, default_passes, front_passes, run
+from shotc.source.file import SourceFile
+from shotc.spec.load import load
+from shotc.spec.schema import json_schema as _json_schema
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.ir.trajectory import VerifiedIR
+
+SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra")
+
+
+@dataclass(frozen=True, slots=True)
+class CheckReport:
+    """What is wrong with one mission text, and the texts that the diagnostics point into."""
+
+    diagnostics: tuple[Diagnostic, ...]
+    sources: dict[str, SourceFile]
+
+
+@dataclass(frozen=True, slots=True)
+class PlanOptions:
+    """How to compile.
+
+    autopilot : "px4" or "ardupilot" instead of what the drone's model says
+    stop_after : the name of the last pass to run; progress : called with each pass's name
+    """
+
+    refiner: str = "none"
+    autopilot: str | None = None
+    stop_after: str | None = None
+    seed: int = 0
+    progress: Callable[[str], None] = silent
+
+
+@dataclass(frozen=True, slots=True)
+class Compilation:
+    """A compiled mission.
+
+    plan : the verified plan, or None after an error or where the passes were stopped early
+    """
+
+    plan: VerifiedIR | None
+    reports: tuple[PassReport, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    sources: dict[str, SourceFile]
+
+
+@dataclass(frozen=True, slots=True)
+class Emitted:
+    """Output files of a plan, and what the formats could not carry."""
+
+    artifacts: tuple[Artifact, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    notes: tuple[str, ...]
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON Schema of a mission, with every kind that is installed."""
+    return _json_schema(_models())
+
+
+def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
+    """Check one mission without a solver.
+
+    data : any bytes; name : how to show it; folder : where the files that it names are
+    """
+    loaded = load(data, name, folder, _models())
+    found = [*plugins.discover("kinds").diagnostics, *loaded.diagnostics]
+    if loaded.mission is not None:
+        kinds = plugins.discover("kinds").plugins
+        found += run(front_passes(kinds), loaded.mission, PassContext()).diagnostics
+    return CheckReport(tuple(found), {name: loaded.file})
+
+
+def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOptions) -> Compilation:
+    """Compile one mission into a verified plan.
+
+    options.refiner must be one of ``plugins.names("refiners")``
+    """
+    kinds, refiners = plugins.discover("kinds"), plugins.discover("refiners")
+    loaded = load(data, name, folder, _models())
+    sources = {name: loaded.file}
+    found = [*kinds.diagnostics, *refiners.diagnostics, *loaded.diagnostics]
+    if loaded.mission is None or has_errors(found):
+        return Compilation(None, (), tuple(found), sources)
+    ctx = PassContext(options.seed, options.progress)
+    front = run(front_passes(kinds.plugins), loaded.mission, ctx, options.stop_after)
+    found += front.diagnostics
+    if front.value is None or not isinstance(front.value, KeyframeIR):
+        return Compilation(None, front.reports, tuple(found), sources)
+    refusals = _refusals(front.value.mission)
+    if refusals or options.stop_after == front.reports[-1].name:
+        return Compilation(None, front.reports, (*found, *refusals), sources)
+    passes = default_passes(kinds.plugins, refiners.plugins[options.refiner])[len(front.reports) :]
+    back = run(passes, _with_autopilot(front.value, options.autopilot), ctx, options.stop_after)
+    plan = back.value if back.reports[-1].name == "verify" else None
+    return Compilation(plan, front.reports + back.reports, (*found, *back.diagnostics), sources)
+
+
+def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
+    """Make the output files of a verified plan; plan.json is always among them.
+
+    names : emitters to run; None means those the mission asks for, and then an output whose library
+        is not installed is left out with a warning instead of an error
+    """
+    from shotc.emit.plan_json import EMITTER as PLAN_JSON
+
+    known = plugins.discover("emitters")
+    wanted = plan.trajectory.keyframes.mission.emit if names is None else names
+    artifacts: list[Artifact] = []
+    diagnostics = list(known.diagnostics)
+    notes: list[str] = []
+    for emitter in (PLAN_JSON, *(known.plugins[n] for n in wanted if n in known.plugins)):
+        try:
+            emission = emitter.emit(plan)
+        except ModuleNotFoundError as missing:
+            diagnostics.append(_missing(emitter.name, missing))
+            continue
+        artifacts.extend(emission.artifacts)
+        diagnostics.extend(emission.diagnostics)
+        notes.extend(emission.notes)
+    return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
+
+
+def _models() -> Mapping[str, Any]:
+    return {name: kind.model for name, kind in plugins.discover("kinds").plugins.items()}
+
+
+def _with_autopilot(keyframes: KeyframeIR, autopilot: str | None) -> KeyframeIR:
+    if autopilot is None:
+        return keyframes
+    drones = tuple(replace(drone, autopilot=autopilot) for drone in keyframes.mission.drones)
+    return replace(keyframes, mission=replace(keyframes.mission, drones=drones))
+
+
+def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:
+    """Say what keeps a checked mission from being planned here: its features, or missing solvers."""
+    if mission.deferred:
+        first, *others = mission.deferred
+        note = tuple(f"neither can {other.feature}" for other in others)
+        return (
+            Diagnostic(
+                "P006",
+                f"{first.feature} cannot be planned by this version",
+                labels=tuple(mission.origins.key(d.path, d.feature) for d in mission.deferred),
+                notes=("the mission checks clean; only planning has to wait for a later version", *note),
+                help="plan the shots of standing targets by one drone in a mission of their own",
+            ),
+        )
+    missing = [library for library in SOLVERS if find_spec(library) is None]
+    if missing:
+        return (
+            Diagnostic(
+                "P004",
+                "planning needs the solvers, and they are not installed",
+                notes=(f"missing: {', '.join(missing)}",),
+                help="run `pip install 'shotc[plan]'`, or `pip install 'shotc[all]'` for the viewer too",
+            ),
+        )
+    return ()
+
+
+def _missing(emitter: str, missing: ModuleNotFoundError) -> Diagnostic:
+    return Diagnostic(
+        "P005",
+        f"output `{emitter}` is left out: {missing.name} is not installed",
+        help="run `pip install 'shotc[all]'`",
+    )

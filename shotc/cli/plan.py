@@ -1,0 +1,133 @@
+"""``shotc plan``: compile a mission into a verified plan and write its files."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from shotc import plugins
+from shotc.api import Compilation, PlanOptions, compile_source, emit_plan
+from shotc.cli import console
+from shotc.cli.inputs import read_mission
+from shotc.output import write
+from shotc.pipeline import PASS_NAMES
+
+Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
+Output = Annotated[Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION].")]
+Emit = Annotated[str | None, typer.Option(help="Emitters to run, separated by commas.", metavar="LIST")]
+RefinerName = Annotated[str, typer.Option("--refiner", help="Which refiner improves the path.")]
+Autopilot = Annotated[str | None, typer.Option(help="Write for px4 or ardupilot, whatever the model says.")]
+StopAfter = Annotated[
+    str | None, typer.Option(help="Stop after this pass; nothing is written.", metavar="PASS")
+]
+DumpIr = Annotated[str | None, typer.Option(help="Print what this pass gives, as text.", metavar="PASS")]
+TimePasses = Annotated[bool, typer.Option("--time-passes", help="Print how long each pass took.")]
+Seed = Annotated[int, typer.Option(help="Seed for refiners that use chance.")]
+
+
+def plan(
+    spec: Spec,
+    output: Output = None,
+    emit: Emit = None,
+    refiner: RefinerName = "none",
+    autopilot: Autopilot = None,
+    stop_after: StopAfter = None,
+    dump_ir: DumpIr = None,
+    time_passes: TimePasses = False,
+    seed: Seed = 0,
+) -> None:
+    """Compile a mission: validate it, plan it, prove the plan, write its files.
+
+    Nothing is written unless every hard constraint is proved to hold. Example:
+
+        shotc plan tower.yaml -o out/tower --emit csv,mavlink
+    """
+    emitters = _names(emit)
+    for name in emitters or ():
+        _known("--emit", name, plugins.names("emitters"))
+    _known("--refiner", refiner, plugins.names("refiners"))
+    _known("--autopilot", autopilot, ["px4", "ardupilot"])
+    _known("--stop-after", stop_after, list(PASS_NAMES))
+    _known("--dump-ir", dump_ir, list(PASS_NAMES))
+    source = read_mission(spec)
+    with _progress() as progress:
+        options = PlanOptions(refiner, autopilot, stop_after or dump_ir, seed, progress)
+        done = compile_source(source.data, source.name, source.folder, options)
+        if dump_ir is not None:
+            _dump(done, dump_ir)
+        code = _finish(done, emitters, output, progress)
+    if time_passes:
+        _print_times(done)
+    raise typer.Exit(code)
+
+
+def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, progress: Any) -> int:
+    """Emit and write a plan, report everything, and return the exit status."""
+    if done.plan is None:
+        console.report(done.diagnostics, done.sources)
+        return console.exit_code(done.diagnostics)
+    from shotc.cli.summary import summary
+
+    progress("emit")
+    emitted = emit_plan(done.plan, emitters)
+    folder = output or Path("out") / done.plan.trajectory.keyframes.mission.name
+    diagnostics = (*done.diagnostics, *emitted.diagnostics)
+    paths: list[Path] = []
+    if not console.exit_code(diagnostics):
+        paths, faults = write(emitted.artifacts, folder)
+        diagnostics += faults
+    console.report(diagnostics, done.sources)
+    if paths:
+        console.out(summary(done.plan, paths, emitted.notes))
+    return console.exit_code(diagnostics)
+
+
+def _dump(done: Compilation, name: str) -> None:
+    from shotc.ir.text import dump
+
+    for report in done.reports:
+        if report.name == name and report.output is not None:
+            console.out(dump(report.output))
+
+
+def _print_times(done: Compilation) -> None:
+    for report in done.reports:
+        console.note(f"{report.seconds:8.3f} s  {report.name}")
+
+
+def _names(listed: str | None) -> list[str] | None:
+    return None if listed is None else [name.strip() for name in listed.split(",") if name.strip()]
+
+
+def _known(option: str, name: str | None, known: list[str]) -> None:
+    """Reject an unknown name as a usage error with the nearest known one."""
+    if name is None or name in known:
+        return
+    near = get_close_matches(name, known, 1)
+    hint = f"did you mean `{near[0]}`?" if near else f"known: {', '.join(known)}"
+    raise typer.BadParameter(f"`{name}` is unknown; {hint}", param_hint=option)
+
+
+class _progress:  # noqa: N801  a context manager that reads as a verb
+    """Show which pass is running on a terminal; say nothing elsewhere."""
+
+    def __init__(self) -> None:
+        self._status: Any = None
+
+    def __enter__(self) -> Any:
+        terminal = console.stderr_console()
+        if terminal.is_terminal and not console.is_quiet():
+            self._status = terminal.status("reading")
+            self._status.start()
+        return self._say
+
+    def __exit__(self, *_: object) -> None:
+        if self._status is not None:
+            self._status.stop()
+
+    def _say(self, message: str) -> None:
+        if self._status is not None:
+            self._status.update(message)

@@ -1,0 +1,74 @@
+"""Writing output files: all of them, whole, or none of them.
+
+Every file is first written beside its place, under a temporary name, and flushed to the disk; only
+when all are there are they renamed into place, with interrupts held back for that moment. A full
+disk, a folder that cannot be written or Ctrl-C leave the files of an earlier run as they were.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from shotc.diag.model import Diagnostic
+from shotc.emit.base import Artifact
+
+
+def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tuple[Diagnostic, ...]]:
+    """Write artifacts into ``folder``, which is made if need be; return their paths, or an error."""
+    staged: list[tuple[Path, Path]] = []
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for artifact in artifacts:
+            place = folder / artifact.name
+            if place.is_dir():
+                raise IsADirectoryError(f"{artifact.name} is a folder there")
+            temporary = folder / f".{artifact.name}.{os.getpid()}.tmp"
+            staged.append((temporary, place))
+            _write_through(temporary, artifact.data)
+        with _uninterrupted():
+            for temporary, place in staged:
+                temporary.replace(place)
+    except OSError as fault:
+        return [], (_cannot_write(folder, fault),)
+    finally:
+        for temporary, _ in staged:
+            with suppress(OSError):
+                temporary.unlink(missing_ok=True)
+    return [place for _, place in staged], ()
+
+
+def _write_through(path: Path, data: bytes) -> None:
+    with path.open("wb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Hold back Ctrl-C; it is delivered afterwards. Off the main thread there is nothing to hold."""
+    pending: list[int] = []
+    try:
+        before = signal.signal(signal.SIGINT, lambda number, _frame: pending.append(number))
+    except ValueError:
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if pending:
+            signal.raise_signal(signal.SIGINT)
+
+
+def _cannot_write(folder: Path, fault: OSError) -> Diagnostic:
+    return Diagnostic(
+        "E901",
+        f"the outputs cannot be written: {fault.strerror or fault}",
+        notes=(f"folder: {folder}", "files of an earlier run are as they were"),
+        help="free some space, or choose another folder with -o",
+    )

@@ -1,0 +1,105 @@
+"""The compiler in one screen: the default passes, and the loop that runs them.
+
+LoadedMission --resolve--> MissionIR --place-keyframes--> KeyframeIR --solve-path-qp--> PathIR
+--refine-path--> PathIR --parameterize-time--> TrajectoryIR --verify--> VerifiedIR
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, get_args, get_type_hints
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.passes.base import Pass, PassContext
+from shotc.passes.place_keyframes import PlaceKeyframes
+from shotc.passes.resolve import Resolve
+
+AnyPass = Pass[Any, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class PassReport:
+    """What one pass did: its name, its output (None where it failed), and wall seconds."""
+
+    name: str
+    output: Any
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A finished run: the last IR that was reached, or None after an error, and all reports."""
+
+    value: Any
+    diagnostics: tuple[Diagnostic, ...]
+    reports: tuple[PassReport, ...]
+
+
+def front_passes(kinds: Any) -> tuple[AnyPass, ...]:
+    """Return the passes that need no solver: what ``check`` runs."""
+    return (Resolve(kinds), PlaceKeyframes())
+
+
+def default_passes(kinds: Any, refiner: Any) -> tuple[AnyPass, ...]:
+    """Return the whole compiler."""
+    from shotc.passes.parameterize_time import ParameterizeTime
+    from shotc.passes.refine_path import RefinePath
+    from shotc.passes.solve_path_qp import SolvePathQp
+    from shotc.passes.verify import Verify
+
+    return (*front_passes(kinds), SolvePathQp(), RefinePath(refiner), ParameterizeTime(), Verify())
+
+
+PASS_NAMES = (
+    "resolve",
+    "place-keyframes",
+    "solve-path-qp",
+    "refine-path",
+    "parameterize-time",
+    "verify",
+)
+
+
+def run(
+    passes: Iterable[AnyPass],
+    value: Any,
+    ctx: PassContext,
+    stop_after: str | None = None,
+    clock: Callable[[], float] = time.perf_counter,
+) -> Run:
+    """Run passes in turn until one fails or ``stop_after`` is done.
+
+    After each pass the IR's own ``check()`` runs, where it has one: a ValueError from it is a bug.
+    """
+    diagnostics: list[Diagnostic] = []
+    reports: list[PassReport] = []
+    for step in passes:
+        ctx.progress(step.name)
+        began = clock()
+        outcome = step.run(value, ctx)
+        diagnostics.extend(outcome.diagnostics)
+        failed = outcome.value is None or has_errors(outcome.diagnostics)
+        value = None if failed else outcome.value
+        reports.append(PassReport(step.name, outcome.value, clock() - began))
+        if failed:
+            break
+        if hasattr(value, "check"):
+            value.check()
+        if step.name == stop_after:
+            break
+    return Run(value, tuple(diagnostics), tuple(reports))
+
+
+def mismatches(passes: Sequence[AnyPass]) -> list[str]:
+    """Name every joint of a pipeline at which one pass's output type is not the next one's input."""
+    found = []
+    for first, second in pairwise(passes):
+        (given,) = get_args(get_type_hints(first.run)["return"])
+        wanted = get_type_hints(second.run)["ir"]
+        if given is not wanted:
+            found.append(f"{first.name} gives {given.__name__}, {second.name} takes {wanted.__name__}")
+    return found

@@ -1,0 +1,79 @@
+"""Discovery through real package metadata: a distribution is laid on sys.path and found there."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from shotc import plugins
+
+MODULE = """
+class Sample:
+    name = {name!r}
+    summary = "a sample"
+    api = {api}
+
+PLUGIN = Sample()
+"""
+
+
+@pytest.fixture
+def install(tmp_path, monkeypatch):
+    """Lay a distribution with one emitter on sys.path."""
+
+    def lay(distribution: str, entry: str, body: str) -> None:
+        module = distribution.replace("-", "_")
+        (tmp_path / f"{module}.py").write_text(body)
+        info = tmp_path / f"{module}-1.0.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {distribution}\nVersion: 1.0\n")
+        (info / "entry_points.txt").write_text(f"[shotc.emitters]\n{entry} = {module}:PLUGIN\n")
+        monkeypatch.delitem(sys.modules, module, raising=False)
+
+    monkeypatch.syspath_prepend(str(tmp_path))
+    plugins.discover.cache_clear()
+    yield lay
+    plugins.discover.cache_clear()
+
+
+def test_a_third_party_emitter_is_found_and_named_with_its_package(install):
+    install("sample-maker", "sample", MODULE.format(name="sample", api=1))
+    assert ("sample", "a sample", "sample-maker") in plugins.listing("emitters")
+
+
+def test_a_clash_uses_neither_and_names_both_packages(install):
+    install("maker-one", "sample", MODULE.format(name="sample", api=1))
+    install("maker-two", "sample", MODULE.format(name="sample", api=1))
+    found = plugins.discover("emitters")
+    assert "sample" not in found.plugins
+    (clash,) = [d for d in found.diagnostics if d.code == "P001"]
+    assert "maker-one" in clash.notes[0]
+    assert "maker-two" in clash.notes[0]
+
+
+def test_a_plugin_may_not_take_the_name_of_ours(install):
+    install("csv-thief", "csv", MODULE.format(name="csv", api=1))
+    found = plugins.discover("emitters")
+    assert "csv" not in found.plugins
+    assert [d.code for d in found.diagnostics] == ["P001"]
+
+
+def test_a_plugin_that_raises_on_import_is_a_diagnostic_with_its_words(install):
+    install("broken-maker", "broken", "raise RuntimeError('no such camera')")
+    (fault,) = [d for d in plugins.discover("emitters").diagnostics if d.code == "P002"]
+    assert "broken-maker" in fault.notes[0]
+    assert "no such camera" in fault.notes[1]
+
+
+@pytest.mark.parametrize(("name", "api"), [("sample", 2), ("other", 1)])
+def test_another_api_version_or_name_is_refused(install, name, api):
+    install("old-maker", "sample", MODULE.format(name=name, api=api))
+    found = plugins.discover("emitters")
+    assert "sample" not in found.plugins
+    assert [d.code for d in found.diagnostics] == ["P003"]
+
+
+def test_listing_names_imports_nothing(install):
+    install("quiet-maker", "quiet", "raise RuntimeError('imported')")
+    assert "quiet" in plugins.names("emitters")

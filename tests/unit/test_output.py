@@ -1,0 +1,87 @@
+from __future__ import annotations
+
+import os
+import resource
+import signal
+
+import pytest
+
+from shotc.emit.base import Artifact
+from shotc.output import write
+
+OLD = [Artifact("plan.json", b"old plan"), Artifact("trajectory.csv", b"old rows")]
+NEW = [Artifact("plan.json", b"new plan"), Artifact("trajectory.csv", b"new rows " * 10_000)]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    write(OLD, tmp_path / "out")
+    return tmp_path / "out"
+
+
+def content(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_files_are_written_and_nothing_else_is_left(folder):
+    paths, faults = write(NEW, folder)
+    assert faults == ()
+    assert [p.name for p in paths] == ["plan.json", "trajectory.csv"]
+    assert content(folder) == {a.name: a.data for a in NEW}
+
+
+def test_a_full_disk_leaves_the_old_files(folder):
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, before[1]))
+        paths, faults = write(NEW, folder)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, ignored)
+    assert paths == []
+    assert [d.code for d in faults] == ["E901"]
+    assert content(folder) == {a.name: a.data for a in OLD}
+
+
+def test_an_interrupt_in_the_middle_leaves_the_old_files(folder, monkeypatch):
+    calls = []
+
+    def interrupted(descriptor):
+        calls.append(descriptor)
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write(NEW, folder)
+    assert content(folder) == {a.name: a.data for a in OLD}
+
+
+def test_an_interrupt_while_renaming_waits_until_all_are_in_place(folder, monkeypatch):
+    real = type(folder).replace
+
+    def replace(self, target):
+        os.kill(os.getpid(), signal.SIGINT)
+        return real(self, target)
+
+    monkeypatch.setattr(type(folder), "replace", replace)
+    with pytest.raises(KeyboardInterrupt):
+        write(NEW, folder)
+    assert content(folder) == {a.name: a.data for a in NEW}
+
+
+def test_a_file_in_the_place_of_the_folder_is_a_diagnostic(tmp_path):
+    (tmp_path / "out").write_text("a file")
+    paths, faults = write(NEW, tmp_path / "out")
+    assert paths == []
+    assert [d.code for d in faults] == ["E901"]
+    assert (tmp_path / "out").read_text() == "a file"
+
+
+def test_a_folder_in_the_place_of_a_file_is_a_diagnostic_and_nothing_is_written(tmp_path):
+    (tmp_path / "out" / "trajectory.csv").mkdir(parents=True)
+    paths, faults = write(NEW, tmp_path / "out")
+    assert paths == []
+    assert [d.code for d in faults] == ["E901"]
+    assert [p.name for p in (tmp_path / "out").iterdir()] == ["trajectory.csv"]
