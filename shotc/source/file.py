@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import re
+from bisect import bisect_right
 from dataclasses import dataclass
+from functools import lru_cache
+
+_LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -18,6 +23,12 @@ class Span:
 WHOLE_FILE = Span(1, 1, 1, 1)
 
 
+@lru_cache(maxsize=64)
+def _line_starts(text: str) -> tuple[int, ...]:
+    """Return the offset at which each line begins; lines end as editors see them: LF, CRLF or CR."""
+    return (0, *(match.end() for match in _LINE_END.finditer(text)))
+
+
 @dataclass(frozen=True, slots=True)
 class SourceFile:
     """A text and the name it is shown under."""
@@ -27,5 +38,22 @@ class SourceFile:
 
     def line(self, number: int) -> str:
         """Return line ``number`` (from 1) without its line end, or an empty string past the end."""
-        lines = self.text.splitlines()
-        return lines[number - 1] if 1 <= number <= len(lines) else ""
+        starts = _line_starts(self.text)
+        if not 1 <= number <= len(starts):
+            return ""
+        end = starts[number] if number < len(starts) else len(self.text)
+        return self.text[starts[number - 1] : end].rstrip("\r\n")
+
+    def lines(self) -> list[str]:
+        """Return all lines without their line ends."""
+        return _LINE_END.split(self.text)
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Return line and column, from 1, of a code point offset into the text."""
+        starts = _line_starts(self.text)
+        line = bisect_right(starts, offset)
+        return line, offset - starts[line - 1] + 1
+
+    def span(self, start: int, end: int) -> Span:
+        """Return the span between two code point offsets; the end is exclusive."""
+        return Span(*self.position(start), *self.position(max(start, end)))

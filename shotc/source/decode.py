@@ -1,0 +1,117 @@
+"""Bytes to text: UTF-8 with or without a byte order mark, and faults for everything else."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from shotc.source.fault import Fault
+from shotc.source.file import WHOLE_FILE, SourceFile
+from shotc.source.limits import MAX_BYTES, MAX_STRAY_CHARACTERS
+
+# What YAML 1.2 section 5.1 allows, less the byte order mark inside the text.
+_STRAY = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+_REPLACEMENT = "\ufffd"
+_WIDE_MARKS = (
+    (b"\xff\xfe\x00\x00", "utf-32-le", "UTF-32"),
+    (b"\x00\x00\xfe\xff", "utf-32-be", "UTF-32"),
+    (b"\xff\xfe", "utf-16-le", "UTF-16"),
+    (b"\xfe\xff", "utf-16-be", "UTF-16"),
+)
+_SAVE_AS = "save the file as UTF-8"
+
+
+def decode(data: bytes, name: str) -> tuple[SourceFile, tuple[Fault, ...], bool]:
+    """Return the text, its faults, and whether it is worth parsing.
+
+    What cannot be read or shown is replaced by U+FFFD, one for one, so that positions stay right.
+    """
+    if len(data) > MAX_BYTES:
+        return SourceFile(name, ""), (_too_large(len(data)),), False
+    for mark, codec, title in _WIDE_MARKS:
+        if data.startswith(mark):
+            return _wide(data[len(mark) :], name, codec, title)
+    if unmarked := _wide_without_mark(data[:4]):
+        return _wide(data, name, unmarked, "UTF-16")
+    data = data.removeprefix(b"\xef\xbb\xbf")
+    faults: tuple[Fault, ...] = ()
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        text = data.decode("utf-8", "replace")
+        faults = (_not_utf8(data, error, SourceFile(name, text)),)
+    file = SourceFile(name, _STRAY.sub(_REPLACEMENT, text))
+    stray, is_text = _stray_characters(text, file)
+    return file, (*faults, *stray), is_text
+
+
+def _too_large(size: int) -> Fault:
+    return Fault(
+        "too-large",
+        f"the file has {size} bytes; a mission has at most {MAX_BYTES}",
+        WHOLE_FILE,
+        help="keep long tracks and points in CSV files and name them in the mission",
+    )
+
+
+def _wide_without_mark(head: bytes) -> str | None:
+    """Name the codec of ASCII text in UTF-16 without a byte order mark, by the place of its zero bytes."""
+    if len(head) < 4 or 0 not in head:
+        return None
+    if head[1] == head[3] == 0 and head[0] and head[2]:
+        return "utf-16-le"
+    if head[0] == head[2] == 0 and head[1] and head[3]:
+        return "utf-16-be"
+    return None
+
+
+def _wide(data: bytes, name: str, codec: str, title: str) -> tuple[SourceFile, tuple[Fault, ...], bool]:
+    """Show the text of a file in a wider encoding, and refuse it."""
+    text = _STRAY.sub(_REPLACEMENT, data.decode(codec, "replace"))
+    fault = Fault(
+        "not-utf8", f"the file is written in {title}; missions are UTF-8", WHOLE_FILE, help=_SAVE_AS
+    )
+    return SourceFile(name, text), (fault,), False
+
+
+def _not_utf8(data: bytes, error: UnicodeDecodeError, file: SourceFile) -> Fault:
+    """Blame the first byte that is not UTF-8; the text before it is, so its length is the offset."""
+    offset = len(data[: error.start].decode("utf-8"))
+    byte = data[error.start]
+    notes = [f"byte {error.start} of the file is 0x{byte:02x}"]
+    if byte >= 0xA0:
+        notes.append(f"in Latin-1 that byte would be '{chr(byte)}'")
+    return Fault(
+        "not-utf8", "the file is not UTF-8 text", file.span(offset, offset + 1), tuple(notes), help=_SAVE_AS
+    )
+
+
+def _stray_characters(text: str, file: SourceFile) -> tuple[list[Fault], bool]:
+    """Report characters that YAML does not allow; many of them make the file no text at all."""
+    offsets = [match.start() for match in _STRAY.finditer(text)]
+    if len(offsets) <= MAX_STRAY_CHARACTERS:
+        return [_stray_character(text, offset, file) for offset in offsets], True
+    first = offsets[0]
+    fault = Fault(
+        "control-character",
+        "this is not a text file",
+        file.span(first, first + 1),
+        (f"it holds {len(offsets)} control characters, the first is {_describe(text[first])}",),
+        help="give a mission in YAML; plans and recordings are outputs",
+    )
+    return [fault], False
+
+
+def _stray_character(text: str, offset: int, file: SourceFile) -> Fault:
+    return Fault(
+        "control-character",
+        f"the character {_describe(text[offset])} cannot stand in a mission",
+        file.span(offset, offset + 1),
+        help="delete it",
+    )
+
+
+def _describe(character: str) -> str:
+    name = unicodedata.name(character, "")
+    code = f"U+{ord(character):04X}"
+    return f"{code} ({name.lower()})" if name else code

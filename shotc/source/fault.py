@@ -1,0 +1,60 @@
+"""A fault in the text of a mission: what the YAML reader reports instead of raising."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from shotc.source.file import Span
+
+FaultKind = Literal[
+    "not-utf8",
+    "control-character",
+    "too-large",
+    "too-deep",
+    "too-many-values",
+    "alias-expansion",
+    "syntax",
+    "tab-indentation",
+    "indentation",
+    "unclosed",
+    "needs-quotes",
+    "duplicate-key",
+    "tag",
+    "several-documents",
+    "empty-file",
+    "not-a-mapping",
+    "merge-key",
+    "key-not-text",
+    "complex-key",
+    "unknown-alias",
+    "recursive-alias",
+]
+FAULT_KINDS: tuple[FaultKind, ...] = get_args(FaultKind)
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One fault of the text.
+
+    kind    : one of ``FAULT_KINDS``
+    message : states the fault, lower case, no final stop
+    span    : the place to blame
+    notes   : facts and numbers
+    help    : the change that would make it work, or an empty string
+    remark  : a few words shown at the span, or an empty string
+    related : further places, each with a few words (the first of two equal keys, an opening bracket)
+    """
+
+    kind: FaultKind
+    message: str
+    span: Span
+    notes: tuple[str, ...] = ()
+    help: str = ""
+    remark: str = ""
+    related: tuple[tuple[Span, str], ...] = ()
+
+
+def shorten(text: str) -> str:
+    """Return ``text`` cut to what fits into a message."""
+    return text if len(text) <= 40 else text[:37] + "..."

@@ -1,0 +1,113 @@
+"""The hardened YAML reader: any bytes in; plain values, the place of each, and faults out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from shotc.source.compose import compose
+from shotc.source.decode import decode
+from shotc.source.fault import Fault
+from shotc.source.file import WHOLE_FILE, SourceFile, Span
+from shotc.source.limits import MAX_FAULTS
+from shotc.source.nodes import Alias, Collection, Node, Scalar
+
+KeyPath = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A mission as text and as plain values.
+
+    file   : the text, as shown in diagnostics
+    root   : dict, list, str, int, float, bool or None by YAML 1.2's core schema; None where nothing could
+             be read. Repeated aliases share one object: treat it as read-only.
+    keys   : span of the key that leads to a path (list items have none)
+    values : span of the value at a path; the root is ``()``. A value left empty has an empty span right
+             after its colon. An alias has its own span, what it stands for is placed where it is written.
+    faults : what is wrong with the text
+    whole  : whether the text was read to its end, so that what is missing in ``root`` is missing in the file
+    """
+
+    file: SourceFile
+    root: Any
+    keys: Mapping[KeyPath, Span] = field(default_factory=dict)
+    values: Mapping[KeyPath, Span] = field(default_factory=dict)
+    faults: tuple[Fault, ...] = ()
+    whole: bool = True
+
+
+def parse(data: bytes, name: str) -> Document:
+    """Read the bytes of a mission; never raises, whatever the bytes are.
+
+    name : the file name to show
+    """
+    file, faults, readable = decode(data, name)
+    if not readable:
+        return Document(file, None, faults=_capped(list(faults)), whole=False)
+    composed = compose(file)
+    found = [*faults, *composed.faults]
+    root = composed.root
+    if composed.whole:
+        found += _root_faults(root, file)
+    if root is None:
+        return Document(file, None, faults=_capped(found), whole=composed.whole)
+    flat = _Flat(file)
+    value = flat.add(root, ())
+    return Document(file, value, flat.keys, flat.values, _capped(found), composed.whole)
+
+
+_BEGIN = "begin with 'shotc: 1' and 'mission: NAME', or start from a template: shotc new"
+
+
+def _root_faults(root: Node | None, file: SourceFile) -> list[Fault]:
+    """Refuse what is no mapping; nothing, or an explicit null, is an empty file."""
+    if isinstance(root, Collection) and root.entries is not None:
+        return []
+    if root is None or (isinstance(root, Scalar) and root.value is None):
+        return [Fault("empty-file", "the file holds no mission", WHOLE_FILE, help=_BEGIN)]
+    shape = "a list" if isinstance(root, Collection) else "a single value"
+    line, column = file.position(root.start)
+    end = column + max(1, len(file.line(line).rstrip()) - column + 1)
+    message = f"the file holds {shape}; a mission is a mapping of keys to values"
+    return [Fault("not-a-mapping", message, Span(line, column, line, end), help=_BEGIN)]
+
+
+def _capped(faults: list[Fault]) -> tuple[Fault, ...]:
+    """Keep the first faults by position, and say how many are not shown."""
+    ordered = sorted(faults, key=lambda fault: fault.span)
+    more = len(ordered) - MAX_FAULTS
+    if more <= 0:
+        return tuple(ordered)
+    last = ordered[MAX_FAULTS - 1]
+    notes = (*last.notes, f"{more} more faults of the text are not shown")
+    return (*ordered[: MAX_FAULTS - 1], replace(last, notes=notes))
+
+
+class _Flat:
+    """The tree laid out: values as plain objects, spans by key path."""
+
+    def __init__(self, file: SourceFile) -> None:
+        self.file = file
+        self.keys: dict[KeyPath, Span] = {}
+        self.values: dict[KeyPath, Span] = {}
+
+    def add(self, node: Node, path: KeyPath) -> Any:
+        """Return the value of a node and note the spans in it; the depth is capped, so recursion is."""
+        self.values[path] = self.file.span(node.start, node.end)
+        if isinstance(node, Alias):
+            node = node.target
+        if isinstance(node, Scalar):
+            return node.value
+        return self._parts(node, path)
+
+    def _parts(self, node: Collection, path: KeyPath) -> Any:
+        if node.entries is None:
+            return [self.add(item, (*path, i)) for i, item in enumerate(node.items)]
+        content = {}
+        for entry in node.entries:
+            inner = (*path, entry.key)
+            self.keys[inner] = self.file.span(entry.start, entry.end)
+            content[entry.key] = self.add(entry.value, inner)
+        return content
