@@ -1,0 +1,221 @@
+"""Bounds that hold at every instant: Bernstein hulls, halved until they are tight enough.
+
+A convex function of a polynomial is nowhere larger on a piece than at the worst of the piece's control
+points; a polynomial is nowhere nearer to a convex solid than its control points are along any fixed
+direction. Both bounds close quadratically as pieces are halved, and only pieces that could still hold the
+worst value are halved (branch and bound).
+
+Arithmetic is IEEE double. Control points are exact by definition; sums and differences of them lose at
+most a few units in the last place, about 1e-13 of a flight's size and, for third derivatives of pieces of a
+millisecond, 1e-7: callers allow a tolerance of 1e-6, half of which is the gap asked for here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask, Pieces
+from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, hull_and_pockets
+from shotc.geom.solids_array import FAR, separation, signed_distance, support
+
+ROUNDS = 60
+"""Halvings before a bound is given as it is; an interval of an hour is then shorter than a nanosecond."""
+
+OPEN_LIMIT = 200_000
+"""Pieces halved at once; beyond it the bound stays proven but is not made tighter."""
+
+Value = Callable[[Array], Array]
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """The extreme of a function over all pieces.
+
+    proven : no value of the function is beyond it (above a supremum, below an infimum)
+    attained : a value that the function takes, at parameter ``at``
+    """
+
+    proven: float
+    attained: float
+    at: float
+
+
+def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> Bound:
+    """Bound the supremum of a convex function along polynomial pieces.
+
+    value : convex, maps control points (..., D) to numbers (...)
+    gap   : how far ``proven`` may stay above ``attained``, given the largest value found so far
+    No pieces: both are -inf.
+    """
+    best, at, closed = -np.inf, 0.0, -np.inf
+    rest = -np.inf
+    for _ in range(ROUNDS):
+        if not len(pieces):
+            break
+        values = value(pieces.ctrl)
+        ends = values[:, [0, -1]]
+        k = int(np.argmax(ends))
+        if ends.flat[k] > best:
+            best = float(ends.flat[k])
+            at = float((pieces.low, pieces.high)[k % 2][k // 2])
+        upper = values.max(axis=1)
+        is_open = upper > best + gap(best)
+        closed = max(closed, float(upper[~is_open].max(initial=-np.inf)))
+        rest = float(upper[is_open].max(initial=-np.inf))
+        if is_open.sum() > OPEN_LIMIT:
+            break
+        pieces = pieces.pick(is_open).halves()
+    return Bound(max(closed, best, rest), best, at)
+
+
+def sup_norm(pieces: Pieces, gap: Callable[[float], float]) -> Bound:
+    """Bound the supremum of the Euclidean norm of all channels."""
+    return sup_convex(pieces, norm, gap)
+
+
+def inf_channel(pieces: Pieces, channel: int, gap: Callable[[float], float]) -> Bound:
+    """Bound the infimum of one channel."""
+    bound = sup_convex(pieces, lambda c: -c[..., channel], lambda worst: gap(-worst))
+    return Bound(-bound.proven, -bound.attained, bound.at)
+
+
+def sup_channel(pieces: Pieces, channel: int, gap: Callable[[float], float]) -> Bound:
+    """Bound the supremum of one channel."""
+    return sup_convex(pieces, lambda c: np.asarray(c[..., channel]), gap)
+
+
+def norm(vectors: Array) -> Array:
+    """Return the Euclidean norm over the last axis; convex."""
+    return np.asarray(np.sqrt(np.einsum("...d,...d->...", vectors, vectors)))
+
+
+def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) -> Bound:
+    """Bound the infimum of the distance from a solid along pieces of shape (M, n + 1, 3), metres.
+
+    Where the curve enters the solid the value is negative: minus the depth at the deepest place found.
+    ``gap`` as in ``sup_convex``, given the smallest distance found so far.
+    """
+    best = Bound(np.inf, np.inf, 0.0)
+    for part in convex_parts(solid):
+        found = _inf_convex(pieces, part, gap)
+        best = Bound(
+            min(best.proven, found.proven),
+            *((found.attained, found.at) if found.attained < best.attained else (best.attained, best.at)),
+        )
+    return best if best.attained > 0 else _deepest(pieces, solid)
+
+
+def _inf_convex(pieces: Pieces, part: Solid, gap: Callable[[float], float]) -> Bound:
+    best, at, closed = np.inf, 0.0, np.inf
+    rest = np.inf
+    for _ in range(ROUNDS):
+        if not len(pieces):
+            break
+        lower, distance = _distances(pieces, part)
+        k = int(np.argmin(distance))
+        if distance[k] < best:
+            best, at = float(distance[k]), float(0.5 * (pieces.low[k] + pieces.high[k]))
+        is_open = lower < best - gap(best)
+        closed = min(closed, float(lower[~is_open].min(initial=np.inf)))
+        rest = float(lower[is_open].min(initial=np.inf))
+        if best <= 0.0 or is_open.sum() > OPEN_LIMIT:
+            break
+        pieces = pieces.pick(is_open).halves()
+    return Bound(min(closed, best, rest), best, at)
+
+
+def _distances(pieces: Pieces, part: Solid) -> tuple[Array, Array]:
+    """Return lower bounds of every piece's distance from a convex solid, and the distance of its middle."""
+    distance, normal = separation(part, _middle(pieces.ctrl))
+    along = np.einsum("mkd,md->mk", pieces.ctrl, normal).min(axis=1) - support(part, normal)
+    return np.maximum(np.where(distance > 0.0, along, 0.0), _box_gap(pieces.ctrl, part)), distance
+
+
+def _deepest(pieces: Pieces, solid: Solid) -> Bound:
+    # The solid is entered, which settles the proof; how deep is told from some thousand places.
+    for _ in range(12):
+        if len(pieces) > 4096:
+            break
+        reach = _box_overlap(pieces.ctrl, solid)
+        pieces = (pieces.pick(reach) if reach.any() else pieces).halves()
+    depth = signed_distance(solid, _middle(pieces.ctrl))
+    k = int(np.argmin(depth))
+    worst = float(depth[k])
+    return Bound(worst, worst, float(0.5 * (pieces.low[k] + pieces.high[k])))
+
+
+def sup_outside(pieces: Pieces, solid: Solid, gap: Callable[[float], float], *, floor: bool = True) -> Bound:
+    """Bound the supremum of how far the curve leaves a solid, metres; negative is the margin inside.
+
+    The value is the largest excess over any face (over the wall of a cylinder), so a sphere of radius r
+    stays inside iff it is at most -r. A footprint that is not convex is its hull less convex pockets:
+    near a pocket the value is minus the distance from it. floor=False leaves out the bottom.
+    """
+    hull, pockets = (solid, ()) if isinstance(solid, Cylinder) else hull_and_pockets(solid)
+    worst = sup_convex(pieces, _excess(hull, floor), gap)
+    for pocket in pockets:
+        found = inf_distance(pieces, pocket, lambda near: gap(-near))
+        if -found.proven > worst.proven:
+            worst = Bound(-found.proven, -found.attained, found.at)
+    return worst
+
+
+def _excess(hull: Solid, floor: bool) -> Value:
+    bottom = max(hull.bottom, -FAR) if floor else -FAR
+    top = min(hull.top, FAR)
+    if isinstance(hull, Cylinder):
+        centre, radius = np.array(hull.centre), hull.radius
+
+        def around(p: Array) -> Array:
+            return norm(p[..., :2] - centre) - radius
+    else:
+        normals, offsets = half_planes(hull)
+
+        def around(p: Array) -> Array:
+            return np.asarray((p[..., :2] @ normals.T - offsets).max(axis=-1))
+
+    def excess(p: Array) -> Array:
+        return np.maximum(around(p), np.maximum(p[..., 2] - top, bottom - p[..., 2]))
+
+    return excess
+
+
+def half_planes(hull: Prism) -> tuple[Array, Array]:
+    """Return outward unit normals (k, 2) and offsets (k,) of a convex footprint: inside, n.p <= offset."""
+    points = np.array(hull.points)
+    along = np.roll(points, -1, axis=0) - points
+    lengths = norm(along)
+    points, along = points[lengths > 0], along[lengths > 0] / lengths[lengths > 0, None]
+    normals = np.stack([along[:, 1], -along[:, 0]], axis=-1)
+    return normals, np.einsum("kd,kd->k", normals, points)
+
+
+def _middle(ctrl: Array) -> Array:
+    while ctrl.shape[1] > 1:
+        ctrl = 0.5 * (ctrl[:, :-1] + ctrl[:, 1:])
+    return ctrl[:, 0]
+
+
+def _box_gap(ctrl: Array, part: Solid) -> Array:
+    low, high = _box(part)
+    apart = np.maximum(np.maximum(ctrl.min(axis=1) - high, low - ctrl.max(axis=1)), 0.0)
+    return norm(apart)
+
+
+def _box_overlap(ctrl: Array, solid: Solid) -> Mask:
+    low, high = _box(solid)
+    return np.asarray(((ctrl.min(axis=1) <= high) & (ctrl.max(axis=1) >= low)).all(axis=1))
+
+
+def _box(solid: Solid) -> tuple[Array, Array]:
+    if isinstance(solid, Cylinder):
+        corners = np.array(solid.centre) + np.array([[-solid.radius], [solid.radius]])
+    else:
+        points = np.array(solid.points)
+        corners = np.stack([points.min(axis=0), points.max(axis=0)])
+    bottom, top = max(solid.bottom, -FAR), min(solid.top, FAR)
+    return np.array([*corners[0], bottom]), np.array([*corners[1], top])

@@ -1,0 +1,216 @@
+"""Bounds against dense sampling, analytic values, spikes between samples and grazes of a millimetre."""
+
+from math import hypot, inf, pi
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.geom.pieces import Pieces, cut, join, pieces
+from shotc.geom.proof import inf_channel, inf_distance, sup_channel, sup_norm, sup_outside
+from shotc.geom.solids import Cylinder, Prism, Solid, box, closest_on_segment, distance, edges, inside_polygon
+from shotc.geom.solids_array import blocks, signed_distance
+
+coordinates = st.floats(-50, 50, allow_nan=False, width=32)
+
+
+@st.composite
+def curves(draw: st.DrawFn, channels: int = 3) -> Piecewise:
+    count = draw(st.integers(1, 4))
+    widths = draw(arrays(float, count, elements=st.floats(0.1, 5)))
+    ctrl = draw(arrays(float, (count, 6, channels), elements=coordinates))
+    return Piecewise(np.concatenate([[0.0], np.cumsum(widths)]), ctrl)
+
+
+def fine(_best: float) -> float:
+    return 1e-6
+
+
+def dense(curve: Piecewise, count: int = 4001) -> np.ndarray:
+    return curve(np.linspace(curve.start, curve.end, count))
+
+
+@settings(deadline=None, max_examples=60)
+@given(curves())
+def test_norm_bound_holds_at_every_sample_and_is_tight(curve: Piecewise) -> None:
+    bound = sup_norm(pieces(curve), fine)
+    assert bound.proven >= np.linalg.norm(dense(curve), axis=1).max() - 1e-9
+    assert bound.attained <= bound.proven <= bound.attained + 1e-6
+    there = [*curve(bound.at), *curve(np.nextafter(bound.at, -inf))]
+    assert min(abs(hypot(*there[:3]) - bound.attained), abs(hypot(*there[3:]) - bound.attained)) < 1e-6
+
+
+@settings(deadline=None, max_examples=40)
+@given(curves(channels=2))
+def test_channel_bounds_enclose_every_sample(curve: Piecewise) -> None:
+    samples = dense(curve)[:, 1]
+    high, low = sup_channel(pieces(curve), 1, fine), inf_channel(pieces(curve), 1, fine)
+    assert low.proven <= samples.min() + 1e-9
+    assert high.proven >= samples.max() - 1e-9
+    assert high.proven - high.attained <= 1e-6
+    assert low.attained - low.proven <= 1e-6
+
+
+def test_known_extremes_of_a_rest_to_rest_quintic() -> None:
+    zero = np.zeros((2, 1))
+    curve = quintic_hermite(np.array([1.0, 3.0]), np.array([[0.0], [10.0]]), zero, zero)
+    speed = sup_norm(pieces(curve.derivative()), lambda _: 1e-9)
+    assert speed.proven == pytest.approx(15 / 8 * 10 / 2, abs=2e-9)
+    assert speed.at == pytest.approx(2.0, abs=1e-3)
+    acceleration = sup_norm(pieces(curve.derivative(2)), lambda _: 1e-9)
+    assert acceleration.proven == pytest.approx(10 / 3**0.5 * 10 / 4, abs=2e-9)
+
+
+def test_a_plateau_ends_and_stays_proven() -> None:
+    turns = np.linspace(0, 2 * pi, 400)
+    circle = np.stack([np.cos(turns), np.sin(turns)], axis=-1) * 30.0
+    rate = np.stack([-np.sin(turns), np.cos(turns)], axis=-1) * 30.0
+    curve = quintic_hermite(turns, circle, rate, -circle)
+    bound = sup_norm(pieces(curve), fine)
+    assert bound.proven == pytest.approx(30.0, abs=2e-6)
+
+
+def test_a_spike_between_any_two_samples_is_found() -> None:
+    # Half a millisecond of 5 m/s^2 in a minute of rest, between two samples at 50 Hz and at 1 kHz.
+    breaks = np.array([0.0, 30.0002, 30.0007, 60.0])
+    ctrl = np.zeros((3, 3, 1))
+    ctrl[1, 1] = 10.0
+    curve = Piecewise(breaks, ctrl)
+    for rate in (50, 1000):
+        assert np.abs(curve(np.arange(0, 60 * rate) / rate)).max() == 0
+    bound = sup_norm(pieces(curve), fine)
+    assert bound.attained == pytest.approx(5.0, abs=1e-5)
+    assert 30.0002 < bound.at < 30.0007
+
+
+def test_cut_is_the_same_polynomial_on_the_interval() -> None:
+    rng = np.random.default_rng(3)
+    curve = Piecewise(np.array([0.0, 1.0, 2.5, 3.0]), rng.normal(size=(3, 6, 2)))
+    for start, end in ((0.3, 0.7), (0.3, 2.7), (1.0, 2.5), (0.0, 3.0), (2.9, 3.0)):
+        bag = cut(curve, start, end)
+        assert bag.low[0] == start
+        assert bag.high[-1] == end
+        for low, high, ctrl in zip(bag.low, bag.high, bag.ctrl, strict=True):
+            piece = Piecewise(np.array([low, high]), ctrl[None])
+            at = np.linspace(low, high, 9)[1:-1]
+            np.testing.assert_allclose(piece(at), curve(at), atol=1e-12)
+    assert len(cut(curve, 1.0, 1.0)) == 0
+    assert len(cut(curve, 4.0, 5.0)) == 0
+    assert len(join([cut(curve, 0.0, 1.0), cut(curve, 2.0, 3.0)])) == 3
+
+
+def test_derivative_of_pieces_is_the_curves() -> None:
+    rng = np.random.default_rng(5)
+    curve = Piecewise(np.array([0.0, 0.5, 2.5]), rng.normal(size=(2, 6, 3)))
+    np.testing.assert_allclose(pieces(curve).derivative().ctrl, curve.derivative().ctrl)
+
+
+L_SHAPE = Prism(((0, 0), (10, 0), (10, 4), (4, 4), (4, 10), (0, 10)), 1.0, 8.0)
+SOLIDS = [Cylinder((3.0, -2.0), 5.0, -1.0, 12.0), box((20, 5, 4), (10, 8, 8), 0.5), L_SHAPE]
+
+
+@settings(deadline=None, max_examples=30)
+@given(curve=curves(), solid=st.sampled_from(SOLIDS))
+def test_distance_bound_holds_at_every_sample(curve: Piecewise, solid: Solid) -> None:
+    bound = inf_distance(pieces(curve), solid, lambda _: 1e-4)
+    sampled = min(distance(solid, tuple(p)) for p in dense(curve, 301))
+    if bound.attained > 0:
+        assert bound.proven <= sampled + 1e-9
+        assert bound.attained - bound.proven <= 1e-4
+        assert distance(solid, tuple(curve(bound.at))) == pytest.approx(bound.attained, abs=1e-6)
+    else:
+        # It may only touch: then the place it names is on the solid.
+        assert distance(solid, tuple(curve(bound.at))) <= 1e-9
+
+
+def straight(a: tuple[float, float, float], b: tuple[float, float, float]) -> Pieces:
+    return pieces(Piecewise(np.array([0.0, 2.0]), np.linspace(a, b, 6)[None]))
+
+
+@pytest.mark.parametrize("gap_mm", [-1.0, 1.0])
+def test_a_graze_of_one_millimetre_is_told_exactly(gap_mm: float) -> None:
+    clearance = 0.6
+    y = 5.0 + clearance + gap_mm / 1000
+    round_ = inf_distance(straight((-30, y, 3), (40, y, 3)), Cylinder((0, 0), 5, 0, 9), lambda _: 1e-7)
+    flat = inf_distance(
+        straight((-30, y, 3), (40, y, 3)), Prism(((-2, -2), (2, -2), (2, 5), (-2, 5)), 0, 9), lambda _: 1e-7
+    )
+    for bound in (round_, flat):
+        assert bound.proven == pytest.approx(y - 5.0, abs=2e-7)
+        assert (bound.proven >= clearance) is (gap_mm > 0)
+
+
+def test_how_deep_a_curve_enters_is_told() -> None:
+    through = straight((-30, 1, 3), (30, 1, 3))
+    bound = inf_distance(through, Cylinder((0, 0), 5, 0, 9), lambda _: 1e-6)
+    assert bound.proven == pytest.approx(-3.0, abs=0.02)  # the floor is 3 m below
+    assert inf_distance(through, Cylinder((0, 0), 5, -inf, inf), lambda _: 1e-6).proven == pytest.approx(
+        -4.0, abs=0.01
+    )
+
+
+def test_touching_at_one_point_is_no_distance() -> None:
+    along_top = straight((-30, 0, 9), (30, 0, 9))
+    assert inf_distance(along_top, Cylinder((0, 0), 5, 0, 9), lambda _: 1e-6).proven == pytest.approx(0.0)
+    corner = straight((0, 10, 4), (10, 0, 4))
+    post = Prism(((0, 0), (5, 0), (5, 5), (0, 5)), 0, 9)
+    assert inf_distance(corner, post, lambda _: 1e-6).proven == pytest.approx(0.0, abs=1e-6)
+
+
+def test_keep_in_margins_of_hull_pockets_floor_and_ceiling() -> None:
+    field = Prism(((-80, -80), (80, -80), (80, 80), (-80, 80)), 2, 60)
+    assert sup_outside(straight((0, 0, 30), (75, 0, 30)), field, fine).proven == pytest.approx(-5.0)
+    assert sup_outside(straight((0, 0, 30), (75, 0, 1)), field, fine).proven == pytest.approx(1.0)
+    up = straight((0, 0, 0), (0, 0, 58))
+    assert sup_outside(up, field, fine, floor=False).proven == pytest.approx(-2.0)
+    assert sup_outside(up, field, fine).proven == pytest.approx(2.0)
+    pond = Cylinder((0, 0), 50, -inf, inf)
+    assert sup_outside(straight((0, 0, 5), (47, 0, 5)), pond, fine).proven == pytest.approx(-3.0)
+    # Across the notch of an L, inside its hull.
+    assert sup_outside(straight((9, 2, 4), (2, 9, 4)), L_SHAPE, fine).proven > 0
+    assert sup_outside(straight((9, 2, 4), (2, 2, 4)), L_SHAPE, fine).proven == pytest.approx(-1.0)
+    assert sup_outside(straight((1, 3, 4), (3, 3, 4)), L_SHAPE, fine).proven == pytest.approx(-1.0)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sampled_from(SOLIDS), st.tuples(coordinates, coordinates, coordinates))
+def test_array_distances_are_the_scalar_ones(solid: Solid, p: tuple[float, float, float]) -> None:
+    measured = float(signed_distance(solid, np.array([p]))[0])
+    assert max(measured, 0.0) == pytest.approx(distance(solid, p), abs=1e-9)
+
+
+def inside(solid: Solid, p: np.ndarray) -> bool:
+    if not solid.bottom < p[2] < solid.top:
+        return False
+    if isinstance(solid, Cylinder):
+        return hypot(p[0] - solid.centre[0], p[1] - solid.centre[1]) < solid.radius
+    return inside_polygon(solid.points, (p[0], p[1]))
+
+
+@settings(deadline=None, max_examples=80)
+@given(
+    st.sampled_from(SOLIDS),
+    st.tuples(coordinates, coordinates, coordinates),
+    st.tuples(coordinates, coordinates, coordinates),
+)
+def test_sight_lines_against_marching(solid: Solid, a: tuple, b: tuple) -> None:  # type: ignore[type-arg]
+    eye, point = np.array(a), np.array(b)
+    march = [inside(solid, eye + (point - eye) * s) for s in np.linspace(0, 1, 801)]
+    length = float(np.linalg.norm(point - eye))
+    hidden = bool(blocks(solid, eye[None], point)[0])
+    if sum(march) >= 3 and length > 0.1:
+        assert hidden
+    if hidden and sum(march) == 0:
+        # The run inside must then be shorter than a march step.
+        assert not blocks(solid, eye[None], point, least=length / 400)[0]
+
+
+def test_a_sight_line_that_only_touches_is_free() -> None:
+    eyes = np.array([[-10.0, 5.0, 3.0], [-10.0, 4.9, 3.0], [-10.0, 0.0, 9.0]])
+    seen = blocks(Cylinder((0, 0), 5, 0, 9), eyes, np.array([10.0, 5.0, 3.0]))
+    assert list(seen) == [False, True, True]
+    assert closest_on_segment((0, 0), (1, 0), (0.5, 2)) == (0.5, 0.0)
+    assert len(edges(L_SHAPE.points)) == 6
