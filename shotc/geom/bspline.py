@@ -1,0 +1,145 @@
+"""Quintic B-splines on clamped knots, written as linear maps onto Bernstein control points.
+
+A spline with P pieces has P + 5 coefficients and is C4 at its interior breaks. Everything a convex
+programme asks of it (values, derivatives, hulls, energies) is a sum of six neighbouring coefficients,
+so constraints are rows of six weights: ``Rows``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import comb
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
+
+DEGREE = 5
+IntArray = np.ndarray[tuple[int], np.dtype[np.intp]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """Linear functionals of a spline's coefficients.
+
+    piece  : shape (R,), the first of the six coefficients each row weighs
+    weight : shape (R, 6)
+    """
+
+    piece: IntArray
+    weight: Array
+
+    def apply(self, coef: Array) -> Array:
+        """Return the rows' values for coefficients of shape (P + 5, D); shape (R, D)."""
+        local = coef[self.piece[:, None] + np.arange(DEGREE + 1)]
+        return np.asarray(np.einsum("rk,rkd->rd", self.weight, local))
+
+
+def count(breaks: Array) -> int:
+    """Return the number of coefficients of a spline on these breaks."""
+    return len(breaks) - 1 + DEGREE
+
+
+def extraction(breaks: Array) -> Array:
+    """Return the maps from six coefficients to six Bernstein points; shape (P, 6, 6).
+
+    Row k of piece p is the blossom of the piece at (a, ..., a, b, ..., b) with k times b (Ramshaw's
+    polar form), unrolled by de Boor's recursion.
+    """
+    pieces = len(breaks) - 1
+    knots = np.concatenate([[breaks[0]] * DEGREE, breaks, [breaks[-1]] * DEGREE])
+    first = np.arange(pieces)[:, None] + np.arange(1, 2 * DEGREE + 1)
+    local = knots[first]  # the ten knots that matter to each piece
+    rows = []
+    for k in range(DEGREE + 1):
+        points = np.broadcast_to(np.eye(DEGREE + 1), (pieces, DEGREE + 1, DEGREE + 1))
+        for level in range(DEGREE):
+            at = (breaks[:-1] if level < DEGREE - k else breaks[1:])[:, None]
+            lo, hi = local[:, level:DEGREE], local[:, DEGREE : 2 * DEGREE - level]
+            x = ((at - lo) / (hi - lo))[..., None]
+            points = (1.0 - x) * points[:, :-1] + x * points[:, 1:]
+        rows.append(points[:, 0])
+    return np.stack(rows, axis=1)
+
+
+def greville(breaks: Array) -> Array:
+    """Return where coefficients sit: a spline with coefficients f(greville), f linear, is f; (P + 5,)."""
+    knots = np.concatenate([[breaks[0]] * DEGREE, breaks, [breaks[-1]] * DEGREE])
+    windows = np.lib.stride_tricks.sliding_window_view(knots[1:-1], DEGREE)
+    return np.asarray(windows.mean(axis=1))
+
+
+def spline(breaks: Array, coef: Array) -> Piecewise:
+    """Return the spline with these coefficients, shape (P + 5, D), in Bernstein form."""
+    index = np.arange(len(breaks) - 1)[:, None] + np.arange(DEGREE + 1)
+    return Piecewise(breaks, np.einsum("pij,pjd->pid", extraction(breaks), coef[index]))
+
+
+def value_rows(breaks: Array, at: Array) -> Rows:
+    """Return rows that evaluate the spline at parameters of shape (R,)."""
+    piece = np.clip(np.searchsorted(breaks, at, side="right") - 1, 0, len(breaks) - 2)
+    x = (at - breaks[piece]) / (breaks[piece + 1] - breaks[piece])
+    basis = bernstein_basis(DEGREE, x)
+    return Rows(piece, np.einsum("rk,rkj->rj", basis, extraction(breaks)[piece]))
+
+
+def control_rows(breaks: Array, order: int = 0) -> Rows:
+    """Return rows for the Bernstein points of the derivative of that order, piece by piece.
+
+    There are 6 - order of them a piece.
+    """
+    maps = extraction(breaks)
+    widths = np.diff(breaks)[:, None, None]
+    for _ in range(order):
+        maps = np.diff(maps, axis=1) * (maps.shape[1] - 1) / widths
+    pieces, points, _ = maps.shape
+    return Rows(np.repeat(np.arange(pieces), points), maps.reshape(pieces * points, DEGREE + 1))
+
+
+def energy_rows(breaks: Array, order: int) -> Rows:
+    """Return rows whose sum of squares is the integral of the squared derivative of that order.
+
+    The Gram matrix of Bernstein polynomials of degree m is C(m,i) C(m,j) / (C(2m,i+j) (2m+1)) on
+    [0, 1]; its Cholesky factor turns the integral into a sum of squares, exactly.
+    """
+    m = DEGREE - order
+    gram = np.array(
+        [
+            [comb(m, i) * comb(m, j) / comb(2 * m, i + j) / (2 * m + 1) for j in range(m + 1)]
+            for i in range(m + 1)
+        ]
+    )
+    root = np.linalg.cholesky(gram).T
+    rows = control_rows(breaks, order)
+    points = rows.weight.reshape(len(breaks) - 1, m + 1, DEGREE + 1)
+    scaled = np.einsum("ij,pjk->pik", root, points) * np.sqrt(np.diff(breaks))[:, None, None]
+    return Rows(rows.piece, scaled.reshape(-1, DEGREE + 1))
+
+
+def restrict(curve: Piecewise, breaks: Array) -> Piecewise:
+    """Return the same curve on finer breaks, exactly.
+
+    Every break of the curve inside the range of ``breaks`` must be among them (to 1e-9 of the
+    range); ``breaks`` may cover a part of the curve only.
+    """
+    middle = 0.5 * (breaks[:-1] + breaks[1:])
+    piece = np.clip(np.searchsorted(curve.breaks, middle, side="right") - 1, 0, len(curve.ctrl) - 1)
+    lo, width = curve.breaks[piece], np.diff(curve.breaks)[piece]
+    a = ((breaks[:-1] - lo) / width)[:, None, None]
+    b = ((breaks[1:] - lo) / width)[:, None, None]
+    degree = curve.degree
+    out = []
+    for k in range(degree + 1):
+        points = curve.ctrl[piece]
+        for level in range(degree):
+            x = a if level < degree - k else b
+            points = (1.0 - x) * points[:, :-1] + x * points[:, 1:]
+        out.append(points[:, 0])
+    return Piecewise(breaks, np.stack(out, axis=1))
+
+
+def subdivide(breaks: Array, parts: int) -> Array:
+    """Return breaks with every piece cut into ``parts`` equal ones; the old breaks are kept exactly."""
+    fractions = np.arange(parts) / parts
+    inner = breaks[:-1, None] + np.diff(breaks)[:, None] * fractions
+    return np.append(inner.ravel(), breaks[-1])

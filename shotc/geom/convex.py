@@ -1,0 +1,124 @@
+"""Upright convex solids for many points at once: closest points, support, distances, separation.
+
+The array counterpart of ``geom.solids``, for the planner's inner loops.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.solids import Cylinder, Prism, Solid
+
+FAR = 1e5  # stands for an unbounded height, metres
+GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
+
+
+def bounded(part: Solid) -> Solid:
+    """Return the solid with infinite heights replaced by ones no mission reaches."""
+    return replace(part, bottom=max(part.bottom, -FAR), top=min(part.top, FAR))
+
+
+def closest_points(part: Solid, p: Array) -> Array:
+    """Return the points of a convex solid closest to p, shape (..., 3); p itself where it is inside."""
+    z = np.clip(p[..., 2:], part.bottom, part.top)
+    if isinstance(part, Cylinder):
+        centre = np.array(part.centre)
+        away = p[..., :2] - centre
+        distance = np.linalg.norm(away, axis=-1, keepdims=True)
+        scale = np.minimum(1.0, part.radius / np.maximum(distance, 1e-12))
+        return np.concatenate([centre + away * scale, z], axis=-1)
+    return np.concatenate([_closest_on_polygon(part, p[..., :2]), z], axis=-1)
+
+
+def _closest_on_polygon(part: Prism, xy: Array) -> Array:
+    corners = np.array(part.points, dtype=np.float64)
+    sides = np.roll(corners, -1, axis=0) - corners
+    offset = xy[..., None, :] - corners
+    length2 = np.maximum((sides**2).sum(axis=1), 1e-18)
+    along = np.clip((offset * sides).sum(axis=-1) / length2, 0.0, 1.0)
+    feet = corners + along[..., None] * sides
+    nearest = ((xy[..., None, :] - feet) ** 2).sum(axis=-1).argmin(axis=-1)
+    foot = np.take_along_axis(feet, nearest[..., None, None], axis=-2)[..., 0, :]
+    inside = (sides[:, 0] * offset[..., 1] - sides[:, 1] * offset[..., 0] >= 0).all(axis=-1)
+    return np.where(inside[..., None], xy, foot)
+
+
+def support(part: Solid, n: Array) -> Array:
+    """Return max of n.x over the solid for directions of shape (..., 3); shape (...)."""
+    high = np.maximum(n[..., 2] * part.bottom, n[..., 2] * part.top)
+    if isinstance(part, Cylinder):
+        flat = n[..., :2] @ np.array(part.centre) + part.radius * np.linalg.norm(n[..., :2], axis=-1)
+    else:
+        flat = (n[..., :2] @ np.array(part.points).T).max(axis=-1)
+    return np.asarray(flat + high)
+
+
+def distances(part: Solid, p: Array) -> Array:
+    """Return how far points of shape (..., 3) are from the solid, 0 inside, metres."""
+    return np.asarray(np.linalg.norm(p - closest_points(part, p), axis=-1))
+
+
+def segment_distances(part: Solid, a: Array, b: Array) -> Array:
+    """Return the distance of segments a-b, shapes (N, 3), to the solid; shape (N,), metres.
+
+    The distance to a convex set is convex along a segment, so golden section finds its minimum; it
+    stops at 1e-7 of the length, where the value is good to the square of that unless it is 0.
+    """
+    low, high = np.zeros(len(a)), np.ones(len(a))
+    side = b - a
+    for _ in range(34):
+        x1, x2 = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        left = distances(part, a + x1[:, None] * side) <= distances(part, a + x2[:, None] * side)
+        low, high = np.where(left, low, x1), np.where(left, x2, high)
+    middle = distances(part, a + 0.5 * (low + high)[:, None] * side)
+    return np.asarray(np.minimum.reduce([middle, distances(part, a), distances(part, b)]))
+
+
+def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]:
+    """Return planes between point sets and a solid.
+
+    hulls : shape (N, m, 3), each the hull of m points
+    Returns unit normals (N, 3) that point away from the solid, and the gaps (N,): the least of
+    n.p - support(n) over each set, metres. A positive gap proves the distance; it is within a few
+    per cent of the true distance (alternating projections on the sets, best normal kept).
+    """
+    at = hulls.mean(axis=1)
+    best_gap = np.full(len(hulls), -np.inf)
+    best = np.zeros((len(hulls), 3))
+    starts = [at, *np.moveaxis(hulls, 1, 0)]
+    for start in starts:
+        n, gap = _plane_at(part, hulls, start)
+        best, best_gap = _better(best, best_gap, n, gap)
+    at = np.take_along_axis(hulls, distances(part, hulls).argmin(axis=1)[:, None, None], axis=1)[:, 0]
+    for _ in range(rounds):
+        foot = closest_points(part, at)
+        n, gap = _plane_at(part, hulls, at)
+        best, best_gap = _better(best, best_gap, n, gap)
+        # Frank-Wolfe step: towards the point of the hull that lies deepest along the normal.
+        deepest = np.einsum("nmd,nd->nm", hulls, n).argmin(axis=1)
+        vertex = np.take_along_axis(hulls, deepest[:, None, None], axis=1)[:, 0]
+        step = vertex - at
+        length2 = np.maximum((step**2).sum(axis=1), 1e-18)
+        x = np.clip(((foot - at) * step).sum(axis=1) / length2, 0.0, 1.0)
+        at = at + x[:, None] * step
+    return best, best_gap
+
+
+def gaps(part: Solid, hulls: Array, normals: Array) -> Array:
+    """Return the least n.p - support(n) of each point set (N, m, 3) for unit normals (N, 3)."""
+    return np.asarray(np.einsum("nmd,nd->nm", hulls, normals).min(axis=1) - support(part, normals))
+
+
+def _plane_at(part: Solid, hulls: Array, at: Array) -> tuple[Array, Array]:
+    away = at - closest_points(part, at)
+    length = np.linalg.norm(away, axis=1, keepdims=True)
+    n = np.where(length > 1e-9, away / np.maximum(length, 1e-9), np.array([0.0, 0.0, 1.0]))
+    return n, gaps(part, hulls, n)
+
+
+def _better(best: Array, best_gap: Array, n: Array, gap: Array) -> tuple[Array, Array]:
+    wins = gap > best_gap
+    return np.where(wins[:, None], n, best), np.where(wins, gap, best_gap)

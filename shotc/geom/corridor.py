@@ -1,0 +1,191 @@
+"""Where one drone's centre may be, and convex corridors through it.
+
+A ``Room`` is the intersection of half-spaces, upright discs and the outside of convex obstacles, each
+with the clearance the drone's centre must keep. A corridor piece keeps one half-space an obstacle: if
+all Bernstein points of a piece lie beyond it, the whole piece does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.convex import distances, segment_distances, separate, support
+from shotc.geom.solids import Solid
+
+MARGIN = 0.05  # kept beyond what verification asks, metres: later stages interpolate the path
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """A convex solid that the drone's centre keeps ``clearance`` metres away from.
+
+    owner : what it is part of, e.g. "zone tree"; several obstacles may share one owner
+    """
+
+    owner: str
+    part: Solid
+    clearance: float
+
+
+@dataclass(frozen=True, slots=True)
+class Wall:
+    """A half-space the drone's centre stays in: n.p >= offset, n a unit vector of W."""
+
+    owner: str
+    normal: tuple[float, float, float]
+    offset: float
+
+
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """An upright cylinder of unbounded height the drone's centre stays in."""
+
+    owner: str
+    centre: tuple[float, float]
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """All of it, for one drone."""
+
+    obstacles: tuple[Obstacle, ...]
+    walls: tuple[Wall, ...]
+    discs: tuple[Disc, ...]
+
+    def without(self, owner: str) -> Room:
+        """Return the room with everything of one owner taken away."""
+        return Room(
+            tuple(o for o in self.obstacles if o.owner != owner),
+            tuple(w for w in self.walls if w.owner != owner),
+            tuple(d for d in self.discs if d.owner != owner),
+        )
+
+    def lent(self, metres: float) -> Room:
+        """Return the room with every clearance that much smaller (never below zero for obstacles)."""
+        return Room(
+            tuple(Obstacle(o.owner, o.part, max(0.0, o.clearance - metres)) for o in self.obstacles),
+            tuple(Wall(w.owner, w.normal, w.offset - metres) for w in self.walls),
+            tuple(Disc(d.owner, d.centre, d.radius + metres) for d in self.discs),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Breach:
+    """A point too near to something: by how many metres it misses the clearance."""
+
+    owner: str
+    lack: float
+    clearance: float
+
+
+def bounds_slack(room: Room, p: Array) -> Array:
+    """Return how far points (N, 3) are inside the nearest wall or disc, metres; shape (N,)."""
+    slack = np.full(len(p), np.inf)
+    for wall in room.walls:
+        slack = np.minimum(slack, p @ np.array(wall.normal) - wall.offset)
+    for disc in room.discs:
+        slack = np.minimum(slack, disc.radius - np.linalg.norm(p[:, :2] - np.array(disc.centre), axis=1))
+    return slack
+
+
+def breaches(room: Room, p: Array, tolerance: float = 1e-6) -> list[Breach]:
+    """Return what one point (3,) is too near to, the worst first."""
+    found = []
+    for o in room.obstacles:
+        lack = o.clearance - float(distances(o.part, p))
+        found.append(Breach(o.owner, lack, o.clearance))
+    for w in room.walls:
+        found.append(Breach(w.owner, w.offset - float(p @ np.array(w.normal)), 0.0))
+    for d in room.discs:
+        lack = float(np.linalg.norm(p[:2] - np.array(d.centre))) - d.radius
+        found.append(Breach(d.owner, lack, 0.0))
+    return sorted((b for b in found if b.lack > tolerance), key=lambda b: -b.lack)
+
+
+def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
+    """Return the distance to keep near points (N, 3): clearance and margin, less where p is closer.
+
+    A keyframe may lie anywhere beyond the clearance; where it leaves less room than the margin, half
+    of what there is must do.
+    """
+    room = distances(obstacle.part, p) - obstacle.clearance
+    return np.asarray(obstacle.clearance + np.minimum(margin, 0.5 * np.maximum(room, 0.0)))
+
+
+def blocked(room: Room, a: Array, b: Array, margin: float = MARGIN) -> Array:
+    """Tell for segments a-b, shapes (N, 3), and obstacles whether they come too near; (N, obstacles)."""
+    out = np.zeros((len(a), len(room.obstacles)), dtype=bool)
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    for j, o in enumerate(room.obstacles):
+        reach = o.clearance + margin
+        box_low, box_high = _box(o.part)
+        near = ((low <= box_high + reach) & (high >= box_low - reach)).all(axis=1)
+        if near.any():
+            need = np.minimum(required(o, a[near], margin), required(o, b[near], margin))
+            out[near, j] = segment_distances(o.part, a[near], b[near]) < need - 1e-9
+    return out
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Planes:
+    """Half-spaces n.p >= offset for pieces of a curve.
+
+    piece, obstacle : shape (R,), which piece keeps away from which obstacle
+    normal, offset  : shapes (R, 3), (R,)
+    """
+
+    piece: np.ndarray[tuple[int], np.dtype[np.intp]]
+    obstacle: np.ndarray[tuple[int], np.dtype[np.intp]]
+    normal: Array
+    offset: Array
+
+
+def corridor(room: Room, hulls: Array, reach: float, margin: float = MARGIN) -> tuple[Planes, Array]:
+    """Separate every piece from every obstacle within ``reach`` metres beyond its clearance.
+
+    hulls : shape (P, m, 3), points whose hull holds each piece
+    Returns the planes and, for each, by how much the piece's own points clear it (negative: they do
+    not), metres. Where a piece is nearer than clearance and margin, half of what there is counts.
+    """
+    pieces, obstacles, normals, offsets, clear = [], [], [], [], []
+    middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
+    for j, o in enumerate(room.obstacles):
+        near = np.flatnonzero(distances(o.part, middle) < o.clearance + reach + size)
+        if not len(near):
+            continue
+        n, gap = separate(o.part, hulls[near])
+        keep = gap < o.clearance + reach
+        near, n, gap = near[keep], n[keep], gap[keep]
+        need = o.clearance + np.minimum(margin, 0.5 * np.maximum(gap - o.clearance, 0.0))
+        points = np.einsum("nmd,nd->nm", hulls[near], n).min(axis=1)
+        pieces.append(near)
+        obstacles.append(np.full(len(near), j))
+        normals.append(n)
+        offsets.append(points - gap + need)
+        clear.append(gap - need)
+    if not pieces:
+        none = np.zeros(0, dtype=np.intp)
+        return Planes(none, none, np.zeros((0, 3)), np.zeros(0)), np.zeros(0)
+    planes = Planes(
+        np.concatenate(pieces), np.concatenate(obstacles), np.concatenate(normals), np.concatenate(offsets)
+    )
+    return planes, np.concatenate(clear)
+
+
+def shortfall(room: Room, hulls: Array) -> Array:
+    """Return by how much each piece fails to prove its clearances; shape (P,), metres, <= 0 is proved."""
+    worst = -bounds_slack(room, hulls.reshape(-1, 3)).reshape(hulls.shape[:2]).min(axis=1)
+    for o in room.obstacles:
+        _, gap = separate(o.part, hulls)
+        worst = np.maximum(worst, o.clearance - gap)
+    return np.asarray(worst)
+
+
+def _box(part: Solid) -> tuple[Array, Array]:
+    axes = np.concatenate([np.eye(3), -np.eye(3)])
+    reach = support(part, axes)
+    return -reach[3:], reach[:3]

@@ -1,0 +1,239 @@
+"""The shortest way between two points round and over obstacles: A* on a visibility graph.
+
+Obstacles are grown into convex prisms; the graph's nodes are the corners of the grown footprints at a
+few heights; an edge is free where the segment misses every grown prism, which clipping a segment
+against half-spaces decides exactly. Climbing and flying over an obstacle cost extra, so that what can
+be passed beside at a similar length is not flown over.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from math import ceil, pi
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.convex import FAR, distances, segment_distances
+from shotc.geom.corridor import MARGIN, Obstacle, Room, blocked, bounds_slack
+from shotc.geom.solids import Cylinder, Solid
+
+ROUTE_MARGIN = 2 * MARGIN  # the route leaves the corridor some play
+NODE_MARGIN = 2.4 * MARGIN  # nodes stand clear of the prisms that edges are tested against
+CLIMB_PRICE = 0.3  # extra length for each metre up or down
+OVERFLIGHT_PRICE = 0.3  # extra length for each metre above an obstacle
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Grown:
+    """An obstacle's half-planes n.xy <= offset, shape (E, 2) and (E,), before growing, and its heights."""
+
+    normals: Array
+    offsets: Array
+    bottom: float
+    top: float
+    clearance: float
+
+
+def find_route(room: Room, start: Array, end: Array) -> Array | None:
+    """Return the corners of the way from start to end, shape (K, 3), both included; None if there is none.
+
+    Both points must themselves be free. Nodes come from the obstacles in the way; more obstacles join
+    as they turn out to block, so far ones cost nothing.
+    """
+    first = blocked(room, start[None], end[None], MARGIN)[0]
+    if not first.any():
+        return np.stack([start, end])
+    grown = [_grow(o) for o in room.obstacles]
+    active = first
+    best: Array | None = None
+    for _ in range(len(room.obstacles) + 1):
+        graph = _Graph(room, grown, np.flatnonzero(active), start, end)
+        best, touched = graph.search()
+        if (touched <= active).all():
+            break
+        active = active | touched
+    return None if best is None else _level(room, best)
+
+
+class _Graph:
+    """One search: nodes from some obstacles, edges tested against all of them."""
+
+    def __init__(self, room: Room, grown: list[_Grown], active: Array, start: Array, end: Array) -> None:
+        self.room, self.grown = room, grown
+        corners = [_nodes(grown, j, active, start, end) for j in active]
+        nodes = np.concatenate([np.stack([start, end]), *corners])
+        free = bounds_slack(room, nodes) >= MARGIN
+        for g in grown:
+            free &= ~_inside(g, nodes, ROUTE_MARGIN)
+        free[:2] = True
+        self.nodes: Array = nodes[free]
+        self.touched = np.zeros(len(grown), dtype=bool)
+
+    def search(self) -> tuple[Array | None, Array]:
+        """Return the cheapest way found, and which obstacles stopped an edge."""
+        nodes = self.nodes
+        cost = np.full(len(nodes), np.inf)
+        cost[0] = 0.0
+        parent = np.zeros(len(nodes), dtype=int)
+        done = np.zeros(len(nodes), dtype=bool)
+        ahead = np.linalg.norm(nodes - nodes[1], axis=1)
+        queue = [(float(ahead[0]), 0)]
+        while queue:
+            _, i = heappop(queue)
+            if done[i]:
+                continue
+            done[i] = True
+            if i == 1:
+                return self._trace(parent), self.touched
+            others = np.flatnonzero(~done)
+            reach = cost[i] + self._prices(i, others)
+            better = reach < cost[others]
+            for k, value in zip(others[better], reach[better], strict=True):
+                cost[k], parent[k] = value, i
+                heappush(queue, (float(value + ahead[k]), int(k)))
+        return None, self.touched
+
+    def _trace(self, parent: Array) -> Array:
+        path = [1]
+        while path[-1] != 0:
+            path.append(int(parent[path[-1]]))
+        return np.asarray(self.nodes[path[::-1]])
+
+    def _prices(self, i: int, others: Array) -> Array:
+        a = np.broadcast_to(self.nodes[i], (len(others), 3))
+        b = self.nodes[others]
+        length = np.linalg.norm(b - a, axis=1)
+        price = length + CLIMB_PRICE * np.abs(b[:, 2] - a[:, 2])
+        for j, g in enumerate(self.grown):
+            enter, leave = _clip(g, a, b, ROUTE_MARGIN)
+            over = np.maximum(leave - enter, 0.0)
+            if g.top < FAR:
+                price = price + OVERFLIGHT_PRICE * over * length
+            hit = self._hits(j, a, b, enter, leave)
+            ends = (others == 1) | (i <= 1)
+            if ends.any() and self._close(j, i, others).any():
+                exact = self._close(j, i, others)
+                hit[exact] = self._near(j, a[exact], b[exact])
+            self.touched[j] |= bool(hit.any())
+            price[hit] = np.inf
+        return np.asarray(price)
+
+    def _hits(self, j: int, a: Array, b: Array, enter: Array, leave: Array) -> Array:
+        g = self.grown[j]
+        reach = g.clearance + ROUTE_MARGIN
+        rise = b[:, 2] - a[:, 2]
+        z0, z1 = a[:, 2] + enter * rise, a[:, 2] + leave * rise
+        above = (np.minimum(z0, z1) >= g.top + reach) | (np.maximum(z0, z1) <= g.bottom - reach)
+        # A slanted edge may cut the prism's lid: clip the heights as well.
+        t_low, t_high = _clip_heights(a[:, 2], rise, g.bottom - reach, g.top + reach)
+        return (np.maximum(enter, t_low) < np.minimum(leave, t_high) - 1e-9) & ~above
+
+    def _close(self, j: int, i: int, others: Array) -> Array:
+        """Edges whose start or end point of the whole way stands inside the grown prism."""
+        inside = _inside(self.grown[j], self.nodes[:2], ROUTE_MARGIN + 1e-6)
+        from_end = bool(i <= 1 and inside[i])
+        return np.full(len(others), from_end) | ((others == 1) & inside[1])
+
+    def _near(self, j: int, a: Array, b: Array) -> Array:
+        o = self.room.obstacles[j]
+        own = np.minimum(distances(o.part, a), distances(o.part, b)) - o.clearance
+        need = o.clearance + np.minimum(MARGIN, 0.5 * np.maximum(own, 0.0))
+        return np.asarray(segment_distances(o.part, a, b) < need - 1e-9)
+
+
+def _grow(obstacle: Obstacle) -> _Grown:
+    part = obstacle.part
+    normals, offsets = _sides(part, obstacle.clearance)
+    return _Grown(normals, offsets, part.bottom, part.top, obstacle.clearance)
+
+
+def _sides(part: Solid, clearance: float) -> tuple[Array, Array]:
+    if isinstance(part, Cylinder):
+        # Circumscribed so that no corner sticks out by more than a quarter of a metre.
+        sides = min(32, max(8, ceil(pi / np.sqrt(0.5 / (part.radius + clearance + 0.5)))))
+        angle = 2 * pi * np.arange(sides) / sides
+        normals = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        return normals, normals @ np.array(part.centre) + part.radius
+    corners = np.array(part.points, dtype=np.float64)
+    along = np.roll(corners, -1, axis=0) - corners
+    along = along[np.linalg.norm(along, axis=1) > 1e-9]
+    normals = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    bevels = normals + np.roll(normals, 1, axis=0)
+    length = np.linalg.norm(bevels, axis=1, keepdims=True)
+    normals = np.concatenate([normals, (bevels / np.maximum(length, 1e-9))[length[:, 0] > 1e-6]])
+    return normals, (normals @ corners.T).max(axis=1)
+
+
+def _corners(g: _Grown, growth: float) -> Array:
+    """Return the corners of the grown footprint, shape (E, 2)."""
+    order = np.argsort(np.arctan2(g.normals[:, 1], g.normals[:, 0]))
+    n, d = g.normals[order], g.offsets[order] + growth
+    distinct = np.linalg.norm(n - np.roll(n, 1, axis=0), axis=1) > 1e-6
+    n, d = n[distinct], d[distinct]
+    m, e = np.roll(n, -1, axis=0), np.roll(d, -1)
+    det = n[:, 0] * m[:, 1] - n[:, 1] * m[:, 0]
+    x = (d * m[:, 1] - e * n[:, 1]) / det
+    y = (n[:, 0] * e - m[:, 0] * d) / det
+    return np.stack([x, y], axis=1)
+
+
+def _nodes(grown: list[_Grown], j: int, active: Array, start: Array, end: Array) -> Array:
+    """Corners of one grown obstacle at the heights a way may want to pass them."""
+    g = grown[j]
+    xy = _corners(g, g.clearance + NODE_MARGIN)
+    way = end[:2] - start[:2]
+    progress = np.clip((xy - start[:2]) @ way / max(float(way @ way), 1e-9), 0.0, 1.0)
+    levels = [start[2] + progress * (end[2] - start[2])]
+    heights = [float(start[2]), float(end[2])]
+    for k in active:
+        reach = grown[k].clearance + NODE_MARGIN
+        heights += [h for h in (grown[k].top + reach, grown[k].bottom - reach) if abs(h) < FAR / 2]
+    levels += [np.full(len(xy), h) for h in sorted(set(heights))]
+    return np.concatenate([np.column_stack([xy, z]) for z in levels])
+
+
+def _inside(g: _Grown, p: Array, margin: float) -> Array:
+    reach = g.clearance + margin
+    flat = (p[:, :2] @ g.normals.T <= g.offsets + reach - 1e-9).all(axis=1)
+    return np.asarray(flat & (p[:, 2] < g.top + reach - 1e-9) & (p[:, 2] > g.bottom - reach + 1e-9))
+
+
+def _clip(g: _Grown, a: Array, b: Array, margin: float) -> tuple[Array, Array]:
+    """Clip segments to the grown footprint (Cyrus-Beck); returns the stretch [enter, leave] of [0, 1]."""
+    rate = (b[:, :2] - a[:, :2]) @ g.normals.T
+    room = g.offsets + g.clearance + margin - a[:, :2] @ g.normals.T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = room / rate
+    enter = np.where(rate < -1e-12, t, -np.inf).max(axis=1)
+    leave = np.where(rate > 1e-12, t, np.inf).min(axis=1)
+    outside = ((np.abs(rate) <= 1e-12) & (room < 0)).any(axis=1)
+    enter, leave = np.maximum(enter, 0.0), np.minimum(leave, 1.0)
+    return np.where(outside, 1.0, enter), np.where(outside, 0.0, leave)
+
+
+def _clip_heights(z: Array, rise: Array, low: float, high: float) -> tuple[Array, Array]:
+    flat = np.abs(rise) < 1e-12
+    safe = np.where(flat, 1.0, rise)
+    t1, t2 = (low - z) / safe, (high - z) / safe
+    inside = (z > low + 1e-9) & (z < high - 1e-9)
+    enter = np.where(flat, np.where(inside, 0.0, 2.0), np.minimum(t1, t2))
+    leave = np.where(flat, np.where(inside, 1.0, -1.0), np.maximum(t1, t2))
+    return enter, leave
+
+
+def _level(room: Room, path: Array) -> Array:
+    """Let the height change evenly along the way where that is still free."""
+    if len(path) < 3:
+        return path
+    flat = np.linalg.norm(np.diff(path[:, :2], axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(flat)])
+    if along[-1] < 1e-6:
+        return path
+    even = path.copy()
+    even[:, 2] = path[0, 2] + along / along[-1] * (path[-1, 2] - path[0, 2])
+    inside = bounds_slack(room, even[1:-1]) >= MARGIN
+    free = not blocked(room, even[:-1], even[1:], ROUTE_MARGIN).any()
+    return even if inside.all() and free else path
