@@ -106,7 +106,10 @@ def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) ->
             min(best.proven, found.proven),
             *((found.attained, found.at) if found.attained < best.attained else (best.attained, best.at)),
         )
-    return best if best.attained > 0 else _deepest(pieces, solid)
+    if best.attained > 0:
+        return best
+    deepest = _deepest(pieces, solid)
+    return deepest if deepest.attained < 0 else best
 
 
 def _inf_convex(pieces: Pieces, part: Solid, gap: Callable[[float], float]) -> Bound:
