@@ -28,7 +28,7 @@ endif
 	@touch $@
 
 demo: $(STAMP) ## Plan a real mission and say where to look at it
-	$(BIN)/shotc plan specs/tower-reveal.yaml
+	$(BIN)/shotc plan specs/westerhever-lighthouse.yaml
 
 test: $(STAMP) ## Run every test
 	$(BIN)/pytest -n 2

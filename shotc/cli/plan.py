@@ -53,7 +53,7 @@ def plan(
     _known("--stop-after", stop_after, list(PASS_NAMES))
     _known("--dump-ir", dump_ir, list(PASS_NAMES))
     source = read_mission(spec)
-    with _progress() as progress:
+    with _Progress() as progress:
         options = PlanOptions(refiner, autopilot, stop_after or dump_ir, seed, progress)
         done = compile_source(source.data, source.name, source.folder, options)
         if dump_ir is not None:
@@ -111,7 +111,7 @@ def _known(option: str, name: str | None, known: list[str]) -> None:
     raise typer.BadParameter(f"`{name}` is unknown; {hint}", param_hint=option)
 
 
-class _progress:  # noqa: N801  a context manager that reads as a verb
+class _Progress:
     """Show which pass is running on a terminal; say nothing elsewhere."""
 
     def __init__(self) -> None:

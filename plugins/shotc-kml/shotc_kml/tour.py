@@ -13,6 +13,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, register_namespac
 
 import numpy as np
 import pymap3d
+
 from shotc.plugin_api import Artifact, Diagnostic, DroneTrajectory, Emission, MissionIR, VerifiedIR
 
 KML = "http://www.opengis.net/kml/2.2"
