@@ -1,0 +1,48 @@
+"""The names of screen points and composition sets, and where on screen they are.
+
+Screen coordinates (u, v) in [-1, 1]^2, u right, v up.
+"""
+
+from __future__ import annotations
+
+from shotc.ir.mission import Composition, Vec2
+
+_THIRD = 1 / 3
+_PHI = 0.236
+
+
+def _centre_and_corners(distance: float) -> tuple[Vec2, ...]:
+    return (
+        (0.0, 0.0),
+        (-distance, distance),
+        (distance, distance),
+        (-distance, -distance),
+        (distance, -distance),
+    )
+
+
+COMPOSITIONS: dict[str, Composition] = {
+    "center": Composition("center", points=((0.0, 0.0),)),
+    "thirds": Composition("thirds", points=_centre_and_corners(_THIRD)),
+    "thirds-lines": Composition("thirds-lines", u_lines=(-_THIRD, _THIRD), v_lines=(-_THIRD, _THIRD)),
+    "phi": Composition("phi", points=_centre_and_corners(_PHI)),
+    "keep": Composition("keep", keep=True),
+}
+
+NAMED_POINTS: dict[str, Vec2] = {
+    "center": (0.0, 0.0),
+    "left-third": (-_THIRD, 0.0),
+    "right-third": (_THIRD, 0.0),
+    "upper-third": (0.0, _THIRD),
+    "lower-third": (0.0, -_THIRD),
+    "upper-left": (-_THIRD, _THIRD),
+    "upper-right": (_THIRD, _THIRD),
+    "lower-left": (-_THIRD, -_THIRD),
+    "lower-right": (_THIRD, -_THIRD),
+}
+
+# What one keyframe's `frame` may name: a point, or a set of the mission's own vocabulary.
+FRAMES: dict[str, Composition] = {
+    **COMPOSITIONS,
+    **{name: Composition(name, points=(point,)) for name, point in NAMED_POINTS.items()},
+}

@@ -1,0 +1,79 @@
+"""Faults as pydantic carries them: an error type that is a code's slug, and its message, notes, help.
+
+A field or a validator raises ``fault(...)``, or ``fault_at(...)`` for a place further down; ``load``
+turns each into one diagnostic. Kinds use the same two functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from shotc.units import QuantityError
+
+Loc = tuple[str | int, ...]
+T = TypeVar("T")
+
+
+def fault(slug: str, message: str, help: str = "", notes: tuple[str, ...] = ()) -> PydanticCustomError:  # noqa: A002
+    """Return an error for pydantic that ``load`` reports under the code with this slug.
+
+    message : lower case, no final stop; help : the change that would make it work; notes : facts
+    """
+    # pydantic fills the template from the context; only the context is read back.
+    return PydanticCustomError(slug, "{message}", {"message": message, "help": help, "notes": notes})  # type: ignore[arg-type]
+
+
+def fault_at(
+    loc: Loc,
+    slug: str,
+    message: str,
+    help: str = "",
+    notes: tuple[str, ...] = (),  # noqa: A002
+) -> ValidationError:
+    """Return the same fault placed at ``loc`` below the value under validation."""
+    return together([InitErrorDetails(type=fault(slug, message, help, notes), loc=loc, input=None)])
+
+
+def unit_fault(error: QuantityError) -> PydanticCustomError:
+    """Return a unit fault as pydantic carries it; its slug is the kind."""
+    return fault(error.kind, error.message, error.help)
+
+
+def together(details: list[InitErrorDetails]) -> ValidationError:
+    """Return several placed faults as one error."""
+    return ValidationError.from_exception_data("mission", details, hide_input=True)
+
+
+def details_of(error: ValidationError | PydanticCustomError, loc: Loc = ()) -> list[InitErrorDetails]:
+    """Return an error's faults, placed below ``loc``, to be raised again with others."""
+    if isinstance(error, PydanticCustomError):
+        return [InitErrorDetails(type=error, loc=loc, input=None)]
+    return [
+        InitErrorDetails(type=_again(item), loc=(*loc, *item["loc"]), input=None)
+        for item in error.errors(include_url=False, include_input=False)
+    ]
+
+
+def _again(item: Any) -> PydanticCustomError:
+    ctx = item.get("ctx", {})
+    if "message" in ctx:
+        return fault(item["type"], ctx["message"], ctx["help"], ctx["notes"])
+    return PydanticCustomError(item["type"], item["msg"].replace("{", "("), ctx)
+
+
+def read_each(readers: Iterable[tuple[Loc, Callable[[], T]]]) -> list[T]:
+    """Return what every reader gives; raise the faults of all of them at once, each at its place."""
+    values: list[T] = []
+    details: list[InitErrorDetails] = []
+    for loc, reader in readers:
+        try:
+            values.append(reader())
+        except (ValidationError, PydanticCustomError) as error:
+            details.extend(details_of(error, loc))
+    if details:
+        raise together(details)
+    return values

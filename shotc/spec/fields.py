@@ -1,0 +1,84 @@
+"""The field types of the language, ready to annotate models with; values are SI and radians once read."""
+
+from __future__ import annotations
+
+from math import pi, radians
+from typing import Annotated
+
+from shotc.ir.mission import Vec2, Vec3
+from shotc.spec.fieldtypes import Flag, Integer, NamedOr, Text
+from shotc.spec.places import NAME, Geodetic, LookAt, Position
+from shotc.spec.quantities import Quantity, Range, Span, Tuple
+from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
+from shotc.units import SMALLEST
+
+__all__ = [
+    "Acceleration", "Angle", "AngleRange", "AngularAcceleration", "AngularRate", "Aspect", "CompositionSet",
+    "Count", "Duration", "FieldOfView", "Frame", "Frequency", "Geodetic", "Jerk", "Length", "LengthRange",
+    "LengthSpan", "LookAt", "Name", "NonNegativeDuration", "NonNegativeLength", "NonNegativeSpeed", "PACES",
+    "Pace", "Pitch", "PitchRange", "Point2", "Position", "PositiveLength", "PositiveLengthSpan",
+    "PositiveShare", "Priority", "RelativePath", "ScreenDistance", "ScreenPoint", "Share", "ShareRange",
+    "Size3", "Speed", "Switch", "Velocity",
+]  # fmt: skip
+
+_LENGTH = Quantity("Length", "length")
+_POSITIVE_LENGTH = Quantity("PositiveLength", "length", SMALLEST["length"])
+_ANGLE = Quantity("Angle", "angle")
+_PITCH = Quantity("Pitch", "angle", -pi / 2, pi / 2)
+_VELOCITY = Quantity("SignedSpeed", "speed")
+_SHARE = Quantity("Share", "ratio", 0.0, 1.0)
+_POSITIVE_SHARE = Quantity("PositiveShare", "ratio", SMALLEST["ratio"], 1.0)
+
+Length = Annotated[float, _LENGTH]
+PositiveLength = Annotated[float, _POSITIVE_LENGTH]
+NonNegativeLength = Annotated[float, Quantity("NonNegativeLength", "length", 0.0)]
+Speed = Annotated[float, Quantity("Speed", "speed", SMALLEST["speed"])]
+NonNegativeSpeed = Annotated[float, Quantity("NonNegativeSpeed", "speed", 0.0)]
+Acceleration = Annotated[float, Quantity("Acceleration", "acceleration", SMALLEST["acceleration"])]
+Jerk = Annotated[float, Quantity("Jerk", "jerk", SMALLEST["jerk"])]
+Angle = Annotated[float, _ANGLE]
+Pitch = Annotated[float, _PITCH]
+FieldOfView = Annotated[
+    float, Quantity("FieldOfView", "angle", radians(1), radians(170), fault="impossible-camera")
+]
+AngularRate = Annotated[float, Quantity("AngularRate", "angular rate", SMALLEST["angular rate"])]
+AngularAcceleration = Annotated[
+    float, Quantity("AngularAcceleration", "angular acceleration", SMALLEST["angular acceleration"])
+]
+Duration = Annotated[float, Quantity("Duration", "duration", SMALLEST["duration"])]
+NonNegativeDuration = Annotated[float, Quantity("NonNegativeDuration", "duration", 0.0)]
+Share = Annotated[float, _SHARE]
+PositiveShare = Annotated[float, _POSITIVE_SHARE]
+ScreenDistance = Annotated[float, Quantity("ScreenDistance", "ratio", 0.0, 3.0)]
+Frequency = Annotated[float, Quantity("Frequency", "frequency", 1.0, 1000.0)]
+
+LengthRange = Annotated[tuple[float, float], Range("LengthRange", _LENGTH, thick=True)]
+AngleRange = Annotated[tuple[float, float], Range("AngleRange", _ANGLE)]
+PitchRange = Annotated[tuple[float, float], Range("PitchRange", _PITCH)]
+ShareRange = Annotated[tuple[float, float], Range("ShareRange", _SHARE)]
+LengthSpan = Annotated[tuple[float, float], Span("LengthSpan", _LENGTH)]
+PositiveLengthSpan = Annotated[tuple[float, float], Span("PositiveLengthSpan", _POSITIVE_LENGTH)]
+
+Point2 = Annotated[Vec2, Tuple("Point2", (_LENGTH, _LENGTH), "[x, y]")]
+Size3 = Annotated[Vec3, Tuple("Size3", (_POSITIVE_LENGTH,) * 3, "[width, depth, height]")]
+Velocity = Annotated[Vec3, Tuple("Velocity", (_VELOCITY,) * 3, "[east, north, up]")]
+
+Switch = Annotated[bool, Flag()]
+Count = Annotated[int, Integer("Count", 1, 10_000)]
+Priority = Annotated[int, Integer("Priority", 1, 1_000)]
+
+Name = Annotated[str, NAME]
+# Relative, without a drive, a backslash, a control character or a part that is `..`.
+RelativePath = Annotated[
+    str,
+    Text(
+        "RelativePath",
+        r"^(?!/)(?!(.*/)?[.][.](/|$))[^\\:\x00-\x1f]{1,255}$",
+        "unsafe-path",
+        "give a path inside the mission's folder, with `/` between folders and without `..`",
+    ),
+]
+
+PACES = {"calm": 0.5, "normal": 0.75, "brisk": 1.0}
+# Below a twentieth of its limits a drone hardly moves, and a plan takes hours.
+Pace = Annotated[float, NamedOr("Pace", PACES, "pace", Quantity("PaceShare", "ratio", 0.05, 1.0))]

@@ -1,0 +1,153 @@
+"""What a field may hold, as annotations for pydantic: each reads a YAML value and describes itself.
+
+A field type never leaves the choice between shapes to pydantic, so that one fault gives one report.
+"""
+
+from __future__ import annotations
+
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from shotc.spec.faults import fault
+from shotc.spec.model import nearest
+from shotc.units import a, clip, describe
+
+
+class FieldType(ABC):
+    """An annotation that reads and describes one kind of value.
+
+    label : name of its definition in the JSON Schema
+    """
+
+    label: str
+
+    @abstractmethod
+    def read(self, value: Any) -> Any:
+        """Return the value as the models keep it; raise a fault otherwise."""
+
+    @abstractmethod
+    def schema(self) -> JsonSchemaValue:
+        """Return the JSON Schema of what may be written."""
+
+    def reference(self) -> JsonSchemaValue:
+        """Return the schema marked for hoisting into the shared definitions (see spec.schema)."""
+        return {"$shared": self.label, **self.schema()}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(
+        self, core: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return self.reference()
+
+
+@dataclass(frozen=True, eq=False)
+class Integer(FieldType):
+    """A whole number between ``low`` and ``high``, inclusive."""
+
+    label: str
+    low: int
+    high: int
+
+    def read(self, value: Any) -> int:
+        """Return the number; 3.0 is whole too."""
+        if isinstance(value, bool) or not isinstance(value, int | float) or value != value // 1:
+            raise fault("wrong-type", f"expected a whole number, got {describe(value)}")
+        if not self.low <= value <= self.high:
+            raise fault(
+                "out-of-range",
+                f"{clip(repr(value) if isinstance(value, float) else _digits(value))} is out of range",
+                f"give a whole number from {self.low} to {self.high}",
+            )
+        return int(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return an integer schema."""
+        return {"type": "integer", "minimum": self.low, "maximum": self.high}
+
+
+def _digits(value: int) -> str:
+    # Python refuses to print integers of thousands of digits.
+    return str(value) if abs(value) < 10**30 else "a number of many digits"
+
+
+@dataclass(frozen=True, eq=False)
+class Text(FieldType):
+    """Text that matches ``pattern``; anything else is reported with ``rule`` as help."""
+
+    label: str
+    pattern: str
+    fault: str
+    rule: str
+
+    def read(self, value: Any) -> str:
+        """Return the text."""
+        if not isinstance(value, str):
+            raise fault("wrong-type", f"expected text, got {describe(value)}", self.rule)
+        if re.fullmatch(self.pattern, value) is None:
+            raise fault(self.fault, f"`{clip(value)}` cannot be used as {self.what}", self.rule)
+        return value
+
+    @property
+    def what(self) -> str:
+        """Return the label in words."""
+        return a(re.sub(r"(?<!^)(?=[A-Z])", " ", self.label).lower())
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a string schema."""
+        return {"type": "string", "pattern": self.pattern, "description": self.rule}
+
+
+@dataclass(frozen=True, eq=False)
+class Flag(FieldType):
+    """True or false."""
+
+    label: Literal["Flag"] = "Flag"
+
+    def read(self, value: Any) -> bool:
+        """Return the truth value."""
+        if not isinstance(value, bool):
+            raise fault("wrong-type", f"expected true or false, got {describe(value)}")
+        return value
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a boolean schema."""
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True, eq=False)
+class NamedOr(FieldType):
+    """A name from a table, kept as what the table says, or what ``other`` reads.
+
+    what : the noun for messages about unknown names
+    """
+
+    label: str
+    named: Mapping[str, Any]
+    what: str
+    other: FieldType | None = None
+
+    def read(self, value: Any) -> Any:
+        """Return the table's entry, or the value as ``other`` reads it."""
+        if isinstance(value, str) and (self.other is None or value[:1].isalpha()):
+            if value not in self.named:
+                raise fault(
+                    "unknown-value", f"unknown {self.what} `{clip(value)}`", nearest(value, self.named)
+                )
+            return self.named[value]
+        if self.other is None:
+            raise fault("wrong-type", f"expected the name of {a(self.what)}, got {describe(value)}")
+        return self.other.read(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the names, and the other way to write it."""
+        names = {"enum": list(self.named)}
+        return names if self.other is None else {"anyOf": [names, self.other.reference()]}

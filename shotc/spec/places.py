@@ -1,0 +1,112 @@
+"""Field types for places in the world: a position, and what a camera looks at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import Field
+from pydantic.json_schema import JsonSchemaValue
+
+from shotc.ir.mission import Vec3
+from shotc.spec.faults import fault
+from shotc.spec.fieldtypes import FieldType, Text
+from shotc.spec.model import Model
+from shotc.spec.quantities import Quantity, Tuple
+from shotc.units import describe
+
+_LENGTH = Quantity("Length", "length")
+_POINT3 = Tuple("Point3", (_LENGTH,) * 3, "[x, y, z]")
+_HINT = "write [x, y, z] in metres, or {lat: ..., lon: ..., height: ...}"
+
+# Names become file names and table cells: nothing a shell, a file system or a spreadsheet stumbles on.
+NAME = Text(
+    "Name",
+    r"^[A-Za-z0-9]([A-Za-z0-9._-]{0,62}[A-Za-z0-9_-])?$",
+    "unsafe-name",
+    "use letters, digits, `-`, `_` and `.`, at most 64, starting with a letter or digit",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class DegreesType(FieldType):
+    """Latitude or longitude: a number of degrees, as maps give it; kept in degrees."""
+
+    label: str
+    limit: float
+
+    def read(self, value: Any) -> float:
+        """Return the number, at most ``limit`` either way."""
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise fault(
+                "wrong-type",
+                f"expected a {self.label.lower()} in degrees, got {describe(value)}",
+                "write decimal degrees without a unit, such as 47.3769",
+            )
+        if not -self.limit <= value <= self.limit:
+            raise fault(
+                "out-of-range",
+                f"no place on earth has this {self.label.lower()}",
+                f"give degrees from {-self.limit:g} to {self.limit:g}",
+            )
+        return float(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a bounded number."""
+        return {"type": "number", "minimum": -self.limit, "maximum": self.limit}
+
+
+Latitude = Annotated[float, DegreesType("Latitude", 90.0)]
+Longitude = Annotated[float, DegreesType("Longitude", 180.0)]
+
+
+class Geodetic(Model):
+    """A place on the earth (WGS84); with ``world.origin`` it is a point of the world frame."""
+
+    lat: Latitude = Field(description="latitude, degrees north")
+    lon: Longitude = Field(description="longitude, degrees east")
+    height: Annotated[float, _LENGTH] = Field(
+        default=0.0, description="height over the ground, z in the world"
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class PositionType(FieldType):
+    """A point of the world: ``[x, y, z]`` or ``{lat, lon, height}``."""
+
+    label: str = "Position"
+
+    def read(self, value: Any) -> Vec3 | Geodetic:
+        """Return a point of W in metres, or a geodetic place."""
+        if isinstance(value, dict | Geodetic):
+            return Geodetic.model_validate(value)
+        if not isinstance(value, list | tuple):
+            raise fault("wrong-type", f"expected a position, got {describe(value)}", _HINT)
+        x, y, z = _POINT3.read(value)
+        return (x, y, z)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it."""
+        return {"anyOf": [_POINT3.reference(), {"$model": Geodetic}]}
+
+
+POSITION = PositionType()
+Position = Annotated[Vec3 | Geodetic, POSITION]
+
+
+@dataclass(frozen=True, eq=False)
+class LookAtType(FieldType):
+    """What to look at: the name of a target, or a position."""
+
+    label: str = "LookAt"
+
+    def read(self, value: Any) -> str | Vec3 | Geodetic:
+        """Return a target's name or a position."""
+        return NAME.read(value) if isinstance(value, str) else POSITION.read(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it."""
+        return {"anyOf": [NAME.reference(), POSITION.reference()]}
+
+
+LookAt = Annotated[str | Vec3 | Geodetic, LookAtType()]

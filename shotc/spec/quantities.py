@@ -1,0 +1,162 @@
+"""Field types for numbers with a dimension: one, a fixed list of them, a range, a span from-to."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import partial
+from math import degrees, inf
+from typing import Any
+
+from pydantic.json_schema import JsonSchemaValue
+
+from shotc.spec.faults import fault, read_each, unit_fault
+from shotc.spec.fieldtypes import FieldType
+from shotc.units import (
+    ANGULAR,
+    LARGEST,
+    NUMBER,
+    UNITS,
+    Dimension,
+    QuantityError,
+    a,
+    clip,
+    describe,
+    parse_quantity,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity(FieldType):
+    """A number with a dimension, kept in SI, between ``low`` and ``high`` (SI, inclusive).
+
+    fault : slug of the code for a value out of bounds
+    """
+
+    label: str
+    dimension: Dimension
+    low: float = -inf
+    high: float = inf
+    fault: str = "out-of-range"
+
+    def read(self, value: Any) -> float:
+        """Return the value in SI."""
+        try:
+            number = parse_quantity(value, self.dimension)
+        except QuantityError as error:
+            raise unit_fault(error) from None
+        if self.low <= number <= self.high:
+            return number
+        raise fault(
+            self.fault,
+            f"`{clip(str(value))}` is {'below' if number < self.low else 'above'} "
+            f"what {a(self.dimension)} may be here",
+            f"give {self._bounds()}",
+        )
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a number-or-text schema; text only for angles."""
+        sign = "[+]?" if self.low >= 0 else "[+-]?"
+        units = "|".join(re.escape(unit) for unit in UNITS[self.dimension])
+        text = {"type": "string", "pattern": rf"^\s*{sign}{NUMBER.removeprefix('[+-]?')}\s*({units})\s*$"}
+        if self.dimension in ANGULAR:
+            return {**text, "description": f"{a(self.dimension)} with its unit"}
+        limit = LARGEST[self.dimension]
+        number = {"type": "number", "minimum": max(self.low, -limit), "maximum": min(self.high, limit)}
+        return {"anyOf": [number, text], "description": f"{a(self.dimension)} in SI, or with its unit"}
+
+    def _bounds(self) -> str:
+        if self.high == inf:
+            return f"at least {self.show(self.low)}"
+        if self.low == -inf:
+            return f"at most {self.show(self.high)}"
+        return f"{self.show(self.low)} to {self.show(self.high)}"
+
+    def show(self, number: float) -> str:
+        """Return an SI value as people write it."""
+        if self.dimension == "ratio":
+            return f"{number:g}"
+        unit = next(iter(UNITS[self.dimension]))
+        return f"{degrees(number) if self.dimension in ANGULAR else number:g} {unit}"
+
+
+@dataclass(frozen=True, eq=False)
+class Tuple(FieldType):
+    """A list of fixed length, kept as a tuple; ``shape`` is how it is written, such as ``[x, y, z]``."""
+
+    label: str
+    items: tuple[FieldType, ...]
+    shape: str
+
+    def read(self, value: Any) -> tuple[Any, ...]:
+        """Return the items, each read by its type."""
+        if not isinstance(value, list | tuple):
+            raise fault("wrong-type", f"expected a list {self.shape}, got {describe(value)}")
+        if len(value) != len(self.items):
+            raise fault("wrong-length", f"expected {len(self.items)} values {self.shape}, got {len(value)}")
+        pairs = zip(self.items, value, strict=True)
+        return tuple(read_each(((i,), partial(item.read, v)) for i, (item, v) in enumerate(pairs)))
+
+    def schema(self) -> JsonSchemaValue:
+        """Return an array schema."""
+        return {
+            "type": "array",
+            "prefixItems": [item.reference() for item in self.items],
+            "items": False,
+            "minItems": len(self.items),
+            "maxItems": len(self.items),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Range(FieldType):
+    """A list ``[lowest, highest]``, kept as a tuple; ``thick`` refuses equal ends."""
+
+    label: str
+    item: FieldType
+    thick: bool = False
+
+    def read(self, value: Any) -> tuple[float, float]:
+        """Return (lowest, highest) in SI."""
+        low, high = self._pair.read(value)
+        if low < high or (low == high and not self.thick):
+            return (low, high)
+        written = f"[{clip(str(value[0]), 20)}, {clip(str(value[1]), 20)}]"
+        if low == high:
+            raise fault(
+                "inverted-range", f"the range {written} is empty", "make the second value the larger one"
+            )
+        raise fault(
+            "inverted-range",
+            f"the range {written} runs from high to low",
+            f"write [{clip(str(value[1]), 20)}, {clip(str(value[0]), 20)}]",
+        )
+
+    def schema(self) -> JsonSchemaValue:
+        """Return an array schema; the order of the ends is not in it."""
+        return self._pair.schema()
+
+    @property
+    def _pair(self) -> Tuple:
+        return Tuple(self.label, (self.item, self.item), "[lowest, highest]")
+
+
+@dataclass(frozen=True, eq=False)
+class Span(FieldType):
+    """One value, or ``[from, to]``; kept as (from, to)."""
+
+    label: str
+    item: FieldType
+
+    def read(self, value: Any) -> tuple[float, float]:
+        """Return (from, to) in SI; both ends are the same where one value is given."""
+        if isinstance(value, list):
+            first, last = Tuple(self.label, (self.item, self.item), "[from, to]").read(value)
+            return (first, last)
+        only = self.item.read(value)
+        return (only, only)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a value-or-array schema."""
+        pair = Tuple(self.label, (self.item, self.item), "[from, to]")
+        return {"anyOf": [self.item.reference(), pair.schema()]}

@@ -1,0 +1,102 @@
+"""Field types for the picture: screen points, frames, composition sets, aspect."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from math import inf
+from typing import Annotated, Any
+
+from pydantic.json_schema import JsonSchemaValue
+
+from shotc.ir.mission import Composition, Vec2
+from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
+from shotc.spec.faults import fault, read_each
+from shotc.spec.fieldtypes import FieldType, NamedOr
+from shotc.spec.quantities import Quantity, Tuple
+from shotc.units import clip, describe
+
+_SCREEN = Quantity("ScreenCoordinate", "ratio", -1.0, 1.0)
+_PAIR = Tuple("ScreenPair", (_SCREEN, _SCREEN), "[u, v]")
+
+ScreenPoint = Annotated[Vec2, NamedOr("ScreenPoint", NAMED_POINTS, "screen point", _PAIR)]
+
+
+@dataclass(frozen=True, eq=False)
+class OwnPointType(FieldType):
+    """A screen point as a composition set of its own."""
+
+    label: str = "ScreenPair"
+
+    def read(self, value: Any) -> Composition:
+        """Return the set of this one point."""
+        return Composition("own", points=(_PAIR.read(value),))  # type: ignore[arg-type]
+
+    def schema(self) -> JsonSchemaValue:
+        """Return how a screen point is written."""
+        return _PAIR.schema()
+
+
+@dataclass(frozen=True, eq=False)
+class OwnPointsType(FieldType):
+    """A list of screen points as a composition set."""
+
+    label: str = "ScreenPoints"
+
+    def read(self, value: Any) -> Composition:
+        """Return the set of these points."""
+        if not isinstance(value, list) or not any(isinstance(item, list) for item in value):
+            raise fault(
+                "wrong-type",
+                f"expected a composition, got {describe(value)}",
+                f"write one of {', '.join(COMPOSITIONS)}, or a list of points such as [[-0.3, 0], [0.3, 0]]",
+            )
+        points = read_each(((i,), partial(_PAIR.read, item)) for i, item in enumerate(value))
+        return Composition("own", points=tuple((u, v) for u, v in points))
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a list of screen points."""
+        return {"type": "array", "items": _PAIR.reference(), "minItems": 1}
+
+
+Frame = Annotated[Composition, NamedOr("Frame", FRAMES, "frame", OwnPointType())]
+CompositionSet = Annotated[
+    Composition, NamedOr("CompositionSet", COMPOSITIONS, "composition", OwnPointsType())
+]
+
+
+@dataclass(frozen=True, eq=False)
+class AspectType(FieldType):
+    """Frame width over height: a number, or text such as ``16:9``."""
+
+    label: str = "Aspect"
+
+    def read(self, value: Any) -> float:
+        """Return width / height, from 0.2 to 5."""
+        if not isinstance(value, str) or value.count(":") != 1:
+            return _RATIO.read(value)
+        width, height = (_side(part) for part in value.split(":"))
+        if not (height > 0 and 0.2 <= width / height <= 5.0):
+            raise fault(
+                "impossible-camera",
+                f"no frame has the aspect `{clip(value)}`",
+                'write width over height such as "16:9", from "1:5" to "5:1"',
+            )
+        return width / height
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it."""
+        side = r"[0-9]*[.]?[0-9]*[1-9][0-9]*[.]?[0-9]*"
+        return {"anyOf": [_RATIO.reference(), {"type": "string", "pattern": f"^{side}:{side}$"}]}
+
+
+_RATIO = Quantity("AspectRatio", "ratio", 0.2, 5.0, fault="impossible-camera")
+Aspect = Annotated[float, AspectType()]
+
+
+def _side(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        return 0.0
+    return number if 0 < number < inf else 0.0

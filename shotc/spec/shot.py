@@ -1,0 +1,131 @@
+"""What every shot may say, whatever its kind, and the keyframes that a user writes down.
+
+A kind subclasses ``ShotBase`` with its own parameters and ``kind: Literal["its-name"]``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from pydantic import Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from shotc.spec.faults import fault
+from shotc.spec.fields import (
+    Angle,
+    CompositionSet,
+    Duration,
+    FieldOfView,
+    Frame,
+    LookAt,
+    Name,
+    NonNegativeDuration,
+    Pace,
+    Pitch,
+    Position,
+    PositiveShare,
+    ScreenDistance,
+    Share,
+    ShareRange,
+    Switch,
+)
+from shotc.spec.model import Model, OneOf
+from shotc.units import clip
+
+# The two ways to aim a camera: at something, or by compass heading and pitch.
+AIM = OneOf((("look_at",), ("heading", "pitch")))
+AIM_IF_ANY = OneOf(AIM.forms, required=False)
+
+
+class TimingSpec(Model):
+    """When a shot is filmed; nothing given is ``auto``."""
+
+    start: NonNegativeDuration | None = Field(
+        default=None, description="first filmed frame, from mission start"
+    )
+    after: Name | None = Field(default=None, description="id of the shot that has to end first")
+    duration: Duration | None = Field(default=None, description="length of the shot, holds included")
+
+    @classmethod
+    def shorthand(cls, data: Any) -> Any:
+        """Return an empty mapping for ``auto``."""
+        if data == "auto":
+            return {}
+        if isinstance(data, str):
+            raise fault(
+                "wrong-type",
+                f"expected a timing, got the text `{clip(data)}`",
+                "write `auto`, or a mapping with start, after, duration",
+            )
+        return data
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Return the mapping's schema beside ``auto``."""
+        schema = handler.resolve_ref_schema(handler(core_schema))
+        return {"anyOf": [{"const": "auto"}, schema]}
+
+
+class RequireSpec(Model):
+    """What a shot promises; verification holds the plan to it."""
+
+    in_frame: Share | None = Field(
+        default=None, description="least share of the shot with the whole target in frame"
+    )
+    screen_error: ScreenDistance | None = Field(
+        default=None, description="largest distance on screen between target and reference"
+    )
+    size: ShareRange | None = Field(
+        default=None, description="lowest and highest projected height over frame height"
+    )
+
+
+class RefineSpec(Model):
+    """How refinement is used on a shot."""
+
+    optional: Switch = Field(
+        default=False, description="whether the unrefined path will do where refinement fails"
+    )
+
+
+class ShotBase(Model):
+    """The fields every shot has."""
+
+    id: Name = Field(description="name of the shot, unique in the mission")
+    kind: str = Field(description="what sort of shot it is")
+    drone: Name = Field(description="name of the drone that films it, or auto")
+    target: Name | None = Field(default=None, description="name of the target in the picture")
+    timing: TimingSpec = Field(default=TimingSpec(), description="auto, or any of start, after, duration")
+    composition: CompositionSet | None = Field(
+        default=None, description="where on screen the target may be; the rules' set if silent"
+    )
+    pace: Pace | None = Field(default=None, description="share of the limits used where timing is auto")
+    size: PositiveShare | None = Field(
+        default=None, description="projected height over frame height to aim for"
+    )
+    require: RequireSpec = Field(default=RequireSpec(), description="what the shot promises")
+    refine: RefineSpec = Field(default=RefineSpec(), description="how refinement is used")
+
+
+class KeyframeSpec(Model):
+    """One picture of a shot: where the camera is, what it looks at, where the target goes."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (AIM,)
+
+    at: Position = Field(description="position of the camera")
+    heading: Angle | None = Field(default=None, description="compass heading of the camera")
+    pitch: Pitch | None = Field(default=None, description="elevation of the camera, positive up")
+    look_at: LookAt | None = Field(default=None, description="target or position to look at")
+    frame: Frame | None = Field(
+        default=None, description="where on screen the target goes; overrides composition"
+    )
+    hfov: FieldOfView | None = Field(
+        default=None, description="horizontal field of view; the drone's if silent"
+    )
+    hold: NonNegativeDuration = Field(default=0.0, description="how long the camera rests here")
+    time: NonNegativeDuration | None = Field(
+        default=None, description="when it is here, from the shot's start"
+    )

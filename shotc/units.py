@@ -1,0 +1,288 @@
+"""Quantities: a number in SI or text with a unit, read against a closed table of units.
+
+A bare number is SI (metres, seconds, m/s); for an angle it is refused, because degrees and radians
+look alike. Nothing is evaluated and no unit is composed: what is not in the table is unknown.
+"""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from functools import cache
+from math import inf, isfinite, pi
+from typing import Literal
+
+Dimension = Literal[
+    "length",
+    "duration",
+    "speed",
+    "acceleration",
+    "jerk",
+    "angle",
+    "angular rate",
+    "angular acceleration",
+    "ratio",
+    "frequency",
+]
+Kind = Literal[
+    "unknown-unit", "wrong-dimension", "bare-angle", "missing-unit", "not-a-quantity", "absurd-value"
+]
+
+_DEG = pi / 180
+_FOOT = 0.3048
+
+# Per dimension: factor to SI of every spelling that is understood.
+UNITS: dict[Dimension, dict[str, float]] = {
+    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "ft": _FOOT},
+    "duration": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0},
+    "speed": {
+        "m/s": 1.0,
+        "km/h": 1 / 3.6,
+        "kmh": 1 / 3.6,
+        "kn": 1852 / 3600,
+        "kt": 1852 / 3600,
+        "mph": 1609.344 / 3600,
+        "ft/s": _FOOT,
+    },
+    "acceleration": {"m/s^2": 1.0, "m/s²": 1.0, "m/s2": 1.0},
+    "jerk": {"m/s^3": 1.0, "m/s³": 1.0, "m/s3": 1.0},
+    "angle": {"deg": _DEG, "°": _DEG, "rad": 1.0},
+    "angular rate": {"deg/s": _DEG, "°/s": _DEG, "rad/s": 1.0},
+    "angular acceleration": {
+        "deg/s^2": _DEG,
+        "deg/s²": _DEG,
+        "deg/s2": _DEG,
+        "°/s²": _DEG,
+        "°/s^2": _DEG,
+        "rad/s^2": 1.0,
+        "rad/s²": 1.0,
+        "rad/s2": 1.0,
+    },
+    "ratio": {"%": 1e-2},
+    "frequency": {"Hz": 1.0},
+}
+
+# Beyond these magnitudes (SI) no camera drone operates: the number is a slip of the pen.
+LARGEST: dict[Dimension, float] = {
+    "length": 1e5,
+    "duration": 1e5,
+    "speed": 1e3,
+    "acceleration": 1e3,
+    "jerk": 1e5,
+    "angle": 1e3,
+    "angular rate": 1e3,
+    "angular acceleration": 1e5,
+    "ratio": 1e3,
+    "frequency": 1e3,
+}
+
+# Below these magnitudes a value that has to be positive is as good as zero.
+SMALLEST: dict[Dimension, float] = {
+    "length": 1e-4,
+    "duration": 1e-3,
+    "speed": 1e-3,
+    "acceleration": 1e-3,
+    "jerk": 1e-3,
+    "angle": 1e-4,
+    "angular rate": 1e-4,
+    "angular acceleration": 1e-4,
+    "ratio": 1e-4,
+    "frequency": 1e-2,
+}
+
+EXAMPLES: dict[Dimension, str] = {
+    "length": "12 m",
+    "duration": "20 s",
+    "speed": "8 m/s",
+    "acceleration": "3 m/s^2",
+    "jerk": "8 m/s^3",
+    "angle": "45 deg",
+    "angular rate": "60 deg/s",
+    "angular acceleration": "90 deg/s^2",
+    "ratio": "80 %",
+    "frequency": "50 Hz",
+}
+
+ANGULAR: frozenset[Dimension] = frozenset({"angle", "angular rate", "angular acceleration"})
+
+NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+# Text longer than this is no quantity; the bound keeps messages and the search for a near unit short.
+_LONGEST_TEXT = 60
+_QUANTITY = re.compile(rf"\s*({NUMBER})\s*(\S*)\s*")
+
+# Spellings that are near to nothing in the table by letters, or near to the wrong thing.
+_MEANT = {
+    "meter": "m",
+    "meters": "m",
+    "metre": "m",
+    "metres": "m",
+    "feet": "ft",
+    "foot": "ft",
+    "'": "ft",
+    "sec": "s",
+    "secs": "s",
+    "second": "s",
+    "seconds": "s",
+    "mins": "min",
+    "minute": "min",
+    "minutes": "min",
+    "hr": "h",
+    "hrs": "h",
+    "hour": "h",
+    "hours": "h",
+    "kph": "km/h",
+    "mps": "m/s",
+    "fps": "ft/s",
+    "kts": "kn",
+    "knot": "kn",
+    "knots": "kn",
+    "degree": "deg",
+    "degrees": "deg",
+    "degs": "deg",
+    "radian": "rad",
+    "radians": "rad",
+    "percent": "%",
+    "hz": "Hz",
+}
+
+
+class QuantityError(ValueError):
+    """A value that is no quantity of the dimension asked for.
+
+    kind : which of the unit faults it is; message, help : as a diagnostic carries them
+    """
+
+    def __init__(self, kind: Kind, message: str, help_: str = "") -> None:
+        super().__init__(message)
+        self.kind: Kind = kind
+        self.message = message
+        self.help = help_
+
+
+def parse_quantity(value: object, dimension: Dimension) -> float:
+    """Return ``value`` in SI (radians for angles).
+
+    value : a number (SI; refused where ``dimension`` is angular) or text such as ``12 km/h``
+
+    Raises QuantityError for anything else, for values that are not finite and for magnitudes beyond
+    ``LARGEST``.
+    """
+    if isinstance(value, str):
+        return _bounded(_parse_text(value, dimension), dimension, value.strip())
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise QuantityError(
+            "not-a-quantity", f"expected {a(dimension)}, got {describe(value)}", _such_as(dimension)
+        )
+    if dimension in ANGULAR:
+        raise QuantityError(
+            "bare-angle",
+            f"{a(dimension)} needs a unit",
+            f"write `{_short(value)} {_unit(dimension)}` or `{_short(value)} {_unit(dimension, 'rad')}`",
+        )
+    return _bounded(_real(value), dimension, _short(value))
+
+
+def a(noun: str) -> str:
+    """Return the noun with its indefinite article."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+
+
+def describe(value: object) -> str:
+    """Return what kind of YAML value this is, as an author would call it."""
+    names = {dict: "a mapping", list: "a list", bool: "true or false", int: "a number", float: "a number"}
+    if value is None:
+        return "nothing"
+    if isinstance(value, str):
+        return f"the text `{clip(value)}`"
+    return names.get(type(value), "something else")
+
+
+def clip(text: str, width: int = 40) -> str:
+    """Return the text on one line, shortened to ``width``."""
+    line = " ".join(text.split())
+    return line if len(line) <= width else line[: width - 1] + "…"
+
+
+def _parse_text(text: str, dimension: Dimension) -> float:
+    match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
+    if match is None:
+        raise QuantityError(
+            "not-a-quantity", f"expected {a(dimension)}, got {describe(text)}", _such_as(dimension)
+        )
+    number, unit = float(match[1]), match[2]
+    factor = UNITS[dimension].get(unit)
+    if factor is not None:
+        return number * factor
+    if not unit:
+        raise _without_unit(match[1], dimension)
+    other = _dimension_of(unit)
+    if other is not None:
+        raise QuantityError(
+            "wrong-dimension",
+            f"expected {a(dimension)}, got {a(other)}",
+            f"`{clip(text)}` is {a(other)}; {_such_as(dimension)}",
+        )
+    raise QuantityError("unknown-unit", f"unknown unit `{clip(unit)}`", _nearest(unit, dimension))
+
+
+def _without_unit(number: str, dimension: Dimension) -> QuantityError:
+    if dimension in ANGULAR:
+        return QuantityError(
+            "bare-angle", f"{a(dimension)} needs a unit", f"write `{number} {_unit(dimension)}`"
+        )
+    unit = _unit(dimension)
+    return QuantityError(
+        "missing-unit",
+        f'a number in quotes needs a unit, got `"{number}"`',
+        f"write {number} without quotes, or `{number} {unit}`",
+    )
+
+
+def _bounded(value: float, dimension: Dimension, shown: str) -> float:
+    if not (isfinite(value) and abs(value) <= LARGEST[dimension]):
+        unit = _unit(dimension, "rad")
+        raise QuantityError(
+            "absurd-value",
+            f"`{clip(shown)}` is no usable {dimension}",
+            f"a {dimension} is a finite number of at most {LARGEST[dimension]:g} {unit}",
+        )
+    return value
+
+
+def _real(value: float) -> float:
+    try:
+        return float(value)
+    except OverflowError:  # an int beyond 1e308
+        return inf
+
+
+def _unit(dimension: Dimension, angular: str = "deg") -> str:
+    if dimension in ANGULAR:
+        return next(unit for unit in UNITS[dimension] if unit.startswith(angular))
+    return next(iter(UNITS[dimension]))
+
+
+def _such_as(dimension: Dimension) -> str:
+    return f"write {a(dimension)} such as `{EXAMPLES[dimension]}`"
+
+
+def _short(value: float) -> str:
+    # repr of an int can be thousands of digits long, or refused for being so.
+    try:
+        return f"{value:.10g}"
+    except OverflowError:
+        return "a number beyond all bounds"
+
+
+@cache
+def _dimension_of(unit: str) -> Dimension | None:
+    return next((name for name, units in UNITS.items() if unit in units), None)
+
+
+def _nearest(unit: str, dimension: Dimension) -> str:
+    known = list(UNITS[dimension])
+    meant = _MEANT.get(unit.lower())
+    near = [meant] if meant in known else get_close_matches(unit, known, n=1, cutoff=0.5)
+    lower = [name for name in known if name.lower() == unit.lower()]
+    best = (lower or near or [None])[0]
+    return f"did you mean `{best}`?" if best else f"{a(dimension)} is written in {', '.join(known)}"
