@@ -1,0 +1,197 @@
+"""A page to draw on, in inches from its lower left corner: the one module that speaks to matplotlib.
+
+No figure of pyplot's is touched, and the user's own style settings do not reach the page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.patheffects import withStroke
+from matplotlib.transforms import Bbox, TransformedBbox
+from numpy.typing import NDArray
+
+from shotc.emit.palette import INK, PAPER, WHITE, Rgb
+
+Array = NDArray[np.float64]
+Color = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A rectangle on the page, inches."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+    @property
+    def right(self) -> float:
+        """Right edge."""
+        return self.x + self.width
+
+    @property
+    def top(self) -> float:
+        """Upper edge."""
+        return self.y + self.height
+
+    def meets(self, other: Box) -> bool:
+        """Tell whether two rectangles overlap."""
+        return self.x < other.right and other.x < self.right and self.y < other.top and other.y < self.top
+
+    def holds(self, other: Box) -> bool:
+        """Tell whether another rectangle lies inside this one."""
+        return self.x <= other.x and self.y <= other.y and other.right <= self.right and other.top <= self.top
+
+    def outline(self) -> Array:
+        """Return its corners, shape (4, 2)."""
+        return np.array([[self.x, self.y], [self.right, self.y], [self.right, self.top], [self.x, self.top]])
+
+
+@dataclass(frozen=True, slots=True)
+class Type:
+    """How a text is set: size in points, weight, where its anchor is, and a halo's colour."""
+
+    size: float = 9.0
+    color: Rgb = INK
+    bold: bool = False
+    across: str = "left"
+    along: str = "baseline"
+    halo: Rgb | None = None
+
+
+class Canvas:
+    """A page of paper; what is drawn later lies on top."""
+
+    def __init__(self, width: float, height: float, dpi: float) -> None:
+        with mpl.rc_context():
+            mpl.rcdefaults()
+            self._figure = Figure(figsize=(width, height), dpi=dpi, facecolor=PAPER)
+            self._agg = FigureCanvasAgg(self._figure)
+        self._inches = self._figure.dpi_scale_trans
+        self._order = 0
+
+    def polygons(
+        self,
+        shapes: Sequence[Array],
+        face: Color | Sequence[Color] | str,
+        edge: Color | str = "none",
+        width: float = 0.0,
+        clip: Box | None = None,
+    ) -> None:
+        """Fill closed shapes, each of shape (k, 2); one colour for all or one each."""
+        self._add(
+            PolyCollection(
+                list(shapes), facecolors=face, edgecolors=edge, linewidths=width, transform=self._inches
+            ),
+            clip,
+        )
+
+    def union(self, shapes: Sequence[Array], face: Color, clip: Box | None = None) -> None:
+        """Fill the union of closed shapes that all run the same way round, as one shape."""
+        parts = [Path(np.concatenate([s, s[:1]]), closed=True) for s in shapes]
+        path = Path.make_compound_path(*parts)
+        self._add(PathPatch(path, facecolor=face, edgecolor="none", transform=self._inches), clip)
+
+    def lines(
+        self,
+        strips: Sequence[Array],
+        color: Color | Sequence[Color] | Array,
+        width: float = 1.0,
+        clip: Box | None = None,
+        dash: tuple[float, ...] | None = None,
+    ) -> None:
+        """Draw open lines, each of shape (k, 2); width in points, dash in line widths."""
+        style: Any = "solid" if dash is None else (0.0, dash)
+        self._add(
+            LineCollection(
+                list(strips),
+                colors=color,
+                linewidths=width,
+                linestyles=[style],
+                capstyle="butt" if dash else "round",
+                joinstyle="round",
+                transform=self._inches,
+            ),
+            clip,
+        )
+
+    def disc(
+        self, at: tuple[float, float], radius: float, face: Color | str, edge: Color | str, width: float
+    ) -> None:
+        """Draw a disc; radius in inches."""
+        turn = np.linspace(0.0, 2 * np.pi, 49)[:-1]
+        ring = np.stack([at[0] + radius * np.cos(turn), at[1] + radius * np.sin(turn)], axis=-1)
+        self.polygons([ring], face, edge, width)
+
+    def text(self, x: float, y: float, text: str, style: Type, clip: Box | None = None) -> None:
+        """Write one line of text."""
+        self._order += 1
+        artist = self._figure.text(
+            x,
+            y,
+            text,
+            fontsize=style.size,
+            color=style.color,
+            fontweight="bold" if style.bold else "normal",
+            fontfamily="DejaVu Sans",
+            ha=style.across,
+            va=style.along,
+            transform=self._inches,
+            zorder=self._order,
+            parse_math=False,
+        )
+        if style.halo is not None:
+            artist.set_path_effects([withStroke(linewidth=style.size / 4, foreground=style.halo)])
+        if clip is not None:
+            artist.set_clip_box(self._window(clip))
+            artist.set_clip_on(True)
+
+    def extent(self, text: str, style: Type) -> tuple[float, float]:
+        """Return the width and height of a text, inches."""
+        from matplotlib.font_manager import FontProperties
+
+        font = FontProperties(
+            family="DejaVu Sans", size=style.size, weight="bold" if style.bold else "normal"
+        )
+        width, height, _ = self._agg.get_renderer().get_text_width_height_descent(text, font, False)
+        return width / self._figure.dpi, height / self._figure.dpi
+
+    def png(self) -> bytes:
+        """Return the page as PNG bytes, the same for the same drawing."""
+        stream = BytesIO()
+        with mpl.rc_context():
+            mpl.rcdefaults()
+            self._agg.print_png(stream, metadata={"Software": None})
+        return stream.getvalue()
+
+    def _add(self, artist: Any, clip: Box | None) -> None:
+        self._order += 1
+        artist.set_zorder(self._order)
+        self._figure.add_artist(artist, clip=False)
+        if clip is not None:
+            artist.set_clip_box(self._window(clip))
+
+    def _window(self, clip: Box) -> Any:
+        return TransformedBbox(Bbox([[clip.x, clip.y], [clip.right, clip.top]]), self._inches)
+
+
+def chip(canvas: Canvas, at: tuple[float, float], text: str, face: Rgb, size: float = 7.5) -> Box:
+    """Write white text on a coloured ground whose upper right corner is ``at``; return the ground."""
+    style = Type(size, WHITE, bold=True, across="center", along="center")
+    width, height = canvas.extent(text, style)
+    box = Box(at[0] - width - 0.12, at[1] - height - 0.08, width + 0.12, height + 0.08)
+    canvas.polygons([box.outline()], face)
+    canvas.text(box.x + box.width / 2, box.y + box.height / 2, text, style)
+    return box
