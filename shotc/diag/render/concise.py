@@ -1,0 +1,22 @@
+"""Diagnostics one a line, as editors and grep read them: ``path:line:column: CODE message``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.render.common import ordered, visible
+from shotc.source.file import SourceFile
+
+
+def render(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile]) -> str:
+    """Return one line for each diagnostic; nothing for none."""
+    return "".join(f"{_line(diagnostic)}\n" for diagnostic in ordered(diagnostics))
+
+
+def _line(diagnostic: Diagnostic) -> str:
+    said = f"{diagnostic.code} {visible(diagnostic.message)}"
+    if not diagnostic.labels:
+        return said
+    first = diagnostic.labels[0]
+    return f"{visible(first.file)}:{first.span.line}:{first.span.column}: {said}"
