@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
@@ -160,8 +161,6 @@ class Canvas:
 
     def extent(self, text: str, style: Type) -> tuple[float, float]:
         """Return the width and height of a text, inches."""
-        from matplotlib.font_manager import FontProperties
-
         font = FontProperties(
             family="DejaVu Sans", size=style.size, weight="bold" if style.bold else "normal"
         )

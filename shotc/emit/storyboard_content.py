@@ -21,7 +21,8 @@ MOST_PLACED, MOST_GENERATED = 12, 6
 class Moment:
     """One keyframe as it is flown.
 
-    number : from 1, in the shot; time : seconds; pose : channels, shape (7,)
+    number : from 1, in the shot, or among those shown where a kind generated them
+    time : seconds; pose : channels, shape (7,)
     reference, asked : (u, v) wanted of the subject, and what the user's own framing gave
     """
 
@@ -87,7 +88,8 @@ def _board(
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
     times = [k for k in flight.keyframes if k.shot == shot.id]
     chosen = _spread(times, MOST_PLACED if by_hand else most_generated)
-    moments = tuple(_moment(placed, flight, k) for k in chosen)
+    numbers = [k.index + 1 if by_hand else i for i, k in enumerate(chosen, start=1)]
+    moments = tuple(_moment(placed, flight, k, n) for k, n in zip(chosen, numbers, strict=True))
     deviations = [d for d in plan.trajectory.deviations if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(
@@ -111,10 +113,10 @@ def _spread(times: list[KeyframeTime], most: int) -> list[KeyframeTime]:
     return [times[i] for i in np.linspace(0, len(times) - 1, most).round().astype(int)]
 
 
-def _moment(placed: PlacedShot, flight: DroneTrajectory, at: KeyframeTime) -> Moment:
+def _moment(placed: PlacedShot, flight: DroneTrajectory, at: KeyframeTime, number: int) -> Moment:
     keyframe: PlacedKeyframe = placed.keyframes[at.index]
     return Moment(
-        number=at.index + 1,
+        number=number,
         time=at.time,
         pose=flight.curve(at.time),
         hold=keyframe.hold,

@@ -48,7 +48,7 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     sheet = _sheet(box, board, mission)
     canvas.polygons([box.outline()], GROUND_FAR)
     _squares(canvas, sheet, grid)
-    taken: list[Box] = [Box(box.right - 0.45, box.top - 0.6, 0.45, 0.6), Box(box.x, box.y, 1.3, 0.4)]
+    taken: list[Box] = [Box(box.right - 0.45, box.top - 0.6, 0.45, 0.6), Box(box.x, box.y, 1.1, 0.4)]
     _zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
     for moment in board.moments:
@@ -76,7 +76,8 @@ def _sheet(box: Box, board: ShotBoard, mission: MissionIR) -> Sheet:
         points.append(centre + target.radius * np.array([[1, 0], [-1, 0], [0, 1], [0, -1]]))
     cloud = np.concatenate(points)
     low, high = cloud.min(axis=0), cloud.max(axis=0)
-    span = np.maximum(high - low, 10.0)
+    # A camera that stands still deserves as much ground as it sees.
+    span = np.maximum(high - low, max(10.0, 0.8 * float(np.median(np.abs(board.path[:, 2])))))
     inches = float(min((box.width - 0.9) / span[0], (box.height - 0.9) / span[1]))
     return Sheet(box, (low + high) / 2, inches)
 
@@ -123,11 +124,12 @@ def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
 def _frustum(canvas: Canvas, sheet: Sheet, moment: Moment) -> None:
     reach = 0.75 / sheet.inches
     yaw, half = float(moment.pose[CAM_YAW]), float(moment.pose[HFOV]) / 2
-    corners = [moment.pose[:2]]
-    corners += [
-        moment.pose[:2] + reach * np.array([np.cos(a), np.sin(a)]) for a in (yaw - half, yaw, yaw + half)
+    fan = [moment.pose[:2]]
+    fan += [
+        moment.pose[:2] + reach * np.array([np.cos(a), np.sin(a)])
+        for a in np.linspace(yaw - half, yaw + half, 13)
     ]
-    shape = sheet.place(np.array(corners))
+    shape = sheet.place(np.array(fan))
     canvas.polygons([shape], (*CAMERA, 0.20), (*CAMERA, 0.75), 0.6, sheet.box)
 
 
@@ -150,23 +152,26 @@ def _path(canvas: Canvas, sheet: Sheet, board: ShotBoard) -> None:
 
 def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, taken: list[Box]) -> None:
     radius = 0.095
+    spots = []
     for moment in board.moments:
-        x, y = (float(c) for c in sheet.place(moment.pose[:2]))
-        behind = -np.array([np.cos(moment.pose[CAM_YAW]), np.sin(moment.pose[CAM_YAW])])
-        spots = [(x, y)]
-        for turn in (0.0, 0.9, -0.9, 1.8, -1.8, 2.7):
-            c, s = np.cos(turn), np.sin(turn)
-            spots.append(
-                (x + 0.24 * (behind[0] * c - behind[1] * s), y + 0.24 * (behind[0] * s + behind[1] * c))
-            )
-        free = (s for s in spots if not any(_square(s, radius).meets(other) for other in taken))
-        spot = next(free, (x, y))
-        if spot != (x, y):
-            canvas.lines([np.array([(x, y), spot])], INK, 0.8)
-            canvas.disc((x, y), 0.035, CAMERA, INK, 0.7)
+        spot = _spot(sheet, moment, radius, taken)
+        taken.append(_square(spot, radius))
+        spots.append(spot)
+    for moment, spot in zip(board.moments, spots, strict=True):
+        canvas.lines([np.array([sheet.place(moment.pose[:2]), spot])], INK, 0.8)
+    for moment, spot in zip(board.moments, spots, strict=True):
         canvas.disc(spot, radius, INK, WHITE, 0.8)
         canvas.text(*spot, str(moment.number), Type(7, WHITE, True, "center", "center_baseline"))
-        taken.append(_square(spot, radius))
+
+
+def _spot(sheet: Sheet, moment: Moment, radius: float, taken: list[Box]) -> tuple[float, float]:
+    """Return a free place for a keyframe's number: on it, or beside it, behind the camera first."""
+    x, y = (float(c) for c in sheet.place(moment.pose[:2]))
+    back = float(moment.pose[CAM_YAW]) + np.pi
+    ways = [(away, back + turn) for away in (0.24, 0.42) for turn in (0.0, 0.9, -0.9, 1.8, -1.8, 2.7)]
+    spots = [(x, y)] + [(x + r * float(np.cos(a)), y + r * float(np.sin(a))) for r, a in ways]
+    free = (s for s in spots if not any(_square(s, radius).meets(other) for other in taken))
+    return next(free, (x, y))
 
 
 def _square(at: tuple[float, float], half: float) -> Box:

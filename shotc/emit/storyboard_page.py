@@ -23,24 +23,29 @@ from shotc.emit.palette import (
 from shotc.emit.screen import ScreenSummary, screen_tracks, summary
 from shotc.emit.storyboard_canvas import Box, Canvas, Type
 from shotc.emit.storyboard_content import ShotBoard, shot_boards
-from shotc.emit.storyboard_frame import CAPTION, clock, draw_frame
+from shotc.emit.storyboard_frame import Cell, caption_height, clock, draw_frame, is_moved
 from shotc.emit.storyboard_map import draw_map, round_length
 from shotc.ir.trajectory import Claim, VerifiedIR
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
-HEADING, FOOTING, BAND = 1.55, 0.95, 0.62
+HEADING, FOOTING, BAND = 1.40, 0.85, 0.60
 MANY = 4
 """From more shots than this on, pictures and maps are set smaller."""
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How one shot is set: width of its map, size of a picture, pictures in a row."""
+    """How one shot is set: width of its map, size of a picture, width of its cell, pictures in a row."""
 
     map_width: float
     picture: tuple[float, float]
     cell: float
     columns: int
+
+    @property
+    def pitch(self) -> float:
+        """Height of one row of pictures with their captions, inches."""
+        return self.picture[1] + caption_height(self.cell)
 
     def rows(self, board: ShotBoard) -> int:
         """Return how many rows of pictures a shot takes."""
@@ -48,15 +53,15 @@ class Layout:
 
     def height(self, board: ShotBoard) -> float:
         """Return the height of a shot's part of the page, inches."""
-        return BAND + self.rows(board) * (self.picture[1] + CAPTION) + 0.30
+        return BAND + self.rows(board) * self.pitch + 0.22
 
 
 def layout(aspect: float, shots: int) -> Layout:
     """Return how shots filmed with one picture format are set on a page of many."""
-    map_width, columns, tallest = (3.9, 3, 2.6) if shots <= MANY else (3.0, 4, 2.0)
+    map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY else (3.0, 4, 2.4)
     room = WIDTH - 2 * MARGIN - map_width - 0.35
     width = min((room + GAP) / columns - GAP, tallest * aspect)
-    cell = max(width, 2.2)
+    cell = max(width, 1.7)
     columns = int((room + GAP + 1e-9) / (cell + GAP))
     return Layout(map_width, (width, width / aspect), cell, columns)
 
@@ -89,7 +94,7 @@ def _heading(
     canvas: Canvas, height: float, plan: VerifiedIR, boards: tuple[ShotBoard, ...], grid: float
 ) -> None:
     mission = plan.trajectory.keyframes.mission
-    canvas.text(MARGIN, height - 0.72, mission.name, Type(26, INK, bold=True))
+    canvas.text(MARGIN, height - 0.76, mission.name, Type(26, INK, bold=True))
     total = max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
     filmed = sum(board.end - board.start for board in boards)
     drones = ", ".join(f"{d.name} ({d.model})" for d in mission.drones)
@@ -102,8 +107,8 @@ def _heading(
     ]
     if camera is not None:
         facts.append(f"camera {degrees(camera.hfov):.0f}° hfov, {_ratio(camera.aspect)}")
-    canvas.text(MARGIN, height - 1.05, "   ·   ".join(facts), Type(11, QUIET))
-    _legend(canvas, height - 1.05, grid)
+    canvas.text(MARGIN, height - 1.08, "   ·   ".join(facts), Type(11, QUIET))
+    _legend(canvas, height - 1.08, _entries(plan, boards), grid)
 
 
 def _ratio(aspect: float) -> str:
@@ -113,8 +118,26 @@ def _ratio(aspect: float) -> str:
     return f"{aspect:.2f}:1"
 
 
-def _legend(canvas: Canvas, base: float, grid: float) -> None:
-    entries = ("wanted", "actual", "asked", "subject", "keep out", "keep in", "path", f"grid {grid:g} m")
+def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
+    """Return what the legend has to explain on this page."""
+    moments = [moment for board in boards for moment in board.moments]
+    mission = plan.trajectory.keyframes.mission
+    keeps = {zone.keep for zone in mission.zones}
+    known = (
+        ("wanted", any(m.reference is not None for m in moments)),
+        ("actual", any(m.target is not None for m in moments)),
+        ("asked", any(is_moved(m) for m in moments)),
+        ("subject", bool(mission.targets)),
+        ("keep out", "out" in keeps),
+        ("keep in", "in" in keeps),
+        ("shot", True),
+        ("other flight", True),
+    )
+    return [name for name, there in known if there]
+
+
+def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> None:
+    entries = [*entries, f"grid {grid:g} m"]
     style = Type(8.5, QUIET)
     widths = [canvas.extent(text, style)[0] + 0.46 for text in entries]
     x = WIDTH - MARGIN - sum(widths) + 0.16
@@ -147,7 +170,9 @@ def _sign(canvas: Canvas, what: str, x: float, y: float) -> None:
     elif what == "keep in":
         canvas.lines([bar], (*KEEP_IN, 0.25), 3.5)
         canvas.lines([bar], KEEP_IN, 1.0, dash=(5.0, 2.0))
-    elif what == "path":
+    elif what == "other flight":
+        canvas.lines([bar], FLIGHT, 0.9, dash=(4.0, 2.5))
+    elif what == "shot":
         canvas.lines([bar], INK, 2.8)
         canvas.lines([bar], CAMERA, 1.7)
     else:
@@ -161,14 +186,14 @@ def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: Veri
     _band(canvas, top, board)
     start = top - BAND
     rows = place.rows(board)
-    tall = rows * (place.picture[1] + CAPTION) - CAPTION + 0.365
+    tall = rows * place.pitch - 0.17
     draw_map(canvas, Box(MARGIN, start - tall, place.map_width, tall), board, mission, grid)
     left = MARGIN + place.map_width + 0.35
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, place.columns)
         x = left + column * (place.cell + GAP)
-        y = start - row * (place.picture[1] + CAPTION) - place.picture[1]
-        draw_frame(canvas, Box(x, y, *place.picture), moment, mission, (board.drone.aspect, grid))
+        y = start - row * place.pitch - place.picture[1]
+        draw_frame(canvas, Cell(Box(x, y, *place.picture), place.cell), moment, mission, grid)
 
 
 def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
@@ -221,7 +246,7 @@ def headline(certificate: tuple[Claim, ...]) -> str:
     holds = sum(claim.holds for claim in certificate)
     proved = sum(claim.method in {"exact", "bounded"} for claim in certificate)
     return (
-        f"Certificate: {holds} of {len(certificate)} requirements hold, {proved} of them for every instant"
+        f"Certificate: {holds} of {len(certificate)} requirements hold, {proved} proved for every instant"
         if holds == len(certificate)
         else f"Certificate: {len(certificate) - holds} of {len(certificate)} requirements do not hold"
     )

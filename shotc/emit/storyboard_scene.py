@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import tan
 
 import numpy as np
@@ -88,12 +89,12 @@ def _sky_and_ground(canvas: Canvas, shown: Picture) -> None:
 
 def _bands(canvas: Canvas, shown: Picture, span: tuple[float, float], first: Rgb, last: Rgb) -> None:
     # A soft gradient away from the horizon, over one screen height, in thin bands.
-    edges = span[0] + np.linspace(0.0, 1.0, 25) ** 1.5 * (2.0 if span[1] > 0 else -2.0)
+    edges = span[0] + np.linspace(0.0, 1.0, 13) ** 1.5 * (2.0 if span[1] > 0 else -2.0)
     edges[-1] = span[1] * 40.0
     strips, colors = [], []
-    for i, (a, b) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for i, (a, b) in enumerate(pairwise(edges)):
         strips.append(shown.place(np.array([[-1.0, a], [1.0, a], [1.0, b], [-1.0, b]])))
-        share = i / 23
+        share = i / 11
         colors.append(tuple(p + (q - p) * share for p, q in zip(first, last, strict=True)))
     canvas.polygons(strips, colors, colors, 0.3, shown.box)
 
@@ -161,7 +162,7 @@ def _shaded_side(shown: Picture, target: Target, offset: Vec3, color: Rgb) -> tu
         if len(polygon):
             strips.append(shown.place(polygon))
             facing = np.cos((turn[i] + turn[i + 1]) / 2 - LIGHT)
-            colors.append(shade(color, 0.98 + 0.27 * float(facing)))
+            colors.append(shade(color, 1.02 + 0.26 * float(facing)))
     return strips, colors
 
 
@@ -193,8 +194,8 @@ def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
         canvas.polygons(outlines, "none", (*shade(KEEP_OUT, 0.9), 0.95), 1.0, shown.box)
 
 
-def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, tuple[float, float]]]:
-    """Return the name, colour and page position of everything that is in the picture, the near first."""
+def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]]:
+    """Return name, colour and page rectangle of everything that is in the picture, the near first."""
     things: list[Target | Zone] = [*mission.targets, *(z for z in mission.zones if z.keep == "out")]
     found = []
     for thing in sorted(things, key=lambda item: _distance(shown.eye, item)):
@@ -209,7 +210,7 @@ def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, tupl
             continue
         low, high = points.min(axis=0), points.max(axis=0)
         if (low < 1).all() and (high > -1).all():
-            middle = np.clip((low[0] + high[0]) / 2, -0.95, 0.95)
-            x, y = shown.place(np.array([middle, min(high[1], 0.98)]))
-            found.append((thing.name, color, (float(x), float(y))))
+            left, bottom = (float(c) for c in shown.place(np.maximum(low, -1.0)))
+            right, top = (float(c) for c in shown.place(np.minimum(high, 1.0)))
+            found.append((thing.name, color, Box(left, bottom, right - left, top - bottom)))
     return found
