@@ -8,9 +8,10 @@ from difflib import get_close_matches
 from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError, model_validator
+from pydantic.fields import FieldInfo
 from pydantic.functional_validators import ModelWrapValidatorHandler
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, InitErrorDetails
+from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from shotc.spec.faults import details_of, fault, together
 from shotc.units import clip, describe
@@ -92,15 +93,15 @@ class Model(BaseModel):
             return data
         data = cls.shorthand(data)
         if not isinstance(data, dict):
-            known = ", ".join(cls.model_fields)
-            raise fault(
-                "wrong-type", f"expected a mapping, got {describe(data)}", f"write a mapping with {known}"
-            )
-        details = [detail for rule in cls.exclusive for detail in rule.faults(data)]
+            raise _no_mapping(data, cls.model_fields)
+        details = [_empty(key) for key, value in data.items() if value is None and key in cls.model_fields]
+        details += [detail for rule in cls.exclusive for detail in rule.faults(data)]
         try:
-            model = handler(data)
+            model = handler(
+                {key: value for key, value in data.items() if value is not None} if details else data
+            )
         except ValidationError as error:
-            raise together([*map(cls._explained, details_of(error)), *details]) from None
+            raise together([*cls._explained(error, data), *details]) from None
         if details:
             raise together(details)
         return model
@@ -121,24 +122,55 @@ class Model(BaseModel):
         return schema
 
     @classmethod
-    def _explained(cls, detail: InitErrorDetails) -> InitErrorDetails:
+    def _explained(cls, error: ValidationError, data: Mapping[str, object]) -> list[InitErrorDetails]:
         """Put pydantic's faults about this mapping's own keys into the language's words."""
-        loc = detail.get("loc", ())
-        kind = detail["type"].type if not isinstance(detail["type"], str) else detail["type"]
-        if len(loc) != 1 or kind not in {"missing", "extra_forbidden", "invalid_key"}:
-            return detail
-        key = str(loc[0])
-        if kind == "missing":
-            about = cls.model_fields[key].description
-            help_ = f"add `{key}`: {about}" if about else f"add `{key}`"
-            return _detail((), "missing-field", f"missing key `{key}`", help_)
-        return _detail((key,), "unknown-field", f"unknown key `{clip(key)}`", nearest(key, cls.model_fields))
+        details = details_of(error)
+        missing = [str(d["loc"][0]) for d in details if _is(d, "missing")]
+        unknown = [str(d["loc"][0]) for d in details if _is(d, "extra_forbidden")]
+        # A missing key that an unknown one resembles is one slip of the pen, not two faults.
+        misspelt = {
+            close[0] for key in unknown if (close := get_close_matches(key, missing, n=1, cutoff=0.6))
+        }
+        absent = [
+            _missing(key, cls.model_fields[key]) for key in missing if key not in misspelt | data.keys()
+        ]
+        strange = [_unknown(key, missing, cls.model_fields) for key in unknown]
+        others = [d for d in details if not (_is(d, "missing") or _is(d, "extra_forbidden"))]
+        return [*others, *absent, *strange]
 
 
 def nearest(word: str, known: Mapping[str, object]) -> str:
     """Return a help that proposes the nearest known word, or lists them all."""
     close = get_close_matches(word, known, n=1, cutoff=0.6)
     return f"did you mean `{close[0]}`?" if close else f"known are {', '.join(known)}"
+
+
+def _no_mapping(value: object, known: Mapping[str, object]) -> PydanticCustomError:
+    slug = "empty-value" if value is None else "wrong-type"
+    return fault(
+        slug, f"expected a mapping, got {describe(value)}", f"write a mapping with {', '.join(known)}"
+    )
+
+
+def _is(detail: InitErrorDetails, kind: str) -> bool:
+    """Tell whether a fault is pydantic's about a key of this very mapping."""
+    error = detail["type"]
+    return len(detail.get("loc", ())) == 1 and not isinstance(error, str) and error.type == kind
+
+
+def _empty(key: str) -> InitErrorDetails:
+    return _detail((key,), "empty-value", f"`{key}` has no value", f"write its value, or remove `{key}`")
+
+
+def _missing(key: str, field: FieldInfo) -> InitErrorDetails:
+    help_ = f"add `{key}`: {field.description}" if field.description else f"add `{key}`"
+    return _detail((), "missing-field", f"missing key `{key}`", help_)
+
+
+def _unknown(key: str, missing: list[str], known: Mapping[str, object]) -> InitErrorDetails:
+    close = get_close_matches(key, missing, n=1, cutoff=0.6)
+    help_ = f"did you mean `{close[0]}`?" if close else nearest(key, known)
+    return _detail((key,), "unknown-field", f"unknown key `{clip(key)}`", help_)
 
 
 def _detail(loc: tuple[str | int, ...], slug: str, message: str, help_: str = "") -> InitErrorDetails:

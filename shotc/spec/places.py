@@ -59,6 +59,8 @@ class DegreesType(FieldType):
 Latitude = Annotated[float, DegreesType("Latitude", 90.0)]
 Longitude = Annotated[float, DegreesType("Longitude", 180.0)]
 
+Altitude = Annotated[float, Quantity("Altitude", "length", -500.0, 9000.0)]
+
 
 class Geodetic(Model):
     """A place on the earth (WGS84); with ``world.origin`` it is a point of the world frame."""

@@ -16,6 +16,7 @@ from shotc.units import (
     ANGULAR,
     LARGEST,
     NUMBER,
+    SMALLEST,
     UNITS,
     Dimension,
     QuantityError,
@@ -66,6 +67,9 @@ class Quantity(FieldType):
         return {"anyOf": [number, text], "description": f"{a(self.dimension)} in SI, or with its unit"}
 
     def _bounds(self) -> str:
+        if self.low == SMALLEST[self.dimension]:
+            most = f", at most {self.show(self.high)}" if self.high < inf else ""
+            return f"{a(self.dimension)} above 0{most}"
         if self.high == inf:
             return f"at least {self.show(self.low)}"
         if self.low == -inf:

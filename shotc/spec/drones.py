@@ -1,0 +1,157 @@
+"""Drones and fleets as a mission writes them: a preset, and what overrides it."""
+
+from __future__ import annotations
+
+from math import atan, degrees
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, model_validator
+from pydantic.json_schema import JsonSchemaValue
+
+from shotc.spec.faults import fault_at
+from shotc.spec.fields import (
+    Acceleration,
+    AngleRange,
+    AngularAcceleration,
+    AngularRate,
+    Aspect,
+    Count,
+    Duration,
+    FieldOfView,
+    Jerk,
+    PitchRange,
+    Position,
+    PositiveLength,
+    Priority,
+    Speed,
+)
+from shotc.spec.fieldtypes import FieldType, NamedOr
+from shotc.spec.model import Model, OneOf
+from shotc.spec.presets import DEFAULT_MODEL, PRESETS
+from shotc.spec.quantities import Quantity, Tuple
+from shotc.units import SMALLEST
+
+ModelName = Annotated[str, NamedOr("DroneModel", {name: name for name in PRESETS}, "drone model")]
+
+
+class SensorType(FieldType):
+    """The sensor's width, or ``[width, height]``; kept as (width, height or None)."""
+
+    label = "Sensor"
+    _side = Quantity("PositiveLength", "length", SMALLEST["length"])
+    _both = Tuple("SensorSize", (_side, _side), "[width, height]")
+
+    def read(self, value: Any) -> tuple[float, float | None]:
+        """Return (width, height or None), metres."""
+        if isinstance(value, list):
+            width, height = self._both.read(value)
+            return (width, height)
+        return (self._side.read(value), None)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it."""
+        return {"anyOf": [self._side.reference(), self._both.schema()]}
+
+
+class LimitsSpec(Model):
+    """What a drone may do; what is not given is the preset's."""
+
+    speed: Speed | None = Field(default=None, description="horizontal speed")
+    climb: Speed | None = Field(default=None, description="vertical speed upwards")
+    descent: Speed | None = Field(default=None, description="vertical speed downwards, positive")
+    acceleration: Acceleration | None = Field(default=None, description="acceleration in space")
+    jerk: Jerk | None = Field(default=None, description="jerk in space")
+    yaw_rate: AngularRate | None = Field(default=None, description="turning rate of the body")
+    yaw_acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
+
+
+class GimbalSpec(Model):
+    """What a gimbal reaches; what is not given is the preset's."""
+
+    pitch: PitchRange | None = Field(default=None, description="[lowest, highest] against the horizon")
+    yaw: AngleRange | None = Field(default=None, description="[lowest, highest] against the body")
+    rate: AngularRate | None = Field(default=None, description="turning rate of each axis")
+    acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
+
+
+class CameraSpec(Model):
+    """The camera: its field of view, or sensor and focal length."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("hfov",), ("sensor", "focal_length")), required=False),)
+
+    hfov: FieldOfView | None = Field(default=None, description="horizontal field of view")
+    sensor: Annotated[tuple[float, float | None], SensorType()] | None = Field(
+        default=None, description="width of the sensor, or [width, height]"
+    )
+    focal_length: PositiveLength | None = Field(default=None, description="focal length of the lens")
+    aspect: Aspect | None = Field(default=None, description='frame width over height, such as "16:9"')
+
+    @property
+    def field_of_view(self) -> float | None:
+        """Horizontal field of view, rad; None where the preset decides."""
+        if self.sensor is None or self.focal_length is None:
+            return self.hfov
+        return 2 * atan(self.sensor[0] / (2 * self.focal_length))
+
+    @property
+    def aspect_ratio(self) -> float | None:
+        """Frame width over height; None where the preset decides."""
+        if self.aspect is not None or self.sensor is None or self.sensor[1] is None:
+            return self.aspect
+        return self.sensor[0] / self.sensor[1]
+
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        hfov, aspect = self.field_of_view, self.aspect_ratio
+        if hfov is not None and not 1.0 <= degrees(hfov) <= 170.0:
+            raise fault_at(
+                ("focal_length",),
+                "impossible-camera",
+                f"sensor and focal length give a field of view of {degrees(hfov):.4g} deg",
+                "the field of view lies between 1 deg and 170 deg; check both units",
+            )
+        if aspect is not None and not 0.2 <= aspect <= 5.0:
+            raise fault_at(
+                ("sensor",),
+                "impossible-camera",
+                f"the sensor is {aspect:.4g} times as wide as high",
+                "write [width, height]; frames lie between 1:5 and 5:1",
+            )
+        return self
+
+
+class DroneSpec(Model):
+    """A drone of the mission."""
+
+    model: ModelName = Field(default=DEFAULT_MODEL, description="preset that fills in what is not given")
+    home: Position = Field(default=(0.0, 0.0, 0.0), description="where it stands before and after")
+    limits: LimitsSpec = Field(default=LimitsSpec(), description="what it may do")
+    gimbal: GimbalSpec = Field(default=GimbalSpec(), description="what its gimbal reaches")
+    camera: CameraSpec = Field(default=CameraSpec(), description="what its camera sees")
+    radius: PositiveLength | None = Field(default=None, description="radius of the sphere round its body")
+    endurance: Duration | None = Field(default=None, description="longest time in the air")
+    priority: Priority = Field(default=1, description="drones are planned in this order, 1 first")
+    body: Literal["forward", "follow-camera", "free"] | None = Field(
+        default=None, description="where the body points: along the path, with the camera, or anywhere"
+    )
+
+
+class GridSpec(Model):
+    """Drones in a square grid."""
+
+    spacing: PositiveLength = Field(description="distance between neighbours")
+    origin: Position = Field(default=(0.0, 0.0, 0.0), description="corner of the grid")
+
+
+class LayoutSpec(Model):
+    """How a fleet stands on the ground."""
+
+    grid: GridSpec = Field(description="a square grid")
+
+
+class FleetSpec(Model):
+    """Many drones of one model."""
+
+    count: Count = Field(description="number of drones")
+    layout: LayoutSpec = Field(description="where they stand before and after")
+    model: ModelName = Field(default="show-drone", description="preset of every drone")

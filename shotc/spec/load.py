@@ -1,0 +1,137 @@
+"""From the bytes of a mission file to its models, or to diagnostics that say what is wrong and where."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from shotc.diag.codes import schema, units
+from shotc.diag.codes.yaml import text_diagnostic
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.source.file import WHOLE_FILE, SourceFile
+from shotc.source.yaml_tree import Document, parse
+from shotc.spec.mission import VERSION, MissionSpec
+from shotc.spec.model import nearest
+from shotc.spec.shot import ShotBase
+from shotc.spec.translate import Finding, findings
+from shotc.units import clip
+
+MAX_DIAGNOSTICS = 100
+_CODES = {info.slug: info.code for info in (*schema.CODES, *units.CODES)}
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedMission:
+    """A mission whose shape is right; names are not resolved yet.
+
+    folder : where the files that it names are, or None for text without a place
+    sha256 : of the mission's bytes, hexadecimal
+    """
+
+    spec: MissionSpec
+    origins: OriginMap
+    folder: Path | None
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """What loading gives: a mission, or None where a diagnostic is an error."""
+
+    mission: LoadedMission | None
+    diagnostics: tuple[Diagnostic, ...]
+    file: SourceFile
+
+
+def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[ShotBase]]) -> Loaded:
+    """Read a mission; never raises, whatever the bytes are.
+
+    name : how to show the file; folder : where it is; kinds : the model of every kind of shot
+    """
+    document = parse(data, name)
+    if document.faults:
+        return Loaded(None, tuple(text_diagnostic(fault, name) for fault in document.faults), document.file)
+    origins = OriginMap(name, document.keys, document.values)
+    found = _version_findings(document.root)
+    if any(f.slug == "unknown-version" for f in found):
+        return Loaded(None, _diagnostics(found, origins), document.file)
+    spec, faults = _validate(document, kinds)
+    found += [f for f in faults if f.path != ("shotc",)] + _shot_findings(document.root, kinds)
+    if spec is None or found:
+        return Loaded(None, _diagnostics(found, origins), document.file)
+    mission = LoadedMission(spec, origins, folder, sha256(data).hexdigest())
+    return Loaded(mission, (), document.file)
+
+
+def _validate(
+    document: Document, kinds: Mapping[str, type[ShotBase]]
+) -> tuple[MissionSpec | None, list[Finding]]:
+    # The version is judged before and apart; a missing one shall not hide the other faults.
+    root = {**document.root, "shotc": VERSION}
+    try:
+        return MissionSpec.model_validate(root, context={"kinds": kinds}), []
+    except ValidationError as error:
+        return None, findings(error)
+
+
+def _version_findings(root: Mapping[str, Any]) -> list[Finding]:
+    help_ = f"write `shotc: {VERSION}` as the first line"
+    if "shotc" not in root:
+        message = "the mission does not say its language version"
+        return [Finding((), "missing-version", message, help_, blame="key")]
+    value = root["shotc"]
+    if value == VERSION and not isinstance(value, bool):
+        return []
+    message = "`shotc` is the version of the language, a number"
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        message = f"language version {clip(format(value, '.6g'))} is not known"
+    note = f"this version of shotc reads language version {VERSION}"
+    return [Finding(("shotc",), "unknown-version", message, help_, (note,))]
+
+
+def _shot_findings(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> list[Finding]:
+    """Return unknown kinds, and a mission without shots."""
+    shots = root.get("shots", [])
+    if shots == []:
+        path: KeyPath = ("shots",) if "shots" in root else ()
+        help_ = "add a shot, or start from a template: shotc new"
+        return [Finding(path, "no-shots", "the mission has no shots", help_, blame="key")]
+    if not isinstance(shots, list):
+        return []
+    named = [(i, shot["kind"]) for i, shot in enumerate(shots) if isinstance(shot, dict) and "kind" in shot]
+    return [
+        _unknown_kind(("shots", i, "kind"), kind, kinds)
+        for i, kind in named
+        if isinstance(kind, str) and kind not in kinds
+    ]
+
+
+def _unknown_kind(path: KeyPath, kind: str, kinds: Mapping[str, type[ShotBase]]) -> Finding:
+    return Finding(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", nearest(kind, kinds))
+
+
+def _diagnostics(found: list[Finding], origins: OriginMap) -> tuple[Diagnostic, ...]:
+    """Return one diagnostic per faulty place, in the order of the file, at most ``MAX_DIAGNOSTICS``."""
+    first: dict[tuple[KeyPath, str], Finding] = {}
+    for finding in found:
+        first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)
+    every = sorted((_diagnostic(f, origins) for f in first.values()), key=lambda d: d.sort_key)
+    more = len(every) - MAX_DIAGNOSTICS
+    if more <= 0:
+        return tuple(every)
+    last = every[MAX_DIAGNOSTICS - 1]
+    note = f"{more} more faults of this file are not shown"
+    return (*every[: MAX_DIAGNOSTICS - 1], replace(last, notes=(*last.notes, note)))
+
+
+def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:
+    label = origins.value(finding.path) if finding.blame == "value" else origins.key(finding.path)
+    if finding.path == ():
+        label = Label(origins.file, WHOLE_FILE)
+    return Diagnostic(_CODES[finding.slug], finding.message, (label,), finding.notes, finding.help)

@@ -1,0 +1,57 @@
+"""The mission as written: the top of the language's models."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PlainValidator, ValidationInfo
+
+from shotc.spec.drones import DroneSpec, FleetSpec
+from shotc.spec.faults import fault
+from shotc.spec.fields import Name
+from shotc.spec.model import Model
+from shotc.spec.rules import OutputSpec, RulesSpec
+from shotc.spec.shot import ShotBase
+from shotc.spec.targets import TargetSpec
+from shotc.spec.world import WorldSpec
+from shotc.units import describe
+
+VERSION = 1
+
+
+def _read_shot(value: Any, info: ValidationInfo) -> ShotBase:
+    """Validate a shot by the model of its kind; of an unknown kind, by what all shots share.
+
+    An unknown kind is reported by ``load``, which knows the other faults of the file too.
+    """
+    if not isinstance(value, dict):
+        raise fault(
+            "empty-value" if value is None else "wrong-type",
+            f"expected a shot, got {describe(value)}",
+            "write a mapping with id, kind, drone and the parameters of the kind",
+        )
+    kinds: Mapping[str, type[ShotBase]] = (info.context or {}).get("kinds", {})
+    kind = value.get("kind")
+    model = kinds.get(kind) if isinstance(kind, str) else None
+    if model is not None:
+        return model.model_validate(value)
+    return ShotBase.model_validate({key: item for key, item in value.items() if key in ShotBase.model_fields})
+
+
+# A function instead of a discriminated union: only the models of kinds in use are ever built.
+Shot = Annotated[ShotBase, PlainValidator(_read_shot)]
+
+
+class MissionSpec(Model):
+    """A mission."""
+
+    shotc: Literal[1] = Field(description="version of the language")
+    mission: Name = Field(description="name of the mission and of its output folder")
+    world: WorldSpec = Field(default=WorldSpec(), description="the place and what stands in it")
+    targets: dict[Name, TargetSpec] = Field(default={}, description="what is filmed")
+    drones: dict[Name, DroneSpec] = Field(default={}, description="what films")
+    fleets: dict[Name, FleetSpec] = Field(default={}, description="drones that make pictures in the sky")
+    rules: RulesSpec = Field(default=RulesSpec(), description="rules for the whole mission")
+    shots: tuple[Shot, ...] = Field(default=(), description="what is filmed when, in order")
+    output: OutputSpec = Field(default=OutputSpec(), description="what is written out")

@@ -1,0 +1,151 @@
+"""Drone presets, and what holds where a mission is silent.
+
+The figures are meant for planning, not for records: speeds stay well inside what makers publish as
+maxima, so that a plan leaves the autopilot room to correct, and endurance leaves a reserve. Rates and
+accelerations of gimbals, and jerks, are hardly ever published; they are what smooth footage bears.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians
+from typing import Literal
+
+from shotc.ir.mission import Gimbal, Limits
+
+Body = Literal["forward", "follow-camera", "free"]
+
+COMPOSITION = "thirds"
+SEPARATION = 3.0
+GROUND_CLEARANCE = 2.0
+TARGET_CLEARANCE = 1.0
+PACE = 0.75
+RATE = 50.0
+SHOW_RATE = 5.0
+EMIT = ("csv", "mavlink", "storyboard", "rerun")
+DEFAULT_MODEL = "x500"
+
+
+@dataclass(frozen=True, slots=True)
+class Preset:
+    """A drone model.
+
+    summary : what it is, in a line; source : where the figures come from
+    hfov : rad; aspect : width / height; radius : of the sphere round the body and its propellers, m
+    endurance : s
+    """
+
+    summary: str
+    limits: Limits
+    gimbal: Gimbal
+    hfov: float
+    aspect: float
+    radius: float
+    endurance: float
+    autopilot: Literal["px4", "ardupilot"]
+    body: Body
+    source: str
+
+
+def _limits(linear: tuple[float, float, float, float, float], yaw: tuple[float, float]) -> Limits:
+    """Return limits from (speed, climb, descent, acceleration, jerk) in SI and (rate, acceleration) in deg."""
+    return Limits(*linear, radians(yaw[0]), radians(yaw[1]))
+
+
+def _gimbal(pitch: tuple[float, float], yaw: tuple[float, float], rates: tuple[float, float]) -> Gimbal:
+    """Return a gimbal from ranges and (rate, acceleration), all in degrees."""
+    low, high = (radians(pitch[0]), radians(pitch[1])), (radians(yaw[0]), radians(yaw[1]))
+    return Gimbal(low, high, radians(rates[0]), radians(rates[1]))
+
+
+_PX4 = "speeds and accelerations below PX4's default MPC_* limits; "
+
+PRESETS: dict[str, Preset] = {
+    "x500": Preset(
+        summary="500 mm PX4 development quadrotor with a three-axis gimbal",
+        limits=_limits((8.0, 3.0, 1.5, 3.0, 8.0), (60.0, 90.0)),
+        gimbal=_gimbal((-90.0, 30.0), (-135.0, 135.0), (45.0, 90.0)),
+        hfov=radians(70.0),
+        aspect=16 / 9,
+        radius=0.6,
+        endurance=15 * 60.0,
+        autopilot="px4",
+        body="follow-camera",
+        source=_PX4 + "500 mm wheelbase and 10 inch propellers of the Holybro X500 V2 give the radius",
+    ),
+    "mini": Preset(
+        summary="folding camera drone under 250 g; its gimbal does not pan, the body turns",
+        limits=_limits((8.0, 3.0, 3.0, 3.0, 8.0), (60.0, 90.0)),
+        gimbal=_gimbal((-90.0, 35.0), (-10.0, 10.0), (60.0, 120.0)),
+        hfov=radians(72.0),
+        aspect=16 / 9,
+        radius=0.3,
+        endurance=24 * 60.0,
+        autopilot="px4",
+        body="follow-camera",
+        source="class of the DJI Mini 4 Pro (24 mm equivalent lens), about half of its published maxima",
+    ),
+    "pro": Preset(
+        summary="folding camera drone of about 1 kg; its gimbal does not pan, the body turns",
+        limits=_limits((12.0, 5.0, 4.0, 4.0, 10.0), (70.0, 100.0)),
+        gimbal=_gimbal((-90.0, 30.0), (-10.0, 10.0), (60.0, 120.0)),
+        hfov=radians(72.0),
+        aspect=16 / 9,
+        radius=0.4,
+        endurance=30 * 60.0,
+        autopilot="px4",
+        body="follow-camera",
+        source="class of the DJI Mavic 3 (24 mm equivalent lens), about two thirds of its published maxima",
+    ),
+    "solo": Preset(
+        summary="ArduPilot quadrotor with an action camera on a gimbal without pan",
+        limits=_limits((8.0, 3.0, 2.0, 2.5, 5.0), (60.0, 90.0)),
+        gimbal=_gimbal((-90.0, 30.0), (-20.0, 20.0), (45.0, 90.0)),
+        hfov=radians(87.0),
+        aspect=16 / 9,
+        radius=0.5,
+        endurance=14 * 60.0,
+        autopilot="ardupilot",
+        body="follow-camera",
+        source="3DR Solo development guide (gimbal travel -130 to 45 deg pitch, 25 deg yaw), kept inside it; "
+        "jerk as ArduPilot's default",
+    ),
+    "alta-x": Preset(
+        summary="heavy lifter with a cinema camera on a gimbal that pans all round",
+        limits=_limits((10.0, 3.0, 2.0, 2.0, 4.0), (40.0, 50.0)),
+        gimbal=_gimbal((-90.0, 25.0), (-170.0, 170.0), (40.0, 60.0)),
+        hfov=radians(39.0),
+        aspect=17 / 9,
+        radius=1.3,
+        endurance=15 * 60.0,
+        autopilot="px4",
+        body="forward",
+        source="class of the Freefly Alta X with a MoVI gimbal; a 35 mm lens on a 24.9 mm wide sensor gives "
+        "the field of view; dynamics are those of a heavy load",
+    ),
+    "crazyflie": Preset(
+        summary="27 g indoor research quadrotor with a fixed forward camera",
+        limits=_limits((1.0, 0.8, 0.5, 1.5, 6.0), (90.0, 180.0)),
+        gimbal=_gimbal((-10.0, 10.0), (-5.0, 5.0), (30.0, 60.0)),
+        hfov=radians(65.0),
+        aspect=1.0,
+        radius=0.1,
+        endurance=5 * 60.0,
+        autopilot="px4",
+        body="follow-camera",
+        source="Bitcraze Crazyflie 2.1 with an AI deck (square sensor); the camera is fixed, so the pitch "
+        "range is only what its picture tolerates",
+    ),
+    "show-drone": Preset(
+        summary="light-show quadrotor without a camera",
+        limits=_limits((5.0, 2.5, 2.0, 2.5, 8.0), (45.0, 90.0)),
+        gimbal=_gimbal((-90.0, 30.0), (-180.0, 180.0), (45.0, 90.0)),
+        hfov=radians(70.0),
+        aspect=16 / 9,
+        radius=0.25,
+        endurance=12 * 60.0,
+        autopilot="ardupilot",
+        body="free",
+        source="common light-show quadrotors of about 300 mm; camera figures are placeholders of the class",
+    ),
+}

@@ -1,0 +1,53 @@
+"""Mission-wide rules and what is written out; silence means the defaults of ``presets``."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from shotc.spec import presets
+from shotc.spec.compositions import COMPOSITIONS
+from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace
+from shotc.spec.model import Model
+from shotc.spec.quantities import Quantity
+from shotc.units import SMALLEST
+
+_HALF_ANGLE = Quantity("HalfAngle", "angle", SMALLEST["angle"], 1.5707963267948966)
+
+
+class MutualVisibilitySpec(Model):
+    """Whether the drones keep out of each other's pictures."""
+
+    half_angle: Annotated[float, _HALF_ANGLE] | None = Field(
+        default=None, description="half the opening of the cone to keep free; the frame itself if silent"
+    )
+    strength: Literal["require", "prefer", "off"] = Field(default="require", description="how strictly")
+
+
+class RulesSpec(Model):
+    """Rules for the whole mission."""
+
+    composition: CompositionSet = Field(
+        default=COMPOSITIONS[presets.COMPOSITION], description="where on screen targets may be"
+    )
+    separation: NonNegativeLength = Field(
+        default=presets.SEPARATION, description="least distance between drones, centre to centre"
+    )
+    ground_clearance: NonNegativeLength = Field(
+        default=presets.GROUND_CLEARANCE, description="least distance from a drone's body to the ground"
+    )
+    target_clearance: NonNegativeLength = Field(
+        default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"
+    )
+    mutual_visibility: MutualVisibilitySpec | None = Field(
+        default=None, description="whether drones keep out of each other's pictures"
+    )
+    pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
+
+
+class OutputSpec(Model):
+    """What is written out."""
+
+    rate: Frequency | None = Field(default=None, description="samples a second; 50, for shows 5, if silent")
+    emit: tuple[Name, ...] = Field(default=presets.EMIT, description="emitters to run")

@@ -1,0 +1,35 @@
+"""Targets: what is filmed, standing or moving, as an upright cylinder about its centre."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from pydantic import Field
+
+from shotc.spec.fields import Position, PositiveLength, RelativePath, Speed, Velocity
+from shotc.spec.model import Model, OneOf
+
+
+class TrackSpec(Model):
+    """How a target moves: rows of a file, a constant velocity, or points at a constant speed."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("file",), ("start", "velocity"), ("points", "speed"))),)
+
+    file: RelativePath | None = Field(default=None, description="CSV file of t,x,y,z and maybe heading")
+    start: Position | None = Field(default=None, description="where the target is at time 0")
+    velocity: Velocity | None = Field(default=None, description="[east, north, up]")
+    points: tuple[Position, ...] | None = Field(
+        default=None, min_length=2, description="points passed in order, from time 0"
+    )
+    speed: Speed | None = Field(default=None, description="speed along the points")
+
+
+class TargetSpec(Model):
+    """Something to film."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("at",), ("track",))),)
+
+    at: Position | None = Field(default=None, description="centre of a target that stands")
+    track: TrackSpec | None = Field(default=None, description="motion of the centre of a target that moves")
+    radius: PositiveLength = Field(description="radius of its cylinder")
+    height: PositiveLength = Field(description="height of its cylinder")

@@ -1,0 +1,100 @@
+"""Pydantic's errors in the language's own words: one finding per fault, with the place to blame."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from pydantic import ValidationError
+
+from shotc.ir.origin import KeyPath
+from shotc.spec.model import nearest
+from shotc.units import clip, describe
+
+# Faults of a key, or of what should have been there, are blamed on the key.
+_ON_KEY = frozenset({"unknown-field", "missing-field", "conflicting-fields", "empty-value"})
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A fault before it has a place in the text.
+
+    path : key path from the top of the mission; slug : of its code; blame : what to underline there
+    """
+
+    path: KeyPath
+    slug: str
+    message: str
+    help: str = ""
+    notes: tuple[str, ...] = ()
+    blame: Literal["key", "value"] = "value"
+
+
+def findings(error: ValidationError) -> list[Finding]:
+    """Return what pydantic found, in its order."""
+    return [_finding(item) for item in error.errors(include_url=False)]
+
+
+def _finding(item: Any) -> Finding:
+    path, slug, ctx = tuple(item["loc"]), item["type"], item.get("ctx", {})
+    on_key = slug in _ON_KEY
+    if path[-1:] == ("[key]",):  # pydantic's mark for the key of a mapping of names
+        path, on_key = path[:-1], True
+    if "message" not in ctx:
+        return _own_words(path, item)
+    blame: Literal["key", "value"] = "key" if on_key else "value"
+    return Finding(path, slug, ctx["message"], ctx["help"], tuple(ctx["notes"]), blame)
+
+
+def _own_words(path: KeyPath, item: Any) -> Finding:
+    """Translate an error of one of pydantic's own types."""
+    describe_ = _WORDS.get(item["type"])
+    if describe_ is None:
+        return Finding(path, "wrong-type", clip(item["msg"], 120).rstrip(".").lower())
+    slug, message, help_ = describe_(item.get("ctx", {}), item.get("input"))
+    return Finding(path, slug, message, help_)
+
+
+def _choice(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+    known = dict.fromkeys(re.findall(r"'([^']*)'", str(ctx.get("expected", ""))))
+    if not isinstance(value, str):
+        return ("wrong-type", f"expected one of {', '.join(known)}, got {describe(value)}", "")
+    return ("unknown-value", f"unknown value `{clip(value)}`", nearest(value, known))
+
+
+def _mapping(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+    return (
+        "wrong-type",
+        f"expected a mapping of names, got {describe(value)}",
+        "write `name: {...}` lines under it",
+    )
+
+
+def _list(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+    return ("wrong-type", f"expected a list, got {describe(value)}", "write [...], or one `- ` line per item")
+
+
+def _short(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+    few = f"expected at least {ctx.get('min_length')} items, got {ctx.get('actual_length')}"
+    return ("wrong-length", few, "")
+
+
+def _long(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+    return ("wrong-length", f"expected at most {ctx.get('max_length')} items, got more", "")
+
+
+def _text(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+    return ("wrong-type", f"expected text, got {describe(value)}", "")
+
+
+_WORDS: dict[str, Callable[[Mapping[str, Any], Any], tuple[str, str, str]]] = {
+    "literal_error": _choice,
+    "dict_type": _mapping,
+    "tuple_type": _list,
+    "list_type": _list,
+    "too_short": _short,
+    "too_long": _long,
+    "string_type": _text,
+}
