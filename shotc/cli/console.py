@@ -77,6 +77,11 @@ def note(text: str) -> None:
         _write(sys.stderr, text)
 
 
+def complain(text: str) -> None:
+    """Write to standard error what even a quiet run has to hear."""
+    _write(sys.stderr, text)
+
+
 def report(
     diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile], stream: TextIO | None = None
 ) -> None:

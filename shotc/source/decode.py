@@ -27,7 +27,7 @@ def decode(data: bytes, name: str) -> tuple[SourceFile, tuple[Fault, ...], bool]
     What cannot be read or shown is replaced by U+FFFD, one for one, so that positions stay right.
     """
     if len(data) > MAX_BYTES:
-        return SourceFile(name, ""), (_too_large(len(data)),), False
+        return SourceFile(name, ""), (_too_large(),), False
     for mark, codec, title in _WIDE_MARKS:
         if data.startswith(mark):
             return _wide(data[len(mark) :], name, codec, title)
@@ -45,10 +45,10 @@ def decode(data: bytes, name: str) -> tuple[SourceFile, tuple[Fault, ...], bool]
     return file, (*faults, *stray), is_text
 
 
-def _too_large(size: int) -> Fault:
+def _too_large() -> Fault:
     return Fault(
         "too-large",
-        f"the file has {size} bytes; a mission has at most {MAX_BYTES}",
+        f"the file has more than {MAX_BYTES} bytes",
         WHOLE_FILE,
         help="keep long tracks and points in CSV files and name them in the mission",
     )

@@ -115,7 +115,9 @@ def _location(label: Label) -> dict[str, Any]:
 
 
 def _uri(name: str) -> str:
-    return quote(name.replace("\\", "/").removeprefix("./"), safe="/-._~")
+    # A name that is not UTF-8 holds surrogates; its bytes are percent-encoded like any others.
+    plain = name.replace("\\", "/").removeprefix("./").encode("utf-8", "surrogatepass")
+    return quote(plain, safe="/-._~")
 
 
 def _fingerprint(diagnostic: Diagnostic, sources: Mapping[str, SourceFile]) -> str:

@@ -1,0 +1,197 @@
+"""The command line: global flags, the commands, and what becomes of every way to end."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Annotated
+
+import typer
+
+from shotc import __version__
+from shotc.cli import console
+from shotc.cli.console import Color
+
+
+@dataclass(frozen=True, slots=True)
+class _Command:
+    """Where a command lives, and under which heading the help shows it."""
+
+    place: str
+    panel: str
+
+
+_PLAN, _LEARN = "From mission to flight", "Write missions"
+COMMANDS = {
+    "new": _Command("shotc.cli.new:new", _LEARN),
+    "check": _Command("shotc.cli.check:check", _LEARN),
+    "explain": _Command("shotc.cli.explain:explain", _LEARN),
+    "list": _Command("shotc.cli.inventory:show", _LEARN),
+    "schema": _Command("shotc.cli.schema:schema", _LEARN),
+    "plan": _Command("shotc.cli.plan:plan", _PLAN),
+}
+_HELP = "Compile a YAML mission into verified, flyable camera motion."
+_EPILOG = "Example: shotc new landmark -o tower.yaml, then shotc check tower.yaml, then shotc plan tower.yaml"
+_BROKEN_PIPE = 128 + 13
+"""What a shell reports of a command that a closed pipe ended."""
+
+
+def main() -> None:
+    """Run the command line of this process, and end the process."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run one command line and return its exit status; nothing escapes, least of all a traceback."""
+    _open_streams()
+    try:
+        code = _invoke(arguments)
+        sys.stdout.flush()
+        return code
+    except SystemExit as end:
+        # The library turns a closed pipe into an exit of its own.
+        if isinstance(end.__context__, BrokenPipeError):
+            return _pipe_closed()
+        return end.code if isinstance(end.code, int) else console.EXIT_BUG
+    except (KeyboardInterrupt, typer.Abort):
+        return _interrupted()
+    except OSError as error:
+        return _no_output(error)
+    except Exception as bug:  # noqa: BLE001  the last resort: whatever it is, it is ours
+        return _bug(bug)
+
+
+def application(only: str | None = None) -> typer.Typer:
+    """Return the application with all commands, or with one: a command loads no other's modules."""
+    app = typer.Typer(
+        name="shotc",
+        help=_HELP,
+        epilog=_EPILOG,
+        add_completion=only is None,
+        rich_markup_mode="rich",
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback(invoke_without_command=True)(_global_flags)
+    for name in [only] if only else COMMANDS:
+        command = COMMANDS[name]
+        module, _, attribute = command.place.partition(":")
+        app.command(name, rich_help_panel=command.panel)(getattr(import_module(module), attribute))
+    return app
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        console.out(f"shotc {__version__}")
+        raise typer.Exit
+
+
+Version = Annotated[
+    bool,
+    typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit."),
+]
+ColorOption = Annotated[Color, typer.Option("--color", help="When to colour; NO_COLOR is respected.")]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print errors and results only.")]
+
+
+def _global_flags(
+    ctx: typer.Context, version: Version = False, color: ColorOption = Color.AUTO, quiet: Quiet = False
+) -> None:
+    console.configure(color, quiet=quiet)
+    if ctx.invoked_subcommand is None:
+        console.note(ctx.get_help())
+        raise typer.Exit(console.EXIT_USAGE)
+
+
+def _invoke(arguments: Sequence[str]) -> int:
+    flags, words = _split_flags(arguments)
+    completing = "_SHOTC_COMPLETE" in os.environ
+    only = words[0] if words and words[0] in COMMANDS and not completing else None
+    try:
+        code = application(only)(flags + words, prog_name="shotc", standalone_mode=False)
+    except typer.TyperException as error:
+        return _usage(error)
+    return _interrupted() if code == console.EXIT_INTERRUPTED else int(code or 0)
+
+
+def _split_flags(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Tell the global flags, which may stand anywhere before ``--``, from the other words."""
+    flags: list[str] = []
+    others: list[str] = []
+    words = iter(arguments)
+    for word in words:
+        if word == "--":
+            others += [word, *words]
+        elif word in ("-q", "--quiet") or word.startswith("--color="):
+            flags.append(word)
+        elif word == "--color":
+            flags += [word, *([value] if (value := next(words, None)) is not None else [])]
+        else:
+            others.append(word)
+    return flags, others
+
+
+def _usage(error: typer.TyperException) -> int:
+    context = getattr(error, "ctx", None)
+    path = context.command_path if context is not None else "shotc"
+    console.complain(f"usage: {error.format_message()}\ntry `{path} --help`")
+    return console.EXIT_USAGE
+
+
+def _interrupted() -> int:
+    console.complain("interrupted")
+    return console.EXIT_INTERRUPTED
+
+
+def _pipe_closed() -> int:
+    """Leave nothing for the interpreter to flush into a pipe that nobody reads."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return _BROKEN_PIPE
+
+
+def _no_output(error: OSError) -> int:
+    """End a command whose output cannot be written; any other failure of the system is a bug."""
+    if isinstance(error, BrokenPipeError):
+        return _pipe_closed()
+    if error.errno not in (errno.ENOSPC, errno.EIO, errno.EBADF):
+        return _bug(error)
+    _pipe_closed()
+    console.complain(f"standard output cannot be written: {error.strerror}")
+    return console.EXIT_REJECTED
+
+
+def _bug(bug: BaseException) -> int:
+    """Report our own failure as a diagnostic; the traceback is for those who ask for it."""
+    from platform import platform, python_version
+
+    from shotc.diag.model import Diagnostic
+
+    frames = traceback.extract_tb(bug.__traceback__)
+    where = f"{frames[-1].name} at line {frames[-1].lineno} of {frames[-1].filename}" if frames else "unknown"
+    diagnostic = Diagnostic(
+        "X001",
+        "shotc failed; this is our bug, not yours",
+        notes=(
+            f"{type(bug).__name__}: {bug}",
+            f"in {where}",
+            f"shotc {__version__}, Python {python_version()}, {platform()}",
+        ),
+        help="run again with SHOTC_DEBUG=1 and report what it prints, together with the mission",
+    )
+    console.report([diagnostic], {})
+    if os.environ.get("SHOTC_DEBUG") == "1":
+        traceback.print_exception(bug)
+    return console.EXIT_BUG
+
+
+def _open_streams() -> None:
+    """Give a process that was started without output streams somewhere to write."""
+    if sys.stdout is None:
+        sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  lives as long as the process
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w")  # noqa: PTH123, SIM115

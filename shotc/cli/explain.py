@@ -1,0 +1,65 @@
+"""``shotc explain``: what a diagnostic code means, with a mission that raises it and one that does not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from textwrap import fill, indent
+from typing import Annotated
+
+import typer
+
+from shotc.cli import console
+from shotc.diag.registry import FAMILIES, CodeInfo, registry
+
+_WIDTH = 80
+
+Code = Annotated[
+    str | None,
+    typer.Argument(metavar="[CODE]", help="A code or its name; without one, all codes are listed."),
+]
+
+
+def explain(code: Code = None) -> None:
+    """Explain a diagnostic: what it means, why, and how to mend it.
+
+    Example: shotc explain Y012, or shotc explain duplicate-key
+    """
+    table = registry()
+    console.out(_listing(table) if code is None else _page(_find(code, table)))
+
+
+def _find(wanted: str, table: Mapping[str, CodeInfo]) -> CodeInfo:
+    """Return the code of this name or slug; an unknown one is a usage error with the nearest."""
+    by_name = {code.lower(): info for code, info in table.items()}
+    by_name |= {info.slug: info for info in table.values()}
+    if info := by_name.get(wanted.strip().lower()):
+        return info
+    near = get_close_matches(wanted.lower(), by_name, n=3, cutoff=0.5)
+    names = [f"{by_name[name].code} ({by_name[name].slug})" for name in near]
+    hint = f"did you mean {' or '.join(dict.fromkeys(names))}?" if near else "`shotc explain` lists all codes"
+    raise typer.BadParameter(f"`{wanted}` is no code; {hint}", param_hint="CODE")
+
+
+def _page(info: CodeInfo) -> str:
+    parts = [
+        f"{info.code} {info.slug}: {info.summary}",
+        f"{info.severity}, since {info.since}",
+        "",
+        fill(info.explanation, _WIDTH),
+    ]
+    for title, text in (("Raises it:", info.failing), ("Passes:", info.passing)):
+        if text:
+            parts += ["", title, "", indent(text.rstrip(), "    ")]
+    return "\n".join(parts)
+
+
+def _listing(table: Mapping[str, CodeInfo]) -> str:
+    width = max(len(info.slug) for info in table.values())
+    blocks = []
+    for letter, (_, title) in FAMILIES.items():
+        rows = [info for info in table.values() if info.code.startswith(letter)]
+        if rows:
+            lines = [f"  {info.code}  {info.slug:<{width}}  {info.summary}" for info in rows]
+            blocks.append("\n".join([f"{letter}: {title}", *lines]))
+    return "\n\n".join(blocks)
