@@ -1,0 +1,118 @@
+"""What binds a motion along its path: a drone's limits as norms of linear combinations of channels.
+
+Along q(s) with b = sdot^2 and a = sddot the rate is q' sqrt(b), the acceleration q'' b + q' a and the
+jerk sqrt(b) (q''' b + 3 q'' a + q' a'): for a fixed place all are linear in (b, a) up to the root.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.ir.mission import Drone
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV, X, Y, Z
+
+Array = NDArray[np.float64]
+
+# Angular accelerations build up over this time, s; the mission sets no angular jerk, but a camera
+# that starts to turn with a jolt shows it in the picture.
+EASE = 0.2
+
+# A limit that a motion may use up to this share, so that proofs have room for rounding.
+SHARE = 1.0 - 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Ceiling:
+    """The limits that bind one move: SI, radians, names as a drone's and a gimbal's."""
+
+    speed: float
+    climb: float
+    descent: float
+    acceleration: float
+    jerk: float
+    yaw_rate: float
+    yaw_acceleration: float
+    gimbal_rate: float
+    gimbal_acceleration: float
+
+    def scaled(self, share: float) -> Ceiling:
+        """Return the ceiling with every limit multiplied by ``share`` (a pace)."""
+        return Ceiling(*(share * getattr(self, f.name) for f in fields(self)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Axis:
+    """One norm that is limited.
+
+    pick : shape (d, 7), the combination of channels whose Euclidean norm counts
+    rate, acceleration, jerk : (name in Ceiling, limit), or None where nothing binds
+    sign : 0 for a norm; +1 or -1 where only that direction of the rate of a single row counts
+    ease : whether jerk is our easing only, which no proof asks for
+    """
+
+    pick: Array
+    rate: tuple[str, float] | None = None
+    acceleration: tuple[str, float] | None = None
+    jerk: tuple[str, float] | None = None
+    sign: int = 0
+    ease: bool = False
+
+
+def ceiling_of(drone: Drone) -> Ceiling:
+    """Return the full limits of a drone and its gimbal."""
+    limits, gimbal = drone.limits, drone.gimbal
+    return Ceiling(
+        limits.speed,
+        limits.climb,
+        limits.descent,
+        limits.acceleration,
+        limits.jerk,
+        limits.yaw_rate,
+        limits.yaw_acceleration,
+        gimbal.rate,
+        gimbal.acceleration,
+    )
+
+
+def axes(ceiling: Ceiling, zoom_only: bool) -> tuple[Axis, ...]:
+    """Return every norm that the ceiling limits.
+
+    zoom_only : whether nothing but the field of view moves; a zoom has no limit of its own, but on
+        the spot it needs some time, and takes what the gimbal would for the same angle
+    """
+    if zoom_only:
+        return (_turn(_row({HFOV: 1.0}), ceiling, "gimbal_rate", "gimbal_acceleration"),)
+    return (
+        Axis(np.stack([_row({X: 1.0}), _row({Y: 1.0})]), rate=("speed", ceiling.speed)),
+        Axis(_row({Z: 1.0})[None], rate=("climb", ceiling.climb), sign=1),
+        Axis(_row({Z: 1.0})[None], rate=("descent", ceiling.descent), sign=-1),
+        Axis(
+            np.stack([_row({X: 1.0}), _row({Y: 1.0}), _row({Z: 1.0})]),
+            acceleration=("acceleration", ceiling.acceleration),
+            jerk=("jerk", ceiling.jerk),
+        ),
+        _turn(_row({BODY_YAW: 1.0}), ceiling, "yaw_rate", "yaw_acceleration"),
+        _turn(_row({CAM_YAW: 1.0, BODY_YAW: -1.0}), ceiling, "gimbal_rate", "gimbal_acceleration"),
+        _turn(_row({CAM_PITCH: 1.0}), ceiling, "gimbal_rate", "gimbal_acceleration"),
+    )
+
+
+def _turn(row: Array, ceiling: Ceiling, rate: str, acceleration: str) -> Axis:
+    most = getattr(ceiling, acceleration)
+    return Axis(
+        row[None],
+        rate=(rate, getattr(ceiling, rate)),
+        acceleration=(acceleration, most),
+        jerk=(acceleration, most / EASE),
+        ease=True,
+    )
+
+
+def _row(weights: dict[int, float]) -> Array:
+    row = np.zeros(len(CHANNELS))
+    for channel, weight in weights.items():
+        row[channel] = weight
+    return row

@@ -1,0 +1,101 @@
+"""Sparse rows of a cone program, collected in bulk, and the way to Clarabel without a modelling layer.
+
+The same shapes of problem come again for every move of every drone; cvxpy would compile each grid
+size anew, which takes longer than solving it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.solvers.conic import Status
+
+Array = NDArray[np.float64]
+# Columns and their values, one entry a row.
+Term = tuple[NDArray[Any], Array]
+
+
+class ConeRows:
+    """Expressions constant + sum of terms over ``unknowns`` columns, each in a cone."""
+
+    def __init__(self, unknowns: int) -> None:
+        self.unknowns = unknowns
+        self._rows: list[Array] = []
+        self._cols: list[Array] = []
+        self._values: list[Array] = []
+        self._constants: list[Array] = []
+        self._cones: list[tuple[str, int, int]] = []
+        self._count = 0
+
+    def extend(self, more: int) -> int:
+        """Add unknowns; return the column of the first."""
+        self.unknowns += more
+        return self.unknowns - more
+
+    def zero(self, terms: list[Term]) -> None:
+        """Demand that the sum of the terms is zero."""
+        self._add("zero", [np.zeros(len(terms[0][0]))], [terms])
+
+    def positive(self, constant: Array, terms: list[Term]) -> None:
+        """Demand constant + terms >= 0."""
+        self._add("positive", [constant], [terms])
+
+    def second_order(
+        self, constant: Array, entries: list[list[Term]], rest: list[Array] | None = None
+    ) -> None:
+        """Demand that the first entry bounds the norm of the others.
+
+        constant : added to the first entry; rest : constants of the others, zero unless given
+        """
+        others = rest if rest is not None else [np.zeros_like(constant)] * (len(entries) - 1)
+        self._add("cone", [constant, *others], entries)
+
+    def _add(self, kind: str, constants: list[Array], entries: list[list[Term]]) -> None:
+        dim, cones = len(entries), len(constants[0])
+        base = self._count + dim * np.arange(cones)
+        for entry, terms in enumerate(entries):
+            for cols, values in terms:
+                self._rows.append(base + entry)
+                self._cols.append(cols)
+                self._values.append(values)
+        self._constants.append(np.stack(constants, axis=1).ravel())
+        self._cones.append((kind, dim, cones))
+        self._count += dim * cones
+
+    def solve(self, cost: Array, tolerance: float) -> tuple[Status, Array]:
+        """Minimise cost.x; returns the status and x (meaningless unless SOLVED)."""
+        import clarabel
+        from scipy.sparse import csc_matrix
+
+        shape = (self._count, self.unknowns)
+        places = (np.concatenate(self._rows), np.concatenate(self._cols))
+        # Clarabel's form is A x + s = rhs with s in the cone: s is our expression, so A = -terms.
+        lhs = csc_matrix((-np.concatenate(self._values), places), shape=shape)
+        cones: list[Any] = []
+        for kind, dim, count in self._cones:
+            if kind == "cone":
+                cones.extend([clarabel.SecondOrderConeT(dim)] * count)
+            else:
+                cones.append((clarabel.ZeroConeT if kind == "zero" else clarabel.NonnegativeConeT)(count))
+        settings = clarabel.DefaultSettings()
+        settings.verbose = False
+        settings.max_threads = 1
+        settings.presolve_enable = False
+        settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
+        nothing = csc_matrix((self.unknowns, self.unknowns))
+        solver = clarabel.DefaultSolver(nothing, cost, lhs, np.concatenate(self._constants), cones, settings)
+        solution = solver.solve()
+        return _STATUS.get(str(solution.status), Status.FAILED), np.asarray(solution.x)
+
+
+_STATUS = {
+    "Solved": Status.SOLVED,
+    "AlmostSolved": Status.INACCURATE,
+    "PrimalInfeasible": Status.INFEASIBLE,
+    "AlmostPrimalInfeasible": Status.INFEASIBLE,
+    "DualInfeasible": Status.UNBOUNDED,
+    "AlmostDualInfeasible": Status.UNBOUNDED,
+}

@@ -1,0 +1,327 @@
+"""One step of the jerk-bounded retiming: a second-order cone program in b = sdot^2 and a = sddot.
+
+The motion has a constant jerk in s on every cell, so that rest at both ends needs no special case
+(b1 = 1.5 h a1 on the first cell). How the speed runs inside a cell is taken from the last iterate
+(``_Shape``); with that every limit is linear in b and a of the cell's two nodes,
+
+    |q'' b + q' a| <= 1                                 at nodes and middles,
+    |q' (a1 - a0) / h + r (3 q'' a + q''' b)| <= 1 / v  at both ends and the middle,
+
+with derivatives divided by their limits, v the mean speed of the cell and r the speed over v.
+1 / v is convex in v^2, so its tangent at the last iterate is a safe under-estimate. The time of a
+cell is proportional to 1 / (d0 + d1), d <= sqrt(b), which is convex too. Unknowns are scaled by the
+last iterate, so that they are near 1 although b spans many decades towards the ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.solvers.cone_rows import ConeRows, Term
+from shotc.solvers.conic import Status
+
+Array = NDArray[np.float64]
+
+# Rows of a norm that stay below this share of its limit cannot matter and are left out.
+NEGLIGIBLE = 1e-9
+# Price of a second beyond a window, against the mean speed that a windowed profile keeps low.
+OVERTIME = 1e3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NormLimit:
+    """A norm to be kept below 1, at the start, middle and end of each cell.
+
+    d1, d2, d3 : shape (N, 3, dim), derivatives with respect to s, divided by the limit
+    """
+
+    d1: Array
+    d2: Array
+    d3: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Cells [first, last) are to take ``time`` seconds."""
+
+    first: int
+    last: int
+    time: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RetimingProblem:
+    """A path on a grid of N >= 4 cells, from rest to rest.
+
+    widths : shape (N,), cell widths
+    cap : shape (N + 1,), upper bounds of b at the nodes; cap_middle : shape (N,), in mid-cell
+    accelerations, jerks : norms of q'' b + q' a and of its derivative
+    windows : where given, covering all cells in order: the profile is then the evenest that takes
+        no longer, instead of the fastest
+    """
+
+    widths: Array
+    cap: Array
+    cap_middle: Array
+    accelerations: tuple[NormLimit, ...]
+    jerks: tuple[NormLimit, ...]
+    windows: tuple[Window, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Iterate:
+    """A profile: sdot^2 and sddot at the N + 1 nodes, zero at both ends, b positive inside."""
+
+    b: Array
+    a: Array
+
+    def blend(self, other: Iterate, keep: float) -> Iterate:
+        """Return the other with a share of this one kept in it."""
+        return Iterate(
+            (1 - keep) * other.b + keep * self.b,
+            (1 - keep) * other.a + keep * self.a,
+        )
+
+
+def cell_times(widths: Array, b: Array, a: Array) -> Array:
+    """Return the seconds each cell takes at a constant jerk in s; shape (N,).
+
+    h = T (v0 + v1) / 2 - T^2 (a1 - a0) / 12, solved for T.
+    """
+    speed = np.sqrt(b)
+    mean = 0.5 * (speed[:-1] + speed[1:])
+    root = np.sqrt(np.maximum(mean**2 - np.diff(a) * widths / 3.0, 0.0))
+    return np.asarray(2.0 * widths / (mean + root))
+
+
+def start_from(widths: Array, b: Array) -> Iterate:
+    """Return an iterate with the given b, positive inside, and accelerations that fit it."""
+    slope = np.diff(b) / (2.0 * widths)
+    a = np.zeros_like(b)
+    a[1:-1] = (slope[:-1] * widths[1:] + slope[1:] * widths[:-1]) / (widths[:-1] + widths[1:])
+    return Iterate(b, a)
+
+
+def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -> tuple[Status, Iterate]:
+    """Return the best profile near ``around``; meaningless unless the status is SOLVED."""
+    model = _Model(problem.widths, around)
+    model.motion()
+    model.caps(problem.cap, problem.cap_middle)
+    for limit in problem.accelerations:
+        model.acceleration(limit)
+    for limit in problem.jerks:
+        model.jerk(limit)
+    model.times()
+    cost = model.windowed(problem.windows) if problem.windows else model.total_time()
+    status, x = model.rows.solve(cost, tolerance)
+    inside = slice(1, -1)
+    b, a = np.zeros_like(around.b), np.zeros_like(around.b)
+    if status is Status.SOLVED:
+        b[inside] = (x[: model.nodes] * model.b_unit)[inside]
+        a[inside] = (x[model.nodes : 2 * model.nodes] * model.a_unit)[inside]
+        if not (b[inside] > 0).all():
+            status = Status.FAILED
+    return status, Iterate(b, a)
+
+
+class _Shape:
+    """How the speed runs inside each cell, from the last iterate: quadratic in time.
+
+    Over x = t / T in [0, 1] the speed over its mean is u = r0 (1 - x) + r1 x + k x (1 - x). Every
+    part gives (b0, b1, a0, a1) weights of b, (a0, a1) weights of a, and u itself.
+    """
+
+    def __init__(self, widths: Array, around: Iterate) -> None:
+        speed = np.sqrt(around.b)
+        self.time = cell_times(widths, around.b, around.a)
+        self.mean = widths / self.time
+        self.r0, self.r1 = speed[:-1] / self.mean, speed[1:] / self.mean
+        self.k = 6.0 - 3.0 * (self.r0 + self.r1)
+        self.middle = self._middle()
+        one = np.ones_like(widths)
+        self.start_share, self.end_share = self._shares(one)
+        low, high = (widths * share for share in self._shares(self.middle))
+        zero = np.zeros_like(widths)
+        u = self.r0 + (self.r1 - self.r0 + self.k * (1 - self.middle)) * self.middle
+        self.parts = (
+            (one, zero, zero, zero, one, zero, self.r0),
+            (one, zero, 2.0 * low, 2.0 * high, 1.0 - self.middle, self.middle, u),
+            (zero, one, zero, zero, zero, one, self.r1),
+        )
+
+    def _shares(self, x: Array) -> tuple[Array, Array]:
+        """Return the integrals of (1 - x) u and x u from 0 to x: weights of a0 and a1 in that of a ds."""
+        slope = self.r1 - self.r0 + self.k
+        whole = self.r0 * x + slope * x**2 / 2 - self.k * x**3 / 3
+        late = self.r0 * x**2 / 2 + slope * x**3 / 3 - self.k * x**4 / 4
+        return whole - late, late
+
+    def _middle(self) -> Array:
+        """Return x where half the cell is done, by Newton from a bracketed start."""
+        slope = self.r1 - self.r0 + self.k
+        low, high = np.zeros_like(self.r0), np.ones_like(self.r0)
+        for _ in range(40):
+            x = 0.5 * (low + high)
+            below = self.r0 * x + slope * x**2 / 2 - self.k * x**3 / 3 < 0.5
+            low, high = np.where(below, x, low), np.where(below, high, x)
+        return 0.5 * (low + high)
+
+
+class _Model:
+    """The cone program: b, a and d = sqrt(b) at N + 1 nodes, and e = 1 / (d0 + d1) on N cells, scaled."""
+
+    def __init__(self, widths: Array, around: Iterate) -> None:
+        self.widths = widths
+        self.shape = _Shape(widths, around)
+        self.nodes = len(around.b)
+        self.b_unit = around.b.copy()
+        self.b_unit[[0, -1]] = around.b[[1, -2]]
+        self.d_unit = np.sqrt(self.b_unit)
+        self.a_unit = float(np.abs(around.a).max())
+        self.around = around
+        self.cell = np.arange(self.nodes - 1)
+        self.inside = np.arange(1, self.nodes - 1)
+        self.rows = ConeRows(4 * self.nodes - 1)
+
+    def b(self, nodes: NDArray[Any], coefficient: Array) -> Term:
+        return nodes, coefficient * self.b_unit[nodes]
+
+    def a(self, nodes: NDArray[Any], coefficient: Array) -> Term:
+        return self.nodes + nodes, coefficient * self.a_unit
+
+    def d(self, nodes: NDArray[Any], coefficient: Array) -> Term:
+        return 2 * self.nodes + nodes, coefficient * self.d_unit[nodes]
+
+    def e(self, cells: NDArray[Any], coefficient: Array) -> Term:
+        return 3 * self.nodes + cells, coefficient
+
+    def motion(self) -> None:
+        """Rest at both ends, and b1 - b0 = 2 h (share0 a0 + share1 a1) on every cell."""
+        ends = np.array([0, self.nodes - 1])
+        for first in (0, self.nodes, 2 * self.nodes):
+            self.rows.zero([(first + ends, np.ones(2))])
+        left, right, h = self.cell, self.cell + 1, self.widths
+        unit = 1.0 / np.maximum(self.b_unit[:-1], self.b_unit[1:])
+        self.rows.zero(
+            [
+                self.b(right, unit),
+                self.b(left, -unit),
+                self.a(left, -2.0 * h * self.shape.start_share * unit),
+                self.a(right, -2.0 * h * self.shape.end_share * unit),
+            ]
+        )
+
+    def caps(self, nodes: Array, middles: Array) -> None:
+        """Keep b below its caps; it is above zero by the cones of d."""
+        i = self.inside
+        self.rows.positive(nodes[i] / self.b_unit[i], [self.b(i, -1.0 / self.b_unit[i])])
+        left, right = self.cell, self.cell + 1
+        b0, b1, a0, a1, _, _, _ = self.shape.parts[1]
+        unit = 1.0 / np.maximum(self.b_unit[left], self.b_unit[right])
+        terms = [self.b(left, -b0 * unit), self.b(right, -b1 * unit)]
+        terms += [self.a(left, -a0 * unit), self.a(right, -a1 * unit)]
+        self.rows.positive(middles * unit, terms)
+
+    def acceleration(self, limit: NormLimit) -> None:
+        """|q'' b + q' a| <= 1 at nodes and middles."""
+        frame = _triangular(np.stack([limit.d1, limit.d2], axis=-1))
+        i = self.inside
+        d1, d2 = frame[1:, 0, :, 0], frame[1:, 0, :, 1]
+        nodes = [[self.a(i, d1[:, j]), self.b(i, d2[:, j])] for j in range(frame.shape[2])]
+        self.norm(np.ones(len(i)), [], nodes)
+        left, right = self.cell, self.cell + 1
+        b0, b1, a0, a1, s0, s1, _ = self.shape.parts[1]
+        d1, d2 = frame[:, 1, :, 0], frame[:, 1, :, 1]
+        middles = [
+            [
+                self.b(left, d2[:, j] * b0),
+                self.b(right, d2[:, j] * b1),
+                self.a(left, d2[:, j] * a0 + d1[:, j] * s0),
+                self.a(right, d2[:, j] * a1 + d1[:, j] * s1),
+            ]
+            for j in range(frame.shape[2])
+        ]
+        self.norm(np.ones(len(left)), [], middles)
+
+    def jerk(self, limit: NormLimit) -> None:
+        """v_k |q' (a1 - a0) / h + r (3 q'' a + q''' b)| <= 1.5 - 0.5 v^2 / v_k^2 in three places."""
+        frame = _triangular(np.stack([limit.d1, limit.d2, limit.d3], axis=-1))
+        left, right, h = self.cell, self.cell + 1, self.widths
+        share = -0.5 / (self.around.b[:-1] + self.around.b[1:])
+        bound = [self.b(left, share), self.b(right, share)]
+        for part in range(3):
+            b0, b1, a0, a1, s0, s1, u = self.shape.parts[part]
+            components = []
+            for j in range(frame.shape[2]):
+                d1, d2, d3 = (self.shape.mean * frame[:, part, j, k] for k in range(3))
+                d2, d3 = 3.0 * u * d2, u * d3
+                components.append(
+                    [
+                        self.b(left, d3 * b0),
+                        self.b(right, d3 * b1),
+                        self.a(left, d3 * a0 + d2 * s0 - d1 / h),
+                        self.a(right, d3 * a1 + d2 * s1 + d1 / h),
+                    ]
+                )
+            self.norm(np.full(len(h), 1.5), bound, components)
+
+    def norm(self, constant: Array, bound: list[Term], components: list[list[Term]]) -> None:
+        """Norm of the components <= constant + bound."""
+        if len(components) == 1:
+            for sign in (1.0, -1.0):
+                self.rows.positive(constant, bound + [(c, sign * v) for c, v in components[0]])
+        elif components:
+            self.rows.second_order(constant, [bound, *components])
+
+    def times(self) -> None:
+        """D^2 <= b at inner nodes and e (d0 + d1) >= 1 on cells, as cones, all scaled to 1."""
+        i = self.inside
+        one, zero = np.ones(len(i)), np.zeros(len(i))
+        b = self.b(i, 1.0 / self.b_unit[i])
+        self.rows.second_order(one, [[b], [b], [self.d(i, 2.0 / self.d_unit[i])]], rest=[-one, zero])
+        speed = np.sqrt(self.around.b)
+        share = 1.0 / (speed[:-1] + speed[1:])
+        e, one = self.e(self.cell, np.ones(len(self.cell))), np.ones(len(self.cell))
+        more, less = (
+            [self.d(self.cell, sign * share), self.d(self.cell + 1, sign * share)] for sign in (1.0, -1.0)
+        )
+        self.rows.second_order(0.0 * one, [[e, *more], [e, *less], []], rest=[0.0 * one, 2.0 * one])
+
+    def total_time(self) -> Array:
+        """Return the cost of the fastest profile: its time, about 1."""
+        cost = np.zeros(self.rows.unknowns)
+        cost[3 * self.nodes :] = self.shape.time / self.shape.time.sum()
+        return cost
+
+    def windowed(self, windows: tuple[Window, ...]) -> Array:
+        """Bound the time of each window, at a price, and return the cost of the evenest profile.
+
+        The integral of b over s is that of sdot^3 over time: at given times least where sdot is even.
+        """
+        extra = self.rows.extend(len(windows))
+        for i, window in enumerate(windows):
+            over = (np.array([extra + i]), np.ones(1))
+            cells = range(window.first, window.last)
+            spent = [self.e(np.array([k]), -self.shape.time[[k]] / window.time) for k in cells]
+            self.rows.positive(np.ones(1), [*spent, over])
+            self.rows.positive(np.zeros(1), [over])
+        cost = np.zeros(self.rows.unknowns)
+        cost[1 : self.nodes - 1] = (self.widths[:-1] + self.widths[1:]) * self.b_unit[1:-1]
+        cost /= cost.sum()
+        cost[extra:] = OVERTIME
+        return cost
+
+
+def _triangular(columns: Array) -> Array:
+    """Return the columns in a basis of their own at each point, without rows that are nothing.
+
+    columns : shape (N, 3, dim, k); result (N, 3, rows, k). A rotation keeps norms, so a straight
+    path needs one row and a plane one two.
+    """
+    frame = columns if columns.shape[2] == 1 else np.linalg.qr(columns, mode="r")
+    size = np.abs(frame).max(axis=(0, 1, 3))
+    return np.asarray(frame[:, :, size > NEGLIGIBLE * max(1.0, size.max())])

@@ -1,0 +1,119 @@
+"""The one door to toppra: the fastest profile b(s) = sdot^2 of a path under linear limits.
+
+Left aside on purpose: toppra's own gridpoints (thousands for a long path), its default spline
+parametrizer (breaks limits) and ``compute_trajectory`` (hides failures). Constraints use the
+interpolation discretisation, which binds both ends of every cell.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.solvers.conic import Status
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LinearLimits:
+    """Limits of a path on a grid, as functions of a = sddot and b = sdot^2.
+
+    grid : shape (N + 1,), increasing path parameters
+    on_a, on_b : shape (N + 1, m); every row demands on_a a + on_b b <= 1
+    cap : shape (N + 1,), 0 <= b <= cap
+    """
+
+    grid: Array
+    on_a: Array
+    on_b: Array
+    cap: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FastestProfile:
+    """TOPP-RA's answer.
+
+    b : shape (N + 1,), squared path velocity, zero at both ends; meaningless unless SOLVED
+    time : seconds from rest to rest
+    """
+
+    status: Status
+    b: Array
+    time: float
+
+
+def fastest(limits: LinearLimits) -> FastestProfile:
+    """Return the fastest profile from rest to rest (Pham and Pham, TOPP-RA, Seidel's LP)."""
+    algorithm = _algorithm_class()(
+        [_constraint_class()(limits)],
+        _Interval(float(limits.grid[0]), float(limits.grid[-1])),
+        gridpoints=limits.grid,
+        solver_wrapper="seidel",
+    )
+    algorithm.compute_parameterization(0.0, 0.0)
+    data = algorithm.problem_data
+    if data.return_code.name != "Ok" or data.sd_vec is None or not np.isfinite(data.sd_vec).all():
+        return FastestProfile(Status.FAILED, np.zeros_like(limits.grid), float("inf"))
+    sd = np.asarray(data.sd_vec, dtype=np.float64)
+    time = float(np.sum(2.0 * np.diff(limits.grid) / np.maximum(sd[:-1] + sd[1:], 1e-12)))
+    return FastestProfile(Status.SOLVED, sd**2, time)
+
+
+@dataclass(frozen=True, slots=True)
+class _Interval:
+    # toppra asks a path for its range and its dimension only; the limits carry the derivatives.
+    start: float
+    end: float
+    dof: int = 1
+
+    @property
+    def path_interval(self) -> Array:
+        return np.array([self.start, self.end])
+
+
+@cache
+def _algorithm_class() -> Any:
+    from toppra.algorithm import TOPPRA
+
+    # Without a handler of its own toppra's remarks on a failure would reach the user's terminal.
+    logging.getLogger("toppra").setLevel(logging.CRITICAL)
+    return TOPPRA
+
+
+@cache
+def _constraint_class() -> Any:
+    from toppra.constraint import DiscretizationType, LinearConstraint
+    from toppra.constraint.linear_constraint import canlinear_colloc_to_interpolate
+
+    class Limits(LinearConstraint):  # type: ignore[misc]
+        def __init__(self, limits: LinearLimits) -> None:
+            super().__init__()
+            self.limits = limits
+            self.identical = True
+            self.dof = 1
+            self.set_discretization_type(DiscretizationType.Interpolation)
+
+        def compute_constraint_params(self, _path: Any, gridpoints: Array, *_rest: Any) -> Any:
+            rows = self.limits.on_a.shape[1]
+            bound = np.stack([np.zeros_like(self.limits.cap), self.limits.cap], axis=1)
+            a, b, c, lhs, rhs, _, _ = canlinear_colloc_to_interpolate(
+                self.limits.on_a,
+                self.limits.on_b,
+                np.zeros_like(self.limits.on_a),
+                np.eye(rows),
+                np.ones(rows),
+                None,
+                None,
+                gridpoints,
+                identical=True,
+            )
+            # A constraint returns (..., u bound, x bound); the helper above takes them the other way.
+            return a, b, c, lhs, rhs, None, bound
+
+    return Limits
