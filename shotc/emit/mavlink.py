@@ -1,0 +1,156 @@
+"""MAVLink mission files: QGroundControl ``.plan`` for PX4 and ArduPilot, ``.waypoints`` for ArduPilot.
+
+The verified trajectory is thinned to straight legs, written, read back from the written bytes and
+re-flown the way the autopilot interpolates it; what the format adds to the picture is reported. The
+planned return is flown by waypoints, since that is what was verified, and the flight ends with a
+landing at home.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.emit.base import Artifact, Emission
+from shotc.emit.mavlink_build import Builder
+from shotc.emit.mavlink_clearance import Obstacle, obstacles_of
+from shotc.emit.mavlink_compare import Error, compare, nearest_miss
+from shotc.emit.mavlink_dialect import DIALECTS, Dialect
+from shotc.emit.mavlink_fence import fence_of
+from shotc.emit.mavlink_geo import Geo, tie
+from shotc.emit.mavlink_items import CHANGE_SPEED, TAKEOFF, Item
+from shotc.emit.mavlink_plan_file import read_plan, write_plan
+from shotc.emit.mavlink_refly import Flown, refly
+from shotc.emit.mavlink_report import coarsened, cut, left_out, no_origin, note, sidenotes, too_low, zooms
+from shotc.emit.mavlink_speed import DEFAULTS
+from shotc.emit.mavlink_steps import Step, steps_of, whole_seconds
+from shotc.emit.mavlink_style import Style, style_of
+from shotc.emit.mavlink_thin import Thinner, Tolerance, thinner_of
+from shotc.emit.mavlink_track import SAMPLE_STEP, Track, track_of
+from shotc.emit.mavlink_wpl import read_waypoints, write_waypoints
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+
+COARSER = 1.4  # step by which tolerances grow until a flight fits into the autopilot's memory
+FRAMING_MOST = 16.0  # times the framing tolerances, after which position gives way too
+POSITION_MOST = 16.0  # times the position tolerance; a list still too long then is all stops
+
+
+class MavlinkEmitter:
+    """Writes one or two mission files for each drone."""
+
+    name: ClassVar[str] = "mavlink"
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return the mission files, with warnings and the error that the format adds."""
+        mission = plan.trajectory.keyframes.mission
+        if mission.origin is None:
+            return Emission((), (no_origin(mission),))
+        emissions = [_Job.of(mission, flight).emit() for flight in plan.trajectory.drones]
+        return Emission(
+            tuple(a for e in emissions for a in e.artifacts),
+            tuple(d for e in emissions for d in e.diagnostics),
+            tuple(n for e in emissions for n in e.notes),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Flight:
+    """A flight list, and whether tolerances had to give way for it to fit."""
+
+    items: list[Item]
+    asked: list[Step]
+    steps: list[Step]
+    coarser: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Job:
+    """One drone's part of the emission."""
+
+    mission: MissionIR
+    flight: DroneTrajectory
+    drone: Drone
+    dialect: Dialect
+    geo: Geo
+    track: Track
+    style: Style
+    obstacles: tuple[Obstacle, ...]
+
+    @staticmethod
+    def of(mission: MissionIR, flight: DroneTrajectory) -> _Job:
+        assert mission.origin is not None
+        drone = mission.drone(flight.drone)
+        track = track_of(mission, flight)
+        return _Job(
+            mission,
+            flight,
+            drone,
+            DIALECTS[drone.autopilot],
+            tie(mission.origin, drone.home),
+            track,
+            style_of(mission, flight, track),
+            obstacles_of(mission, drone),
+        )
+
+    def emit(self) -> Emission:
+        flight = self._fit()
+        everywhere = self.flight.curve(
+            np.arange(self.flight.curve.start, self.flight.curve.end + SAMPLE_STEP, SAMPLE_STEP)
+        )
+        fence = fence_of(
+            self.mission, self.geo, everywhere[:, :3], one_inclusion=self.drone.autopilot == "px4"
+        )
+        hover = next((i.params[1] for i in flight.items if i.command == CHANGE_SPEED), None)
+        speed = DEFAULTS[self.drone.autopilot].ground if hover is None else hover
+        name = f"{self.drone.name}.plan"
+        data = write_plan(flight.items, self.geo, fence, self.dialect.firmware, speed)
+        artifacts = [Artifact(name, data)]
+        flown, error = self._check(*read_plan(data))
+        notes = [note(name, self.drone, len(flight.items), error)]
+        if self.drone.autopilot == "ardupilot":
+            name = f"{self.drone.name}.waypoints"
+            data = write_waypoints(flight.items, self.geo)
+            artifacts.append(Artifact(name, data))
+            notes.append(note(name, self.drone, len(flight.items), self._check(*read_waypoints(data))[1]))
+        diagnostics = [left_out(self.mission, self.drone, left) for left in fence.left_out]
+        diagnostics += self._warnings(flight, flown, error)
+        notes += sidenotes(self.drone, flight.asked, flight.steps)
+        return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes))
+
+    def _check(self, items: list[Item], home: tuple[float, float, float]) -> tuple[Flown, Error]:
+        flown = refly(items, Geo(self.geo.origin, *home), self.drone)
+        return flown, compare(self.mission, self.flight, flown)
+
+    def _warnings(self, flight: _Flight, flown: Flown, error: Error) -> list[Diagnostic]:
+        height = next(i.params[6] for i in flight.items if i.command == TAKEOFF) or 0.0
+        found: list[Diagnostic | None] = [
+            coarsened(self.mission, self.drone, error, self.dialect.most_items) if flight.coarser else None,
+            too_low(self.mission, self.drone, height),
+            cut(self.mission, self.drone, *nearest_miss(self.obstacles, flown)),
+        ]
+        return [d for d in found if d is not None] + zooms(self.mission, self.flight)
+
+    def _fit(self) -> _Flight:
+        thinner = thinner_of(self.track, self.drone, self.style, self.obstacles)
+        framing = position = 1.0
+        while True:
+            flight = self._write(thinner, Tolerance().scaled(framing, position), coarser=framing > 1.0)
+            if len(flight.items) <= self.dialect.most_items or position > POSITION_MOST:
+                return flight
+            if framing < FRAMING_MOST:
+                framing *= COARSER
+            else:
+                position *= COARSER
+
+    def _write(self, thinner: Thinner, tolerance: Tolerance, *, coarser: bool) -> _Flight:
+        asked = steps_of(self.track, thinner.legs(tolerance))
+        steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
+        builder = Builder(self.drone, self.style, self.dialect, self.geo, DEFAULTS[self.drone.autopilot])
+        return _Flight(builder.build(self.track, steps), asked, steps, coarser)
+
+
+EMITTER = MavlinkEmitter()

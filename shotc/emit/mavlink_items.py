@@ -1,0 +1,70 @@
+"""Mission items: what an autopilot's flight list is made of, and the numbers that name things in it.
+
+Angles in items are degrees, headings clockwise from North, gimbal pitch positive up; positions are
+latitude and longitude in degrees and height above home in metres.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+from shotc.geom.camera import heading_of
+
+WAYPOINT, LAND, TAKEOFF = 16, 21, 22
+CONDITION_YAW, CHANGE_SPEED = 115, 178
+ROI_LOCATION, ROI_NONE, MOUNT_CONTROL = 195, 197, 205
+GIMBAL_PITCHYAW, GIMBAL_CONFIGURE = 1000, 1001
+VIDEO_START, VIDEO_STOP = 2500, 2501
+POSITION_COMMANDS = frozenset({WAYPOINT, LAND, TAKEOFF})
+
+FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE = 0, 2, 3
+SPEED_GROUND, SPEED_CLIMB, SPEED_DESCENT = 1, 2, 3
+MOUNT_ANGLES = 2
+ROLL_LOCK, PITCH_LOCK, YAW_LOCK = 4, 8, 16
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """One mission item.
+
+    params : seven numbers; None stands for NaN, "the autopilot's own choice"
+    """
+
+    command: int
+    frame: int
+    params: tuple[float | None, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A global position: degrees, degrees, metres above home."""
+
+    lat: float
+    lon: float
+    alt: float
+
+
+def action(command: int, *params: float | None) -> Item:
+    """Return an item that is no place to fly to, padded with zeros to seven parameters."""
+    return Item(command, FRAME_MISSION, (*params, *(0.0,) * (7 - len(params))))
+
+
+def at(command: int, place: Place, *params: float | None) -> Item:
+    """Return an item at a place, with its first four parameters."""
+    return Item(command, FRAME_RELATIVE, (*params, place.lat, place.lon, place.alt))
+
+
+def degrees_of(angle: float) -> float:
+    """Return an angle in degrees, to a ten-thousandth, never a negative zero."""
+    return round(angle * 180 / pi, 4) + 0.0
+
+
+def compass_deg(yaw: float) -> float:
+    """Return the compass heading in [0, 360) degrees of a yaw counter-clockwise from East, rad."""
+    return degrees_of(heading_of(yaw)) % 360.0
+
+
+def signed_deg(angle: float) -> float:
+    """Return an angle wrapped into [-180, 180) degrees."""
+    return degrees_of((angle + pi) % (2 * pi) - pi)

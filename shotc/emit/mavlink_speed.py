@@ -1,0 +1,61 @@
+"""Leg speeds: what is commanded, when it is worth an item, and how long a leg then takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+
+from shotc.ir.mission import Limits
+
+SHARE = 0.15  # a leg whose mean speed differs by more than this share gets a speed item of its own
+SLOWEST = 0.1  # m/s; autopilots take no slower speed seriously
+STEEP = 0.1  # horizontal over vertical way, below which a leg is paced by its vertical speed
+
+
+@dataclass(frozen=True, slots=True)
+class Speeds:
+    """Speeds in force, m/s: over ground, climbing, descending."""
+
+    ground: float
+    climb: float
+    descent: float
+
+
+# MPC_XY_CRUISE, MPC_Z_V_AUTO_UP and _DN; WPNAV_SPEED, _SPEED_UP and _SPEED_DN.
+DEFAULTS = {"px4": Speeds(5.0, 3.0, 1.5), "ardupilot": Speeds(10.0, 2.5, 1.5)}
+
+
+def seconds(speeds: Speeds, across: float, rise: float) -> float:
+    """Return how long a straight leg takes at these speeds; start and end at rest are not counted."""
+    upright = rise / speeds.climb if rise > 0 else -rise / speeds.descent
+    return max(across / speeds.ground, upright)
+
+
+def is_steep(across: float, rise: float) -> bool:
+    """Tell whether the vertical speed paces a leg."""
+    return across < STEEP * abs(rise)
+
+
+def adapted(now: Speeds, limits: Limits | None, across: float, rise: float, duration: float) -> Speeds:
+    """Return the speeds for a leg of ``duration`` seconds.
+
+    limits : the drone's, or None where the autopilot takes no vertical speeds from a mission
+    """
+    steep = is_steep(across, rise)
+    ground = now.ground if steep else _changed(now.ground, across / duration)
+    speeds = replace(now, ground=ground)
+    if limits is None or rise == 0:
+        return speeds
+    vertical = abs(rise) / duration
+    in_force, most = (now.climb, limits.climb) if rise > 0 else (now.descent, limits.descent)
+    if steep:
+        in_force = _changed(in_force, vertical)
+    elif vertical > in_force:
+        in_force = round(most, 2)
+    return replace(speeds, climb=in_force) if rise > 0 else replace(speeds, descent=in_force)
+
+
+def _changed(now: float, wanted: float) -> float:
+    wanted = max(round(wanted, 2), SLOWEST)
+    ratio = wanted / now if now > 0 else inf
+    return wanted if abs(ratio - 1) > SHARE else now

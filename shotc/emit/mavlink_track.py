@@ -1,0 +1,138 @@
+"""A drone's verified trajectory as samples, cut into the stretches that a flight plan must honour.
+
+A stretch is (part of) one phase between take-off and landing, either moving or at rest; waypoints
+stand at its two ends, and thinning chooses those between.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.camera import View
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.trajectory import DroneTrajectory
+
+Array = NDArray[np.float64]
+
+SAMPLE_STEP = 0.1  # seconds; at 10 m/s and 3 m/s^2 the curve leaves its samples' chords by 4 mm
+REST_SPREAD = 1e-4  # metres of control points within which a piece stands still
+REST_LEAST = 0.25  # seconds; a shorter standstill is a turning point of the motion, not a hold
+FAR = 1e4  # metres to the point that stands for "straight ahead" where nothing is framed
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """Samples ``first`` to ``last`` of one phase; ``rest`` where the drone stands still."""
+
+    first: int
+    last: int
+    shot: str | None
+    rest: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Poses:
+    """Camera poses: position (n, 3) in W; angles and field of view (n,), rad."""
+
+    position: Array
+    body_yaw: Array
+    cam_yaw: Array
+    cam_pitch: Array
+    hfov: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """Samples of one drone's flight from the end of take-off to the start of landing.
+
+    time : (n,), s; subject : point of W that is watched, shape (n, 3)
+    start_yaw : body yaw on the pad before the flight, rad
+    """
+
+    time: Array
+    poses: Poses
+    subject: Array
+    stretches: tuple[Stretch, ...]
+    start_yaw: float
+
+
+def poses_at(flight: DroneTrajectory, time: Array) -> Poses:
+    """Return the planned camera poses at mission times, shape (n,)."""
+    value = flight.curve(time)
+    return Poses(value[:, :3], value[:, BODY_YAW], value[:, CAM_YAW], value[:, CAM_PITCH], value[:, HFOV])
+
+
+def track_of(mission: MissionIR, flight: DroneTrajectory) -> Track:
+    """Sample a drone's flight between take-off and landing."""
+    spans = _spans(flight)
+    begin = spans[0][0] if spans else flight.phases[0].end
+    times: list[Array] = [np.array([begin])]
+    stretches: list[Stretch] = []
+    first = 0
+    for start, end, shot, rest in spans:
+        count = max(2, ceil((end - start) / SAMPLE_STEP))
+        times.append(np.linspace(start, end, count + 1)[1:])
+        stretches.append(Stretch(first, first + count, shot, rest))
+        first += count
+    time = np.concatenate(times)
+    poses = poses_at(flight, time)
+    start_yaw = float(flight.curve(flight.curve.start)[BODY_YAW])
+    return Track(time, poses, subject_at(mission, flight, time, poses), tuple(stretches), start_yaw)
+
+
+def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: Poses) -> Array:
+    """Return the point watched at each time, (n, 3): the framed target's centre, else straight ahead."""
+    level = np.cos(poses.cam_pitch)
+    ahead = [level * np.cos(poses.cam_yaw), level * np.sin(poses.cam_yaw), np.sin(poses.cam_pitch)]
+    subject: Array = poses.position + FAR * np.stack(ahead, axis=1)
+    for span in flight.framing:
+        inside = (time >= span.start) & (time <= span.end)
+        subject[inside] = mission.target(span.target).centre
+    return subject
+
+
+def project(poses: Poses, subject: Array, drone: Drone) -> Array:
+    """Return the screen place (u, v) of a point seen from each pose, shape (n, 2); NaN behind the camera."""
+    half = np.tan(poses.hfov / 2)
+    camera = View(
+        np.cos(poses.cam_yaw),
+        np.sin(poses.cam_yaw),
+        np.cos(poses.cam_pitch),
+        np.sin(poses.cam_pitch),
+        half,
+        half / drone.aspect,
+    )
+    right, down, forward = camera.to_camera(tuple((subject - poses.position).T))
+    depth = np.where(forward > 0, forward, np.nan)
+    return np.stack([right / (depth * half), -down * drone.aspect / (depth * half)], axis=1)
+
+
+def _spans(flight: DroneTrajectory) -> list[tuple[float, float, str | None, bool]]:
+    rests = _rests(flight.curve)
+    spans: list[tuple[float, float, str | None, bool]] = []
+    for phase in flight.phases:
+        if phase.name in ("takeoff", "land"):
+            continue
+        inside = [(max(a, phase.start), min(b, phase.end)) for a, b in rests]
+        inside = [(a, b) for a, b in inside if b - a >= REST_LEAST]
+        cuts = sorted({phase.start, phase.end, *(t for pair in inside for t in pair)})
+        spans.extend((a, b, phase.shot, (a, b) in inside) for a, b in pairwise(cuts))
+    return spans
+
+
+def _rests(curve: Piecewise) -> list[tuple[float, float]]:
+    spread = np.ptp(curve.ctrl[:, :, :3], axis=1).max(axis=1)
+    rests: list[tuple[float, float]] = []
+    for still, (start, end) in zip(spread <= REST_SPREAD, pairwise(curve.breaks.tolist()), strict=True):
+        if still and rests and rests[-1][1] == start:
+            rests[-1] = (rests[-1][0], end)
+        elif still:
+            rests.append((start, end))
+    return rests
