@@ -104,7 +104,7 @@ def orbit_mission(*, origin: bool = True) -> MissionIR:
     )
 
 
-def _move(t0: float, t1: float, a: np.ndarray, b: np.ndarray):  # noqa: ANN202
+def _move(t0: float, t1: float, a: np.ndarray, b: np.ndarray):
     zero = np.zeros((2, 7))
     return quintic_hermite(np.array([t0, t1]), np.stack([a, b]), zero, zero)
 
@@ -178,7 +178,9 @@ def orbit_plan(*, origin: bool = True) -> VerifiedIR:
         )
         for k, a in zip(mission.shots[0].keyframes, np.linspace(-pi / 2, pi / 2, 5), strict=True)
     )
-    times = np.interp(np.linspace(-pi / 2, pi / 2, 5), azimuth, 22 + 30 * t)
+    fine = np.linspace(0.0, 1.0, 200_001)
+    fine_ease = 10 * fine**3 - 15 * fine**4 + 6 * fine**5
+    times = 22 + 30 * np.interp(np.linspace(0.0, 1.0, 5), fine_ease, fine)
     zero = np.zeros((2, 2))
     reference = quintic_hermite(np.array([22.0, 52.0]), zero, zero, zero)
     trajectory = TrajectoryIR(

@@ -1,7 +1,319 @@
-"""The codes of this family; see shotc.diag.registry."""
+"""V: what the proof of a finished trajectory finds. See shotc.diag.registry.
+
+A mission alone shows few of these: the passes before plan within the limits. They are what an edited or
+damaged plan.json, or a faulty plugin, runs into.
+"""
 
 from __future__ import annotations
 
+from typing import Literal
+
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-CODES: tuple[CodeInfo, ...] = ()
+_ENDURANCE = """\
+shotc: 1
+mission: mast
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -30, 0], endurance: %s}}
+shots:
+  - id: look
+    kind: keyframes
+    drone: cam
+    target: mast
+    timing: {duration: 10 s}
+    keyframes:
+      - {at: [-12, -20, 8], look_at: mast}
+      - {at: [12, -20, 10], look_at: mast}
+"""
+
+_PROMISE = """\
+shotc: 1
+mission: mast
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -30, 0]}}
+shots:
+  - id: look
+    kind: keyframes
+    drone: cam
+    target: mast
+    require: {%s}
+    keyframes:
+      - {at: [-12, -20, 8], look_at: mast}
+      - {at: [12, -20, 10], look_at: mast}
+"""
+
+
+def _code(
+    number: int,
+    slug: str,
+    text: tuple[str, str],
+    examples: tuple[str, str] = ("", ""),
+    severity: Severity = Severity.ERROR,
+) -> CodeInfo:
+    phase: Literal["plan", "other"] = "plan" if examples[0] else "other"
+    return CodeInfo(f"V{number:03}", slug, severity, *text, *examples, phase)
+
+
+_LIMITS = (
+    _code(
+        1,
+        "too-fast",
+        (
+            "a speed limit is broken",
+            "`speed` binds the horizontal velocity less the wind, `climb` and `descent` the vertical one, at every "
+            "instant and not only at samples. The diagnostic gives the proven maximum and when it occurs. Give the "
+            "shot more time, bring its keyframes nearer, or raise the limit, and plan again.",
+        ),
+    ),
+    _code(
+        2,
+        "too-hard-acceleration",
+        (
+            "the acceleration limit is broken",
+            "`acceleration` binds the norm of the three-dimensional acceleration at every instant. A shot that is "
+            "given k times its duration needs 1/k^2 of the acceleration: the help line computes the duration.",
+        ),
+    ),
+    _code(
+        3,
+        "too-hard-jerk",
+        (
+            "the jerk limit is broken",
+            "`jerk` binds the norm of the rate of acceleration: what shakes the picture and what the motors have to "
+            "follow. A shot that is given k times its duration needs 1/k^3 of the jerk.",
+        ),
+    ),
+    _code(
+        4,
+        "body-turns-too-fast",
+        (
+            "the body turns faster than its limits allow",
+            "`yaw_rate` and `yaw_acceleration` bind the heading of the body, not of the camera. Give the turn more "
+            "time, or let the gimbal turn instead with `body: free`.",
+        ),
+    ),
+    _code(
+        5,
+        "gimbal-out-of-range",
+        (
+            "the camera points where the gimbal cannot",
+            "The gimbal's pitch is measured against the horizon, its yaw against the body. Somewhere along the "
+            "flight one of them leaves its range. Fly lower or farther away for a steep pitch, or let the body "
+            "follow the camera for a wide yaw.",
+        ),
+    ),
+    _code(
+        6,
+        "gimbal-too-fast",
+        (
+            "a gimbal axis turns faster than it can",
+            "`gimbal.rate` and `gimbal.acceleration` bind each axis, yaw relative to the body. A pass close to the "
+            "target asks for the fastest turns: keep more distance, or give the shot more time.",
+        ),
+    ),
+    _code(
+        18,
+        "field-of-view-out-of-range",
+        (
+            "the field of view is none that a camera has",
+            "The horizontal field of view must lie between 1 and 170 degrees at every instant of the plan: outside "
+            "of that the projection means nothing.",
+        ),
+    ),
+)
+
+_SPACE = (
+    _code(
+        7,
+        "zone-entered",
+        (
+            "the flight enters a keep-out zone",
+            "The body sphere of the drone has to stay out of every `keep: out` zone in all phases; in take-off and "
+            "landing it may stand as near as its home does. The distance is proved over continuous time, so a "
+            "corner cut between two samples is found, too.",
+        ),
+    ),
+    _code(
+        8,
+        "zone-left",
+        (
+            "the flight leaves a keep-in zone",
+            "The body sphere has to stay inside every `keep: in` zone; only in take-off and landing does the floor "
+            "of the zone not apply. The margin is that to the nearest face, counted from the body.",
+        ),
+    ),
+    _code(
+        9,
+        "too-near-the-ground",
+        (
+            "the flight comes too near to the ground",
+            "Outside of take-off and landing the body has to stay `rules.ground_clearance` above z = 0, counted from "
+            "the lowest point of the body sphere.",
+        ),
+    ),
+    _code(
+        10,
+        "too-near-a-target",
+        (
+            "the flight comes too near to a target",
+            "Targets are solid cylinders. Outside of take-off and landing the body sphere keeps "
+            "`rules.target_clearance` from all of them, filmed or not.",
+        ),
+    ),
+    _code(
+        22,
+        "drones-too-near",
+        (
+            "two drones come too near to each other",
+            "`rules.separation` is kept centre to centre at every instant, also by a drone that has landed and "
+            "stands at its home. Give one of the shots another start, or move the homes apart.",
+        ),
+    ),
+)
+
+_FORM = (
+    _code(
+        11,
+        "motion-jumps",
+        (
+            "position, rate or acceleration jumps at a joint of the trajectory",
+            "A plan is a chain of polynomials that agree at their joints in value, first and second derivative, to "
+            "a millionth of the channel's scale. One that does not was edited or damaged. Plan the mission again.",
+        ),
+    ),
+    _code(
+        12,
+        "not-at-home",
+        (
+            "the flight does not begin and end at rest at home",
+            "Every flight starts on its pad at time 0 and ends on it: position, rates and accelerations are "
+            "checked at both ends. A plan that does not was edited or damaged. Plan the mission again.",
+        ),
+    ),
+    _code(
+        13,
+        "endurance-exceeded",
+        (
+            "the whole flight is longer than the drone can stay up",
+            "`endurance` counts from take-off to touch-down, with transits, holds and the way home. Shorten shots, "
+            "bring home nearer, split the mission, or state a longer endurance if the battery has it.",
+        ),
+        (_ENDURANCE % "25 s", _ENDURANCE % "20 min"),
+    ),
+    _code(
+        14,
+        "flight-not-whole",
+        (
+            "the trajectory is not one flight",
+            "The phases of a flight follow one another without gaps from time 0 to its end, every shot phase names "
+            "a shot of the mission, and every flight a drone. A plan that does not was edited or damaged.",
+        ),
+    ),
+    _code(
+        15,
+        "shot-not-as-asked",
+        (
+            "a shot is missing, or not flown when it was asked",
+            "Every shot of the mission is flown exactly once; its duration and start are met to a millisecond, and "
+            "it begins no earlier than the end of the shot it comes after.",
+        ),
+    ),
+    _code(
+        16,
+        "keyframe-missed",
+        (
+            "the flight misses a keyframe that the mission places",
+            "A position that the user wrote down binds: the camera is there to a millimetre at the keyframe's time, "
+            "at the time the mission fixes, and stands still through the keyframe's hold.",
+        ),
+    ),
+    _code(
+        17,
+        "not-vertical-at-home",
+        (
+            "take-off or landing is not vertical above home",
+            "Clearances and the floors of keep-in zones are lifted in take-off and landing, which is safe only "
+            "because both are vertical at home. A plan that drifts there was edited or damaged.",
+        ),
+    ),
+)
+
+_FRAMING = (
+    _code(
+        19,
+        "in-frame-promise-broken",
+        (
+            "a shot shows its whole target less often than it promises",
+            "`require: {in_frame: ...}` promises the share of frames in which the whole silhouette of the target's "
+            "cylinder is inside the frame. The worst frame is named. Move back or widen the field of view there, "
+            "slow the shot down, or promise less.",
+        ),
+    ),
+    _code(
+        20,
+        "screen-error-promise-broken",
+        (
+            "a target strays farther from its place on screen than the shot promises",
+            "`require: {screen_error: ...}` promises the largest distance between the projected centre of the "
+            "target and its reference, in screen units of half a frame. Add a keyframe where the error is largest, "
+            "slow the shot down, or promise less.",
+        ),
+    ),
+    _code(
+        21,
+        "size-promise-broken",
+        (
+            "a target is smaller or larger on screen than the shot promises",
+            "`require: {size: [low, high]}` promises the projected height of the target over the height of the "
+            "frame. Change the distance or the field of view where the worst frame is, or the promise.",
+        ),
+        (_PROMISE % "size: [0.9, 1.0]", _PROMISE % "size: [0.1, 0.9]"),
+    ),
+    _code(
+        24,
+        "promise-without-framing",
+        (
+            "a shot promises something of a target that the plan does not frame",
+            "A promise speaks of the targets that the shot frames. The plan holds no framing of a target that the "
+            "shot's keyframes name, so the promise cannot be judged. A plan like this was edited or damaged.",
+        ),
+    ),
+    _code(
+        30,
+        "target-cropped",
+        (
+            "a target is not whole in the frame for a part of its shot",
+            "The shot promises nothing, so this is a warning. The worst frame is named: move back or widen the "
+            "field of view there. State `require: {in_frame: 100 %}` to have the shot held to it.",
+        ),
+        severity=Severity.WARNING,
+    ),
+    _code(
+        31,
+        "target-hidden",
+        (
+            "something stands before a target for a part of its shot",
+            "Another target or a keep-out zone stands on the line of sight from the camera to the centre of the "
+            "target. Move the keyframes, or fly higher there.",
+        ),
+        severity=Severity.WARNING,
+    ),
+)
+
+_FILE = (
+    _code(
+        40,
+        "certificate-differs",
+        (
+            "the certificate in the plan is not what the plan proves",
+            "`shotc verify` proves every claim again from the trajectory and the limits in the file. Where a value, "
+            "a limit or a claim in its certificate differs, something in the file was edited: the certificate, the "
+            "trajectory or a limit. The proof that counts is the new one; plan the mission again.",
+        ),
+    ),
+)
+
+CODES: tuple[CodeInfo, ...] = tuple(
+    sorted((*_LIMITS, *_SPACE, *_FORM, *_FRAMING, *_FILE), key=lambda info: info.code)
+)

@@ -1,0 +1,121 @@
+"""What a moving camera sees of a target: position on screen, size, margins and sight lines, sampled.
+
+The formulas are those of geom.camera, applied to whole arrays of poses. Between samples a margin
+changes no faster than ``margin_rate`` says, which is what closes the gaps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import View, frustum_margins, nearest_depth, silhouette_bounds
+from shotc.geom.pieces import Mask
+from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.solids_array import blocks, signed_distance
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cameras:
+    """M camera poses: position p_WC (M, 3), yaw, pitch and hfov (M,) in rad, aspect = width / height."""
+
+    position: Array
+    yaw: Array
+    pitch: Array
+    hfov: Array
+    aspect: float
+
+    @property
+    def view(self) -> View:
+        """Direction cosines and half screens as arrays (M,)."""
+        half = np.tan(self.hfov / 2)
+        return View(
+            np.cos(self.yaw),
+            np.sin(self.yaw),
+            np.cos(self.pitch),
+            np.sin(self.pitch),
+            half,
+            half / self.aspect,
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frames:
+    """One target in M frames, every array of shape (M,).
+
+    u, v   : screen position of its centre; NaN where the centre is behind the camera
+    depth  : of its centre, metres
+    size   : height of its silhouette over the frame's height; NaN unless all of it is in front
+    margin : how far inside the nearest edge of the frustum the whole cylinder lies, metres
+    hidden : whether another solid stands on the line of sight to its centre
+    """
+
+    u: Array
+    v: Array
+    depth: Array
+    size: Array
+    margin: Array
+    hidden: Mask
+
+    @property
+    def in_frame(self) -> Mask:
+        """Whether the whole silhouette is in the frame."""
+        return np.asarray(self.margin >= 0.0)
+
+
+def frames(cameras: Cameras, target: Cylinder, hiding: Sequence[Solid] = ()) -> Frames:
+    """Look at one target from every pose; ``hiding`` are the solids that may stand before it."""
+    camera = cameras.view
+    centre = _centre(target)
+    x, y, z = (centre - cameras.position).T
+    radius, height = target.radius, target.top - target.bottom
+    with np.errstate(divide="ignore", invalid="ignore"):
+        u, v, depth = camera.project((x, y, z))
+    seen = depth > 0
+    size = _size(camera, (x, y, z), radius, height)
+    margins = frustum_margins(camera, (x, y, z), radius, height)
+    return Frames(
+        np.where(seen, u, np.nan),
+        np.where(seen, v, np.nan),
+        depth,
+        size,
+        np.min(margins, axis=0),
+        hidden(cameras.position, centre, hiding),
+    )
+
+
+def hidden(eyes: Array, point: Array, hiding: Sequence[Solid]) -> Mask:
+    """Tell from which eyes (M, 3) a solid stands before ``point`` (3,).
+
+    A solid that holds the point, or the eye, hides nothing: one is not looking at it from outside.
+    """
+    blocked = np.zeros(len(eyes), dtype=bool)
+    for solid in hiding:
+        if signed_distance(solid, point[None])[0] > 0:
+            blocked |= blocks(solid, eyes, point) & (signed_distance(solid, eyes) > 0)
+    return blocked
+
+
+def margin_rate(reach: float, speed: float, turn: float, zoom: float, aspect: float) -> float:
+    """Return how fast a frustum margin of a standing cylinder may change at most, m/s.
+
+    reach : largest distance from the camera to the centre, plus half the height and the radius, metres
+    speed : of the camera, m/s; turn : yaw rate plus pitch rate, rad/s; zoom : rate of hfov, rad/s
+    The margin is n.p - h/2 |n.up| - r sqrt(1 - (n.up)^2); the normal n turns no faster than the camera
+    plus the frustum's edge, whose half angle changes at zoom / 2 times at most the aspect (or its inverse).
+    """
+    return speed + reach * (turn + 0.5 * zoom * max(aspect, 1.0 / aspect))
+
+
+def _size(camera: View, offset: tuple[Array, Array, Array], radius: float, height: float) -> Array:
+    whole = nearest_depth(camera, offset, radius, height) > 0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        _, _, low, high = silhouette_bounds(camera, offset, radius, height)
+    return np.where(whole, 0.5 * (high - low), np.nan)
+
+
+def _centre(target: Cylinder) -> Array:
+    return np.array([*target.centre, 0.5 * (target.bottom + target.top)])

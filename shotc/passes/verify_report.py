@@ -1,0 +1,243 @@
+"""Broken claims in the author's terms: the limit's line, the shot's line, when, where, and what helps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import degrees, inf, isfinite
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.origin import KeyPath
+from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, TrajectoryIR
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """How a kind of claim is reported.
+
+    power : a duration grows with (worst / limit) ** power to bring the value down to its limit; 0: not so
+    """
+
+    code: str
+    power: float = 0.0
+    help: str = ""
+
+
+REPLAN = "plan the mission again"
+
+RULES = {
+    "speed": Rule("V001", 1.0),
+    "climb": Rule("V001", 1.0),
+    "descent": Rule("V001", 1.0),
+    "acceleration": Rule("V002", 1 / 2),
+    "jerk": Rule("V003", 1 / 3),
+    "body yaw rate": Rule("V004", 1.0),
+    "body yaw acceleration": Rule("V004", 1 / 2),
+    "gimbal pitch min": Rule("V005"),
+    "gimbal pitch max": Rule("V005"),
+    "gimbal yaw min": Rule("V005"),
+    "gimbal yaw max": Rule("V005"),
+    "gimbal pitch rate": Rule("V006", 1.0),
+    "gimbal yaw rate": Rule("V006", 1.0),
+    "gimbal pitch acceleration": Rule("V006", 1 / 2),
+    "gimbal yaw acceleration": Rule("V006", 1 / 2),
+    "field of view min": Rule("V018"),
+    "field of view max": Rule("V018"),
+    "ground clearance": Rule("V009"),
+    "distance from home": Rule("V012", help=REPLAN),
+    "rate at start and end": Rule("V012", help=REPLAN),
+    "endurance": Rule("V013"),
+    "times flown": Rule("V015", help=REPLAN),
+    "error of duration": Rule("V015", help=REPLAN),
+    "error of start": Rule("V015", help=REPLAN),
+    "start too early": Rule("V015", help=REPLAN),
+    "distance from keyframes": Rule("V016", help=REPLAN),
+    "delay of keyframes": Rule("V016", help=REPLAN),
+    "drift from the vertical": Rule("V017", help=REPLAN),
+    "height over home": Rule("V017", help=REPLAN),
+    "targets not framed": Rule("V024", help=REPLAN),
+}
+
+STARTING = {
+    "zone ": Rule("V007"),
+    "target ": Rule("V010"),
+    "jump of ": Rule("V011", help=REPLAN),
+    "drift at ": Rule("V016", help=REPLAN),
+    "separation ": Rule("V022"),
+}
+
+ENDING = {
+    " in frame": Rule("V019"),
+    " screen error": Rule("V020"),
+    " size smallest": Rule("V021"),
+    " size largest": Rule("V021"),
+}
+
+UNKNOWN = {
+    "V016": "cannot be told, the keyframe is not reached in its shot",
+    "V020": "cannot be told, the target is behind the camera",
+    "V021": "cannot be told, the target is not all before the camera",
+}
+"""What is said where a claim has no finite worst value."""
+
+SOFT = {" in frame": "V030", " visible": "V031"}
+
+
+def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
+    """Turn every broken claim into one diagnostic: an error where it is hard, else a warning."""
+    for claim in claims:
+        if claim.holds:
+            continue
+        if claim.hard:
+            yield _broken(ir, claim)
+        else:
+            code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)
+            if code is not None:
+                yield _lost(ir, claim, code)
+
+
+def rule_of(constraint: str, mission: MissionIR) -> Rule:
+    """Return how a constraint is reported; names of zones and targets are part of its text."""
+    if constraint in RULES:
+        return RULES[constraint]
+    for end, rule in ENDING.items():
+        if constraint.endswith(end):
+            return rule
+    start = next(start for start in STARTING if constraint.startswith(start))
+    if start == "zone ":
+        name = constraint.removeprefix(start).removesuffix(" at home")
+        if any(zone.name == name and zone.keep == "in" for zone in mission.zones):
+            return Rule("V008")
+    return STARTING[start]
+
+
+def _broken(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
+    mission = ir.keyframes.mission
+    rule = rule_of(claim.constraint, mission)
+    phase = _phase_of(ir, claim)
+    limit = f"{'at most' if claim.upper else 'at least'} {measure(claim.limit, claim.unit)}"
+    state = f"is {measure(claim.worst, claim.unit)}" if isfinite(claim.worst) else UNKNOWN[rule.code]
+    wanted = "allowed" if claim.upper else "needed"
+    return Diagnostic(
+        rule.code,
+        f"{claim.subject}: {_name(claim, rule.code)} {state}, {limit} is {wanted}",
+        labels=_labels(mission, claim, phase, limit),
+        notes=tuple(_notes(claim, phase)),
+        help=rule.help or _help(claim, rule, phase),
+    )
+
+
+def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
+    mission = ir.keyframes.mission
+    target = claim.constraint.rsplit(" ", 2 if code == "V030" else 1)[0]
+    state = "not whole in frame" if code == "V030" else "hidden"
+    share = f"{100 * (1 - claim.worst):.3g} %"
+    help_ = (
+        "move or widen the shot there, or state `require: {in_frame: ...}` to have it held"
+        if code == "V030"
+        else "move the keyframes so that nothing stands on the line of sight"
+    )
+    return Diagnostic(
+        code,
+        f"{target} is {state} in {share} of shot `{claim.shot}`",
+        labels=(mission.origins.key(claim.path),),
+        notes=tuple(_notes(claim, _phase_of(ir, claim))),
+        help=help_,
+    )
+
+
+def _labels(mission: MissionIR, claim: Claim, phase: Phase | None, limit: str) -> tuple[Label, ...]:
+    find = mission.origins.key if _is_element(mission, claim.path) else mission.origins.value
+    first = find(claim.path, limit)
+    shot = _shot(mission, claim.shot or (phase.shot if phase else None))
+    if shot is None:
+        return (first,)
+    second = mission.origins.key(shot.path, "broken in this shot")
+    return (first,) if second.span == first.span else (first, second)
+
+
+def _is_element(mission: MissionIR, path: KeyPath) -> bool:
+    # An element spans many lines: point at its name. A limit is a number: point at that.
+    named = (mission.zones, mission.drones, mission.targets, mission.shots)
+    return path in {element.path for elements in named for element in elements}
+
+
+def _notes(claim: Claim, phase: Phase | None) -> Iterator[str]:
+    if claim.time is not None:
+        where = f"worst at t = {claim.time:.3f} s"
+        if phase is not None:
+            name = f"shot `{phase.shot}`" if phase.shot else f"the {phase.name} phase"
+            where += f", {claim.time - phase.start:.3f} s into {name}"
+        if claim.position is not None:
+            where += ", at ({:.2f}, {:.2f}, {:.2f}) m".format(*claim.position)
+        yield where
+    if claim.method == "bounded":
+        yield "proved over continuous time"
+    elif claim.method == "sampled":
+        yield "found at the output rate"
+
+
+def _help(claim: Claim, rule: Rule, phase: Phase | None) -> str:
+    if not isfinite(claim.worst):
+        return REPLAN
+    worst = measure(claim.worst, claim.unit)
+    if rule.power and phase is not None and phase.shot is not None:
+        stretch = max(1.0, claim.worst / claim.limit) ** rule.power if claim.limit > 0 else inf
+        longer = (phase.end - phase.start) * stretch
+        return (
+            f"give shot `{phase.shot}` {longer:.1f} s or more, or raise the limit to {worst}; then plan again"
+        )
+    advice = {
+        "V007": f"move the path or shrink the zone by {_lack(claim)}",
+        "V008": f"move the path or widen the zone by {_lack(claim)}",
+        "V009": f"fly {_lack(claim)} higher, or lower `ground_clearance` to {worst}",
+        "V010": f"keep {_lack(claim)} more distance, or lower `target_clearance` to {worst}",
+        "V013": f"shorten the mission by {_lack(claim)}, or raise `endurance` to {worst}",
+        "V019": f"promise {worst}, or move or widen the shot where the target is cropped",
+        "V020": f"promise {worst}, or turn the camera slower there",
+        "V021": f"promise {worst}, or change the distance or the field of view there",
+    }
+    return advice.get(rule.code, f"set the limit to {worst}, or plan the mission again")
+
+
+def _lack(claim: Claim) -> str:
+    return measure(abs(claim.worst - claim.limit), claim.unit)
+
+
+def _name(claim: Claim, code: str) -> str:
+    if code in ("V007", "V010"):
+        return f"the distance of the body from {claim.constraint}"
+    if code == "V008":
+        return f"the margin of the body inside {claim.constraint}"
+    if code == "V015":
+        return f"{claim.constraint} of shot `{claim.shot}`"
+    return claim.constraint
+
+
+def measure(value: float, unit: str) -> str:
+    """Return a value with its unit as people read it: degrees for radians, percent for shares."""
+    if not isfinite(value):
+        return "unlimited"
+    if unit.startswith("rad"):
+        return f"{degrees(value):.4g} deg{unit[3:]}"
+    if unit == "of samples":
+        return f"{100 * value:.4g} %"
+    if unit == "m":
+        return f"{value:.3f} m" if abs(value) >= 1e-3 or value == 0 else f"{value:.3g} m"
+    return f"{value:.4g} {unit}".strip()
+
+
+def _phase_of(ir: TrajectoryIR, claim: Claim) -> Phase | None:
+    track: DroneTrajectory | None = next((t for t in ir.drones if t.drone == claim.subject), None)
+    if track is None:
+        return None
+    if claim.shot is not None:
+        return next((p for p in track.phases if p.shot == claim.shot), None)
+    if claim.time is None:
+        return None
+    return next((p for p in track.phases if p.start <= claim.time <= p.end), None)
+
+
+def _shot(mission: MissionIR, name: str | None) -> Shot | None:
+    return next((s for s in mission.shots if s.id == name), None)
