@@ -1,7 +1,105 @@
-"""The codes of this family; see shotc.diag.registry."""
+"""E: emission, what an output format cannot carry."""
 
 from __future__ import annotations
 
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-CODES: tuple[CodeInfo, ...] = ()
+_MAVLINK = """\
+shotc: 1
+mission: over-the-house
+world:
+  origin: {lat: 47.3769, lon: 8.5417, alt: 408}
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -40, 0]}}
+shots:
+  - id: look
+    kind: keyframes
+    drone: cam
+    target: mast
+    keyframes:
+      - {at: [-20, -25, 16], look_at: mast}
+      - {at: [20, -25, 16], look_at: mast}
+output: {emit: [mavlink]}
+"""
+
+_MAVLINK_CODES = (
+    CodeInfo(
+        "E101",
+        "mavlink-needs-origin",
+        Severity.WARNING,
+        "the MAVLink files are skipped, because the mission has no world.origin",
+        "Autopilots fly missions in latitude and longitude. Without `world.origin` the plan has no place on the "
+        "globe, so `<drone>.plan` and `<drone>.waypoints` are not written; all other outputs are. Give the "
+        "origin of the mission's frame, or leave `mavlink` out of `output.emit`.",
+        _MAVLINK.replace("world:\n  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n", ""),
+        _MAVLINK,
+        "plan",
+    ),
+    CodeInfo(
+        "E102",
+        "zone-not-in-geofence",
+        Severity.WARNING,
+        "a zone is left out of the autopilot's geofence",
+        "A MAVLink fence is an area on the map without height. A keep-out zone that the plan flies over or under, "
+        "or a keep-in zone that the flight's ground track leaves, would make the autopilot stop a flight that is "
+        "in order, so it is left out. PX4 asks for any one keep-in area where a mission means all of them; there "
+        "only the smallest is written. The plan keeps every zone all the same.",
+        _MAVLINK.replace(
+            "  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n",
+            "  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n"
+            "  zones: {house: {keep: out, box: {center: [0, -25, 3], size: [8, 8, 6]}}}\n",
+        ),
+        _MAVLINK,
+        "plan",
+    ),
+    CodeInfo(
+        "E103",
+        "mission-file-coarse",
+        Severity.WARNING,
+        "the mission file is coarser than intended, so that the autopilot can hold it",
+        "A curve becomes straight legs, and an autopilot's memory ends: 500 items for PX4, 650 for ArduPilot. "
+        "Where the usual tolerances need more, those of heading and picture grow first and that of position "
+        "last, until the flight fits; the notes say what was reached. Fly the shots as separate missions, or "
+        "stream `trajectory.csv`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E104",
+        "takeoff-too-low",
+        Severity.WARNING,
+        "PX4 refuses a take-off this low",
+        "Before a mission PX4 checks that the take-off ends at least a metre higher than its acceptance radius, "
+        "which is 2 m for multirotors (NAV_ACC_RAD). Begin the first shot higher, or lower the parameter.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E105",
+        "zoom-not-carried",
+        Severity.WARNING,
+        "a mission file does not carry the zoom of a shot",
+        "What a zoom command means differs from camera to camera, so the mission files hold none. The camera's "
+        "path and angles are right, the field of view stays. Zoom by hand, or give the shot one `hfov`.",
+        _MAVLINK.replace("[20, -25, 16], look_at: mast}", "[20, -25, 16], look_at: mast, hfov: 50 deg}"),
+        _MAVLINK,
+        "plan",
+    ),
+    CodeInfo(
+        "E106",
+        "legs-cut-clearance",
+        Severity.WARNING,
+        "the straight legs of a mission file come nearer to something than its clearance allows",
+        "The plan keeps every clearance, but a mission file flies straight from waypoint to waypoint, and "
+        "waypoints can only be so dense. The message says how much nearer the legs come, and to what. Leave more "
+        "room there, or stream `trajectory.csv`.",
+        "",
+        "",
+        "other",
+    ),
+)
+
+CODES: tuple[CodeInfo, ...] = (*_MAVLINK_CODES,)
