@@ -1,0 +1,288 @@
+"""Camera angles along a shot: the composition is kept between keyframes, not only at them.
+
+Where two neighbouring keyframes frame a target, its screen place moves from one reference to the next
+(C2 in path parameter), and the angles that put it there follow in closed form; a spline is fitted to
+them, exact at the keyframes. Elsewhere the angles are as smooth as their keyframes let them be.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import control_rows, restrict, spline, subdivide, value_rows
+from shotc.geom.camera import aim_at
+from shotc.ir.keyframes import PlacedKeyframe
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import FramingSpan
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_fit import Fit, fit
+
+PIECES = 4  # per stretch between keyframes, at least
+SAMPLES = 6  # per piece
+FINER = (1, 2, 4, 8)
+CLOSE = 1e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
+STIFF = 1e-8  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
+NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """The keyframes of one shot on its path, in order, one entry a keyframe.
+
+    s      : shape (K,), path parameter, not decreasing
+    exact  : whether the path passes the keyframe itself, so that its angles hold there
+    position : p_WC over s
+    """
+
+    keyframes: tuple[PlacedKeyframe, ...]
+    s: Array
+    exact: tuple[bool, ...]
+    position: Piecewise
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cut:
+    """Between which keyframes the gimbal cannot show the target in its place, and by how much.
+
+    excess : rad beyond its pitch range, or None where no roll-free camera could
+    """
+
+    index: int
+    s: float
+    excess: float | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CameraLine:
+    """Camera yaw, pitch and field of view over s: ``angles`` has those three channels.
+
+    error : rad by which the fit misses the wanted direction at worst
+    """
+
+    angles: Piecewise
+    status: Status
+    error: float
+    cuts: tuple[Cut, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Samples:
+    s: Array
+    yaw: Array
+    pitch: Array
+    anchor_s: Array
+    anchor_yaw: Array
+    anchor_pitch: Array
+    cuts: tuple[Cut, ...]
+
+
+def camera_line(mission: MissionIR, drone: Drone, track: Track) -> CameraLine:
+    """Return the camera's angles along a shot, on breaks that hold those of the position curve."""
+    base = _grid(track)
+    hfov = _hfov(track)
+    best: CameraLine | None = None
+    for finer in FINER:
+        breaks = subdivide(base, finer)
+        best = _fitted(mission, drone, track, breaks, hfov)
+        if best.error < CLOSE:
+            break
+    assert best is not None
+    return best
+
+
+def framing_spans(track: Track) -> tuple[FramingSpan, ...]:
+    """Return the stretches with one target each; a hand-over is cut in the middle."""
+    spans: list[FramingSpan] = []
+    run: list[int] = []
+    last = len(track.keyframes) - 1
+    for i in range(last):
+        a, b = track.keyframes[i], track.keyframes[i + 1]
+        if track.s[i + 1] <= track.s[i]:
+            continue
+        same = a.target is not None and a.target == b.target
+        composed = a.reference is not None and b.reference is not None
+        if same and composed:
+            run.append(i)
+            continue
+        spans += _composed(track, run)
+        run = []
+        spans += _watched(track, i)
+    return (*spans, *_composed(track, run))
+
+
+def smoother(x: Array) -> Array:
+    """Return the C2 step 10 x^3 - 15 x^4 + 6 x^5 from 0 to 1."""
+    return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
+
+
+def _composed(track: Track, run: list[int]) -> list[FramingSpan]:
+    if not run:
+        return []
+    ends = [(track.keyframes[i], track.keyframes[i + 1]) for i in run]
+    breaks = np.array([track.s[i] for i in run] + [track.s[run[-1] + 1]])
+    ctrl = np.array([[a.reference] * 3 + [b.reference] * 3 for a, b in ends], dtype=np.float64)
+    target = ends[0][0].target
+    assert target is not None
+    return [FramingSpan(target, float(breaks[0]), float(breaks[-1]), Piecewise(breaks, ctrl))]
+
+
+def _watched(track: Track, i: int) -> list[FramingSpan]:
+    a, b = track.keyframes[i].target, track.keyframes[i + 1].target
+    start, end = float(track.s[i]), float(track.s[i + 1])
+    middle = 0.5 * (start + end)
+    if a is not None and a == b:
+        return [FramingSpan(a, start, end, None)]
+    first = [FramingSpan(a, start, middle, None)] if a is not None else []
+    second = [FramingSpan(b, middle, end, None)] if b is not None else []
+    return first + second
+
+
+def _grid(track: Track) -> Array:
+    """Return breaks that hold the position's and the keyframes', several to a keyframe interval."""
+    merged = [float(b) for b in track.position.breaks]
+    span = merged[-1] - merged[0]
+    for s in track.s:
+        if min(abs(s - b) for b in merged) > 1e-9 * span:
+            merged.append(float(s))
+    breaks = np.array(sorted(merged))
+    keys = np.unique(track.s)
+    inside = np.histogram(0.5 * (breaks[:-1] + breaks[1:]), keys)[0] if len(keys) > 1 else np.array([1])
+    parts = int(np.ceil(PIECES / max(1, int(inside[inside > 0].min()))))
+    return subdivide(breaks, parts) if parts > 1 else breaks
+
+
+def _hfov(track: Track) -> Piecewise:
+    """Return the field of view over s: monotone between keyframes, at rest at each of them."""
+    keys = [i for i in range(len(track.s)) if i == 0 or track.s[i] > track.s[i - 1]]
+    wide = [track.keyframes[i].hfov for i in keys]
+    ctrl = np.array([[[a]] * 3 + [[b]] * 3 for a, b in zip(wide[:-1], wide[1:], strict=True)])
+    return Piecewise(track.s[keys], ctrl)
+
+
+def _fitted(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov: Piecewise) -> CameraLine:
+    samples = _sample(mission, drone, track, breaks, hfov)
+    spacing = float(breaks[-1] - breaks[0]) / max(len(np.unique(track.s)) - 1, 1)
+    density = (breaks[-1] - breaks[0]) / (len(breaks) - 1) / SAMPLES / spacing
+    stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
+    # An error in yaw moves the picture by cos(pitch) of it.
+    across = np.maximum(np.cos(samples.pitch), 0.03)
+    yaw_status, yaw = fit(
+        Fit(breaks, samples.s, samples.yaw, density * across**2, samples.anchor_s, samples.anchor_yaw, stiff)
+    )
+    low, high = drone.gimbal.pitch
+    low = min(low, float(samples.anchor_pitch.min()))
+    high = max(high, float(samples.anchor_pitch.max()))
+    shape = (len(breaks) - 1, 6)
+    weight = np.full(len(samples.s), density)
+    pitch_status, pitch = fit(
+        Fit(
+            breaks,
+            samples.s,
+            samples.pitch,
+            weight,
+            samples.anchor_s,
+            samples.anchor_pitch,
+            stiff,
+            np.full(shape, low),
+            np.full(shape, high),
+        )
+    )
+    curve = spline(breaks, np.column_stack([yaw, pitch]))
+    ctrl = np.concatenate([curve.ctrl, restrict(hfov, breaks).ctrl], axis=2)
+    ctrl[:, :, 1] = np.clip(ctrl[:, :, 1], low, high)
+    at = curve(samples.s) if len(samples.s) else np.zeros((0, 2))
+    miss = np.hypot(across * (at[:, 0] - samples.yaw), at[:, 1] - samples.pitch)
+    status = yaw_status if yaw_status is not Status.SOLVED else pitch_status
+    return CameraLine(Piecewise(breaks, ctrl), status, float(miss.max(initial=0.0)), samples.cuts)
+
+
+def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov: Piecewise) -> _Samples:
+    """Return the wanted angles inside tracked stretches and the binding ones, yaw unwrapped."""
+    s_all: list[float] = []
+    angles: list[tuple[float, float]] = []
+    anchors: list[tuple[float, float, float]] = []
+    cuts: list[Cut] = []
+    last_yaw = track.keyframes[0].yaw
+    for i, keyframe in enumerate(track.keyframes):
+        if i > 0 and track.s[i] > track.s[i - 1]:
+            at = _inner(breaks, float(track.s[i - 1]), float(track.s[i]))
+            aims, cut = _aims(mission, drone, track, i - 1, at, hfov)
+            if cut is not None:
+                cuts.append(cut)
+            for s, aim in zip(at, aims, strict=True):
+                if aim is not None:
+                    last_yaw = _near(aim[0], last_yaw)
+                    s_all.append(float(s))
+                    angles.append((last_yaw, aim[1]))
+        anchor = _anchor(mission, drone, track, i)
+        if anchor is not None and not (anchors and track.s[i] <= anchors[-1][0]):
+            last_yaw = _near(anchor[0], last_yaw)
+            anchors.append((float(track.s[i]), last_yaw, anchor[1]))
+    wanted = np.array(angles).reshape(-1, 2)
+    fixed = np.array(anchors).reshape(-1, 3)
+    return _Samples(np.array(s_all), wanted[:, 0], wanted[:, 1], *fixed.T, tuple(cuts))
+
+
+def _inner(breaks: Array, start: float, end: float) -> Array:
+    """Return sample parameters in a stretch, evenly on each of its pieces."""
+    eps = 1e-9 * (breaks[-1] - breaks[0])
+    inside = breaks[(breaks >= start - eps) & (breaks <= end + eps)]
+    return subdivide(inside, SAMPLES)[1:-1]
+
+
+def _anchor(mission: MissionIR, drone: Drone, track: Track, i: int) -> tuple[float, float] | None:
+    keyframe = track.keyframes[i]
+    if track.exact[i] or keyframe.target is None or keyframe.reference is None:
+        return keyframe.yaw, keyframe.pitch
+    if i not in {0, len(track.keyframes) - 1}:
+        return None
+    target = mission.target(keyframe.target)
+    p = track.position(float(track.s[i]))
+    d = (target.centre[0] - p[0], target.centre[1] - p[1], target.centre[2] - p[2])
+    aim = aim_at(d, keyframe.reference, keyframe.hfov, drone.aspect, keyframe.yaw)
+    low, high = drone.gimbal.pitch
+    return (keyframe.yaw, keyframe.pitch) if aim is None else (aim[0], min(max(aim[1], low), high))
+
+
+def _aims(
+    mission: MissionIR, drone: Drone, track: Track, i: int, at: Array, hfov: Piecewise
+) -> tuple[list[tuple[float, float] | None], Cut | None]:
+    a, b = track.keyframes[i], track.keyframes[i + 1]
+    if a.target is None or b.target is None or a.reference is None or b.reference is None:
+        return [None] * len(at), None
+    x = smoother((at - track.s[i]) / (track.s[i + 1] - track.s[i]))[:, None]
+    uv = (1 - x) * np.array(a.reference) + x * np.array(b.reference)
+    ends = np.array([mission.target(a.target).centre, mission.target(b.target).centre])
+    offset = (1 - x) * ends[0] + x * ends[1] - track.position(at)
+    wide = hfov(at)[:, 0]
+    low, high = drone.gimbal.pitch
+    aims: list[tuple[float, float] | None] = []
+    worst: Cut | None = None
+    for k, s in enumerate(at):
+        d, ref = offset[k], uv[k]
+        aim = aim_at(
+            (float(d[0]), float(d[1]), float(d[2])),
+            (float(ref[0]), float(ref[1])),
+            float(wide[k]),
+            drone.aspect,
+            a.yaw,
+        )
+        excess = None if aim is None else max(low - aim[1], aim[1] - high)
+        if excess is None or excess > NOTICE:
+            worst = _worse(worst, Cut(i, float(s), excess))
+        aims.append(None if aim is None else (aim[0], min(max(aim[1], low), high)))
+    return aims, worst
+
+
+def _worse(old: Cut | None, new: Cut) -> Cut:
+    if old is None or new.excess is None:
+        return new
+    return new if old.excess is not None and new.excess > old.excess else old
+
+
+def _near(angle: float, to: float) -> float:
+    return to + (angle - to + pi) % (2 * pi) - pi

@@ -1,0 +1,126 @@
+"""Body yaw along a leg, a curve of its own, with the camera always within the gimbal's yaw range.
+
+``follow-camera`` is the camera's yaw; ``forward`` follows the horizontal motion as far as the gimbal
+lets it; ``free`` turns as little as the gimbal lets it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, floor, pi
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import spline
+from shotc.ir.mission import Drone
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_fit import Fit, fit
+
+SAMPLES = 3  # per piece
+FAINT = 1e-4  # weight that keeps a body in place where nothing else does
+SWITCH = 1.0  # rad^2: what it costs to change over from one gimbal stop to the other
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyTask:
+    """One leg: p_WC and camera yaw over s, on the same breaks, and the ends where they are given.
+
+    speed : m/s at which the leg is flown, for how sharply the body may turn
+    """
+
+    position: Piecewise
+    cam_yaw: Piecewise
+    start: float | None
+    end: float | None
+    speed: float
+
+
+def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
+    """Return the body's yaw over s on the task's breaks, one channel."""
+    if drone.body == "follow-camera":
+        return Status.SOLVED, task.cam_yaw
+    breaks = task.cam_yaw.breaks
+    at = _samples(breaks)
+    cam = task.cam_yaw(at)[:, 0]
+    length = max(0.5 * task.speed / drone.limits.yaw_rate, 1e-3)
+    if drone.body == "forward":
+        value, weight = _forward(drone, task, at, cam)
+        stiff = (FAINT * length**2, length**6)
+    else:
+        value, weight = cam - _clip(0.0, drone.gimbal.yaw), np.full(len(at), FAINT)
+        stiff = (1.0, length**4)
+    step = float(breaks[-1] - breaks[0]) / len(at)
+    low, high = drone.gimbal.yaw
+    ends = [(float(s), y) for s, y in ((breaks[0], task.start), (breaks[-1], task.end)) if y is not None]
+    anchors = np.array(ends, dtype=np.float64).reshape(-1, 2)
+    points = task.cam_yaw.ctrl[:, :, 0]
+    status, coef = fit(
+        Fit(
+            breaks,
+            at,
+            value,
+            weight * step,
+            anchors[:, 0],
+            anchors[:, 1],
+            stiff,
+            points - high - 1e-9,
+            points - low + 1e-9,
+        )
+    )
+    curve = spline(breaks, coef[:, None])
+    ctrl = np.clip(curve.ctrl[:, :, 0], points - high, points - low)
+    return status, Piecewise(breaks, ctrl[:, :, None])
+
+
+def allowed_body(drone: Drone, cam_yaw: float, wanted: float) -> float:
+    """Return the body yaw nearest to the wanted heading from which the gimbal reaches ``cam_yaw``."""
+    return cam_yaw - min(_relatives(drone, cam_yaw - wanted), key=lambda c: c[1])[0]
+
+
+def _relatives(drone: Drone, wanted: float) -> list[tuple[float, float]]:
+    """Return gimbal yaws for one wanted (any winding), each with its distance from a winding of it."""
+    low, high = drone.gimbal.yaw
+    first, last = floor((low - wanted) / (2 * pi)), ceil((high - wanted) / (2 * pi))
+    windings = [wanted + 2 * pi * k for k in range(first, last + 1)]
+    # Of equally good ones the smaller angle is taken.
+    found = [(_clip(w, (low, high)), abs(w - _clip(w, (low, high)))) for w in windings]
+    return sorted(found, key=lambda c: (round(c[1], 9), abs(c[0])))
+
+
+def _forward(drone: Drone, task: BodyTask, at: Array, cam: Array) -> tuple[Array, Array]:
+    rate = task.position.derivative()(at)[:, :2]
+    flat = np.linalg.norm(rate, axis=1)
+    weight = np.minimum(flat, 1.0) ** 2 + FAINT
+    course = np.where(flat > 1e-6, np.arctan2(rate[:, 1], rate[:, 0]), cam)
+    options = [_relatives(drone, float(c - t)) for c, t in zip(cam, course, strict=True)]
+    first = None if task.start is None else float(cam[0]) - task.start
+    return cam - _best_windings(options, weight, first), weight
+
+
+def _best_windings(options: list[list[tuple[float, float]]], weight: Array, first: float | None) -> Array:
+    """Choose one gimbal yaw a sample: near the course, with few jumps between stops (Viterbi)."""
+    width = max(len(o) for o in options)
+    value = np.array([[o[min(k, len(o) - 1)][0] for k in range(width)] for o in options])
+    price = np.array([[o[min(k, len(o) - 1)][1] for k in range(width)] for o in options])
+    price = price**2 * weight[:, None]
+    total = price[0] + (0.0 if first is None else SWITCH * (value[0] - first) ** 2)
+    back = np.zeros(value.shape, dtype=np.intp)
+    for k in range(1, len(value)):
+        jump = SWITCH * len(value) ** 0.5 * (value[k][:, None] - value[k - 1][None, :]) ** 2
+        through = total[None, :] + jump
+        back[k] = through.argmin(axis=1)
+        total = through.min(axis=1) + price[k]
+    chosen = [int(total.argmin())]
+    for k in range(len(value) - 1, 0, -1):
+        chosen.append(int(back[k][chosen[-1]]))
+    return np.asarray(value[np.arange(len(value)), chosen[::-1]])
+
+
+def _samples(breaks: Array) -> Array:
+    x = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    return np.asarray((breaks[:-1, None] + np.diff(breaks)[:, None] * x).ravel())
+
+
+def _clip(x: float, bounds: tuple[float, float]) -> float:
+    return max(bounds[0], min(bounds[1], x))

@@ -1,0 +1,162 @@
+"""From keyframes to polylines: which keyframes bind, how to get round what lies between them.
+
+A keyframe the user placed binds. One that a kind generated is an ideal: where it lies too near to
+something it is dropped, its neighbours only pull, and the way leads round.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.convex import support
+from shotc.geom.corridor import MARGIN, Breach, Room, blocked, bounds_slack, breaches
+from shotc.geom.route import NODE_MARGIN, find_route
+from shotc.ir.keyframes import PlacedKeyframe
+
+TURN_LENGTH = 2.0  # metres of path parameter for each radian turned on the spot
+SAME_PLACE = 1e-3  # metres
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """A polyline with the path parameter at its corners.
+
+    corners : shape (M, 3); s : shape (M,), not decreasing
+    of      : for each corner, the keyframe that stands there, or -1
+    dropped : keyframes that the way leaves out; moved: whether the first, the last stand elsewhere
+    routed  : whether something had to be passed round
+    """
+
+    corners: Array
+    s: Array
+    of: tuple[int, ...]
+    dropped: tuple[int, ...] = ()
+    moved: tuple[bool, bool] = (False, False)
+    routed: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NoWay:
+    """Nothing leads from one point to the next.
+
+    start, end : shape (3,); keyframes : their indices in the shot, or (-1, -1) outside shots
+    """
+
+    start: Array
+    end: Array
+    keyframes: tuple[int, int] = (-1, -1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TooNear:
+    """A point that binds but is nearer to something than the drone may come."""
+
+    point: Array
+    keyframe: int
+    breach: Breach
+
+
+def straight_line(room: Room, start: Array, end: Array) -> Line | NoWay | TooNear:
+    """Return the way between two points that are not filmed."""
+    for p in (start, end):
+        near = breaches(room, p)
+        if near:
+            return TooNear(p, -1, near[0])
+    route = find_route(room, start, end)
+    if route is None:
+        return NoWay(start, end)
+    steps = np.linalg.norm(np.diff(route, axis=0), axis=1)
+    s = np.concatenate([[0.0], np.cumsum(steps)])
+    return Line(route, s, tuple([-1] * len(route)), routed=len(route) > 2)
+
+
+def shot_line(room: Room, keyframes: tuple[PlacedKeyframe, ...]) -> Line | NoWay | TooNear:
+    """Return the polyline through a shot's keyframes."""
+    points = np.array([k.at for k in keyframes], dtype=np.float64)
+    kept: list[int] = []
+    last = len(keyframes) - 1
+    moved = [False, False]
+    for i, keyframe in enumerate(keyframes):
+        near = breaches(room, points[i])
+        if near and keyframe.placed:
+            return TooNear(points[i], i, near[0])
+        if near and i in {0, last}:
+            free = _nearest_free(room, points[i])
+            if free is None:
+                return TooNear(points[i], i, near[0])
+            points[i], moved[i == last] = free, True
+            near = []
+        if not near:
+            kept.append(i)
+    ways = _ways(room, points, kept)
+    if isinstance(ways, NoWay):
+        return ways
+    dropped = tuple(i for i in range(len(keyframes)) if i not in kept)
+    return _joined(keyframes, points, (kept, dropped, (moved[0], moved[1])), ways)
+
+
+def _ways(room: Room, points: Array, kept: list[int]) -> list[Array] | NoWay:
+    a, b = points[kept[:-1]], points[kept[1:]]
+    shut = blocked(room, a, b).any(axis=1) if len(kept) > 1 else np.zeros(0, dtype=bool)
+    ways = []
+    for k, is_shut in enumerate(shut):
+        route = find_route(room, a[k], b[k]) if is_shut else np.stack([a[k], b[k]])
+        if route is None:
+            return NoWay(a[k], b[k], (kept[k], kept[k + 1]))
+        ways.append(route)
+    return ways
+
+
+def _joined(
+    keyframes: tuple[PlacedKeyframe, ...],
+    points: Array,
+    found: tuple[list[int], tuple[int, ...], tuple[bool, bool]],
+    ways: list[Array],
+) -> Line:
+    kept, dropped, moved = found
+    corners, s, of = [points[kept[0]]], [0.0], [kept[0]]
+    for k, way in enumerate(ways):
+        i, j = kept[k], kept[k + 1]
+        if len(way) == 2 and np.linalg.norm(way[1] - way[0]) < SAME_PLACE:
+            steps = np.array([_turn_length(keyframes[i], keyframes[j])])
+            way = np.stack([corners[-1], corners[-1]])
+        else:
+            steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
+        corners += list(way[1:])
+        s += list(s[-1] + np.cumsum(steps))
+        of += [-1] * (len(way) - 2) + [j]
+    routed = any(len(way) > 2 for way in ways) or bool(dropped)
+    return Line(np.array(corners), np.array(s), tuple(of), dropped, moved, routed)
+
+
+def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:
+    turn = abs((b.yaw - a.yaw + pi) % (2 * pi) - pi)
+    return TURN_LENGTH * max(turn, abs(b.pitch - a.pitch), abs(b.hfov - a.hfov))
+
+
+def _nearest_free(room: Room, p: Array) -> Array | None:
+    """Return a free point near one that is not: pushed sideways or up out of each obstacle it is in."""
+    tries = [p]
+    for o in room.obstacles:
+        reach = o.clearance + NODE_MARGIN
+        angle = np.linspace(0.0, 2 * pi, 32, endpoint=False)
+        rays = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(32)])
+        # The way out along each ray: the support of the solid seen from p, and the clearance.
+        out = support(o.part, rays) - rays @ p + reach
+        tries += list(p + rays[out > 0] * out[out > 0, None])
+        tries.append(np.array([p[0], p[1], o.part.top + reach]))
+    for wall in room.walls:
+        lack = wall.offset + MARGIN - float(p @ np.array(wall.normal))
+        if lack > 0:
+            tries += [q + lack * np.array(wall.normal) for q in list(tries)]
+    candidates = np.array(tries)
+    free = bounds_slack(room, candidates) >= 0
+    order = np.argsort(np.linalg.norm(candidates - p, axis=1), kind="stable")
+    for i in order:
+        if free[i] and not breaches(room, candidates[i]):
+            return np.asarray(candidates[i])
+    return None

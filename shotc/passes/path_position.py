@@ -1,0 +1,279 @@
+"""The position curve of one stretch: least jerk through its anchors, inside a convex corridor.
+
+The corridor's planes first separate the polyline that was routed, then the curve that came out, until
+the curve stops getting better; every curve handed out has been proved clear by its Bernstein hulls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import (
+    Rows,
+    control_rows,
+    count,
+    energy_rows,
+    greville,
+    spline,
+    subdivide,
+    value_rows,
+)
+from shotc.geom.corridor import MARGIN, Planes, Room, corridor, shortfall
+from shotc.ir.mission import Limits
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_qp import (
+    Cones,
+    Equalities,
+    Floors,
+    Goal,
+    Relaxation,
+    SplineProblem,
+    SplineSolution,
+    minimise,
+    relax,
+)
+
+PIECES = 3  # per straight stretch of the polyline
+PULL = 10.0  # weight of a generated keyframe that does not bind, against the energy in m^2
+EXCESS_PRICE = 10.0  # of speed and acceleration above nominal, against the energy in m^2
+ROUNDS = 4
+FINER = (1, 2, 4)
+GAIN = 0.01  # a round that improves the objective by less ends the iteration
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """A polyline to be made a smooth curve.
+
+    corners : shape (M, 3); s : shape (M,), path parameter at the corners
+    bound   : indices of corners the curve must pass, ends included
+    pulled  : points it should pass near, with their parameters, shapes (G, 3) and (G,)
+    taut    : whether to stay near the polyline (a routed way) or to be as smooth as can be
+    speed   : share of the limits at which it is to be smooth, or None, with ``nominal`` m/s instead
+    """
+
+    corners: Array
+    s: Array
+    bound: tuple[int, ...]
+    pulled: Array
+    pulled_at: Array
+    taut: bool
+    pace: float
+    nominal: float | None = None
+
+    @property
+    def straight(self) -> bool:
+        """Whether there is nothing to solve."""
+        return len(self.corners) == 2 and not len(self.pulled_at)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solved:
+    """A curve, or why there is none.
+
+    curve : position over s, or None
+    status : the solver's word; objective : m^2; rounds : how many programmes were solved
+    relaxation, owners : where no curve was found: the least give-way, per owner of a constraint
+    """
+
+    curve: Piecewise | None
+    status: Status
+    objective: float
+    rounds: int
+    relaxation: Relaxation | None = None
+    owners: tuple[str, ...] = ()
+
+
+def solve_stretch(room: Room, stretch: Stretch, limits: Limits) -> Solved:
+    """Return the curve of one stretch."""
+    if stretch.straight:
+        return Solved(_line(stretch), Status.SOLVED, 0.0, 0)
+    rounds = 0
+    status, problem = Status.FAILED, None
+    for finer in FINER:
+        breaks = subdivide(stretch.s, PIECES * finer)
+        problem, best, used = _iterate(room, stretch, limits, breaks)
+        rounds += used
+        if isinstance(best, SplineSolution):
+            assert best.coef is not None
+            curve = _pinned(spline(breaks, best.coef), stretch)
+            return Solved(curve, best.status, best.objective, rounds)
+        status = best
+        if status in {Status.FAILED, Status.UNBOUNDED}:
+            break
+    owners = owner_names(room)
+    relaxation = relax(problem, len(owners)) if problem and status is Status.INFEASIBLE else None
+    return Solved(None, status, float("nan"), rounds, relaxation, owners)
+
+
+def owner_names(room: Room) -> tuple[str, ...]:
+    """Return everything that may stop a path, each once, in a fixed order."""
+    items = (*room.obstacles, *room.walls, *room.discs)
+    return tuple(dict.fromkeys(item.owner for item in items))
+
+
+def _line(stretch: Stretch) -> Piecewise:
+    x = np.linspace(0.0, 1.0, 6)[:, None]
+    ctrl = (1 - x) * stretch.corners[0] + x * stretch.corners[1]
+    return Piecewise(stretch.s, ctrl[None])
+
+
+def _iterate(
+    room: Room, stretch: Stretch, limits: Limits, breaks: Array
+) -> tuple[SplineProblem, SplineSolution | Status, int]:
+    polyline = np.column_stack([np.interp(breaks, stretch.s, stretch.corners[:, k]) for k in range(3)])
+    chords = np.stack([polyline[:-1], polyline[1:]], axis=1)
+    base = _base_problem(stretch, limits, breaks)
+    reach = max(2.0, 0.25 * float(np.diff(stretch.s).max()))
+    hulls, best = chords, None
+    problem = base
+    for used in range(1, ROUNDS + 1):
+        problem = _with_corridor(base, room, breaks, hulls, reach)
+        solution = minimise(problem)
+        if solution.coef is None:
+            return problem, best or solution.status, used
+        points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
+        if shortfall(room, points).max() > 1e-6:
+            # The curve swung into something that was out of reach of the corridor: widen it.
+            reach *= 4.0
+            hulls = chords
+            continue
+        total = solution.objective + solution.excess
+        done = best is not None and total > (1 - GAIN) * (best.objective + best.excess)
+        best = solution if best is None or not done else best
+        if done or not _has_corridor(problem):
+            break
+        hulls = points
+    return problem, best or Status.INFEASIBLE, used
+
+
+def _has_corridor(problem: SplineProblem) -> bool:
+    return any(len(f.offset) for f in problem.floors)
+
+
+def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProblem:
+    corners, s = stretch.corners, stretch.s
+    scale = float(s[-1] - s[0]) / max(len(stretch.bound) + len(stretch.pulled_at) - 1, 1)
+    jerk = _scaled(energy_rows(breaks, 3), scale**2.5)
+    goals = [Goal(jerk, np.zeros((len(jerk.piece), 3)))]
+    direction, speed = _nominal(stretch, limits, breaks)
+    if stretch.taut or len(stretch.bound) < 3:
+        bend = min(float(speed.min()) ** 2 / limits.acceleration, 0.25 * float(s[-1] - s[0]))
+        slope = _scaled(energy_rows(breaks, 1), scale**0.5 * (scale / bend) ** 2)
+        unit = slope.apply(greville(breaks)[:, None])
+        goals.append(Goal(slope, unit * direction[slope.piece]))
+    if len(stretch.pulled_at):
+        rows = _scaled(value_rows(breaks, stretch.pulled_at), PULL**0.5)
+        goals.append(Goal(rows, PULL**0.5 * stretch.pulled))
+    bound = list(stretch.bound)
+    equalities = Equalities(value_rows(breaks, s[bound]), corners[bound])
+    cones = _soft_limits(breaks, speed, limits, scale)
+    return SplineProblem(count(breaks), tuple(goals), equalities, (), cones)
+
+
+def _nominal(stretch: Stretch, limits: Limits, breaks: Array) -> tuple[Array, Array]:
+    """Return each piece's direction q'(s) on the polyline and its nominal path velocity, m/s."""
+    middle = 0.5 * (breaks[:-1] + breaks[1:])
+    leg = np.clip(np.searchsorted(stretch.s, middle) - 1, 0, len(stretch.s) - 2)
+    direction = (np.diff(stretch.corners, axis=0) / np.diff(stretch.s)[:, None])[leg]
+    if stretch.nominal is not None:
+        return direction, np.full(len(middle), stretch.nominal)
+    flat = np.linalg.norm(direction[:, :2], axis=1)
+    vertical = np.where(direction[:, 2] > 0, limits.climb, limits.descent)
+    reach = np.minimum(
+        limits.speed / np.maximum(flat, 1e-9), vertical / np.maximum(np.abs(direction[:, 2]), 1e-9)
+    )
+    return direction, stretch.pace * reach
+
+
+def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> tuple[Cones, ...]:
+    """Return speed and acceleration at nominal path velocity, as priced norm bounds.
+
+    v = q' sd and a = q'' sd^2 at constant sd; the time pass enforces the real limits, these only
+    shape the path.
+    """
+    share = np.diff(breaks) / scale
+    first, second = control_rows(breaks, 1), control_rows(breaks, 2)
+    v1, v2 = speed[first.piece], speed[second.piece]
+    unit = EXCESS_PRICE * scale**2
+
+    def cone(rows: Rows, axes: tuple[int, ...], bound: Array, price: float) -> Cones:
+        zero = np.zeros((len(bound), len(axes)))
+        return Cones(rows, axes, zero, bound, price * share[rows.piece], np.zeros(len(bound), dtype=np.intp))
+
+    return (
+        cone(first, (0, 1), limits.speed / v1, unit),
+        cone(first, (2,), min(limits.climb, limits.descent) / v1, unit),
+        cone(second, (0, 1, 2), limits.acceleration / v2**2, unit * scale),
+    )
+
+
+def _with_corridor(
+    base: SplineProblem, room: Room, breaks: Array, hulls: Array, reach: float
+) -> SplineProblem:
+    index = {name: i for i, name in enumerate(owner_names(room))}
+    planes, _ = corridor(room, hulls, reach)
+    owner = np.array([index[o.owner] for o in room.obstacles], dtype=np.intp)
+    floors = [_floors(breaks, planes, owner[planes.obstacle] if len(planes.obstacle) else planes.obstacle)]
+    floors += _wall_floors(room, breaks, hulls, reach, index)
+    return replace(
+        base,
+        floors=tuple(f for f in floors if len(f.offset)),
+        cones=base.cones + _disc_cones(room, breaks, hulls, reach, index),
+    )
+
+
+def _floors(breaks: Array, planes: Planes, owner: Array) -> Floors:
+    rows = _points_of(breaks, planes.piece)
+    return Floors(rows, np.repeat(planes.normal, 6, axis=0), np.repeat(planes.offset, 6), np.repeat(owner, 6))
+
+
+def _points_of(breaks: Array, pieces: Array) -> Rows:
+    every = control_rows(breaks).weight.reshape(-1, 6, 6)
+    return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
+
+
+def _wall_floors(
+    room: Room, breaks: Array, hulls: Array, reach: float, index: dict[str, int]
+) -> list[Floors]:
+    floors = []
+    for wall in room.walls:
+        n = np.array(wall.normal)
+        slack = (hulls @ n).min(axis=1) - wall.offset
+        near = np.flatnonzero(slack < reach)
+        offset = wall.offset + np.minimum(MARGIN, 0.5 * np.maximum(slack[near], 0.0))
+        planes = Planes(near, near, np.tile(n, (len(near), 1)), offset)
+        floors.append(_floors(breaks, planes, np.full(len(near), index[wall.owner])))
+    return floors
+
+
+def _disc_cones(
+    room: Room, breaks: Array, hulls: Array, reach: float, index: dict[str, int]
+) -> tuple[Cones, ...]:
+    cones = []
+    for disc in room.discs:
+        centre = np.array(disc.centre)
+        slack = disc.radius - np.linalg.norm(hulls[:, :, :2] - centre, axis=2).max(axis=1)
+        near = np.flatnonzero(slack < reach)
+        if not len(near):
+            continue
+        bound = disc.radius - np.minimum(MARGIN, 0.5 * np.maximum(slack[near], 0.0))
+        rows = _points_of(breaks, near)
+        owner = np.full(len(rows.piece), index[disc.owner])
+        middle = np.tile(centre, (len(rows.piece), 1))
+        cones.append(Cones(rows, (0, 1), middle, np.repeat(bound, 6), None, owner))
+    return tuple(cones)
+
+
+def _pinned(curve: Piecewise, stretch: Stretch) -> Piecewise:
+    """Put the ends exactly where they belong: the solver is good to 1e-8 m, joints are to be equal."""
+    ctrl = curve.ctrl.copy()
+    ctrl[0, 0], ctrl[-1, -1] = stretch.corners[0], stretch.corners[-1]
+    return Piecewise(curve.breaks, ctrl)
+
+
+def _scaled(rows: Rows, factor: float) -> Rows:
+    return Rows(rows.piece, rows.weight * factor)

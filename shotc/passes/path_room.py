@@ -1,0 +1,97 @@
+"""From a mission's zones, targets and rules to the room of one drone's centre."""
+
+from __future__ import annotations
+
+from math import hypot, inf
+
+from shotc.geom.convex import bounded
+from shotc.geom.corridor import Disc, Obstacle, Room, Wall
+from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges, hull_and_pockets
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.origin import KeyPath
+
+GROUND = "ground"
+
+
+def flight_room(mission: MissionIR, drone: Drone) -> Room:
+    """Return the room of every phase but take-off and landing."""
+    obstacles = _keep_outs(mission, drone)
+    for target in mission.targets:
+        half = target.height / 2
+        x, y, z = target.centre
+        part = Cylinder((x, y), target.radius, z - half, z + half)
+        clearance = drone.radius + mission.rules.target_clearance
+        obstacles.append(Obstacle(f"target {target.name}", part, clearance))
+    walls = [Wall(GROUND, (0.0, 0.0, 1.0), mission.rules.ground_clearance + drone.radius)]
+    return _with_keep_ins(mission, drone, (obstacles, walls), floors=True)
+
+
+def pad_room(mission: MissionIR, drone: Drone) -> Room:
+    """Return the room of take-off and landing: no clearances, no ground, no keep-in floors.
+
+    Zones and the targets' own bodies still bind.
+    """
+    obstacles = _keep_outs(mission, drone)
+    for target in mission.targets:
+        half = target.height / 2
+        x, y, z = target.centre
+        part = Cylinder((x, y), target.radius, z - half, z + half)
+        obstacles.append(Obstacle(f"target {target.name}", part, drone.radius))
+    return _with_keep_ins(mission, drone, (obstacles, []), floors=False)
+
+
+def owner_path(mission: MissionIR, owner: str) -> KeyPath:
+    """Return where the mission file writes down an obstacle's or a wall's owner."""
+    for zone in mission.zones:
+        if owner == f"zone {zone.name}":
+            return zone.path
+    for target in mission.targets:
+        if owner == f"target {target.name}":
+            return target.path
+    return ("rules", "ground_clearance")
+
+
+def _keep_outs(mission: MissionIR, drone: Drone) -> list[Obstacle]:
+    return [
+        Obstacle(f"zone {zone.name}", bounded(part), drone.radius)
+        for zone in mission.zones
+        if zone.keep == "out"
+        for part in convex_parts(zone.solid)
+    ]
+
+
+def _with_keep_ins(
+    mission: MissionIR, drone: Drone, found: tuple[list[Obstacle], list[Wall]], *, floors: bool
+) -> Room:
+    obstacles, walls = found
+    discs: list[Disc] = []
+    for zone in mission.zones:
+        if zone.keep == "out":
+            continue
+        owner = f"zone {zone.name}"
+        walls += _lids(owner, zone.solid, drone.radius, floors=floors)
+        if isinstance(zone.solid, Cylinder):
+            discs.append(Disc(owner, zone.solid.centre, zone.solid.radius - drone.radius))
+            continue
+        hull, pockets = hull_and_pockets(zone.solid)
+        walls += _sides(owner, hull, drone.radius)
+        obstacles += [Obstacle(owner, bounded(pocket), drone.radius) for pocket in pockets]
+    return Room(tuple(obstacles), tuple(walls), tuple(discs))
+
+
+def _lids(owner: str, solid: Solid, radius: float, *, floors: bool) -> list[Wall]:
+    lids = []
+    if floors and solid.bottom > -inf:
+        lids.append(Wall(owner, (0.0, 0.0, 1.0), solid.bottom + radius))
+    if solid.top < inf:
+        lids.append(Wall(owner, (0.0, 0.0, -1.0), radius - solid.top))
+    return lids
+
+
+def _sides(owner: str, hull: Prism, radius: float) -> list[Wall]:
+    sides = []
+    for (ax, ay), (bx, by) in edges(hull.points):
+        length = hypot(bx - ax, by - ay)
+        n = ((ay - by) / length, (bx - ax) / length)
+        sides.append(Wall(owner, (n[0], n[1], 0.0), n[0] * ax + n[1] * ay + radius))
+    return sides

@@ -1,0 +1,102 @@
+"""A smooth scalar spline near samples, exact at anchors, between bounds: the angle fits.
+
+Without active bounds the optimum is one sparse linear solve; only where a bound bites is the
+quadratic programme handed to Clarabel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import Rows, control_rows, count, energy_rows, value_rows
+from shotc.solvers.conic import Status, solve
+from shotc.solvers.spline_qp import scalar_map
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fit:
+    """A scalar spline to be found on ``breaks``.
+
+    at, value, weight : shape (M,), samples and their weights in the sum of squares
+    anchor_at, anchor : shape (K,), places where the value binds (no two at one place)
+    stiffness : (rate, third) weights of the integrals of psi'^2 and psi'''^2
+    low, high : bounds on every Bernstein point, shape (P, 6) each, or None
+    """
+
+    breaks: Array
+    at: Array
+    value: Array
+    weight: Array
+    anchor_at: Array
+    anchor: Array
+    stiffness: tuple[float, float]
+    low: Array | None = None
+    high: Array | None = None
+
+
+def fit(task: Fit) -> tuple[Status, Array]:
+    """Return the status and the coefficients, shape (P + 5,); zeros unless SOLVED or INACCURATE."""
+    coef = _unbounded(task)
+    if task.low is None or task.high is None:
+        return Status.SOLVED, coef
+    points = control_rows(task.breaks).apply(coef[:, None])[:, 0]
+    slack = np.minimum(points - task.low.ravel(), task.high.ravel() - points)
+    if slack.min() >= -1e-9:
+        return Status.SOLVED, coef
+    return _bounded(task)
+
+
+def _least_squares(task: Fit) -> tuple[Any, Array]:
+    from scipy.sparse import vstack
+
+    size = count(task.breaks)
+    root = np.sqrt(task.weight)
+    samples = value_rows(task.breaks, task.at)
+    parts = [
+        scalar_map(_scaled(samples, root), size),
+        scalar_map(_scaled(energy_rows(task.breaks, 1), np.sqrt(task.stiffness[0])), size),
+        scalar_map(_scaled(energy_rows(task.breaks, 3), np.sqrt(task.stiffness[1])), size),
+    ]
+    wanted = np.concatenate([root * task.value, np.zeros(parts[1].shape[0] + parts[2].shape[0])])
+    return vstack(parts, format="csr"), wanted
+
+
+def _unbounded(task: Fit) -> Array:
+    from scipy.sparse import bmat
+    from scipy.sparse.linalg import spsolve
+
+    matrix, wanted = _least_squares(task)
+    size = matrix.shape[1]
+    normal = matrix.T @ matrix
+    if not len(task.anchor):
+        return np.asarray(spsolve(normal.tocsc(), matrix.T @ wanted))
+    anchors = scalar_map(value_rows(task.breaks, task.anchor_at), size)
+    system = bmat([[normal, anchors.T], [anchors, None]], format="csc")
+    return np.asarray(spsolve(system, np.concatenate([matrix.T @ wanted, task.anchor]))[:size])
+
+
+def _bounded(task: Fit) -> tuple[Status, Array]:
+    import cvxpy as cp
+
+    matrix, wanted = _least_squares(task)
+    size = matrix.shape[1]
+    x = cp.Variable(size)
+    points = scalar_map(control_rows(task.breaks), size)
+    assert task.low is not None
+    assert task.high is not None
+    constraints = [points @ x >= task.low.ravel(), points @ x <= task.high.ravel()]
+    if len(task.anchor):
+        constraints.append(scalar_map(value_rows(task.breaks, task.anchor_at), size) @ x == task.anchor)
+    status = solve(cp.Problem(cp.Minimize(cp.sum_squares(matrix @ x - wanted)), constraints))
+    if x.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
+        return status, np.zeros(size)
+    return status, np.asarray(x.value)
+
+
+def _scaled(rows: Rows, factor: Array | float) -> Rows:
+    scale = np.broadcast_to(np.asarray(factor, dtype=np.float64), rows.piece.shape)
+    return Rows(rows.piece, rows.weight * scale[:, None])

@@ -1,0 +1,200 @@
+"""The minimum-jerk path as a convex programme over B-spline coefficients (cvxpy, Clarabel).
+
+Arrays in, arrays out. The unknown is a curve in three dimensions on one set of knots; every
+constraint is a set of ``Rows`` of its coefficients. The problem is a second-order cone programme:
+quadratic objective, linear equalities and inequalities, norm bounds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import DEGREE, Rows
+from shotc.solvers.conic import Status, solve
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Goal:
+    """A term of the objective: sum over rows of |rows - value|^2; value of shape (R, 3)."""
+
+    rows: Rows
+    value: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equalities:
+    """Rows that are to equal ``value``, shape (K, 3)."""
+
+    rows: Rows
+    value: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Floors:
+    """Rows whose component along ``normal``, shape (R, 3), is at least ``offset``, shape (R,).
+
+    owner : shape (R,), an index of whom the row belongs to; it only matters to ``relax``
+    """
+
+    rows: Rows
+    normal: Array
+    offset: Array
+    owner: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cones:
+    """Norm bounds |rows[axes] - centre| <= bound, as a second-order cone each.
+
+    axes   : the components that count
+    centre : shape (R, len(axes)); bound : shape (R,)
+    price  : shape (R,), cost of each unit above the bound; None where the bound is hard
+    owner  : shape (R,), as in Floors
+    """
+
+    rows: Rows
+    axes: tuple[int, ...]
+    centre: Array
+    bound: Array
+    price: Array | None
+    owner: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SplineProblem:
+    """All of it; ``size`` is the number of coefficients per component."""
+
+    size: int
+    goals: tuple[Goal, ...]
+    equalities: Equalities
+    floors: tuple[Floors, ...] = ()
+    cones: tuple[Cones, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SplineSolution:
+    """What the solver made of it.
+
+    coef : shape (size, 3), or None unless the status is SOLVED or INACCURATE
+    objective : the goals' sum of squares, m^2, without the price of slack; excess : that price
+    """
+
+    status: Status
+    coef: Array | None
+    objective: float
+    excess: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Relaxation:
+    """The least changes that let an infeasible problem be solved.
+
+    coef : shape (size, 3), the curve they allow
+    floor_lack : per owner of hard floors and cones, by how much it must give way, metres
+    point_shift : per equality, by how far its point must move, metres
+    """
+
+    status: Status
+    coef: Array | None
+    floor_lack: Array
+    point_shift: Array
+
+
+def minimise(problem: SplineProblem) -> SplineSolution:
+    """Return the curve of least energy under all constraints."""
+    import cvxpy as cp
+
+    x = cp.Variable(3 * problem.size)
+    constraints = [_block(problem.equalities.rows, problem.size) @ x == problem.equalities.value.T.ravel()]
+    constraints += [_floor_map(f, problem.size) @ x >= f.offset for f in problem.floors]
+    price: Any = 0.0
+    for cone in problem.cones:
+        bound: Any = cone.bound
+        if cone.price is not None:
+            slack = cp.Variable(len(cone.bound), nonneg=True)
+            bound = bound + slack
+            price = price + cone.price @ slack
+        constraints.append(_cone(cone, problem.size, x, bound))
+    energy = cp.sum_squares(_stack(problem, x))
+    programme = cp.Problem(cp.Minimize(energy + price), constraints)
+    status = solve(programme)
+    if x.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
+        return SplineSolution(status, None, float("nan"), float("nan"))
+    objective = float(energy.value)
+    return SplineSolution(status, _coef(x, problem.size), objective, float(programme.value) - objective)
+
+
+def relax(problem: SplineProblem, owners: int) -> Relaxation:
+    """Return the smallest give-way (sum of metres) of floors, hard cones and points that is feasible.
+
+    Soft cones are left out: they never stop anything. A weak energy term picks one of many answers.
+    """
+    import cvxpy as cp
+
+    x = cp.Variable(3 * problem.size)
+    lack = cp.Variable(max(owners, 1), nonneg=True)
+    points = len(problem.equalities.value)
+    shift = cp.Variable(points, nonneg=True)
+    miss = _block(problem.equalities.rows, problem.size) @ x - problem.equalities.value.T.ravel()
+    constraints = [cp.SOC(shift, cp.reshape(miss, (points, 3), order="F"), axis=1)]
+    for f in problem.floors:
+        constraints.append(_floor_map(f, problem.size) @ x + lack[f.owner.astype(int)] >= f.offset)
+    for cone in problem.cones:
+        if cone.price is None:
+            constraints.append(_cone(cone, problem.size, x, cone.bound + lack[cone.owner.astype(int)]))
+    weak = 1e-6 * cp.sum_squares(_stack(problem, x))
+    programme = cp.Problem(cp.Minimize(cp.sum(lack) + cp.sum(shift) + weak), constraints)
+    status = solve(programme)
+    if x.value is None:
+        return Relaxation(status, None, np.zeros(owners), np.zeros(points))
+    return Relaxation(status, _coef(x, problem.size), np.asarray(lack.value), np.asarray(shift.value))
+
+
+def scalar_map(rows: Rows, size: int) -> Any:
+    """Return the rows as a sparse matrix over one component's coefficients, shape (R, size)."""
+    from scipy.sparse import csr_matrix
+
+    count = len(rows.piece)
+    columns = rows.piece[:, None] + np.arange(DEGREE + 1)
+    pointer = np.arange(0, (DEGREE + 1) * count + 1, DEGREE + 1)
+    return csr_matrix((rows.weight.ravel(), columns.ravel(), pointer), shape=(count, size))
+
+
+def _block(rows: Rows, size: int) -> Any:
+    from scipy.sparse import block_diag
+
+    one = scalar_map(rows, size)
+    return block_diag([one, one, one], format="csr")
+
+
+def _floor_map(floors: Floors, size: int) -> Any:
+    from scipy.sparse import diags, hstack
+
+    one = scalar_map(floors.rows, size)
+    return hstack([diags(floors.normal[:, axis]) @ one for axis in range(3)], format="csr")
+
+
+def _cone(cone: Cones, size: int, x: Any, bound: Any) -> Any:
+    import cvxpy as cp
+    from scipy.sparse import csr_matrix, hstack, vstack
+
+    one = scalar_map(cone.rows, size)
+    empty = csr_matrix(one.shape)
+    picked = vstack([hstack([one if axis == i else empty for i in range(3)]) for axis in cone.axes])
+    away = picked.tocsr() @ x - cone.centre.T.ravel()
+    return cp.SOC(bound, cp.reshape(away, (len(cone.bound), len(cone.axes)), order="F"), axis=1)
+
+
+def _stack(problem: SplineProblem, x: Any) -> Any:
+    from scipy.sparse import vstack
+
+    maps = vstack([_block(goal.rows, problem.size) for goal in problem.goals], format="csr")
+    return maps @ x - np.concatenate([goal.value.T.ravel() for goal in problem.goals])
+
+
+def _coef(x: Any, size: int) -> Array:
+    return np.ascontiguousarray(np.asarray(x.value).reshape(3, size).T)
