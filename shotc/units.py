@@ -282,7 +282,8 @@ def _dimension_of(unit: str) -> Dimension | None:
 def _nearest(unit: str, dimension: Dimension) -> str:
     known = list(UNITS[dimension])
     meant = _MEANT.get(unit.lower())
-    near = [meant] if meant in known else get_close_matches(unit, known, n=1, cutoff=0.5)
-    lower = [name for name in known if name.lower() == unit.lower()]
-    best = (lower or near or [None])[0]
-    return f"did you mean `{best}`?" if best else f"{a(dimension)} is written in {', '.join(known)}"
+    near = [name for name in known if name.lower() == unit.lower()]
+    near += [meant] if meant in known else get_close_matches(unit, known, n=1, cutoff=0.5)
+    if near:
+        return f"did you mean `{near[0]}`?"
+    return f"{a(dimension)} is written in {', '.join(known)}"

@@ -26,7 +26,7 @@ from shotc.spec.fields import (
     Speed,
 )
 from shotc.spec.fieldtypes import FieldType, NamedOr
-from shotc.spec.model import Model, OneOf
+from shotc.spec.model import Model, OneOf, section
 from shotc.spec.presets import DEFAULT_MODEL, PRESETS
 from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import SMALLEST
@@ -125,9 +125,9 @@ class DroneSpec(Model):
 
     model: ModelName = Field(default=DEFAULT_MODEL, description="preset that fills in what is not given")
     home: Position = Field(default=(0.0, 0.0, 0.0), description="where it stands before and after")
-    limits: LimitsSpec = Field(default=LimitsSpec(), description="what it may do")
-    gimbal: GimbalSpec = Field(default=GimbalSpec(), description="what its gimbal reaches")
-    camera: CameraSpec = Field(default=CameraSpec(), description="what its camera sees")
+    limits: LimitsSpec = section("what it may do")
+    gimbal: GimbalSpec = section("what its gimbal reaches")
+    camera: CameraSpec = section("what its camera sees")
     radius: PositiveLength | None = Field(default=None, description="radius of the sphere round its body")
     endurance: Duration | None = Field(default=None, description="longest time in the air")
     priority: Priority = Field(default=1, description="drones are planned in this order, 1 first")

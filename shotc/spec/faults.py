@@ -18,13 +18,13 @@ Loc = tuple[str | int, ...]
 T = TypeVar("T")
 
 
-def fault(slug: str, message: str, help: str = "", notes: tuple[str, ...] = ()) -> PydanticCustomError:  # noqa: A002
+def fault(slug: str, message: str, help: str = "", notes: tuple[str, ...] = ()) -> PydanticCustomError:
     """Return an error for pydantic that ``load`` reports under the code with this slug.
 
     message : lower case, no final stop; help : the change that would make it work; notes : facts
     """
     # pydantic fills the template from the context; only the context is read back.
-    return PydanticCustomError(slug, "{message}", {"message": message, "help": help, "notes": notes})  # type: ignore[arg-type]
+    return PydanticCustomError(slug, "{message}", {"message": message, "help": help, "notes": notes})
 
 
 def fault_at(
@@ -32,7 +32,7 @@ def fault_at(
     slug: str,
     message: str,
     help: str = "",
-    notes: tuple[str, ...] = (),  # noqa: A002
+    notes: tuple[str, ...] = (),
 ) -> ValidationError:
     """Return the same fault placed at ``loc`` below the value under validation."""
     return together([InitErrorDetails(type=fault(slug, message, help, notes), loc=loc, input=None)])

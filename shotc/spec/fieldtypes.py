@@ -38,7 +38,7 @@ class FieldType(ABC):
 
     def reference(self) -> JsonSchemaValue:
         """Return the schema marked for hoisting into the shared definitions (see spec.schema)."""
-        return {"$shared": self.label, **self.schema()}
+        return {"$shared": self.label, "$of": self.schema()}
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.read)

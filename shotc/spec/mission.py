@@ -10,7 +10,7 @@ from pydantic import Field, PlainValidator, ValidationInfo
 from shotc.spec.drones import DroneSpec, FleetSpec
 from shotc.spec.faults import fault
 from shotc.spec.fields import Name
-from shotc.spec.model import Model
+from shotc.spec.model import Model, section
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase
 from shotc.spec.targets import TargetSpec
@@ -48,10 +48,10 @@ class MissionSpec(Model):
 
     shotc: Literal[1] = Field(description="version of the language")
     mission: Name = Field(description="name of the mission and of its output folder")
-    world: WorldSpec = Field(default=WorldSpec(), description="the place and what stands in it")
+    world: WorldSpec = section("the place and what stands in it")
     targets: dict[Name, TargetSpec] = Field(default={}, description="what is filmed")
     drones: dict[Name, DroneSpec] = Field(default={}, description="what films")
     fleets: dict[Name, FleetSpec] = Field(default={}, description="drones that make pictures in the sky")
-    rules: RulesSpec = Field(default=RulesSpec(), description="rules for the whole mission")
+    rules: RulesSpec = section("rules for the whole mission")
     shots: tuple[Shot, ...] = Field(default=(), description="what is filmed when, in order")
-    output: OutputSpec = Field(default=OutputSpec(), description="what is written out")
+    output: OutputSpec = section("what is written out")

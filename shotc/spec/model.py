@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 from pydantic.functional_validators import ModelWrapValidatorHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -44,20 +44,9 @@ class OneOf:
 
     def schema(self) -> JsonSchemaValue:
         """Return the same rule as JSON Schema."""
-        branches: list[JsonSchemaValue] = [
-            {
-                "required": list(form),
-                "not": {"anyOf": [{"required": [key]} for key in self._others(form)]},
-            }
-            for form in self.forms
-        ]
-        if not self.required:
-            every = sorted({key for form in self.forms for key in form})
-            branches.append({"not": {"anyOf": [{"required": [key]} for key in every]}})
-        return {"anyOf": branches}
-
-    def _others(self, form: tuple[str, ...]) -> list[str]:
-        return sorted({key for other in self.forms for key in other} - set(form))
+        every = {key for form in self.forms for key in form}
+        branches = [_exactly(form, every - set(form)) for form in self.forms]
+        return {"anyOf": branches if self.required else [*branches, _exactly((), every)]}
 
     def _conflict(self, present: list[str]) -> InitErrorDetails:
         first, last = present[0], next(k for k in present if not self._together(present[0], k))
@@ -83,7 +72,13 @@ class Model(BaseModel):
     """
 
     # Deferred: a mission uses a few of the many models, and building one costs milliseconds.
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True, hide_input_in_errors=True)
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        defer_build=True,
+        hide_input_in_errors=True,
+        model_title_generator=lambda model: model.__name__.removesuffix("Spec"),
+    )
     exclusive: ClassVar[tuple[OneOf, ...]] = ()
 
     @model_validator(mode="wrap")
@@ -139,10 +134,25 @@ class Model(BaseModel):
         return [*others, *absent, *strange]
 
 
+def section(description: str) -> Any:
+    """Return a field for a mapping that may be left out and then has all its defaults.
+
+    An empty mapping is validated in its place: an instance as default would build its model on import.
+    """
+    return Field(default={}, validate_default=True, description=description)
+
+
 def nearest(word: str, known: Mapping[str, object]) -> str:
     """Return a help that proposes the nearest known word, or lists them all."""
     close = get_close_matches(word, known, n=1, cutoff=0.6)
     return f"did you mean `{close[0]}`?" if close else f"known are {', '.join(known)}"
+
+
+def _exactly(given: tuple[str, ...], absent: set[str]) -> JsonSchemaValue:
+    rule: JsonSchemaValue = {"required": list(given)}
+    if absent:
+        rule["not"] = {"anyOf": [{"required": [key]} for key in sorted(absent)]}
+    return rule
 
 
 def _no_mapping(value: object, known: Mapping[str, object]) -> PydanticCustomError:

@@ -48,7 +48,7 @@ class Preset:
 
 
 def _limits(linear: tuple[float, float, float, float, float], yaw: tuple[float, float]) -> Limits:
-    """Return limits from (speed, climb, descent, acceleration, jerk) in SI and (rate, acceleration) in deg."""
+    """Return limits: (speed, climb, descent, acceleration, jerk) in SI, yaw (rate, acceleration) in deg."""
     return Limits(*linear, radians(yaw[0]), radians(yaw[1]))
 
 

@@ -30,7 +30,7 @@ class OwnPointType(FieldType):
 
     def read(self, value: Any) -> Composition:
         """Return the set of this one point."""
-        return Composition("own", points=(_PAIR.read(value),))  # type: ignore[arg-type]
+        return Composition("own", points=(_PAIR.read(value),))
 
     def schema(self) -> JsonSchemaValue:
         """Return how a screen point is written."""

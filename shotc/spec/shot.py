@@ -30,7 +30,7 @@ from shotc.spec.fields import (
     ShareRange,
     Switch,
 )
-from shotc.spec.model import Model, OneOf
+from shotc.spec.model import Model, OneOf, section
 from shotc.units import clip
 
 # The two ways to aim a camera: at something, or by compass heading and pitch.
@@ -98,7 +98,7 @@ class ShotBase(Model):
     kind: str = Field(description="what sort of shot it is")
     drone: Name = Field(description="name of the drone that films it, or auto")
     target: Name | None = Field(default=None, description="name of the target in the picture")
-    timing: TimingSpec = Field(default=TimingSpec(), description="auto, or any of start, after, duration")
+    timing: TimingSpec = section("auto, or any of start, after, duration")
     composition: CompositionSet | None = Field(
         default=None, description="where on screen the target may be; the rules' set if silent"
     )
@@ -106,8 +106,8 @@ class ShotBase(Model):
     size: PositiveShare | None = Field(
         default=None, description="projected height over frame height to aim for"
     )
-    require: RequireSpec = Field(default=RequireSpec(), description="what the shot promises")
-    refine: RefineSpec = Field(default=RefineSpec(), description="how refinement is used")
+    require: RequireSpec = section("what the shot promises")
+    refine: RefineSpec = section("how refinement is used")
 
 
 class KeyframeSpec(Model):

@@ -1,0 +1,118 @@
+"""The JSON Schema (2020-12) of a mission, for editors and other tools; made from the models.
+
+The schema tells what can be told from shape alone: keys, types, lengths, words, units. The order of a
+range, names and whatever needs the world stay with ``load`` and the passes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue, models_json_schema
+from pydantic_core import core_schema
+
+from shotc.spec.mission import MissionSpec
+from shotc.spec.places import Geodetic
+from shotc.spec.shot import ShotBase
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+IDENTIFIER = "https://shotc.dev/schema/mission-1.json"
+
+
+def json_schema(kinds: Mapping[str, type[ShotBase]]) -> dict[str, Any]:
+    """Return the schema of a mission whose shots are of these kinds."""
+    models: list[type[Any]] = [MissionSpec, Geodetic, *kinds.values()]
+    by_model, whole = models_json_schema(
+        [(model, "validation") for model in models], schema_generator=_Generator
+    )
+    references = {model: by_model[model, "validation"] for model in models}
+    definitions = dict(whole["$defs"])
+    mission = definitions.pop(references[MissionSpec]["$ref"].rpartition("/")[2])
+    mission["properties"]["shots"]["items"] = _shots(
+        {name: references[kinds[name]] for name in sorted(kinds)}
+    )
+    shared = _Shared(references[Geodetic])
+    mission = shared.hoist(mission)
+    definitions = {name: shared.hoist(schema) for name, schema in definitions.items()} | shared.definitions
+    head = {"$schema": DIALECT, "$id": IDENTIFIER, "title": "shotc mission"}
+    used = _reachable(mission, definitions)
+    return {**head, **mission, "$defs": {name: definitions[name] for name in sorted(used)}}
+
+
+def _shots(references: Mapping[str, JsonSchemaValue]) -> JsonSchemaValue:
+    """Return the schema of one shot: its kind decides which definition it follows."""
+    if not references:
+        return {"type": "object"}
+    branches = [
+        {"if": {"properties": {"kind": {"const": name}}, "required": ["kind"]}, "then": reference}
+        for name, reference in references.items()
+    ]
+    kind = {"enum": list(references), "description": "what sort of shot it is"}
+    return {"type": "object", "required": ["kind"], "properties": {"kind": kind}, "allOf": branches}
+
+
+class _Generator(GenerateJsonSchema):
+    """Pydantic's generator for values as they are written, not as the models keep them."""
+
+    def nullable_schema(self, schema: core_schema.NullableSchema) -> JsonSchemaValue:
+        """Leave null out: a key without a value is a fault."""
+        return self.generate_inner(schema["schema"])
+
+    def default_schema(self, schema: core_schema.WithDefaultSchema) -> JsonSchemaValue:
+        """Leave defaults out: models keep them in SI, and a bare number would be refused for an angle."""
+        return self.generate_inner(schema["schema"])
+
+    def dict_schema(self, schema: core_schema.DictSchema) -> JsonSchemaValue:
+        """Hold every key to the pattern of names."""
+        values = self.generate_inner(schema["values_schema"])
+        names = self.generate_inner(schema["keys_schema"])
+        return {"type": "object", "propertyNames": names, "additionalProperties": values}
+
+    def sort(self, value: JsonSchemaValue, parent_key: str | None = None) -> JsonSchemaValue:
+        """Keep the order of the models: editors propose keys in it."""
+        return value
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        """Leave titles out: they repeat the key."""
+        return False
+
+
+class _Shared:
+    """Moves marked schemas into definitions and leaves references (see ``FieldType.reference``)."""
+
+    def __init__(self, geodetic: JsonSchemaValue) -> None:
+        self.definitions: dict[str, JsonSchemaValue] = {}
+        self._geodetic = geodetic
+
+    def hoist(self, schema: Any) -> Any:
+        """Return the schema with references in place of what is marked; a description stays beside them."""
+        if isinstance(schema, list):
+            return [self.hoist(item) for item in schema]
+        if not isinstance(schema, dict):
+            return schema
+        if "$model" in schema:
+            return self._geodetic
+        if "$shared" not in schema:
+            return {key: self.hoist(value) for key, value in schema.items()}
+        name = schema["$shared"]
+        self.definitions[name] = self.hoist(schema["$of"])
+        about = {"description": schema["description"]} if "description" in schema else {}
+        return {"$ref": f"#/$defs/{name}", **about}
+
+
+def _reachable(mission: JsonSchemaValue, definitions: Mapping[str, JsonSchemaValue]) -> set[str]:
+    """Return the names of the definitions that a mission refers to, however indirectly."""
+    seen: set[str] = set()
+    waiting: list[Any] = [mission]
+    while waiting:
+        schema = waiting.pop()
+        if isinstance(schema, list):
+            waiting.extend(schema)
+        elif isinstance(schema, dict):
+            name = str(schema.get("$ref", "")).removeprefix("#/$defs/")
+            if name in definitions and name not in seen:
+                seen.add(name)
+                waiting.append(definitions[name])
+            waiting.extend(schema.values())
+    return seen
