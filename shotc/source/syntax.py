@@ -160,6 +160,8 @@ def _not_a_key(c: Complaint) -> Fault:
     """Something that is no key of the mapping before it: a stray bracket, trailing text or an odd indent."""
     if c.character and c.character in "]}":
         return _stray_bracket(c)
+    if c.character == ":":
+        return _no_key(c)
     if c.before.strip(" -"):
         return Fault(
             "syntax",
@@ -220,11 +222,17 @@ def _no_content(c: Complaint) -> Fault:
         return _stray_bracket(c)
     if c.character == ",":
         return _fault(c, "nothing stands before this comma", "delete the comma, or add the value before it")
+    if c.character == ":":
+        return _no_key(c)
     return _fault(c, "a value is missing here")
 
 
+def _no_key(c: Complaint) -> Fault:
+    return _fault(c, "no key stands before this colon", "write 'key: value'")
+
+
 def _escape(c: Complaint) -> Fault:
-    start = c.at
+    start = max(c.at - 2, c.text.rfind("\\", 0, c.at + 1))  # the parser may stop behind the sign
     return Fault(
         "needs-quotes",
         f"'{c.text[start : start + 2].strip()}' is no escape sequence of YAML",
