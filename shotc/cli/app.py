@@ -66,19 +66,19 @@ def run(arguments: Sequence[str]) -> int:
         return _bug(bug)
 
 
-def application(only: str | None = None) -> typer.Typer:
-    """Return the application with all commands, or with one: a command loads no other's modules."""
+def application(names: Sequence[str] = tuple(COMMANDS)) -> typer.Typer:
+    """Return the application with the commands of these names: one command loads no other's modules."""
     app = typer.Typer(
         name="shotc",
         help=_HELP,
         epilog=_EPILOG,
-        add_completion=only is None,
+        add_completion=len(names) == len(COMMANDS),
         rich_markup_mode="rich",
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback(invoke_without_command=True)(_global_flags)
-    for name in [only] if only else COMMANDS:
+    for name in names:
         command = COMMANDS[name]
         module, _, attribute = command.place.partition(":")
         app.command(name, rich_help_panel=command.panel)(getattr(import_module(module), attribute))
@@ -110,13 +110,20 @@ def _global_flags(
 
 def _invoke(arguments: Sequence[str]) -> int:
     flags, words = _split_flags(arguments)
-    completing = "_SHOTC_COMPLETE" in os.environ
-    only = words[0] if words and words[0] in COMMANDS and not completing else None
     try:
-        code = application(only)(flags + words, prog_name="shotc", standalone_mode=False)
+        code = application(_needed(words))(flags + words, prog_name="shotc", standalone_mode=False)
     except typer.TyperException as error:
         return _usage(error)
     return _interrupted() if code == console.EXIT_INTERRUPTED else int(code or 0)
+
+
+def _needed(words: Sequence[str]) -> Sequence[str]:
+    """Return the commands that a command line needs: the one it names, or all, to list or complete them."""
+    if not words or "_SHOTC_COMPLETE" in os.environ:
+        return tuple(COMMANDS)
+    if words[0] == "--version":
+        return ("schema",)
+    return (words[0],) if words[0] in COMMANDS else tuple(COMMANDS)
 
 
 def _split_flags(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
@@ -139,7 +146,7 @@ def _split_flags(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
 def _usage(error: typer.TyperException) -> int:
     context = getattr(error, "ctx", None)
     path = context.command_path if context is not None else "shotc"
-    console.complain(f"usage: {error.format_message()}\ntry `{path} --help`")
+    console.complain(f"error: {error.format_message()}\ntry `{path} --help`")
     return console.EXIT_USAGE
 
 

@@ -29,7 +29,7 @@ class Format(StrEnum):
 
 Specs = Annotated[
     list[str],
-    typer.Argument(metavar="SPEC...", help="Mission files, folders of missions, or - for standard input."),
+    typer.Argument(metavar="SPEC", help="Mission files, folders of missions, or - for standard input."),
 ]
 FormatOption = Annotated[
     Format | None,

@@ -16,7 +16,7 @@ _WIDTH = 80
 
 Code = Annotated[
     str | None,
-    typer.Argument(metavar="[CODE]", help="A code or its name; without one, all codes are listed."),
+    typer.Argument(metavar="CODE", help="A code or its name; without one, all codes are listed."),
 ]
 
 

@@ -15,7 +15,7 @@ from shotc.cli import console
 _SUFFIX = ".yaml"
 
 Template = Annotated[
-    str | None, typer.Argument(metavar="[TEMPLATE]", help="The template; without one, all are listed.")
+    str | None, typer.Argument(metavar="TEMPLATE", help="The template; without one, all are listed.")
 ]
 OutputFile = Annotated[
     Path | None,
