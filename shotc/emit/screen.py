@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import View, frustum_margins, nearest_depth
-from shotc.ir.mission import Target
+from shotc.ir.mission import Composition, Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
@@ -108,3 +108,17 @@ def summary(tracks: tuple[ScreenTrack, ...]) -> ScreenSummary:
     worst = max(with_reference, key=lambda track: float(np.nanmax(track.error)))
     at = int(np.nanargmax(worst.error))
     return ScreenSummary(float(worst.error[at]), float(worst.t[at]), worst.shot, share)
+
+
+def guide_lines(composition: Composition) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return the vertical (u) and horizontal (v) lines that show a composition set on a picture.
+
+    Points give the lines through them, unless they are too many to be read; the centre lines only
+    show where the centre is all there is.
+    """
+    points = composition.points if len(composition.points) <= 5 else ()
+    us = {*composition.u_lines, *(u for u, _ in points)}
+    vs = {*composition.v_lines, *(v for _, v in points)}
+    if len(points) > 1:
+        us, vs = us - {0.0}, vs - {0.0}
+    return tuple(sorted(us)), tuple(sorted(vs))

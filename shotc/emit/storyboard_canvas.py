@@ -87,7 +87,7 @@ class Canvas:
         self,
         shapes: Sequence[Array],
         face: Color | Sequence[Color] | str,
-        edge: Color | str = "none",
+        edge: Color | Sequence[Color] | str = "none",
         width: float = 0.0,
         clip: Box | None = None,
     ) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.palette import CAMERA, INK, KEEP_OUT, QUIET, WHITE
-from shotc.emit.screen import seen_whole
+from shotc.emit.screen import guide_lines, seen_whole
 from shotc.emit.storyboard_canvas import Box, Canvas, Type, chip
 from shotc.emit.storyboard_content import Moment
 from shotc.emit.storyboard_scene import Picture, draw_scene, name_places, picture
@@ -79,19 +79,13 @@ def compass(yaw: float) -> str:
 
 
 def _composition(canvas: Canvas, shown: Picture, composition: Composition) -> None:
-    points = composition.points
-    crowd = len(points) > 5
-    u_lines = {*composition.u_lines, *(() if crowd else (u for u, _ in points))}
-    v_lines = {*composition.v_lines, *(() if crowd else (v for _, v in points))}
-    if len(points) > 1:
-        u_lines, v_lines = u_lines - {0.0}, v_lines - {0.0}
-    strips = [np.array([[u, -1.0], [u, 1.0]]) for u in sorted(u_lines)]
-    strips += [np.array([[-1.0, v], [1.0, v]]) for v in sorted(v_lines)]
+    us, vs = guide_lines(composition)
+    strips = [np.array([[u, -1.0], [u, 1.0]]) for u in us] + [np.array([[-1.0, v], [1.0, v]]) for v in vs]
     placed = [shown.place(strip) for strip in strips]
     if placed:
         canvas.lines(placed, (*INK, 0.30), 1.7, shown.box)
         canvas.lines(placed, (*WHITE, 0.95), 0.8, shown.box)
-    for point in points if len(points) > 1 else ():
+    for point in composition.points if len(composition.points) > 1 else ():
         x, y = shown.place(np.array(point))
         canvas.disc((float(x), float(y)), 0.032, (*WHITE, 0.9), (*INK, 0.55), 0.5)
 

@@ -72,6 +72,16 @@ def project_loop(camera: View, loop: Array) -> Array:
     return _to_screen(camera, seen)
 
 
+def project_loops(camera: View, loops: Array) -> list[Array]:
+    """Return the screen polygons of one contour seen by many cameras, each of shape (K, 2).
+
+    camera : its fields have shape (T, 1); loops : shape (T, M, 3), offsets from each camera, W
+    """
+    points = np.stack(camera.to_camera((loops[..., 0], loops[..., 1], loops[..., 2])), axis=-1)
+    half = np.stack([camera.half_width[:, 0], camera.half_height[:, 0]], axis=-1)
+    return [_scaled(_clip_near(loop), *pair) for loop, pair in zip(points, half, strict=True)]
+
+
 def cylinder_outline(camera: View, offset: Vec3, radius: float, height: float, count: int = 48) -> Array:
     """Return the screen polygon of an upright cylinder, shape (K, 2); offset: centre less camera, W."""
     return project_loop(camera, cylinder_contour(np.asarray(offset, dtype=np.float64), radius, height, count))
@@ -139,10 +149,12 @@ def _prism_outline(camera: View, eye: Vec3, prism: Prism) -> Array:
 
 
 def _to_screen(camera: View, points: Array) -> Array:
-    if not len(points):
-        return np.empty((0, 2))
-    u = points[:, 0] / (points[:, 2] * camera.half_width)
-    v = -points[:, 1] / (points[:, 2] * camera.half_height)
+    return _scaled(points, camera.half_width, camera.half_height)
+
+
+def _scaled(points: Array, half_width: float, half_height: float) -> Array:
+    u = points[:, 0] / (points[:, 2] * half_width)
+    v = -points[:, 1] / (points[:, 2] * half_height)
     return np.stack([u, v], axis=-1)
 
 

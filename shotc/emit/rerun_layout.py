@@ -1,0 +1,84 @@
+"""How the recording is laid out: the world, the camera's own view, the facts, the plots underneath."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import rerun.blueprint as rrb
+from numpy.typing import NDArray
+
+from shotc.emit.rerun_motion import frame_size
+from shotc.emit.rerun_series import Plot
+from shotc.ir.mission import Drone
+
+Array = NDArray[np.float64]
+
+BACKGROUND = (24, 27, 32, 255)
+SKY = (96, 118, 140, 255)
+
+
+def blueprint(
+    drones: tuple[Drone, ...], plots: dict[str, tuple[Plot, ...]], bounds: tuple[Array, Array]
+) -> Any:
+    """Return the blueprint of a recording of these drones in a scene with these corners."""
+    cameras = [_camera_view(drone) for drone in drones]
+    views = [_series(drone, plot, many=len(drones) > 1) for drone in drones for plot in plots[drone.name]]
+    facts = rrb.TextDocumentView(origin="summary", name="Mission and certificate")
+    right = rrb.Vertical(
+        cameras[0] if len(cameras) == 1 else rrb.Tabs(*cameras), facts, row_shares=[3.0, 2.0]
+    )
+    return rrb.Blueprint(
+        rrb.Vertical(
+            rrb.Horizontal(_world(bounds, drones), right, column_shares=[1.35, 1.0]),
+            rrb.Grid(*views, grid_columns=max(1, len(views) // len(drones))),
+            row_shares=[3.2, 1.0 * len(drones)],
+        ),
+        rrb.TimePanel(
+            timeline="t", playback_speed=1.0, play_state="playing", loop_mode="all", state="collapsed"
+        ),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.BlueprintPanel(state="collapsed"),
+        auto_layout=False,
+        auto_views=False,
+    )
+
+
+def _world(bounds: tuple[Array, Array], drones: tuple[Drone, ...]) -> Any:
+    low, high = bounds
+    centre = (low + high) / 2
+    reach = float(np.linalg.norm(high - low)) * 0.62 + 12.0
+    eye = centre + reach * np.array([-0.62, -0.92, 0.72])
+    hidden = [f"- /world/cameras/{drone.name}/overlay/**" for drone in drones]
+    return rrb.Spatial3DView(
+        origin="world",
+        name="World (East, North, Up)",
+        contents=["$origin/**", *hidden],
+        background=BACKGROUND,
+        line_grid=False,
+        eye_controls=rrb.EyeControls3D(
+            kind=rrb.Eye3DKind.Orbital,
+            position=eye.tolist(),
+            look_target=[float(centre[0]), float(centre[1]), float(low[2] + 0.3 * (high[2] - low[2]))],
+            eye_up=[0.0, 0.0, 1.0],
+        ),
+    )
+
+
+def _camera_view(drone: Drone) -> Any:
+    width, height = frame_size(drone)
+    return rrb.Spatial2DView(
+        origin=f"world/cameras/{drone.name}",
+        name=f"What {drone.name} sees",
+        contents=["$origin/**", "/world/ground/**", "/world/zones/**", "/world/targets/**"],
+        background=SKY,
+        visual_bounds=rrb.VisualBounds2D(x_range=[0, width], y_range=[0, height]),
+    )
+
+
+def _series(drone: Drone, plot: Plot, *, many: bool) -> Any:
+    return rrb.TimeSeriesView(
+        origin=f"plots/{drone.name}/{plot.name}",
+        name=f"{drone.name}: {plot.title}" if many else plot.title,
+        plot_legend=rrb.PlotLegend(visible=len(plot.lines) > 1, corner=rrb.Corner2D.LeftTop),
+    )

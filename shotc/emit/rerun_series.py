@@ -1,0 +1,137 @@
+"""The curves of a flight over time that are plotted: motion against its limits, and clearances."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import BODY_YAW, X, Y, Z
+from shotc.ir.trajectory import DroneTrajectory
+
+Array = NDArray[np.float64]
+
+RATE, MOST = 25.0, 6000
+"""Samples a second, and the most of a whole flight: longer ones are sampled more coarsely."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """One curve of a plot: its name, samples over the flight's sample times, and its limit if it has one."""
+
+    name: str
+    values: Array
+    limit: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plot:
+    """Curves that share an axis; ``title`` names the quantity and its unit."""
+
+    name: str
+    title: str
+    lines: tuple[Line, ...]
+
+
+def sample_times(flight: DroneTrajectory) -> Array:
+    """Return the times that a flight is sampled at, seconds, the last one its end."""
+    start, end = flight.curve.start, flight.curve.end
+    count = int(min(MOST, np.ceil((end - start) * RATE))) + 1
+    return np.linspace(start, end, max(count, 2))
+
+
+def motion_plots(flight: DroneTrajectory, drone: Drone, t: Array) -> tuple[Plot, ...]:
+    """Return speed, acceleration, jerk and turning rate against what the drone may do."""
+    place = flight.curve.channels(X, Y, Z)
+    velocity, limits = place.derivative()(t), drone.limits
+    acceleration = np.linalg.norm(place.derivative(2)(t), axis=-1)
+    jerk = np.linalg.norm(place.derivative(3)(t), axis=-1)
+    yaw_rate = np.degrees(np.abs(flight.curve.channels(BODY_YAW).derivative()(t)[:, 0]))
+    return (
+        Plot(
+            "speed",
+            "Speed (m/s)",
+            (
+                Line("horizontal", np.hypot(velocity[:, 0], velocity[:, 1]), limits.speed),
+                Line("climb", np.maximum(velocity[:, 2], 0.0), limits.climb),
+                Line("descent", np.maximum(-velocity[:, 2], 0.0), limits.descent),
+            ),
+        ),
+        Plot(
+            "acceleration",
+            "Acceleration (m/s²)",
+            (Line("acceleration", acceleration, limits.acceleration),),
+        ),
+        Plot("jerk", "Jerk (m/s³)", (Line("jerk", jerk, limits.jerk),)),
+        Plot(
+            "yaw_rate",
+            "Yaw rate (°/s)",
+            (Line("body", yaw_rate, float(np.degrees(limits.yaw_rate))),),
+        ),
+    )
+
+
+def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t: Array) -> Plot:
+    """Return how much room is left to zones, targets and the ground, metres; none of it may be negative.
+
+    Distances count from the body sphere. Floors of keep-in zones and clearances do not bind during
+    take-off and landing, so they are left out there (NaN).
+    """
+    p = flight.curve.channels(X, Y, Z)(t)
+    free = np.ones(len(t), dtype=np.bool_)
+    for phase in flight.phases:
+        if phase.name in {"takeoff", "land"}:
+            free &= ~((t >= phase.start) & (t <= phase.end))
+    bound = np.where(free, 0.0, np.nan)
+    out = [gap(z.solid, p) - drone.radius for z in mission.zones if z.keep == "out"]
+    inside = [room(z.solid, p) - drone.radius + bound for z in mission.zones if z.keep == "in"]
+    subjects = [
+        gap(Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2), p)
+        - (drone.radius + mission.rules.target_clearance)
+        + bound
+        for target in mission.targets
+        for x, y, z in [target.centre]
+    ]
+    ground = p[:, 2] - drone.radius - mission.rules.ground_clearance + bound
+    groups = (
+        ("keep-out zones", out),
+        ("keep-in zones", inside),
+        ("subjects", subjects),
+        ("ground", [ground]),
+    )
+    lines = tuple(Line(name, np.min(group, axis=0)) for name, group in groups if group)
+    return Plot("clearance", "Room left (m)", lines)
+
+
+def gap(solid: Solid, p: Array) -> Array:
+    """Return the distance of points from a solid, 0 inside; p has shape (n, 3), metres."""
+    across = np.maximum(_across(solid, p), 0.0)
+    below, above = solid.bottom - p[:, 2], p[:, 2] - solid.top
+    return np.hypot(across, np.maximum(np.maximum(below, above), 0.0))
+
+
+def room(solid: Solid, p: Array) -> Array:
+    """Return how deep points lie inside a solid, negative outside; p has shape (n, 3), metres."""
+    vertical = np.minimum(p[:, 2] - solid.bottom, solid.top - p[:, 2])
+    inner = np.minimum(vertical, -_across(solid, p))
+    return np.where(inner >= 0, inner, -gap(solid, p))
+
+
+def _across(solid: Solid, p: Array) -> Array:
+    """Return the signed horizontal distance to the footprint's edge, negative inside."""
+    if isinstance(solid, Cylinder):
+        return np.hypot(p[:, 0] - solid.centre[0], p[:, 1] - solid.centre[1]) - solid.radius
+    corner = np.array(solid.points)
+    side = np.roll(corner, -1, axis=0) - corner
+    away = p[:, None, :2] - corner[None]
+    along = np.clip(np.einsum("nkd,kd->nk", away, side) / np.einsum("kd,kd->k", side, side), 0.0, 1.0)
+    distance = np.linalg.norm(away - along[..., None] * side[None], axis=-1).min(axis=1)
+    # Crossing number: how many edges a ray towards East meets.
+    rises = (corner[None, :, 1] > p[:, None, 1]) != ((corner + side)[None, :, 1] > p[:, None, 1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x_cross = corner[:, 0] + side[:, 0] * away[..., 1] / side[:, 1]
+    inside = (rises & (p[:, None, 0] < x_cross)).sum(axis=1) % 2 == 1
+    return np.where(inside, -distance, distance)

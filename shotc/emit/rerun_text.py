@@ -1,0 +1,68 @@
+"""The words of the recording: the mission in numbers, what is happening now, the certificate."""
+
+from __future__ import annotations
+
+from math import degrees
+
+from shotc.emit.screen import screen_tracks, summary
+from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, VerifiedIR
+
+SHOWN = {
+    "takeoff": "Taking off",
+    "transit": "Flying to the next shot",
+    "return": "Flying home",
+    "land": "Landing",
+}
+
+
+def phase_texts(plan: VerifiedIR, flight: DroneTrajectory) -> list[tuple[float, str]]:
+    """Return what to show from which time on, seconds: the phase, then mission and certificate."""
+    body = f"{mission_text(plan)}\n\n{certificate_text(plan.certificate)}\n"
+    return [(phase.start, f"{_now(plan, phase)}\n\n{body}") for phase in flight.phases]
+
+
+def mission_text(plan: VerifiedIR) -> str:
+    """Return the mission in a few lines of Markdown."""
+    mission = plan.trajectory.keyframes.mission
+    total = max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
+    framing = summary(screen_tracks(plan))
+    facts = [
+        f"**{mission.name}**: {len(mission.shots)} shot{'' if len(mission.shots) == 1 else 's'},"
+        f" {total:.1f} s in the air",
+        "drones: " + ", ".join(f"{drone.name} ({drone.model})" for drone in mission.drones),
+    ]
+    if framing.error is not None:
+        facts.append(f"worst screen error {framing.error:.3f} at {framing.time:.1f} s ({framing.shot})")
+    if framing.in_frame is not None:
+        facts.append(f"whole subject in frame {100 * framing.in_frame:.1f} % of filmed samples")
+    return "\n".join(f"- {fact}" for fact in facts)
+
+
+def certificate_text(certificate: tuple[Claim, ...]) -> str:
+    """Return the certificate as a Markdown table."""
+    rows = ["| requirement | worst | limit | when | how | |", "|---|---|---|---|---|---|"]
+    for claim in certificate:
+        what = claim.constraint if claim.shot is None else f"{claim.constraint} ({claim.shot})"
+        when = "" if claim.time is None else f"{claim.time:.1f} s"
+        sign = "≤" if claim.upper else "≥"
+        verdict = "holds" if claim.holds else "**broken**"
+        limit = f"{sign} {quantity(claim.limit, claim.unit)}"
+        worst = quantity(claim.worst, claim.unit)
+        rows.append(f"| {what} | {worst} | {limit} | {when} | {claim.method} | {verdict} |")
+    return "\n".join(rows)
+
+
+def quantity(value: float, unit: str) -> str:
+    """Return a number with its unit as people read it: angles in degrees."""
+    if unit.startswith("rad"):
+        return f"{degrees(value):.4g} deg{unit[3:]}"
+    return f"{value:.4g} {unit}".strip()
+
+
+def _now(plan: VerifiedIR, phase: Phase) -> str:
+    span = f"{phase.start:.1f} s to {phase.end:.1f} s"
+    if phase.shot is None:
+        return f"## {SHOWN[phase.name]}\n{span}"
+    shot = next(s.shot for s in plan.trajectory.keyframes.shots if s.shot.id == phase.shot)
+    subject = f" of {shot.subject}" if shot.subject else ""
+    return f"## Filming `{shot.id}`\n{shot.kind}{subject}, {span}"

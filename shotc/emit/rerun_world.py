@@ -1,0 +1,175 @@
+"""What stands still in the recording: ground, zones, subjects, homes, flight paths, keyframes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTICAL, WHITE, Rgb, rgba8, shade
+from shotc.geom.silhouette import edge_strips
+from shotc.geom.solids import Cylinder, Solid, triangles
+from shotc.ir.mission import MissionIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+
+Array = NDArray[np.float64]
+
+SIDES = 48
+LIGHT = np.radians(215.0)
+"""Where the light comes from, an angle of W."""
+PHASE_COLORS: dict[str, Rgb] = {
+    "takeoff": VERTICAL,
+    "transit": FLIGHT,
+    "shot": CAMERA,
+    "return": FLIGHT,
+    "land": VERTICAL,
+}
+
+
+def log_world(stream: Any, plan: VerifiedIR) -> None:
+    """Log everything that does not move, without a time."""
+    mission = plan.trajectory.keyframes.mission
+    stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+    _ground(stream, plan)
+    _zones(stream, mission)
+    _targets(stream, mission)
+    for drone in mission.drones:
+        home = rr.Points3D(
+            [drone.home],
+            radii=rr.Radius.ui_points(5),
+            colors=[rgba8(WHITE)],
+            labels=[f"home of {drone.name}"],
+            show_labels=True,
+        )
+        stream.log(f"world/homes/{drone.name}", home, static=True)
+    for flight in plan.trajectory.drones:
+        _flight(stream, flight)
+
+
+def scene_bounds(plan: VerifiedIR) -> tuple[Array, Array]:
+    """Return the corners of the box round all flights and subjects, metres."""
+    mission = plan.trajectory.keyframes.mission
+    points = [f.curve(np.linspace(f.curve.start, f.curve.end, 400))[:, :3] for f in plan.trajectory.drones]
+    for target in mission.targets:
+        reach = np.array([target.radius, target.radius, target.height / 2])
+        points.append(np.array([np.array(target.centre) - reach, np.array(target.centre) + reach]))
+    cloud = np.concatenate([np.zeros((1, 3)), *points]) if not points else np.concatenate(points)
+    return cloud.min(axis=0), cloud.max(axis=0)
+
+
+def _ground(stream: Any, plan: VerifiedIR) -> None:
+    low, high = scene_bounds(plan)
+    size = float(np.max(high[:2] - low[:2]))
+    step = 10.0 if size <= 400 else 50.0 if size <= 2000 else 250.0
+    low2 = np.floor((low[:2] - size) / step) * step
+    high2 = np.ceil((high[:2] + size) / step) * step
+    xs, ys = np.arange(low2[0], high2[0] + step, step), np.arange(low2[1], high2[1] + step, step)
+    strips = [[[x, low2[1], 0.0], [x, high2[1], 0.0]] for x in xs]
+    strips += [[[low2[0], y, 0.0], [high2[0], y, 0.0]] for y in ys]
+    grid = rr.LineStrips3D(strips, radii=rr.Radius.ui_points(0.4), colors=[(112, 118, 122, 255)])
+    stream.log("world/ground/grid", grid, static=True)
+    corners = [[*low2, -0.05], [high2[0], low2[1], -0.05], [*high2, -0.05], [low2[0], high2[1], -0.05]]
+    plane = rr.Mesh3D(
+        vertex_positions=corners,
+        triangle_indices=[[0, 1, 2], [0, 2, 3]],
+        vertex_colors=[(74, 80, 80, 255)] * 4,
+    )
+    stream.log("world/ground/plane", plane, static=True)
+
+
+def _zones(stream: Any, mission: MissionIR) -> None:
+    for zone in mission.zones:
+        color = KEEP_OUT if zone.keep == "out" else KEEP_IN
+        entity = f"world/zones/{zone.name}"
+        strips = [strip.tolist() for strip in edge_strips(zone.solid, SIDES)]
+        edges = rr.LineStrips3D(strips, radii=rr.Radius.ui_points(1.2), colors=[rgba8(color)])
+        stream.log(f"{entity}/edges", edges, static=True)
+        if zone.keep == "out":
+            points, faces, _ = solid_mesh(zone.solid)
+            mesh = rr.Mesh3D(
+                vertex_positions=points, triangle_indices=faces, albedo_factor=rgba8(KEEP_OUT, 0.35)
+            )
+            stream.log(f"{entity}/volume", mesh, static=True)
+        stream.log(
+            f"{entity}/name", _name(_top(zone.solid), f"keep {zone.keep}: {zone.name}", color), static=True
+        )
+
+
+def _targets(stream: Any, mission: MissionIR) -> None:
+    for target in mission.targets:
+        x, y, z = target.centre
+        solid = Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
+        points, faces, light = solid_mesh(solid)
+        colors = [rgba8(shade(SUBJECT, float(value))) for value in light]
+        mesh = rr.Mesh3D(vertex_positions=points, triangle_indices=faces, vertex_colors=colors)
+        stream.log(f"world/targets/{target.name}/body", mesh, static=True)
+        name = _name((x, y, solid.top), target.name, shade(SUBJECT, 1.6))
+        stream.log(f"world/targets/{target.name}/name", name, static=True)
+
+
+def _flight(stream: Any, flight: DroneTrajectory) -> None:
+    for i, phase in enumerate(flight.phases):
+        count = int(np.clip((phase.end - phase.start) * 10, 2, 600))
+        strip = flight.curve(np.linspace(phase.start, phase.end, count))[:, :3]
+        width = 2.5 if phase.name == "shot" else 1.2
+        line = rr.LineStrips3D(
+            [strip], radii=rr.Radius.ui_points(width), colors=[rgba8(PHASE_COLORS[phase.name])]
+        )
+        what = phase.name if phase.shot is None else f"shot_{phase.shot}"
+        stream.log(f"world/path/{flight.drone}/{i:02d}_{what}", line, static=True)
+    for shot in dict.fromkeys(k.shot for k in flight.keyframes):
+        marks = [k for k in flight.keyframes if k.shot == shot]
+        few = len(marks) <= 12
+        places = np.stack([flight.curve(k.time)[:3] for k in marks])
+        points = rr.Points3D(
+            places,
+            radii=rr.Radius.ui_points(4 if few else 2),
+            colors=[rgba8(shade(CAMERA, 1.3))],
+            labels=[f"{shot} {k.index + 1}" for k in marks] if few else None,
+            show_labels=few,
+        )
+        stream.log(f"world/keyframes/{flight.drone}/{shot}", points, static=True)
+
+
+def _name(at: tuple[float, float, float], text: str, color: Rgb) -> Any:
+    return rr.Points3D(
+        [at], radii=rr.Radius.ui_points(0.5), colors=[rgba8(color)], labels=[text], show_labels=True
+    )
+
+
+def _top(solid: Solid) -> tuple[float, float, float]:
+    if isinstance(solid, Cylinder):
+        return (*solid.centre, solid.top)
+    return (*solid.points[0], solid.top)
+
+
+def solid_mesh(solid: Solid) -> tuple[Array, NDArray[np.uint32], Array]:
+    """Return a solid as triangles: vertices (n, 3), indices (m, 3), and a shade for every vertex.
+
+    Faces share no vertices, so that every face has its own shade: light from the south-west.
+    """
+    if isinstance(solid, Cylinder):
+        turn = np.linspace(0, 2 * np.pi, SIDES, endpoint=False)
+        ring = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+        corner = np.array(solid.centre) + solid.radius * ring
+        lids = [(corner[0], corner[i], corner[i + 1]) for i in range(1, SIDES - 1)]
+    else:
+        corner = np.array(solid.points)
+        lids = [(np.array(a), np.array(b), np.array(c)) for a, b, c in triangles(solid.points)]
+    points: list[Array] = []
+    light: list[float] = []
+    low, high = np.array([solid.bottom]), np.array([solid.top])
+    for a, b in zip(corner, np.roll(corner, -1, axis=0), strict=True):
+        quad = [np.concatenate(v) for v in ((a, low), (b, low), (b, high), (a, high))]
+        points += [quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]]
+        outward = np.arctan2(a[0] - b[0], b[1] - a[1])
+        light += [0.95 + 0.3 * float(np.cos(outward - LIGHT))] * 6
+    for a, b, c in lids:
+        points += [np.concatenate((v, high)) for v in (a, b, c)]
+        light += [1.4] * 3
+        points += [np.concatenate((v, low)) for v in (c, b, a)]
+        light += [0.5] * 3
+    faces = np.arange(len(points), dtype=np.uint32).reshape(-1, 3)
+    return np.array(points), faces, np.array(light)
