@@ -147,7 +147,7 @@ class _Job:
                 position *= COARSER
 
     def _write(self, thinner: Thinner, tolerance: Tolerance, *, coarser: bool) -> _Flight:
-        asked = steps_of(self.track, thinner.legs(tolerance))
+        asked = steps_of(self.track, self.style, thinner.legs(tolerance))
         steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
         builder = Builder(self.drone, self.style, self.dialect, self.geo, DEFAULTS[self.drone.autopilot])
         return _Flight(builder.build(self.track, steps), asked, steps, coarser)

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from shotc.emit.mavlink_dialect import Dialect
 from shotc.emit.mavlink_geo import Geo
 from shotc.emit.mavlink_items import (
@@ -29,9 +32,11 @@ from shotc.emit.mavlink_items import (
 )
 from shotc.emit.mavlink_speed import Speeds, adapted, seconds
 from shotc.emit.mavlink_steps import SAME, Step
-from shotc.emit.mavlink_style import Command, Style
-from shotc.emit.mavlink_track import Track
+from shotc.emit.mavlink_style import Command, Style, select
+from shotc.emit.mavlink_track import Poses, Track
 from shotc.ir.mission import Drone, Vec3
+
+Array = NDArray[np.float64]
 
 SLEW = 60.0  # deg/s, ArduPilot's ATC_SLEW_YAW; a faster turn is not flown
 SLOW_TURN = 0.01  # deg/s; zero would mean the default rate
@@ -42,6 +47,7 @@ class Builder:
     """The flight list under construction, and what is in force at its end.
 
     yaw : body yaw commanded last, rad; aimed : gimbal angles commanded last, None after following
+    region : point of W that the gimbal looks at, or None
     """
 
     drone: Drone
@@ -52,6 +58,7 @@ class Builder:
     items: list[Item] = field(default_factory=list)
     yaw: float | None = None
     aimed: Command | None = None
+    region: Vec3 | None = None
 
     def build(self, track: Track, steps: list[Step]) -> list[Item]:
         """Return the whole flight: take-off, the steps, landing."""
@@ -63,34 +70,32 @@ class Builder:
         for step in steps:
             entered = step.leg.shot if step.leg.shot != shot else None
             if step.leg.shot != shot:
-                self._leave(shot)
-            self._go(step, entered, places[step.leg.last], float(track.poses.body_yaw[step.leg.last]))
+                self._leave(shot, following=step.region is not None)
+            end = select(track.poses, slice(step.leg.last, step.leg.last + 1))
+            self._go(step, entered, places[step.leg.last], end)
             shot = step.leg.shot
-        self._leave(shot)
+        self._leave(shot, following=False)
         self.items.append(self.dialect.land(home, float(track.poses.body_yaw[-1])))
         return self.items
 
-    def _leave(self, shot: str | None) -> None:
-        if shot is None:
-            return
-        self.items.append(action(VIDEO_STOP))
-        if shot in self.style.followed:
+    def _leave(self, shot: str | None, *, following: bool) -> None:
+        if shot is not None:
+            self.items.append(action(VIDEO_STOP))
+        if self.region is not None and not following:
             self.items.append(action(ROI_NONE))
-            self.aimed = self.yaw = None
+            self.region = self.aimed = self.yaw = None
 
-    def _go(self, step: Step, entered: str | None, place: Place, end_yaw: float) -> None:
+    def _go(self, step: Step, entered: str | None, place: Place, end: Poses) -> None:
         self._pace(step)
-        target = self.style.followed.get(step.leg.shot or "")
-        if target is None:
+        turned = False
+        if step.region is None:
             turned = self._aim(step.command)
         else:
-            turned = False
-            if entered is not None:
-                self._follow(target)
+            self._look(step.region, end.position[0])
         if entered is not None:
             self.items.append(action(VIDEO_START))
-        if self.dialect.turns_by_item and (target is None or self.style.swivels):
-            self._turn(step, end_yaw, force=turned)
+        if self.dialect.turns_by_item and (step.region is None or self.style.swivels):
+            self._turn(step, float(end.body_yaw[0]), force=turned)
         self.items.append(self.dialect.waypoint(place, step.hold, step.radius, step.command.body_yaw))
 
     def _pace(self, step: Step) -> None:
@@ -117,8 +122,11 @@ class Builder:
         self.aimed = command
         return True
 
-    def _follow(self, target: Vec3) -> None:
-        self.items.append(at(ROI_LOCATION, self.geo.place(target), 0.0, 0.0, 0.0, 0.0))
+    def _look(self, region: Vec3, position: Array) -> None:
+        if self.region is not None and _parted(region, self.region, position) < SAME:
+            return
+        self.items.append(at(ROI_LOCATION, self.geo.place(region), 0.0, 0.0, 0.0, 0.0))
+        self.region = region
 
     def _turn(self, step: Step, yaw: float, *, force: bool) -> None:
         # A mount that cannot pan takes the body over on every mount command, so that the heading has
@@ -128,7 +136,14 @@ class Builder:
         elif abs(yaw - self.yaw) < SAME and not force:
             return
         else:
-            time = max(seconds(self.speeds, step.across, step.rise) + step.hold, 0.5)
+            moving = seconds(self.speeds, step.across, step.rise)
+            time = max(moving if step.duration > 0 else step.hold, 0.5)
             rate = min(SLEW, max(SLOW_TURN, round(abs(degrees_of(yaw - self.yaw)) / time, 4)))
         self.items.append(action(CONDITION_YAW, compass_deg(yaw), rate, 0.0, 0.0))
         self.yaw = yaw
+
+
+def _parted(a: Vec3, b: Vec3, position: Array) -> float:
+    """Return the angle between two points seen from a third, rad."""
+    ray, other = np.array(a) - position, np.array(b) - position
+    return float(np.arctan2(np.linalg.norm(np.cross(ray, other)), ray @ other))

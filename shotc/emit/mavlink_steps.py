@@ -8,9 +8,10 @@ from math import acos, hypot, pi, tan
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink_style import Command, command_of
+from shotc.emit.mavlink_style import Command, Style, command_of, region_of
 from shotc.emit.mavlink_thin import Leg
 from shotc.emit.mavlink_track import Track
+from shotc.ir.mission import Vec3
 
 Array = NDArray[np.float64]
 
@@ -26,12 +27,14 @@ CORNER_CUT = 0.25  # metres by which a rounded corner may miss its waypoint
 class Step:
     """One waypoint and the way to it.
 
+    region : point of W that the gimbal is to look at, or None where it is told angles
     across, rise : horizontal and vertical way, m; duration : s of motion, 0 for a stay
     hold : seconds at the waypoint; radius : of acceptance, m
     """
 
     leg: Leg
     command: Command
+    region: Vec3 | None
     across: float
     rise: float
     duration: float
@@ -39,11 +42,11 @@ class Step:
     radius: float
 
 
-def steps_of(track: Track, legs: list[Leg]) -> list[Step]:
+def steps_of(track: Track, style: Style, legs: list[Leg]) -> list[Step]:
     """Return the steps that fly ``legs``; a stay that asks for no new angles joins the step before it."""
     steps: list[Step] = []
     for index, leg in enumerate(legs):
-        step = _step(track, leg, legs[index + 1] if index + 1 < len(legs) else None)
+        step = _step(track, style, leg, legs[index + 1] if index + 1 < len(legs) else None)
         if leg.rest and steps and _joins(track, steps[-1], step):
             steps[-1] = replace(steps[-1], hold=step.hold, radius=RADIUS_REST)
         else:
@@ -62,20 +65,21 @@ def whole_seconds(steps: list[Step]) -> list[Step]:
     return out
 
 
-def _step(track: Track, leg: Leg, following: Leg | None) -> Step:
+def _step(track: Track, style: Style, leg: Leg, following: Leg | None) -> Step:
     points, time = track.poses.position, track.time
     way = points[leg.last] - points[leg.first]
     command = command_of(track.poses, leg.first, leg.last, filmed=leg.shot is not None)
+    region = region_of(style, track, slice(leg.first, leg.last + 1), leg.shot)
     elapsed = float(time[leg.last] - time[leg.first])
     if leg.rest:
-        return Step(leg, command, 0.0, 0.0, 0.0, elapsed, RADIUS_REST)
+        return Step(leg, command, region, 0.0, 0.0, 0.0, elapsed, RADIUS_REST)
     stops = _speed(track, leg.last) < STANDSTILL
     boundary = following is not None and following.shot != leg.shot
     radius = RADIUS_REST
     if following is not None and not following.rest and not stops:
         radius = _radius(points[leg.first], points[leg.last], points[following.last], elapsed)
     hold = SETTLE if stops and boundary else 0.0
-    return Step(leg, command, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
+    return Step(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
 
 
 def _joins(track: Track, before: Step, stay: Step) -> bool:

@@ -2,8 +2,10 @@
 
 Both stacks fly straight legs. PX4 turns the body to the target waypoint's yaw at the start of a leg
 and holds it; ArduPilot's CONDITION_YAW turns at a given rate, chosen here so that the turn lasts the
-whole leg. Gimbal angles are steps on both. A step is set to the middle of what its leg asks, which
-halves the error. A region of interest makes the gimbal follow one point all the time.
+whole leg. Gimbal angles are steps on both; a step is set to the middle of what its leg asks, which
+halves the error. A region of interest is better where the gimbal can turn: the gimbal looks at one
+point all the time. For a target in the middle of the picture that point is the target; for any other
+composition each leg gets the point nearest to the camera axes the plan has along it.
 """
 
 from __future__ import annotations
@@ -17,11 +19,15 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink_track import Poses, Track, project
 from shotc.ir.mission import Drone, MissionIR, Vec3
-from shotc.ir.trajectory import DroneTrajectory
+from shotc.ir.trajectory import DroneTrajectory, Phase
 
 Array = NDArray[np.float64]
 
 CENTRED = 0.02  # (u, v); a target that stays this near to the centre is framed by following it
+SWIVEL_LEAST = 2.0  # degrees of gimbal yaw; less is no freedom
+MOVES_LEAST = 1.0  # metres; a camera that stays in place gains nothing from a region of interest
+AWAY_MOST = 500.0  # metres to a region of interest where nothing near is framed
+NEAR_PARALLEL = 1e-7  # mean squared angle between camera axes that no longer tells where they meet, rad^2
 PAN_LEAST = np.radians(0.5)  # body and camera that never part further than this count as one
 
 
@@ -31,13 +37,15 @@ class Style:
 
     pans : the camera turns against the body, so the gimbal's yaw is commanded
     swivels : the gimbal can turn in yaw, so a region of interest leaves the body alone
-    followed : shots whose target is followed as a region of interest, with its centre in W
+    followed : shots whose target is one region of interest all along, with its centre in W
+    aimed : shots in which each leg has a region of interest of its own
     """
 
     autopilot: Literal["px4", "ardupilot"]
     pans: bool
     swivels: bool
     followed: dict[str, Vec3]
+    aimed: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,20 +66,44 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style
     drone = mission.drone(flight.drone)
     poses = track.poses
     parted = np.abs(poses.cam_yaw - poses.body_yaw).max()
+    low, high = drone.gimbal.yaw
+    swivels = degrees(high - low) > SWIVEL_LEAST
     followed: dict[str, Vec3] = {}
+    aimed: set[str] = set()
     for phase in flight.phases:
-        spans = [r for r in flight.framing if r.shot == phase.shot]
-        names = {r.target for r in spans}
-        whole = (
-            spans and min(r.start for r in spans) <= phase.start and max(r.end for r in spans) >= phase.end
-        )
-        if phase.shot is None or len(names) != 1 or not whole:
+        if phase.shot is None:
             continue
         inside = (track.time >= phase.start) & (track.time <= phase.end)
-        if _is_centred(select(poses, inside), track.subject[inside], drone):
-            followed[phase.shot] = mission.target(names.pop()).centre
-    low, high = drone.gimbal.yaw
-    return Style(drone.autopilot, bool(parted > PAN_LEAST), degrees(high - low) > 2, followed)
+        target = _lone_target(flight, phase)
+        if target is not None and _is_centred(select(poses, inside), track.subject[inside], drone):
+            followed[phase.shot] = mission.target(target).centre
+        elif swivels and np.ptp(poses.position[inside], axis=0).max() > MOVES_LEAST:
+            aimed.add(phase.shot)
+    return Style(drone.autopilot, bool(parted > PAN_LEAST), swivels, followed, frozenset(aimed))
+
+
+def region_of(style: Style, track: Track, part: slice, shot: str | None) -> Vec3 | None:
+    """Return the point of W that the gimbal is to look at on a leg, or None where it is told angles."""
+    if shot in style.followed:
+        return style.followed[shot or ""]
+    if shot not in style.aimed:
+        return None
+    poses = track.poses
+    position, yaw, pitch = poses.position[part], poses.cam_yaw[part], poses.cam_pitch[part]
+    level = np.cos(pitch)
+    axis = np.stack([level * np.cos(yaw), level * np.sin(yaw), np.sin(pitch)], axis=1)
+    middle = len(axis) // 2
+    away = min(float(np.linalg.norm(track.subject[part][middle] - position[middle])), AWAY_MOST)
+    ahead = position[middle] + away * axis[middle]
+    # The point with the least squared distance to all axes, held near ``ahead`` where they are parallel.
+    across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
+    pull = NEAR_PARALLEL * len(axis)
+    meeting = np.linalg.solve(
+        across.sum(axis=0) + pull * np.eye(3),
+        np.einsum("nij,nj->i", across, position) + pull * ahead,
+    )
+    best = min((meeting, ahead), key=lambda point: _off_axis(point, position, axis))
+    return (float(best[0]), float(best[1]), float(best[2]))
 
 
 def command_of(poses: Poses, first: int, last: int, *, filmed: bool) -> Command:
@@ -103,6 +135,21 @@ def select(poses: Poses, part: NDArray[np.bool_] | slice) -> Poses:
         poses.cam_pitch[part],
         poses.hfov[part],
     )
+
+
+def _off_axis(point: Array, position: Array, axis: Array) -> float:
+    offset = point - position
+    cosine = np.einsum("nk,nk->n", offset, axis) / np.maximum(np.linalg.norm(offset, axis=1), 1e-9)
+    return float(1.0 - cosine.min())
+
+
+def _lone_target(flight: DroneTrajectory, phase: Phase) -> str | None:
+    """Return the one target that is framed from the first to the last instant of a shot, or None."""
+    spans = [r for r in flight.framing if r.shot == phase.shot]
+    names = {r.target for r in spans}
+    if len(names) != 1 or min(r.start for r in spans) > phase.start or max(r.end for r in spans) < phase.end:
+        return None
+    return names.pop()
 
 
 def _is_centred(poses: Poses, subject: Array, drone: Drone) -> bool:

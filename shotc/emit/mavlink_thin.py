@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink_clearance import Obstacle, shortfall
-from shotc.emit.mavlink_style import Style, command_of, follow, select
+from shotc.emit.mavlink_style import Style, command_of, follow, region_of, select
 from shotc.emit.mavlink_track import Poses, Stretch, Track, project
 from shotc.ir.mission import Drone
 
@@ -143,8 +143,9 @@ class Thinner:
             body = planned.body_yaw[0] + share * (planned.body_yaw[-1] - planned.body_yaw[0])
             cam_yaw = body + command.pan
         pitch = np.full(len(share), command.cam_pitch)
-        if leg.shot in self.style.followed:
-            cam_yaw, pitch = follow(self.drone, flown, body, self.style.followed[leg.shot])
+        region = region_of(self.style, self.track, slice(leg.first, leg.last + 1), leg.shot)
+        if region is not None:
+            cam_yaw, pitch = follow(self.drone, flown, body, region)
         return Poses(flown, body, cam_yaw, pitch, planned.hfov)
 
 
