@@ -53,7 +53,7 @@ def compose(file: SourceFile) -> Composed:
         composer.whole = False
     except yaml.reader.ReaderError as error:
         start = min(max(error.position, 0), len(file.text))
-        composer.blame("syntax", str(error.reason), start, start + 1)
+        composer.fault(Fault("syntax", str(error.reason), file.point(start)))
         composer.whole = False
     composer.close_all()
     return Composed(composer.root, composer.faults, composer.whole)
@@ -66,7 +66,7 @@ def _too_many_directives(file: SourceFile) -> Fault | None:
     return Fault(
         "syntax",
         f"the file has {len(starts)} lines that begin with '%'; a mission needs none",
-        file.span(starts[0], starts[0] + 1),
+        file.point(starts[0]),
         help="delete the lines that begin with '%'",
     )
 
@@ -155,7 +155,7 @@ class _Composer:
                 parent.node.entries.append(parent.key._replace(value=node))
 
     def _stop(self, kind: FaultKind, message: str, start: int, hint: str) -> None:
-        self.blame(kind, message, start, start + 1, hint)
+        self.faults.append(Fault(kind, message, self.file.point(start), help=hint))
         self.whole = False
         raise _StopReading
 
@@ -169,7 +169,7 @@ class _Composer:
         self.documents += 1
         if self.documents > 1:
             hint = "keep each mission in a file of its own"
-            self.blame("several-documents", "a second document begins here", start, max(end, start + 1), hint)
+            self.blame("several-documents", "a second document begins here", start, end, hint)
             raise _StopReading
 
     def _scalar(self, event: Any, start: int, end: int) -> None:
@@ -258,7 +258,7 @@ class _Composer:
         if not isinstance(node, Scalar):
             message = "a key is plain text, not a list, a mapping or an alias"
             hint = "write the key as text; put a value that begins with '{', '[' or '*' in quotes"
-            self.blame("complex-key", message, node.start, max(node.end, node.start + 1), hint)
+            self.blame("complex-key", message, node.start, node.end, hint)
             return None
         if merge:
             hint = "YAML 1.2 has no merge keys: write the keys out, or give whole values by alias"
@@ -277,7 +277,7 @@ class _Composer:
         kind = _kind_of(node)
         hint = f'write it in quotes: "{node.text}"' if len(node.text) < 40 else "write it in quotes"
         shown = f"'{shorten(node.text)}' is {kind}, and" if node.text else "this is empty, and"
-        self.blame("key-not-text", f"{shown} a key is text", node.start, max(node.end, node.start + 1), hint)
+        self.blame("key-not-text", f"{shown} a key is text", node.start, node.end, hint)
 
     def _duplicate(self, entry: Entry, first: Entry) -> None:
         line, _ = self.file.position(first.start)

@@ -81,9 +81,7 @@ def _not_utf8(data: bytes, error: UnicodeDecodeError, file: SourceFile) -> Fault
     notes = [f"byte {error.start} of the file is 0x{byte:02x}"]
     if byte >= 0xA0:
         notes.append(f"in Latin-1 that byte would be '{chr(byte)}'")
-    return Fault(
-        "not-utf8", "the file is not UTF-8 text", file.span(offset, offset + 1), tuple(notes), help=_SAVE_AS
-    )
+    return Fault("not-utf8", "the file is not UTF-8 text", file.point(offset), tuple(notes), help=_SAVE_AS)
 
 
 def _stray_characters(text: str, file: SourceFile) -> tuple[list[Fault], bool]:
@@ -95,7 +93,7 @@ def _stray_characters(text: str, file: SourceFile) -> tuple[list[Fault], bool]:
     fault = Fault(
         "control-character",
         "this is not a text file",
-        file.span(first, first + 1),
+        file.point(first),
         (f"it holds {len(offsets)} control characters, the first is {_describe(text[first])}",),
         help="give a mission in YAML; plans and recordings are outputs",
     )
@@ -106,7 +104,7 @@ def _stray_character(text: str, offset: int, file: SourceFile) -> Fault:
     return Fault(
         "control-character",
         f"the character {_describe(text[offset])} cannot stand in a mission",
-        file.span(offset, offset + 1),
+        file.point(offset),
         help="delete it",
     )
 

@@ -54,6 +54,13 @@ class SourceFile:
         line = bisect_right(starts, offset)
         return line, offset - starts[line - 1] + 1
 
+    def point(self, offset: int) -> Span:
+        """Return the span of one character, or an empty one where a line or the text ends."""
+        ends = offset >= len(self.text) or self.text[offset] in "\r\n"
+        return self.span(offset, offset if ends else offset + 1)
+
     def span(self, start: int, end: int) -> Span:
-        """Return the span between two code point offsets; the end is exclusive."""
-        return Span(*self.position(start), *self.position(max(start, end)))
+        """Return the span between two code point offsets, cut to the text; the end is exclusive."""
+        first = min(start, len(self.text))
+        last = min(max(start, end), len(self.text))
+        return Span(*self.position(first), *self.position(last))

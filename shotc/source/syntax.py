@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from shotc.source.fault import Fault, shorten
-from shotc.source.file import SourceFile
+from shotc.source.file import SourceFile, Span
 
 _QUOTE = "put the value in quotes"
 _INDENT = "indent the keys of one mapping, and the items of one list, by the same number of spaces"
@@ -51,6 +51,11 @@ class Complaint:
         line, column = self.file.position(self.at)
         return self.at - column + 1 + len(self.file.line(line).rstrip())
 
+    @property
+    def rest(self) -> Span:
+        """The span from the place of the error to the end of its line."""
+        return self.file.span(self.at, max(self.at, self.line_rest))
+
 
 def explain(complaint: Complaint) -> Fault:
     """Return the fault that a parser error stands for."""
@@ -63,7 +68,7 @@ def explain(complaint: Complaint) -> Fault:
 
 
 def _fault(c: Complaint, message: str, hint: str = "") -> Fault:
-    return Fault("syntax", message, c.file.span(c.at, c.at + 1), help=hint)
+    return Fault("syntax", message, c.file.point(c.at), help=hint)
 
 
 def _tab(c: Complaint) -> Fault | None:
@@ -109,7 +114,7 @@ def _bad_start(c: Complaint) -> Fault:
     return Fault(
         "needs-quotes",
         f"a value cannot begin with '{c.character}' unless it is quoted",
-        c.file.span(c.at, c.line_rest),
+        c.rest,
         help=f'{_QUOTE}: "{c.text[c.at : c.line_rest]}"' if c.line_rest - c.at < 40 else _QUOTE,
     )
 
@@ -122,7 +127,7 @@ def _second_colon(c: Complaint) -> Fault:
         return Fault(
             "needs-quotes",
             "a second ': ' in one line",
-            c.file.span(c.at, c.at + 1),
+            c.file.point(c.at),
             help="quote the value if the colon belongs to it, or begin a new line after the first key",
         )
     start = c.at - len(key)
@@ -151,7 +156,7 @@ def _stray_item(c: Complaint) -> Fault:
     return Fault(
         "indentation",
         "a list item cannot begin here",
-        c.file.span(c.at, c.at + 1),
+        c.file.point(c.at),
         help="begin the item on a line of its own, below the key of the list",
     )
 
@@ -166,14 +171,14 @@ def _not_a_key(c: Complaint) -> Fault:
         return Fault(
             "syntax",
             "text after the end of a value",
-            c.file.span(c.at, max(c.line_rest, c.at + 1)),
+            c.rest,
             help="quote the whole value, or begin a new line",
         )
     if c.text[c.at : c.at + 2] in ("- ", "-\n", "-"):
         message = "a list item among keys, or indented like no item above"
     else:
         message = "the indentation of this line fits no line above"
-    return Fault("indentation", message, c.file.span(c.at, max(c.line_rest, c.at + 1)), help=_INDENT)
+    return Fault("indentation", message, c.rest, help=_INDENT)
 
 
 def _stray_bracket(c: Complaint) -> Fault:
@@ -186,7 +191,7 @@ def _not_an_item(c: Complaint) -> Fault:
     return Fault(
         "indentation",
         "this line is no item of the list above",
-        c.file.span(c.at, max(c.line_rest, c.at + 1)),
+        c.rest,
         help=_INDENT,
     )
 
@@ -198,8 +203,8 @@ def _unclosed_bracket(c: Complaint) -> Fault:
     return Fault(
         "unclosed",
         f"this '{bracket}' is not closed, or a comma is missing after it",
-        c.file.span(opened, opened + 1),
-        related=((c.file.span(c.at, c.at + 1), f"',' or '{close}' expected before this"),),
+        c.file.point(opened),
+        related=((c.file.point(c.at), f"',' or '{close}' expected before this"),),
         help=f"add the '{close}', or the comma between the values",
     )
 
@@ -210,7 +215,7 @@ def _unclosed_quote(c: Complaint) -> Fault:
     return Fault(
         "unclosed",
         "this quotation mark is not closed",
-        c.file.span(opened, opened + 1),
+        c.file.point(opened),
         help=f"add a {quote} at the end of the value",
     )
 
@@ -248,7 +253,7 @@ def _anchor_name(c: Complaint) -> Fault:
     return Fault(
         "needs-quotes",
         f"'{sign}' begins {kind}, and no name follows",
-        c.file.span(start, start + 1),
+        c.file.point(start),
         help=f"{_QUOTE} if the '{sign}' belongs to it",
     )
 
@@ -269,7 +274,7 @@ def _after_end(c: Complaint) -> Fault:
     return Fault(
         "syntax",
         "text after the end of the document",
-        c.file.span(c.at, max(c.line_rest, c.at + 1)),
+        c.rest,
         help="a mission is one mapping of keys to values; delete what follows it",
     )
 

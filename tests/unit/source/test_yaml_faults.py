@@ -66,7 +66,7 @@ CASES = [
     ("null key", "~: b\n", "key-not-text", (1, 1, 1, 2)),
     ("no key in brackets", "a: {: b}\n", "syntax", (1, 5, 1, 6)),
     ("no key", "a: 1\n: b\n", "syntax", (2, 1, 2, 2)),
-    ("empty key", "?\n: b\n", "key-not-text", (1, 2, 1, 3)),
+    ("empty key", "?\n: b\n", "key-not-text", (1, 2, 1, 2)),
     ("truth key", "true: b\n", "key-not-text", (1, 1, 1, 5)),
     ("list key", "? [a]\n: b\n", "complex-key", (1, 3, 1, 6)),
     ("template", "a: {{ b }: 1}\n", "complex-key", (1, 5, 1, 10)),

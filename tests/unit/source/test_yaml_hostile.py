@@ -20,8 +20,8 @@ def lies_in(span: Span, file: SourceFile) -> bool:
     inside = 1 <= span.line <= span.end_line <= len(lines)
     return (
         inside
-        and 1 <= span.column <= len(lines[span.line - 1]) + 3
-        and 1 <= span.end_column <= len(lines[span.end_line - 1]) + 3
+        and 1 <= span.column <= len(lines[span.line - 1]) + 1
+        and 1 <= span.end_column <= len(lines[span.end_line - 1]) + 1
         and (span.line, span.column) <= (span.end_line, span.end_column)
     )
 
