@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from math import comb
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
 
 DEGREE = 5
-IntArray = np.ndarray[tuple[int], np.dtype[np.intp]]
+IntArray = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,11 +8,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Prism, Solid
 
 FAR = 1e5  # stands for an unbounded height, metres
+BoolArray = NDArray[np.bool_]
 GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 
@@ -42,8 +44,9 @@ def _closest_on_polygon(part: Prism, xy: Array) -> Array:
     feet = corners + along[..., None] * sides
     nearest = ((xy[..., None, :] - feet) ** 2).sum(axis=-1).argmin(axis=-1)
     foot = np.take_along_axis(feet, nearest[..., None, None], axis=-2)[..., 0, :]
-    inside = (sides[:, 0] * offset[..., 1] - sides[:, 1] * offset[..., 0] >= 0).all(axis=-1)
-    return np.where(inside[..., None], xy, foot)
+    turn = sides[:, 0] * offset[..., 1] - sides[:, 1] * offset[..., 0]
+    inside = turn.min(axis=-1, keepdims=True) >= 0
+    return np.where(inside, xy, foot)
 
 
 def support(part: Solid, n: Array) -> Array:

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import distances, segment_distances, separate, support
+from shotc.geom.bspline import IntArray
+from shotc.geom.convex import BoolArray, distances, segment_distances, separate, support
 from shotc.geom.solids import Solid
 
 MARGIN = 0.05  # kept beyond what verification asks, metres: later stages interpolate the path
@@ -56,6 +57,12 @@ class Room:
     walls: tuple[Wall, ...]
     discs: tuple[Disc, ...]
 
+    @property
+    def owners(self) -> tuple[str, ...]:
+        """Everything that may stop a path, each once, in a fixed order."""
+        names = [o.owner for o in self.obstacles] + [w.owner for w in self.walls]
+        return tuple(dict.fromkeys(names + [d.owner for d in self.discs]))
+
     def without(self, owner: str) -> Room:
         """Return the room with everything of one owner taken away."""
         return Room(
@@ -98,8 +105,7 @@ def breaches(room: Room, p: Array, tolerance: float = 1e-6) -> list[Breach]:
     for o in room.obstacles:
         lack = o.clearance - float(distances(o.part, p))
         found.append(Breach(o.owner, lack, o.clearance))
-    for w in room.walls:
-        found.append(Breach(w.owner, w.offset - float(p @ np.array(w.normal)), 0.0))
+    found += [Breach(w.owner, w.offset - float(p @ np.array(w.normal)), 0.0) for w in room.walls]
     for d in room.discs:
         lack = float(np.linalg.norm(p[:2] - np.array(d.centre))) - d.radius
         found.append(Breach(d.owner, lack, 0.0))
@@ -116,7 +122,7 @@ def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
     return np.asarray(obstacle.clearance + np.minimum(margin, 0.5 * np.maximum(room, 0.0)))
 
 
-def blocked(room: Room, a: Array, b: Array, margin: float = MARGIN) -> Array:
+def blocked(room: Room, a: Array, b: Array, margin: float = MARGIN) -> BoolArray:
     """Tell for segments a-b, shapes (N, 3), and obstacles whether they come too near; (N, obstacles)."""
     out = np.zeros((len(a), len(room.obstacles)), dtype=bool)
     low, high = np.minimum(a, b), np.maximum(a, b)
@@ -138,8 +144,8 @@ class Planes:
     normal, offset  : shapes (R, 3), (R,)
     """
 
-    piece: np.ndarray[tuple[int], np.dtype[np.intp]]
-    obstacle: np.ndarray[tuple[int], np.dtype[np.intp]]
+    piece: IntArray
+    obstacle: IntArray
     normal: Array
     offset: Array
 

@@ -15,7 +15,8 @@ from math import ceil, pi
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import FAR, distances, segment_distances
+from shotc.geom.bspline import IntArray
+from shotc.geom.convex import FAR, BoolArray, distances, segment_distances
 from shotc.geom.corridor import MARGIN, Obstacle, Room, blocked, bounds_slack
 from shotc.geom.solids import Cylinder, Solid
 
@@ -60,7 +61,7 @@ def find_route(room: Room, start: Array, end: Array) -> Array | None:
 class _Graph:
     """One search: nodes from some obstacles, edges tested against all of them."""
 
-    def __init__(self, room: Room, grown: list[_Grown], active: Array, start: Array, end: Array) -> None:
+    def __init__(self, room: Room, grown: list[_Grown], active: IntArray, start: Array, end: Array) -> None:
         self.room, self.grown = room, grown
         corners = [_nodes(grown, j, active, start, end) for j in active]
         nodes = np.concatenate([np.stack([start, end]), *corners])
@@ -71,12 +72,12 @@ class _Graph:
         self.nodes: Array = nodes[free]
         self.touched = np.zeros(len(grown), dtype=bool)
 
-    def search(self) -> tuple[Array | None, Array]:
+    def search(self) -> tuple[Array | None, BoolArray]:
         """Return the cheapest way found, and which obstacles stopped an edge."""
         nodes = self.nodes
         cost = np.full(len(nodes), np.inf)
         cost[0] = 0.0
-        parent = np.zeros(len(nodes), dtype=int)
+        parent = np.zeros(len(nodes), dtype=np.intp)
         done = np.zeros(len(nodes), dtype=bool)
         ahead = np.linalg.norm(nodes - nodes[1], axis=1)
         queue = [(float(ahead[0]), 0)]
@@ -95,13 +96,13 @@ class _Graph:
                 heappush(queue, (float(value + ahead[k]), int(k)))
         return None, self.touched
 
-    def _trace(self, parent: Array) -> Array:
+    def _trace(self, parent: IntArray) -> Array:
         path = [1]
         while path[-1] != 0:
             path.append(int(parent[path[-1]]))
         return np.asarray(self.nodes[path[::-1]])
 
-    def _prices(self, i: int, others: Array) -> Array:
+    def _prices(self, i: int, others: IntArray) -> Array:
         a = np.broadcast_to(self.nodes[i], (len(others), 3))
         b = self.nodes[others]
         length = np.linalg.norm(b - a, axis=1)
@@ -112,31 +113,28 @@ class _Graph:
             if g.top < FAR:
                 price = price + OVERFLIGHT_PRICE * over * length
             hit = self._hits(j, a, b, enter, leave)
-            ends = (others == 1) | (i <= 1)
-            if ends.any() and self._close(j, i, others).any():
-                exact = self._close(j, i, others)
+            exact = self._close(j, i, others)
+            if exact.any():
                 hit[exact] = self._near(j, a[exact], b[exact])
             self.touched[j] |= bool(hit.any())
             price[hit] = np.inf
         return np.asarray(price)
 
-    def _hits(self, j: int, a: Array, b: Array, enter: Array, leave: Array) -> Array:
+    def _hits(self, j: int, a: Array, b: Array, enter: Array, leave: Array) -> BoolArray:
+        """Edges that cut the grown prism, given where they are above or below its footprint."""
         g = self.grown[j]
         reach = g.clearance + ROUTE_MARGIN
-        rise = b[:, 2] - a[:, 2]
-        z0, z1 = a[:, 2] + enter * rise, a[:, 2] + leave * rise
-        above = (np.minimum(z0, z1) >= g.top + reach) | (np.maximum(z0, z1) <= g.bottom - reach)
-        # A slanted edge may cut the prism's lid: clip the heights as well.
-        t_low, t_high = _clip_heights(a[:, 2], rise, g.bottom - reach, g.top + reach)
-        return (np.maximum(enter, t_low) < np.minimum(leave, t_high) - 1e-9) & ~above
+        low, high = _clip_heights(a[:, 2], b[:, 2] - a[:, 2], g.bottom - reach, g.top + reach)
+        return np.asarray(np.maximum(enter, low) < np.minimum(leave, high) - 1e-9)
 
-    def _close(self, j: int, i: int, others: Array) -> Array:
+    def _close(self, j: int, i: int, others: IntArray) -> BoolArray:
         """Edges whose start or end point of the whole way stands inside the grown prism."""
         inside = _inside(self.grown[j], self.nodes[:2], ROUTE_MARGIN + 1e-6)
-        from_end = bool(i <= 1 and inside[i])
-        return np.full(len(others), from_end) | ((others == 1) & inside[1])
+        if i <= 1 and inside[i]:
+            return np.ones(len(others), dtype=np.bool_)
+        return np.asarray((others == 1) & inside[1])
 
-    def _near(self, j: int, a: Array, b: Array) -> Array:
+    def _near(self, j: int, a: Array, b: Array) -> BoolArray:
         o = self.room.obstacles[j]
         own = np.minimum(distances(o.part, a), distances(o.part, b)) - o.clearance
         need = o.clearance + np.minimum(MARGIN, 0.5 * np.maximum(own, 0.0))
@@ -180,7 +178,7 @@ def _corners(g: _Grown, growth: float) -> Array:
     return np.stack([x, y], axis=1)
 
 
-def _nodes(grown: list[_Grown], j: int, active: Array, start: Array, end: Array) -> Array:
+def _nodes(grown: list[_Grown], j: int, active: IntArray, start: Array, end: Array) -> Array:
     """Corners of one grown obstacle at the heights a way may want to pass them."""
     g = grown[j]
     xy = _corners(g, g.clearance + NODE_MARGIN)
@@ -195,7 +193,7 @@ def _nodes(grown: list[_Grown], j: int, active: Array, start: Array, end: Array)
     return np.concatenate([np.column_stack([xy, z]) for z in levels])
 
 
-def _inside(g: _Grown, p: Array, margin: float) -> Array:
+def _inside(g: _Grown, p: Array, margin: float) -> BoolArray:
     reach = g.clearance + margin
     flat = (p[:, :2] @ g.normals.T <= g.offsets + reach - 1e-9).all(axis=1)
     return np.asarray(flat & (p[:, 2] < g.top + reach - 1e-9) & (p[:, 2] > g.bottom - reach + 1e-9))

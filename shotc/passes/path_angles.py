@@ -8,12 +8,13 @@ them, exact at the keyframes. Elsewhere the angles are as smooth as their keyfra
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import pi
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import control_rows, restrict, spline, subdivide, value_rows
+from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Drone, MissionIR
@@ -159,7 +160,7 @@ def _hfov(track: Track) -> Piecewise:
     """Return the field of view over s: monotone between keyframes, at rest at each of them."""
     keys = [i for i in range(len(track.s)) if i == 0 or track.s[i] > track.s[i - 1]]
     wide = [track.keyframes[i].hfov for i in keys]
-    ctrl = np.array([[[a]] * 3 + [[b]] * 3 for a, b in zip(wide[:-1], wide[1:], strict=True)])
+    ctrl = np.array([[[a]] * 3 + [[b]] * 3 for a, b in pairwise(wide)])
     return Piecewise(track.s[keys], ctrl)
 
 
@@ -207,7 +208,7 @@ def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
     anchors: list[tuple[float, float, float]] = []
     cuts: list[Cut] = []
     last_yaw = track.keyframes[0].yaw
-    for i, keyframe in enumerate(track.keyframes):
+    for i in range(len(track.keyframes)):
         if i > 0 and track.s[i] > track.s[i - 1]:
             at = _inner(breaks, float(track.s[i - 1]), float(track.s[i]))
             aims, cut = _aims(mission, drone, track, i - 1, at, hfov)
@@ -224,7 +225,9 @@ def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
             anchors.append((float(track.s[i]), last_yaw, anchor[1]))
     wanted = np.array(angles).reshape(-1, 2)
     fixed = np.array(anchors).reshape(-1, 3)
-    return _Samples(np.array(s_all), wanted[:, 0], wanted[:, 1], *fixed.T, tuple(cuts))
+    return _Samples(
+        np.array(s_all), wanted[:, 0], wanted[:, 1], fixed[:, 0], fixed[:, 1], fixed[:, 2], tuple(cuts)
+    )
 
 
 def _inner(breaks: Array, start: float, end: float) -> Array:

@@ -19,6 +19,7 @@ from shotc.solvers.spline_fit import Fit, fit
 
 SAMPLES = 3  # per piece
 FAINT = 1e-4  # weight that keeps a body in place where nothing else does
+FREE_PULL = 1e-8  # 1/m: picks one of the headings that need no turn at all
 SWITCH = 1.0  # rad^2: what it costs to change over from one gimbal stop to the other
 
 
@@ -48,7 +49,7 @@ def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
         value, weight = _forward(drone, task, at, cam)
         stiff = (FAINT * length**2, length**6)
     else:
-        value, weight = cam - _clip(0.0, drone.gimbal.yaw), np.full(len(at), FAINT)
+        value, weight = cam - _clip(0.0, drone.gimbal.yaw), np.full(len(at), FREE_PULL)
         stiff = (1.0, length**4)
     step = float(breaks[-1] - breaks[0]) / len(at)
     low, high = drone.gimbal.yaw

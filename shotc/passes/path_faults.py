@@ -81,7 +81,8 @@ def moved(mission: MissionIR, shot: PlacedShot, deviation: Deviation) -> Diagnos
         labels.append(_owner_label(mission, deviation.cause, "is in the way"))
     return Diagnostic(
         "Q006",
-        f"shot {shot.shot.id} leaves its ideal path by up to {deviation.distance:.2f} m, round {deviation.cause}",
+        f"shot {shot.shot.id} leaves its ideal path by up to {deviation.distance:.2f} m, "
+        f"round {deviation.cause}",
         tuple(labels),
         (f"the largest distance is {where}",),
         "",

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import closest_points
+from shotc.geom.convex import closest_points, support
 from shotc.geom.corridor import Obstacle, Room, Wall
 from shotc.geom.route import find_route
 
@@ -25,8 +25,7 @@ class Gap:
 
 def opening(room: Room, start: Array, end: Array) -> tuple[str, ...]:
     """Return the owners each of which, taken away alone, leaves a way."""
-    owners = dict.fromkeys(item.owner for item in (*room.obstacles, *room.walls, *room.discs))
-    return tuple(name for name in owners if find_route(room.without(name), start, end) is not None)
+    return tuple(name for name in room.owners if find_route(room.without(name), start, end) is not None)
 
 
 def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -> Gap | None:
@@ -109,8 +108,6 @@ def _between(a: Obstacle, b: Obstacle) -> float:
 
 def _to_wall(o: Obstacle, w: Wall) -> float:
     """Return how much of the room between a wall and an obstacle is left for the drone's centre."""
-    from shotc.geom.convex import support
-
     n = np.array(w.normal)
     nearest = -float(support(o.part, -n[None])[0])
     return nearest - w.offset

@@ -106,7 +106,7 @@ def drone_legs(flight: Flight, shots: list[ShotCurve]) -> tuple[Leg, ...] | tupl
 
 
 def _at_pad(flight: Flight, first: ShotCurve) -> Pose:
-    """The pad's pose: heading of the first frame, or, flying nose first, of the way there."""
+    """Return the pad's pose: heading of the first frame, or, flying nose first, of the way there."""
     drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
     yaw = first.pose[CAM_YAW]

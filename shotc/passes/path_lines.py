@@ -101,10 +101,10 @@ def shot_line(room: Room, keyframes: tuple[PlacedKeyframe, ...]) -> Line | NoWay
 
 def _ways(room: Room, points: Array, kept: list[int]) -> list[Array] | NoWay:
     a, b = points[kept[:-1]], points[kept[1:]]
-    shut = blocked(room, a, b).any(axis=1) if len(kept) > 1 else np.zeros(0, dtype=bool)
     ways = []
-    for k, is_shut in enumerate(shut):
-        route = find_route(room, a[k], b[k]) if is_shut else np.stack([a[k], b[k]])
+    shut = blocked(room, a, b)
+    for k in range(len(kept) - 1):
+        route = find_route(room, a[k], b[k]) if shut[k].any() else np.stack([a[k], b[k]])
         if route is None:
             return NoWay(a[k], b[k], (kept[k], kept[k + 1]))
         ways.append(route)
@@ -123,10 +123,10 @@ def _joined(
         i, j = kept[k], kept[k + 1]
         if len(way) == 2 and np.linalg.norm(way[1] - way[0]) < SAME_PLACE:
             steps = np.array([_turn_length(keyframes[i], keyframes[j])])
-            way = np.stack([corners[-1], corners[-1]])
+            corners.append(corners[-1])
         else:
             steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
-        corners += list(way[1:])
+            corners += list(way[1:])
         s += list(s[-1] + np.cumsum(steps))
         of += [-1] * (len(way) - 2) + [j]
     routed = any(len(way) > 2 for way in ways) or bool(dropped)

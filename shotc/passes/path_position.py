@@ -12,6 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import (
+    IntArray,
     Rows,
     control_rows,
     count,
@@ -104,15 +105,9 @@ def solve_stretch(room: Room, stretch: Stretch, limits: Limits) -> Solved:
         status = best
         if status in {Status.FAILED, Status.UNBOUNDED}:
             break
-    owners = owner_names(room)
+    owners = room.owners
     relaxation = relax(problem, len(owners)) if problem and status is Status.INFEASIBLE else None
     return Solved(None, status, float("nan"), rounds, relaxation, owners)
-
-
-def owner_names(room: Room) -> tuple[str, ...]:
-    """Return everything that may stop a path, each once, in a fixed order."""
-    items = (*room.obstacles, *room.walls, *room.discs)
-    return tuple(dict.fromkeys(item.owner for item in items))
 
 
 def _line(stretch: Stretch) -> Piecewise:
@@ -214,7 +209,7 @@ def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> t
 def _with_corridor(
     base: SplineProblem, room: Room, breaks: Array, hulls: Array, reach: float
 ) -> SplineProblem:
-    index = {name: i for i, name in enumerate(owner_names(room))}
+    index = {name: i for i, name in enumerate(room.owners)}
     planes, _ = corridor(room, hulls, reach)
     owner = np.array([index[o.owner] for o in room.obstacles], dtype=np.intp)
     floors = [_floors(breaks, planes, owner[planes.obstacle] if len(planes.obstacle) else planes.obstacle)]
@@ -226,12 +221,12 @@ def _with_corridor(
     )
 
 
-def _floors(breaks: Array, planes: Planes, owner: Array) -> Floors:
+def _floors(breaks: Array, planes: Planes, owner: IntArray) -> Floors:
     rows = _points_of(breaks, planes.piece)
     return Floors(rows, np.repeat(planes.normal, 6, axis=0), np.repeat(planes.offset, 6), np.repeat(owner, 6))
 
 
-def _points_of(breaks: Array, pieces: Array) -> Rows:
+def _points_of(breaks: Array, pieces: IntArray) -> Rows:
     every = control_rows(breaks).weight.reshape(-1, 6, 6)
     return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
 

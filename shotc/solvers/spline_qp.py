@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import DEGREE, Rows
+from shotc.geom.bspline import DEGREE, IntArray, Rows
 from shotc.solvers.conic import Status, solve
 
 
@@ -43,7 +43,7 @@ class Floors:
     rows: Rows
     normal: Array
     offset: Array
-    owner: Array
+    owner: IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,7 +61,7 @@ class Cones:
     centre: Array
     bound: Array
     price: Array | None
-    owner: Array
+    owner: IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,11 +141,9 @@ def relax(problem: SplineProblem, owners: int) -> Relaxation:
     shift = cp.Variable(points, nonneg=True)
     miss = _block(problem.equalities.rows, problem.size) @ x - problem.equalities.value.T.ravel()
     constraints = [cp.SOC(shift, cp.reshape(miss, (points, 3), order="F"), axis=1)]
-    for f in problem.floors:
-        constraints.append(_floor_map(f, problem.size) @ x + lack[f.owner.astype(int)] >= f.offset)
-    for cone in problem.cones:
-        if cone.price is None:
-            constraints.append(_cone(cone, problem.size, x, cone.bound + lack[cone.owner.astype(int)]))
+    constraints += [_floor_map(f, problem.size) @ x + lack[f.owner] >= f.offset for f in problem.floors]
+    hard = [cone for cone in problem.cones if cone.price is None]
+    constraints += [_cone(c, problem.size, x, c.bound + lack[c.owner]) for c in hard]
     weak = 1e-6 * cp.sum_squares(_stack(problem, x))
     programme = cp.Problem(cp.Minimize(cp.sum(lack) + cp.sum(shift) + weak), constraints)
     status = solve(programme)
