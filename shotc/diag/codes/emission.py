@@ -102,4 +102,44 @@ _MAVLINK_CODES = (
     ),
 )
 
-CODES: tuple[CodeInfo, ...] = (*_MAVLINK_CODES,)
+_FILE_CODES = (
+    CodeInfo(
+        "E001",
+        "plan-not-json",
+        Severity.ERROR,
+        "a plan file is not JSON",
+        "`shotc verify`, `emit`, `view` and `diff` read the plan.json that `shotc plan` writes. The text stops "
+        "being JSON at the place that is named: a file cut short, a copy with a key twice, or some other file.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E002",
+        "plan-format",
+        Severity.ERROR,
+        "a JSON file is not a plan, or one of another version",
+        'A plan begins with "format": "shotc-plan" and "version": 1. The trajectory in a plan of another version '
+        "may mean something else, so it is not guessed at: plan the mission again with this shotc.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E003",
+        "plan-field",
+        Severity.ERROR,
+        "a field of a plan file is missing, or does not hold what belongs there",
+        "Every field of a plan is read strictly: its type, finite numbers, the shape of every table, names that "
+        "exist. The path of the field is given, as in `drones[0].limits.speed`. A plan written by shotc has no "
+        "such faults, so the file was edited or damaged: plan the mission again.",
+        "",
+        "",
+        "other",
+    ),
+)
+
+CODES: tuple[CodeInfo, ...] = (
+    *_FILE_CODES,
+    *_MAVLINK_CODES,
+)

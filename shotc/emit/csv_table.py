@@ -1,0 +1,123 @@
+"""trajectory.csv and framing.csv: the plan at the ticks of the output clock, nine significant digits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import isnan
+from typing import ClassVar
+
+import numpy as np
+import pymap3d
+
+from shotc.emit.base import Artifact, Emission
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import GeoOrigin, MissionIR
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.sampling import clock, phase_index, references, seen, subjects
+from shotc.ir.trajectory import DroneTrajectory, Phase, VerifiedIR
+
+NUMBER = "%.9g"
+
+TRAJECTORY = (
+    "t_s,drone,phase,shot,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,ax_m_s2,ay_m_s2,az_m_s2,"
+    "body_yaw_rad,cam_yaw_rad,cam_pitch_rad,cam_yaw_rate_rad_s,cam_pitch_rate_rad_s,hfov_rad"
+)
+GEODETIC = ",lat_deg,lon_deg,alt_m"
+FRAMING = "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded"
+
+
+@dataclass(frozen=True, slots=True)
+class CsvTable:
+    """Writes both tables, rows sorted by drone, then time, on the common clock t = k / rate."""
+
+    name: ClassVar[str] = "csv"
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return trajectory.csv and framing.csv."""
+        mission = plan.trajectory.keyframes.mission
+        tracks = sorted(plan.trajectory.drones, key=lambda track: track.drone)
+        header = TRAJECTORY + (GEODETIC if mission.origin is not None else "")
+        motion = [row for track in tracks for row in _motion(mission, track)]
+        framing = [row for track in tracks for row in _framing(mission, track)]
+        return Emission(
+            (
+                Artifact("trajectory.csv", _table(header, motion)),
+                Artifact("framing.csv", _table(FRAMING, framing)),
+            )
+        )
+
+
+def _table(header: str, rows: Sequence[str]) -> bytes:
+    return "\n".join([header, *rows, ""]).encode("utf-8")
+
+
+def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
+    t = clock(mission.rate, track.curve.end)
+    curve = track.curve
+    pose, rate, acceleration = (curve(t), curve.derivative()(t), curve.derivative(2)(t))
+    rate[-1] = acceleration[-1] = 0.0  # at or after the end the drone stands on its pad
+    columns = [
+        pose[:, :3],
+        rate[:, :3],
+        acceleration[:, :3],
+        pose[:, [BODY_YAW, CAM_YAW, CAM_PITCH]],
+        rate[:, [CAM_YAW, CAM_PITCH]],
+        pose[:, [HFOV]],
+    ]
+    if mission.origin is not None:
+        columns.append(geodetic(mission.origin, pose[:, :3]))
+    names = [f"{track.drone},{phase.name},{phase.shot or ''}" for phase in track.phases]
+    numbers = np.concatenate(columns, axis=1) + 0.0  # no negative zeros
+    line = f"{NUMBER},%s,{','.join([NUMBER] * numbers.shape[1])}"
+    for time, phase, row in zip(
+        t.tolist(), phase_index(track.phases, t).tolist(), numbers.tolist(), strict=True
+    ):
+        yield line % (time, names[phase], *row)
+
+
+def geodetic(origin: GeoOrigin, position: Array) -> Array:
+    """Return latitude and longitude in degrees and altitude in metres of points of W, shape (M, 3).
+
+    ENU to WGS84 (pymap3d). The origin's altitude is the height datum: what it is measured above, the
+    result is, too.
+    """
+    lat, lon, alt = pymap3d.enu2geodetic(
+        *position.T, origin.lat_deg, origin.lon_deg, origin.alt, ell=pymap3d.Ellipsoid.from_name("wgs84")
+    )
+    return np.stack([lat, lon, alt], axis=-1)
+
+
+def _framing(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
+    t = clock(mission.rate, track.curve.end)
+    index = phase_index(track.phases, t)
+    for k, phase in enumerate(track.phases):
+        if phase.shot is not None:
+            yield from _shot(mission, track, phase, t[index == k])
+
+
+def _shot(mission: MissionIR, track: DroneTrajectory, phase: Phase, t: Array) -> Iterator[str]:
+    shot = str(phase.shot)
+    blocks = [_block(mission, track, (shot, target), t) for target in subjects(mission, track, shot)]
+    for rows in zip(*blocks, strict=True):
+        yield from rows
+
+
+def _block(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: Array) -> list[str]:
+    shot, target = of
+    frames = seen(mission, track, target, t)
+    wanted = references(track, shot, target, t)
+    numbers = np.column_stack([frames.u, frames.v, wanted, frames.size]) + 0.0
+    flags = np.column_stack([frames.in_frame, frames.hidden]).astype(int)
+    name = f"{track.drone},{shot},{target}"
+    return [
+        f"{NUMBER % time},{name},{_cells(row)},{flag[0]},{flag[1]}"
+        for time, row, flag in zip(t.tolist(), numbers.tolist(), flags.tolist(), strict=True)
+    ]
+
+
+def _cells(row: list[float]) -> str:
+    return ",".join("" if isnan(value) else NUMBER % value for value in row)
+
+
+EMITTER = CsvTable()

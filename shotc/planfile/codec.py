@@ -1,0 +1,220 @@
+"""IR dataclasses to JSON values and back, by their type hints; faults are collected with their JSON path.
+
+A dataclass is an object with all its fields, in their order; where a field may hold one of several
+dataclasses, ``type`` names it. Tuples are lists. A number that may be without limit is "inf" or "-inf" then;
+nothing else that is not finite is read or written. A curve is {"breaks": [...], "control": [[[...]]]}.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cache
+from math import inf, isfinite
+from types import NoneType, UnionType
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.solids import Cylinder, Prism
+from shotc.ir.trajectory import Claim
+
+UNLIMITED = {
+    (Cylinder, "bottom"),
+    (Cylinder, "top"),
+    (Prism, "bottom"),
+    (Prism, "top"),
+    (Claim, "limit"),
+    (Claim, "worst"),
+}
+
+INFINITE = {"inf": inf, "-inf": -inf}
+
+
+@dataclass(frozen=True, slots=True)
+class FieldFault:
+    """What is wrong with one value: its path, like ``drones[0].limits.speed``, and the fault."""
+
+    path: str
+    text: str
+
+
+def encode(value: Any) -> Any:
+    """Return a JSON value for an IR value."""
+    if isinstance(value, Piecewise):
+        return {"breaks": value.breaks.tolist(), "control": value.ctrl.tolist()}
+    if is_dataclass(value) and not isinstance(value, type):
+        tag = {"type": type(value).__name__} if isinstance(value, Cylinder | Prism) else {}
+        return tag | {f.name: encode(getattr(value, f.name)) for f in fields(value)}
+    if isinstance(value, tuple | list):
+        return [encode(item) for item in value]
+    if isinstance(value, float):
+        return float(value) if isfinite(value) else repr(float(value))
+    return value
+
+
+@cache
+def hints(kind: type) -> dict[str, Any]:
+    """Return the resolved types of a dataclass's fields, in their order."""
+    found = get_type_hints(kind)
+    return {f.name: found[f.name] for f in fields(kind)}
+
+
+@dataclass(slots=True)
+class Decoder:
+    """Turns JSON values into IR values; ``faults`` fills up, and a value with a fault comes back as None."""
+
+    faults: list[FieldFault]
+
+    def fault(self, path: str, text: str) -> None:
+        """Note a fault and go on."""
+        self.faults.append(FieldFault(path or "the document", text))
+
+    def decode(self, kind: Any, value: Any, path: str) -> Any:
+        """Return ``value`` as ``kind``."""
+        if kind is object:
+            return value
+        if kind is Piecewise:
+            return self._curve(value, path)
+        if is_dataclass(kind):
+            return self._record(kind, value, path)
+        origin = get_origin(kind)
+        if origin in (Union, UnionType):
+            return self._union(get_args(kind), value, path)
+        if origin is tuple:
+            return self._tuple(get_args(kind), value, path)
+        if origin is Literal:
+            if value not in get_args(kind) or isinstance(value, bool):
+                self.fault(path, f"{show(value)} is none of {', '.join(map(str, get_args(kind)))}")
+            return value
+        return self._scalar(kind, value, path)
+
+    def fields(self, kinds: dict[str, Any], value: Any, path: str) -> dict[str, Any]:
+        """Return the fields of an object: all of them, and no others; an empty dict where it is none."""
+        if not isinstance(value, dict):
+            self.fault(path, f"{show(value)} is not an object")
+            return {}
+        for name in value.keys() - kinds.keys():
+            self.fault(at(path, name), "no such field is known")
+        found: dict[str, Any] = {}
+        for name, kind in kinds.items():
+            if name in value:
+                found[name] = self.decode(kind, value[name], at(path, name))
+            else:
+                self.fault(at(path, name), "is missing")
+        return found
+
+    def _record(self, kind: Any, value: Any, path: str) -> Any:
+        kinds = dict(hints(kind))
+        loose = {name for owner, name in UNLIMITED if owner is kind and isinstance(value, dict)}
+        infinite = {
+            n: INFINITE[value[n]] for n in loose if isinstance(value.get(n), str) and value[n] in INFINITE
+        }
+        if isinstance(value, dict):
+            value = {k: v for k, v in value.items() if k != "type" and k not in infinite}
+        found = self.fields({n: k for n, k in kinds.items() if n not in infinite}, value, path)
+        found |= infinite
+        return kind(**found) if found.keys() == kinds.keys() else None
+
+    def _union(self, kinds: tuple[Any, ...], value: Any, path: str) -> Any:
+        if value is None and NoneType in kinds:
+            return None
+        fitting = [kind for kind in kinds if kind is not NoneType and _fits(kind, value)]
+        others = [kind for kind in kinds if kind is not NoneType]
+        if not fitting and len(others) == 1:
+            fitting = others
+        if not fitting:
+            self.fault(path, f"{show(value)} is of no type that belongs here")
+            return None
+        return self.decode(fitting[0], value, path)
+
+    def _tuple(self, kinds: tuple[Any, ...], value: Any, path: str) -> Any:
+        if not isinstance(value, list):
+            self.fault(path, f"{show(value)} is not a list")
+            return ()
+        if len(kinds) == 2 and kinds[1] is Ellipsis:
+            kinds = kinds[:1] * len(value)
+        if len(kinds) != len(value):
+            self.fault(path, f"has {len(value)} items, not {len(kinds)}")
+            return ()
+        pairs = enumerate(zip(kinds, value, strict=True))
+        return tuple(self.decode(kind, item, f"{path}[{i}]") for i, (kind, item) in pairs)
+
+    def _scalar(self, kind: Any, value: Any, path: str) -> Any:
+        if kind is float and is_number(value):
+            try:
+                if isfinite(float(value)):
+                    return float(value)
+            except OverflowError:
+                pass
+            self.fault(path, f"{show(value)} is not a finite number")
+            return None
+        if type(value) is not kind:
+            self.fault(path, f"{show(value)} is not {NAMES[kind]}")
+            return None
+        return value
+
+    def _curve(self, value: Any, path: str) -> Piecewise | None:
+        parts = self.fields({"breaks": object, "control": object}, value, path) if value is not None else {}
+        arrays = {
+            name: self._array(parts[name], depth, at(path, name))
+            for name, depth in (("breaks", 1), ("control", 3))
+            if name in parts
+        }
+        if len(arrays) < 2 or any(a is None for a in arrays.values()):
+            return None
+        try:
+            return Piecewise(arrays["breaks"], arrays["control"])
+        except ValueError as wrong:
+            self.fault(path, str(wrong))
+            return None
+
+    def _array(self, value: Any, depth: int, path: str) -> Any:
+        try:
+            if numeric(value, depth):
+                return np.array(value, dtype=np.float64)
+        except (ValueError, OverflowError):
+            pass
+        self.fault(path, f"is not a table of numbers in {depth} dimension{'s' * (depth > 1)}")
+        return None
+
+
+NAMES = {float: "a number", int: "a whole number", str: "a text", bool: "true or false"}
+
+
+def is_number(value: Any) -> bool:
+    """Tell whether a JSON value is a number (true and false are none)."""
+    return type(value) in (int, float)
+
+
+def numeric(value: Any, depth: int) -> bool:
+    """Tell whether a JSON value is a list of lists (``depth`` of them) of numbers."""
+    if not isinstance(value, list) or not value:
+        return False
+    if depth == 1:
+        return all(map(is_number, value))
+    return all(numeric(item, depth - 1) for item in value)
+
+
+def at(path: str, name: str) -> str:
+    """Return the path of a field."""
+    return f"{path}.{name}" if path else name
+
+
+def show(value: Any) -> str:
+    """Return a JSON value as a message can carry it."""
+    if isinstance(value, dict):
+        return "an object"
+    if isinstance(value, list):
+        return "a list"
+    text = repr(value) if not isinstance(value, str) else f"`{value}`"
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+def _fits(kind: Any, value: Any) -> bool:
+    if is_dataclass(kind):
+        return isinstance(value, dict) and value.get("type", kind.__name__) == kind.__name__  # type: ignore[union-attr]
+    if get_origin(kind) is tuple:
+        args = get_args(kind)
+        return isinstance(value, list) and (args[-1] is Ellipsis or len(args) == len(value))
+    return is_number(value) if kind is float else type(value) is kind

@@ -1,0 +1,53 @@
+"""JSON that people can skim: short objects and rows of numbers on one line each, the rest indented."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+ROW = 100
+"""Characters up to which any value stands on one line."""
+
+FIELDS = 20
+"""Items up to which a value may stand on one line."""
+
+RECORD = 420
+"""Characters up to which an object of plain values stands on one line."""
+
+
+def text(value: Any) -> str:
+    """Return a JSON text, ASCII only, that reads back to the same value; ValueError for NaN."""
+    return "".join(_parts(value, "")) + "\n"
+
+
+def _parts(value: Any, pad: str) -> Iterator[str]:
+    line = _one_line(value)
+    if line is not None:
+        yield line
+        return
+    inner = pad + "  "
+    pairs = value.items() if isinstance(value, dict) else ((None, item) for item in value)
+    opening, closing = ("{", "}") if isinstance(value, dict) else ("[", "]")
+    yield opening
+    for i, (key, item) in enumerate(pairs):
+        yield (",\n" if i else "\n") + inner + ("" if key is None else json.dumps(key) + ": ")
+        yield from _parts(item, inner)
+    yield f"\n{pad}{closing}"
+
+
+def _one_line(value: Any) -> str | None:
+    if not isinstance(value, dict | list) or not value:
+        return json.dumps(value, allow_nan=False)
+    items = list(value.values()) if isinstance(value, dict) else value
+    if isinstance(value, list) and not any(isinstance(item, dict | list) for item in items):
+        return json.dumps(value, allow_nan=False)
+    if len(items) > FIELDS or not all(map(_is_short, items)):
+        return None
+    line = json.dumps(value, allow_nan=False)
+    flat = isinstance(value, dict) and not any(isinstance(item, dict) for item in items)
+    return line if len(line) <= (RECORD if flat else ROW) else None
+
+
+def _is_short(value: Any) -> bool:
+    return not isinstance(value, dict | list) or len(value) <= 8

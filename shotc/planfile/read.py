@@ -1,0 +1,181 @@
+"""plan.json read back: any bytes in, a plan or diagnostics out, never a traceback."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.path import Deviation
+from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
+from shotc.planfile.codec import Decoder, FieldFault, hints, show
+from shotc.planfile.sanity import inconsistencies
+from shotc.planfile.write import FORMAT, VERSION
+from shotc.source.file import WHOLE_FILE, Span
+
+SIZE_CAP = 256 * 2**20
+"""Bytes of the largest plan that is read."""
+
+REPORTED = 20
+"""Faults that are reported one by one; a file of another kind has thousands."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadPlan:
+    """What stands in a plan file: the trajectory, or None after a fault, and the certificate it claims.
+
+    tool : the version of shotc that wrote it
+    """
+
+    trajectory: TrajectoryIR | None
+    certificate: tuple[Claim, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    tool: str = ""
+
+
+class _NotJsonError(Exception):
+    """A fault of the text itself; ``span`` where it stands."""
+
+    def __init__(self, text: str, span: Span = WHOLE_FILE) -> None:
+        super().__init__(text)
+        self.span = span
+
+
+def read_plan(data: bytes, name: str) -> ReadPlan:
+    """Read the bytes of a plan.json; ``name`` is how to show it."""
+    try:
+        document = _parse(data)
+    except _NotJsonError as fault:
+        label = Label(name, fault.span)
+        return _refused(
+            Diagnostic(
+                "E001", f"this is no plan: {fault}", (label,), help="give the plan.json of `shotc plan`"
+            )
+        )
+    foreign = _foreign(document, name)
+    if foreign is not None:
+        return _refused(foreign)
+    decoder = Decoder([])
+    trajectory, certificate = _decode(document, decoder)
+    if not decoder.faults:
+        decoder.faults += [FieldFault(*fault) for fault in inconsistencies(trajectory)]
+    if decoder.faults:
+        return _refused(*_report(decoder.faults, name))
+    return ReadPlan(trajectory, certificate, (), document["tool"]["version"])
+
+
+def _refused(*diagnostics: Diagnostic) -> ReadPlan:
+    return ReadPlan(None, (), diagnostics)
+
+
+def _parse(data: bytes) -> Any:
+    if len(data) > SIZE_CAP:
+        raise _NotJsonError(f"it has {len(data)} bytes, more than {SIZE_CAP} are not read")
+    try:
+        text = data.decode("utf-8")
+        return json.loads(text, parse_constant=_constant, object_pairs_hook=_object)
+    except UnicodeDecodeError as fault:
+        raise _NotJsonError(f"byte {fault.start} is not UTF-8") from None
+    except json.JSONDecodeError as fault:
+        span = Span(fault.lineno, fault.colno, fault.lineno, fault.colno + 1)
+        raise _NotJsonError(f"it is not JSON, {fault.msg[:1].lower()}{fault.msg[1:]}", span) from None
+    except RecursionError:
+        raise _NotJsonError("its values are nested too deeply") from None
+    except ValueError as fault:
+        raise _NotJsonError(str(fault)) from None
+
+
+def _constant(text: str) -> float:
+    raise ValueError(f"{text} is not a number of JSON")
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [key for key, _ in pairs]
+        twice = next(key for key in names if names.count(key) > 1)
+        raise ValueError(f"the key {show(twice)} stands twice in one object")
+    return found
+
+
+def _foreign(document: Any, name: str) -> Diagnostic | None:
+    label = (Label(name, WHOLE_FILE),)
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        found = show(document.get("format")) if isinstance(document, dict) else show(document)
+        return Diagnostic(
+            "E002",
+            "this JSON is not a shotc plan",
+            label,
+            notes=(f'its "format" is {found}, not `{FORMAT}`',),
+            help="give the plan.json of `shotc plan`",
+        )
+    if document.get("version") is not VERSION:
+        return Diagnostic(
+            "E002",
+            f"plans of version {show(document.get('version'))} are not read by this shotc",
+            label,
+            notes=(f"this shotc reads version {VERSION}",),
+            help="plan the mission again with this shotc, or install the one that wrote the plan",
+        )
+    return None
+
+
+def _report(faults: list[FieldFault], name: str) -> list[Diagnostic]:
+    label = (Label(name, WHOLE_FILE),)
+    shown = [Diagnostic("E003", f"plan field `{f.path}`: {f.text}", label) for f in faults[:REPORTED]]
+    if len(faults) > REPORTED:
+        shown.append(Diagnostic("E003", f"and {len(faults) - REPORTED} more faults of this plan", label))
+    return shown
+
+
+_Spans = tuple[tuple[KeyPath, Span], ...]
+
+_DOCUMENT: dict[str, Any] = {
+    "format": str,
+    "version": int,
+    "tool": object,
+    "source": object,
+    "mission": object,
+    "keyframes": object,
+    "certificate": tuple[Claim, ...],
+    "deviations": tuple[Deviation, ...],
+    "statistics": tuple[tuple[str, float | str], ...],
+    "drones": tuple[DroneTrajectory, ...],
+    "origins": object,
+}
+
+
+def _decode(document: Any, decoder: Decoder) -> tuple[TrajectoryIR, tuple[Claim, ...]]:
+    parts = decoder.fields(_DOCUMENT, document, "")
+    decoder.fields({"name": str, "version": str}, parts.get("tool"), "tool")
+    source = decoder.fields({"file": str, "sha256": str}, parts.get("source"), "source")
+    spans = decoder.fields({"keys": _Spans, "values": _Spans}, parts.get("origins"), "origins")
+    kinds = {k: v for k, v in hints(MissionIR).items() if k not in ("origins", "source_sha256")}
+    fields = decoder.fields(kinds, parts.get("mission"), "mission")
+    if decoder.faults:
+        return None, ()  # type: ignore[return-value]
+    origins = OriginMap(source["file"], dict(spans["keys"]), dict(spans["values"]))
+    mission = MissionIR(**fields, source_sha256=source["sha256"], origins=origins)
+    keyframes = KeyframeIR(mission, _placed(parts["keyframes"], mission, decoder))
+    trajectory = TrajectoryIR(keyframes, parts["drones"], parts["deviations"], parts["statistics"])
+    return trajectory, parts["certificate"]
+
+
+def _placed(value: Any, mission: MissionIR, decoder: Decoder) -> tuple[PlacedShot, ...]:
+    shots = {shot.id: shot for shot in mission.shots}
+    kinds = {"shot": str, "keyframes": tuple[PlacedKeyframe, ...]}
+    if not isinstance(value, list):
+        decoder.fault("keyframes", f"{show(value)} is not a list")
+        return ()
+    found: list[PlacedShot] = []
+    for i, item in enumerate(value):
+        fields = decoder.fields(kinds, item, f"keyframes[{i}]")
+        if fields.get("shot") in shots and fields.get("keyframes"):
+            found.append(PlacedShot(shots[fields["shot"]], fields["keyframes"]))
+        elif len(fields) == len(kinds):
+            decoder.fault(f"keyframes[{i}]", "names no shot of the mission, or has no keyframes")
+    return tuple(found)

@@ -1,0 +1,114 @@
+"""What types cannot say about a plan file: names that exist, numbers that mean something, sizes that end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import chain
+from math import pi
+
+from shotc.geom.solids import Cylinder, Solid, is_simple, signed_area
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import CHANNELS
+from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
+
+SAMPLES = 20_000_000
+"""Ticks of the output clock that a flight may have."""
+
+CORNERS = 1000
+"""Corners that a zone may have."""
+
+Fault = tuple[str, str]
+
+
+def inconsistencies(ir: TrajectoryIR) -> Iterator[Fault]:
+    """Yield (path, fault) of everything that would make the plan meaningless to prove."""
+    mission = ir.keyframes.mission
+    yield from _mission(mission)
+    for i, drone in enumerate(mission.drones):
+        yield from _drone(drone, f"mission.drones[{i}]")
+    yield from _names(mission, ir)
+    for i, track in enumerate(ir.drones):
+        yield from _track(track, mission, f"drones[{i}]")
+
+
+def _mission(mission: MissionIR) -> Iterator[Fault]:
+    if not 0 < mission.rate <= 1000:
+        yield "mission.rate", f"{mission.rate:g} is not between 0 and 1000 samples a second"
+    for i, zone in enumerate(mission.zones):
+        text = _solid(zone.solid)
+        if text:
+            yield f"mission.zones[{i}].solid", text
+    for i, target in enumerate(mission.targets):
+        if target.radius < 0 or target.height < 0:
+            yield f"mission.targets[{i}]", "a radius or height is negative"
+    if mission.origin is not None and abs(mission.origin.lat_deg) > 90:
+        yield "mission.origin.lat_deg", f"{mission.origin.lat_deg:g} is no latitude"
+
+
+def _solid(solid: Solid) -> str:
+    if solid.bottom > solid.top:
+        return "its bottom is above its top"
+    if isinstance(solid, Cylinder):
+        return "its radius is negative" if solid.radius < 0 else ""
+    if not 3 <= len(solid.points) <= CORNERS:
+        return f"it has {len(solid.points)} corners, 3 to {CORNERS} are possible"
+    if not is_simple(solid.points) or signed_area(solid.points) <= 0:
+        return "its outline crosses itself or does not run counter-clockwise"
+    return ""
+
+
+def _drone(drone: Drone, path: str) -> Iterator[Fault]:
+    limits = drone.limits
+    positive = {
+        **{f"limits.{name}": getattr(limits, name) for name in type(limits).__slots__},
+        "gimbal.rate": drone.gimbal.rate,
+        "gimbal.acceleration": drone.gimbal.acceleration,
+        "aspect": drone.aspect,
+        "endurance": drone.endurance,
+    }
+    for name, value in positive.items():
+        if value <= 0:
+            yield f"{path}.{name}", f"{value:g} is not positive"
+    if drone.radius < 0:
+        yield f"{path}.radius", f"{drone.radius:g} is negative"
+    if not 0 < drone.hfov < pi:
+        yield f"{path}.hfov", f"{drone.hfov:g} rad is no field of view"
+
+
+def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:
+    for kind in ("zones", "targets", "drones"):
+        yield from _twice(f"mission.{kind}", (item.name for item in getattr(mission, kind)))
+    yield from _twice("mission.shots", (shot.id for shot in mission.shots))
+    yield from _twice("keyframes", (placed.shot.id for placed in ir.keyframes.shots))
+    yield from _twice("drones", (track.drone for track in ir.drones))
+    drones, targets = {d.name for d in mission.drones}, {t.name for t in mission.targets}
+    for i, shot in enumerate(mission.shots):
+        if shot.drone not in drones:
+            yield f"mission.shots[{i}].drone", f"there is no drone `{shot.drone}`"
+        for target in {shot.subject, *(k.target for k in shot.keyframes)} - {None, *targets}:
+            yield f"mission.shots[{i}]", f"there is no target `{target}`"
+    missing = {shot.id for shot in mission.shots} - {placed.shot.id for placed in ir.keyframes.shots}
+    for name in sorted(missing):
+        yield "keyframes", f"those of shot `{name}` are missing"
+
+
+def _twice(path: str, names: Iterable[str]) -> Iterator[Fault]:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            yield path, f"`{name}` stands there twice"
+        seen.add(name)
+
+
+def _track(track: DroneTrajectory, mission: MissionIR, path: str) -> Iterator[Fault]:
+    targets = {t.name for t in mission.targets}
+    for i, span in enumerate(track.framing):
+        if span.target not in targets:
+            yield f"{path}.framing[{i}].target", f"there is no target `{span.target}`"
+        if span.reference is not None and span.reference.ctrl.shape[2] != 2:
+            yield f"{path}.framing[{i}].reference", "does not have the two channels u and v"
+    if track.curve.ctrl.shape[2] != len(CHANNELS):
+        yield f"{path}.curve", f"has {track.curve.ctrl.shape[2]} channels, not {len(CHANNELS)}"
+    times = chain((p.end for p in track.phases), (track.curve.end,))
+    if max(times) * mission.rate > SAMPLES:
+        yield f"{path}.curve", f"lasts {track.curve.end:g} s: too many samples at {mission.rate:g} Hz"

@@ -1,0 +1,70 @@
+"""A verified plan as the bytes of plan.json: all that is needed to prove it again and to re-emit it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from shotc import __version__
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.planfile import layout
+from shotc.planfile.codec import encode
+
+FORMAT = "shotc-plan"
+VERSION = 1
+
+
+def plan_bytes(plan: VerifiedIR) -> bytes:
+    """Return plan.json; the same plan gives the same bytes, and numbers read back exactly."""
+    return layout.text(document(plan)).encode("ascii")
+
+
+def document(plan: VerifiedIR) -> dict[str, Any]:
+    """Return the JSON value of a plan."""
+    ir = plan.trajectory
+    mission = ir.keyframes.mission
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "tool": {"name": "shotc", "version": __version__},
+        "source": {"file": mission.origins.file, "sha256": mission.source_sha256},
+        "mission": {
+            k: v for k, v in encode_mission(mission).items() if k not in ("origins", "source_sha256")
+        },
+        "keyframes": [
+            {"shot": placed.shot.id, "keyframes": encode(placed.keyframes)} for placed in ir.keyframes.shots
+        ],
+        "certificate": encode(plan.certificate),
+        "deviations": encode(ir.deviations),
+        "statistics": encode(ir.stats),
+        "drones": encode(ir.drones),
+        "origins": _origins(mission, plan.certificate),
+    }
+
+
+def encode_mission(mission: MissionIR) -> dict[str, Any]:
+    """Return the fields of a mission, without the map of its origins."""
+    names = (name for name in MissionIR.__slots__ if name != "origins")
+    return {name: encode(getattr(mission, name)) for name in names}
+
+
+def _origins(mission: MissionIR, certificate: tuple[Claim, ...]) -> dict[str, Any]:
+    used = dict.fromkeys(_used(mission, certificate))
+    origins: OriginMap = mission.origins
+    return {
+        kind: [[list(path), encode(table[path])] for path in used if path in table]
+        for kind, table in (("keys", origins.keys), ("values", origins.values))
+    }
+
+
+def _used(mission: MissionIR, certificate: tuple[Claim, ...]) -> Iterator[KeyPath]:
+    """Yield the key paths that a diagnostic of a plan can point to, each after its ancestors."""
+    paths: list[KeyPath] = [claim.path for claim in certificate]
+    for named in (mission.zones, mission.targets, mission.drones, mission.shots):
+        paths += [element.path for element in named]
+    paths += [keyframe.path for shot in mission.shots for keyframe in shot.keyframes]
+    for path in paths:
+        for end in range(1, len(path) + 1):
+            yield path[:end]
