@@ -32,7 +32,7 @@ from shotc.emit.mavlink_items import (
 )
 from shotc.emit.mavlink_speed import Speeds, adapted, seconds
 from shotc.emit.mavlink_steps import SAME, Step
-from shotc.emit.mavlink_style import Command, Style, select
+from shotc.emit.mavlink_style import Command, Style, select, turns_body
 from shotc.emit.mavlink_track import Poses, Track
 from shotc.ir.mission import Drone, Vec3
 
@@ -94,7 +94,7 @@ class Builder:
             self._look(step.region, end.position[0])
         if entered is not None:
             self.items.append(action(VIDEO_START))
-        if self.dialect.turns_by_item and (step.region is None or self.style.swivels):
+        if self.dialect.turns_by_item and not (step.region and turns_body(self.drone)):
             self._turn(step, float(end.body_yaw[0]), force=turned)
         self.items.append(self.dialect.waypoint(place, step.hold, step.radius, step.command.body_yaw))
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink_clearance import Obstacle, shortfall
 from shotc.emit.mavlink_refly import STAY_PACE, Flown
+from shotc.emit.mavlink_thin import wrapped
 from shotc.emit.mavlink_track import Poses, poses_at, project, subject_at
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.trajectory import DroneTrajectory
@@ -49,7 +50,7 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown) -> Error:
         position = max(position, float(np.linalg.norm(met.position - plan.position, axis=1).max()))
         if shot is None:
             continue
-        heading = max(heading, float(np.abs(_wrapped(met.body_yaw - plan.body_yaw)).max()))
+        heading = max(heading, float(np.abs(wrapped(met.body_yaw - plan.body_yaw)).max()))
         shift = _shift(mission, flight, time, plan, met, drone)
         index = int(shift.argmax())
         if shift[index] >= screen:
@@ -148,7 +149,3 @@ def _shift(
     subject = subject_at(mission, flight, time, plan)
     shift = project(met, subject, drone) - project(plan, subject, drone)
     return np.asarray(np.nan_to_num(np.hypot(*shift.T), nan=0.0))
-
-
-def _wrapped(angle: Array) -> Array:
-    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)

@@ -3,7 +3,8 @@
 The model, without dynamics (accelerations, wind and corner rounding are left out):
 straight legs at the speeds in force; the body turns at the start of a leg to the waypoint's yaw
 (PX4, at MPC_YAWRAUTO_MAX) or to the last CONDITION_YAW (ArduPilot, at its rate); gimbal angles are
-steps taken at the gimbal's rate; a region of interest is followed exactly, within the gimbal's range.
+steps taken at the gimbal's rate; a region of interest is followed exactly, within the gimbal's range,
+and by ArduPilot with the whole body where the gimbal has no yaw.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from shotc.emit import mavlink_items as mav
 from shotc.emit.mavlink_geo import Geo
 from shotc.emit.mavlink_items import Item, Place
 from shotc.emit.mavlink_speed import DEFAULTS, Speeds, seconds
-from shotc.emit.mavlink_style import follow
+from shotc.emit.mavlink_style import facing, follow, turns_body
 from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Drone
 
@@ -123,6 +124,8 @@ def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
 def _log(pilot: _Pilot, position: Array, time: Array, way: Array) -> None:
     body = _slew(pilot.yaw, pilot.yaw_goal, pilot.turn_rate, time)
     if pilot.roi is not None:
+        if turns_body(pilot.drone):
+            body = facing(position, pilot.roi)
         cam_yaw, pitch = follow(pilot.drone, position, body, pilot.roi)
         pan = cam_yaw - body
     else:

@@ -36,14 +36,12 @@ class Style:
     """What thinning and writing need to know about pointing.
 
     pans : the camera turns against the body, so the gimbal's yaw is commanded
-    swivels : the gimbal can turn in yaw, so a region of interest leaves the body alone
     followed : shots whose target is one region of interest all along, with its centre in W
     aimed : shots in which each leg has a region of interest of its own
     """
 
     autopilot: Literal["px4", "ardupilot"]
     pans: bool
-    swivels: bool
     followed: dict[str, Vec3]
     aimed: frozenset[str]
 
@@ -66,8 +64,6 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style
     drone = mission.drone(flight.drone)
     poses = track.poses
     parted = np.abs(poses.cam_yaw - poses.body_yaw).max()
-    low, high = drone.gimbal.yaw
-    swivels = degrees(high - low) > SWIVEL_LEAST
     followed: dict[str, Vec3] = {}
     aimed: set[str] = set()
     for phase in flight.phases:
@@ -77,9 +73,9 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style
         target = _lone_target(flight, phase)
         if target is not None and _is_centred(select(poses, inside), track.subject[inside], drone):
             followed[phase.shot] = mission.target(target).centre
-        elif swivels and np.ptp(poses.position[inside], axis=0).max() > MOVES_LEAST:
+        elif swivels(drone) and np.ptp(poses.position[inside], axis=0).max() > MOVES_LEAST:
             aimed.add(phase.shot)
-    return Style(drone.autopilot, bool(parted > PAN_LEAST), swivels, followed, frozenset(aimed))
+    return Style(drone.autopilot, bool(parted > PAN_LEAST), followed, frozenset(aimed))
 
 
 def region_of(style: Style, track: Track, part: slice, shot: str | None) -> Vec3 | None:
@@ -124,6 +120,23 @@ def follow(drone: Drone, position: Array, body_yaw: Array, target: Vec3 | Array)
     pan = (bearing - body_yaw + np.pi) % (2 * np.pi) - np.pi
     pitch = np.arctan2(offset[:, 2], np.hypot(offset[:, 0], offset[:, 1]))
     return body_yaw + np.clip(pan, *drone.gimbal.yaw), np.clip(pitch, *drone.gimbal.pitch)
+
+
+def turns_body(drone: Drone) -> bool:
+    """Tell whether the autopilot turns the whole body to a region of interest, for want of a gimbal's yaw."""
+    return drone.autopilot == "ardupilot" and not swivels(drone)
+
+
+def swivels(drone: Drone) -> bool:
+    """Tell whether the gimbal can turn in yaw."""
+    low, high = drone.gimbal.yaw
+    return degrees(high - low) > SWIVEL_LEAST
+
+
+def facing(position: Array, point: Vec3 | Array) -> Array:
+    """Return the body yaw, (n,), that looks at a point from each position, without jumps."""
+    offset = np.asarray(point) - position
+    return np.unwrap(np.arctan2(offset[:, 1], offset[:, 0]))
 
 
 def select(poses: Poses, part: NDArray[np.bool_] | slice) -> Poses:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink_clearance import Obstacle, shortfall
-from shotc.emit.mavlink_style import Style, command_of, follow, region_of, select
+from shotc.emit.mavlink_style import Style, command_of, facing, follow, region_of, select, turns_body
 from shotc.emit.mavlink_track import Poses, Stretch, Track, project
 from shotc.ir.mission import Drone
 
@@ -121,7 +121,7 @@ class Thinner:
         if abs(planned.body_yaw[-1] - planned.body_yaw[0]) > TURN_MOST:
             return False
         poses = self._flown(leg, planned, flown, share)
-        if np.abs(poses.body_yaw - planned.body_yaw).max() > tolerance.heading:
+        if np.abs(wrapped(poses.body_yaw - planned.body_yaw)).max() > tolerance.heading:
             return False
         subject = self.track.subject[part]
         shift = project(poses, subject, self.drone) - project(planned, subject, self.drone)
@@ -145,6 +145,8 @@ class Thinner:
         pitch = np.full(len(share), command.cam_pitch)
         region = region_of(self.style, self.track, slice(leg.first, leg.last + 1), leg.shot)
         if region is not None:
+            if turns_body(self.drone):
+                body = facing(flown, region)
             cam_yaw, pitch = follow(self.drone, flown, body, region)
         return Poses(flown, body, cam_yaw, pitch, planned.hfov)
 
@@ -153,6 +155,11 @@ def thinner_of(track: Track, drone: Drone, style: Style, obstacles: tuple[Obstac
     """Return the thinner of one drone's track."""
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
     return Thinner(track, drone, style, obstacles, planned)
+
+
+def wrapped(angle: Array) -> Array:
+    """Return angles in [-pi, pi)."""
+    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
 def along(points: Array, time: Array, *, rest: bool) -> Array:
