@@ -9,7 +9,7 @@ from typing import Any
 from xml.parsers import expat
 
 LARGEST = 4_000_000  # bytes
-MOST_ROWS = 100_000
+MOST_ROWS = 50_000
 FARTHEST = 1e7  # metres or seconds; beyond it no mission is meant
 BOUNDS = {"lat": 90.0, "lon": 180.0}
 

@@ -45,7 +45,7 @@ class Setting:
     def margin(self, aim: Vec2) -> float:
         """Return how far inside the frame the whole cylinder lies, metres; negative is cropped."""
         camera = view(aim[0], aim[1], self.hfov, self.aspect)
-        return min(frustum_margins(camera, self.offset, self.radius, self.height))
+        return float(min(frustum_margins(camera, self.offset, self.radius, self.height)))
 
     def slack(self, uv: Vec2) -> float:
         """Return how far ``uv`` is from being no candidate, metres at the target; negative is none."""

@@ -1,0 +1,34 @@
+"""WGS84 places to points of W. Plain Python, so that `check` can use it without numpy."""
+
+from __future__ import annotations
+
+from math import cos, radians, sin, sqrt
+
+Vec3 = tuple[float, float, float]
+
+SEMI_MAJOR = 6378137.0  # metres, WGS84
+FLATTENING = 1 / 298.257223563
+_E2 = FLATTENING * (2 - FLATTENING)
+
+
+def to_world(place: Vec3, origin: Vec3) -> Vec3:
+    """Return a place as a point of W: East, North, Up of the origin, metres.
+
+    place, origin : (latitude, longitude, altitude) in degrees and metres. Exact: through the
+    earth-centred frame (e.g. Hofmann-Wellenhof et al., GNSS, Sec. 8.2), without a flat-earth step.
+    """
+    d = [a - b for a, b in zip(_earth_centred(place), _earth_centred(origin), strict=True)]
+    lat, lon = radians(origin[0]), radians(origin[1])
+    outward = cos(lon) * d[0] + sin(lon) * d[1]
+    return (
+        cos(lon) * d[1] - sin(lon) * d[0],
+        cos(lat) * d[2] - sin(lat) * outward,
+        sin(lat) * d[2] + cos(lat) * outward,
+    )
+
+
+def _earth_centred(place: Vec3) -> Vec3:
+    lat, lon, alt = radians(place[0]), radians(place[1]), place[2]
+    normal = SEMI_MAJOR / sqrt(1 - _E2 * sin(lat) ** 2)
+    ring = (normal + alt) * cos(lat)
+    return (ring * cos(lon), ring * sin(lon), (normal * (1 - _E2) + alt) * sin(lat))

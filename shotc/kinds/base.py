@@ -1,0 +1,203 @@
+"""What a shot kind is: a model of its parameters, and a function that turns them into keyframes.
+
+A kind reads everything it may read from its ``Scene`` and gives an ``Expansion``. Third parties add
+kinds by an entry point in the group ``shotc.kinds`` that names a ``Kind``; ours come the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.camera import yaw_of
+from shotc.geom.geodetic import to_world
+from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Keyframe, Rules, Target, Vec2, Vec3
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.files import FileFault
+from shotc.spec.fields import Geodetic
+from shotc.spec.model import nearest
+from shotc.spec.shot import ShotBase
+
+API_VERSION = 1
+MOVING = "a moving target"
+STILL = 5.0  # seconds that a camera which stands still films where the timing gives no duration
+
+Place = Vec3 | Geodetic
+
+
+class Aimed(Protocol):
+    """Anything that says by `look_at`, or by `heading` and `pitch`, where a camera looks."""
+
+    @property
+    def look_at(self) -> str | Place | None:
+        """The name of a target, or a position."""
+
+    @property
+    def heading(self) -> float | None:
+        """Compass heading, rad."""
+
+    @property
+    def pitch(self) -> float | None:
+        """Elevation, rad."""
+
+
+Part = Keyframe | Diagnostic | Deferred
+Aim = tuple[Vec2 | Vec3 | None, str | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """What a shot expands to: keyframes in the order they are flown, or what stands against it."""
+
+    keyframes: tuple[Keyframe, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    deferred: tuple[Deferred, ...] = ()
+
+    @classmethod
+    def of(cls, parts: Iterable[Part]) -> Expansion:
+        """Sort parts: keyframes count only where nothing stands against them."""
+        found = tuple(parts)
+        diagnostics = tuple(p for p in found if isinstance(p, Diagnostic))
+        deferred = tuple(p for p in found if isinstance(p, Deferred))
+        keyframes = tuple(p for p in found if isinstance(p, Keyframe))
+        return cls(() if diagnostics or deferred else keyframes, diagnostics, deferred)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What the expansion of one shot may read.
+
+    drone : that films it; rules : of the mission
+    composition : set on which the shot's target is placed
+    targets : by name; None where a target moves
+    path : of the shot in the mission; origins : spans of the mission file
+    origin : of W on the earth, if the mission gives one; geodetic positions need it
+    read : bytes of a file that the mission names under a key path, or what is wrong with it
+    """
+
+    drone: Drone
+    rules: Rules
+    composition: Composition
+    targets: Mapping[str, Target | None]
+    path: KeyPath
+    origins: OriginMap
+    origin: GeoOrigin | None
+    read: Callable[[str, KeyPath], bytes | Diagnostic]
+    fleets: tuple[str, ...] = ()
+
+    def standing(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
+        """Return the target called ``name``; ``path``, below the shot, is where the name is written."""
+        where = (*self.path, *path)
+        if name not in self.targets:
+            return unknown_target(self.origins, where, name, self.targets)
+        return self.targets[name] or Deferred(MOVING, where)
+
+    def aim(self, shot: ShotBase, aimed: Aimed, *path: str | int) -> Aim | Diagnostic | Deferred:
+        """Return (aim, target) of a camera that is aimed as ``aimed``, at ``path`` below the shot, says.
+
+        A target named by `look_at` is framed. A point is looked at, or a heading and pitch are
+        taken, and the shot's own target, if it has one, is framed.
+        """
+        if isinstance(aimed.look_at, str):
+            found = self.standing(aimed.look_at, *path, "look_at")
+            return (None, aimed.look_at) if isinstance(found, Target) else found
+        if shot.target is not None:
+            subject = self.standing(shot.target, "target")
+            if not isinstance(subject, Target):
+                return subject
+        if aimed.look_at is not None:
+            return (self.place(aimed.look_at), shot.target)
+        if aimed.heading is None or aimed.pitch is None:
+            return (None, shot.target)
+        return ((yaw_of(aimed.heading), aimed.pitch), shot.target)
+
+    def place(self, position: Place) -> Vec3:
+        """Return a position as a point of W; the mission has an origin wherever one is geodetic."""
+        return placed(self.origin, position)
+
+    def place_at(self, lat_deg: float, lon_deg: float, alt: float) -> Vec3:
+        """Return a place on the earth as a point of W; alt is above mean sea level, as the origin's."""
+        assert self.origin is not None
+        origin = (self.origin.lat_deg, self.origin.lon_deg, self.origin.alt)
+        return to_world((lat_deg, lon_deg, alt), origin)
+
+    def ideal(self, at: Vec3, target: str | None, **changes: Any) -> Keyframe:
+        """Return a keyframe that a kind generates: refinement may leave it.
+
+        changes : fields other than a camera that looks at ``target``, without a hold
+        """
+        values: dict[str, Any] = {
+            "aim": None,
+            "composition": self.composition,
+            "hfov": self.drone.hfov,
+            "hold": 0.0,
+            "time": None,
+            "placed": False,
+            "path": (*self.path, "kind"),
+        }
+        return Keyframe(at=at, target=target, **{**values, **changes})
+
+    def fault(
+        self, code: str, message: str, help: str, *path: str | int, notes: tuple[str, ...] = ()
+    ) -> Diagnostic:
+        """Return a diagnostic on the value at ``path`` below the shot."""
+        return Diagnostic(code, message, (self.origins.value((*self.path, *path)),), notes, help)
+
+    def bad_file(self, name: str, wrong: FileFault, *path: str | int) -> Diagnostic:
+        """Return the diagnostic of a file, named at ``path`` below the shot, that cannot be used."""
+        return bad_file(self.origins, (*self.path, *path), name, wrong)
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A shot kind.
+
+    name : as `kind:` says it; summary : one line for listings
+    model : of its parameters, with ``kind: Literal[name]``
+    expand : takes a shot of that model and its scene
+    api : version of this contract that the kind was written against
+    """
+
+    name: str
+    summary: str
+    model: type[ShotBase]
+    expand: Callable[[Any, Scene], Expansion]
+    api: int = field(default=API_VERSION)
+
+
+def placed(origin: GeoOrigin | None, position: Place) -> Vec3:
+    """Return a position as a point of W; its height counts from the origin's altitude."""
+    if not isinstance(position, Geodetic):
+        return position
+    assert origin is not None
+    base = (origin.lat_deg, origin.lon_deg, origin.alt)
+    return to_world((position.lat, position.lon, origin.alt + position.height), base)
+
+
+def unknown_target(origins: OriginMap, path: KeyPath, name: str, known: Mapping[str, object]) -> Diagnostic:
+    """Return the diagnostic of a target name that the mission does not define."""
+    help_ = nearest(name, known) if known else "define it under `targets`"
+    return Diagnostic("N001", f"unknown target `{name}`", (origins.value(path),), help=help_)
+
+
+def bad_file(origins: OriginMap, path: KeyPath, name: str, wrong: FileFault) -> Diagnostic:
+    """Return the diagnostic of a file that cannot be used, blamed on the line that names it."""
+    where = f"{name}, line {wrong.line}" if wrong.line is not None else name
+    return Diagnostic(
+        "N009", f"cannot use `{name}`: {wrong.message}", (origins.value(path),), (where,), wrong.help
+    )
+
+
+def postponed(kind: str) -> Callable[[ShotBase, Scene], Expansion]:
+    """Return the expansion of a kind that is part of the language but cannot be planned yet."""
+
+    def expand(shot: ShotBase, scene: Scene) -> Expansion:
+        later = Deferred(f"a shot of kind `{kind}`", (*scene.path, "kind"))
+        if shot.target is not None and shot.target not in scene.targets:
+            wrong = unknown_target(scene.origins, (*scene.path, "target"), shot.target, scene.targets)
+            return Expansion(diagnostics=(wrong,), deferred=(later,))
+        return Expansion(deferred=(later,))
+
+    return expand

@@ -1,0 +1,23 @@
+"""Chase: behind a moving target, the way it goes. Checked, but not planned yet."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from shotc.kinds.base import Kind, postponed
+from shotc.spec.fields import Length, Name, PositiveLength
+from shotc.spec.shot import ShotBase
+
+
+class ChaseShot(ShotBase):
+    """The parameters of a chase."""
+
+    kind: Literal["chase"] = Field(description="what sort of shot it is")
+    target: Name = Field(description="name of the target that is followed")
+    distance: PositiveLength = Field(description="horizontal distance behind the target")
+    altitude: Length = Field(description="z of the camera")
+
+
+KIND = Kind("chase", "follow a moving target from behind", ChaseShot, postponed("chase"))

@@ -1,0 +1,37 @@
+"""Dolly: the camera moves straight towards the target or away from it."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from shotc.ir.mission import Target
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.rounds import filmed, line
+from shotc.spec.fields import Angle, Length, Name, PositiveLengthSpan
+from shotc.spec.shot import ShotBase
+
+
+class DollyShot(ShotBase):
+    """The parameters of a dolly."""
+
+    kind: Literal["dolly"] = Field(description="what sort of shot it is")
+    target: Name = Field(description="name of the target that is framed")
+    azimuth: Angle = Field(description="compass bearing from the target to the camera")
+    distance: PositiveLengthSpan = Field(description="horizontal distance from the target's axis, [from, to]")
+    altitude: Length = Field(description="z of the camera")
+
+
+def expand(shot: DollyShot, scene: Scene) -> Expansion:
+    """Return keyframes along the line, dense enough that the framing holds between them."""
+    target = scene.standing(shot.target, "target")
+    if not isinstance(target, Target):
+        return Expansion.of([target])
+    points = line(
+        target.centre, shot.azimuth, shot.distance, (shot.altitude, shot.altitude), target.centre[2]
+    )
+    return filmed(shot, scene, points)
+
+
+KIND = Kind("dolly", "move straight towards the target or away from it", DollyShot, expand)

@@ -1,0 +1,37 @@
+"""Elevator: the camera rises or sinks in front of the target."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from shotc.ir.mission import Target
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.rounds import filmed, line
+from shotc.spec.fields import Angle, LengthSpan, Name, PositiveLength
+from shotc.spec.shot import ShotBase
+
+
+class ElevatorShot(ShotBase):
+    """The parameters of an elevator."""
+
+    kind: Literal["elevator"] = Field(description="what sort of shot it is")
+    target: Name = Field(description="name of the target that is framed")
+    azimuth: Angle = Field(description="compass bearing from the target to the camera")
+    distance: PositiveLength = Field(description="horizontal distance from the target's axis")
+    altitude: LengthSpan = Field(description="z of the camera, [from, to]")
+
+
+def expand(shot: ElevatorShot, scene: Scene) -> Expansion:
+    """Return keyframes along the line, dense enough that the framing holds between them."""
+    target = scene.standing(shot.target, "target")
+    if not isinstance(target, Target):
+        return Expansion.of([target])
+    points = line(
+        target.centre, shot.azimuth, (shot.distance, shot.distance), shot.altitude, target.centre[2]
+    )
+    return filmed(shot, scene, points)
+
+
+KIND = Kind("elevator", "rise or sink in front of the target", ElevatorShot, expand)

@@ -1,0 +1,43 @@
+"""Orbit: a turn about the target at one distance and altitude."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from shotc.ir.mission import Target
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.rounds import filmed, ring
+from shotc.spec.fields import Angle, Length, Name, PositiveLength
+from shotc.spec.quantities import Quantity
+from shotc.spec.shot import ShotBase
+
+# Ten turns: more is a slip of the pen, and a plan would take hours.
+Sweep = Annotated[float, Quantity("Sweep", "angle", -20 * pi, 20 * pi)]
+
+
+class OrbitShot(ShotBase):
+    """The parameters of an orbit."""
+
+    kind: Literal["orbit"] = Field(description="what sort of shot it is")
+    target: Name = Field(description="name of the target that is circled")
+    radius: PositiveLength = Field(description="horizontal distance from the target's axis")
+    altitude: Length = Field(description="z of the camera")
+    sweep: Sweep = Field(default=2 * pi, description="how far to turn; negative is clockwise seen from above")
+    start_azimuth: Angle = Field(
+        default=0.0, description="compass bearing from the target to the first point"
+    )
+
+
+def expand(shot: OrbitShot, scene: Scene) -> Expansion:
+    """Return keyframes round the target, at most 15 deg apart."""
+    target = scene.standing(shot.target, "target")
+    if not isinstance(target, Target):
+        return Expansion.of([target])
+    radius, altitude = (shot.radius, shot.radius), (shot.altitude, shot.altitude)
+    return filmed(shot, scene, ring(target.centre, shot.start_azimuth, shot.sweep, radius, altitude))
+
+
+KIND = Kind("orbit", "turn about the target at one distance and altitude", OrbitShot, expand)

@@ -1,0 +1,71 @@
+"""Ideal paths about an upright axis: rings and straight lines, sampled as keyframe positions.
+
+Azimuth is a compass bearing from the axis (clockwise from North), rad; altitude is z in W.
+"""
+
+from __future__ import annotations
+
+from math import atan2, ceil, cos, hypot, pi, sin
+
+from shotc.ir.mission import Vec3
+from shotc.kinds.base import Expansion, Scene
+from shotc.spec.shot import ShotBase
+
+Span = tuple[float, float]
+
+ARC = pi / 12  # most of a turn between two keyframes
+FEWEST = 4  # pieces of any path
+MOST = 48  # pieces of a straight path
+
+
+def bearing(axis: Vec3, azimuth: float, distance: float, altitude: float) -> Vec3:
+    """Return the point at a compass bearing and a horizontal distance from an axis."""
+    return (axis[0] + distance * sin(azimuth), axis[1] + distance * cos(azimuth), altitude)
+
+
+def ring(axis: Vec3, start: float, sweep: float, radius: Span, altitude: Span) -> list[Vec3]:
+    """Return points along a turn about an axis; radius and altitude change evenly with the angle.
+
+    start : azimuth of the first point; sweep : turn, positive counter-clockwise seen from above
+    """
+    pieces = max(FEWEST, ceil(abs(sweep) / ARC - 1e-9))
+    return [
+        bearing(axis, start - sweep * t, _between(radius, t), _between(altitude, t))
+        for t in (i / pieces for i in range(pieces + 1))
+    ]
+
+
+def line(axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: float) -> list[Vec3]:
+    """Return points along a straight line in the upright plane of one azimuth.
+
+    height : z that the camera looks at; the points lie as dense as its view of it turns
+    """
+    first, last = (atan2(z - height, d) for d, z in zip(distance, altitude, strict=True))
+    turn = abs(last - first)
+    nearest, farthest = sorted(hypot(d, z - height) for d, z in zip(distance, altitude, strict=True))
+    zoom = farthest / max(nearest, 1e-6)
+    pieces = min(MOST, max(FEWEST, ceil(turn / ARC), ceil(zoom)))
+    return [
+        bearing(axis, azimuth, _between(distance, t), _between(altitude, t))
+        for t in (i / pieces for i in range(pieces + 1))
+    ]
+
+
+def filmed(shot: ShotBase, scene: Scene, points: list[Vec3]) -> Expansion:
+    """Return ideal keyframes along ``points`` that frame the shot's target."""
+    if max(hypot(*(a - b for a, b in zip(p, points[0], strict=True))) for p in points) < 1e-3:
+        return Expansion.of(
+            [
+                scene.fault(
+                    "K010",
+                    f"nothing moves in this {shot.kind}",
+                    "give what is to move as [from, to], or use `kind: static`",
+                    "kind",
+                )
+            ]
+        )
+    return Expansion.of(scene.ideal(p, shot.target) for p in points)
+
+
+def _between(span: Span, t: float) -> float:
+    return span[0] + (span[1] - span[0]) * t

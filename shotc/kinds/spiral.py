@@ -1,0 +1,40 @@
+"""Spiral: a turn about the target whose distance and altitude change on the way."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Literal
+
+from pydantic import Field
+
+from shotc.ir.mission import Target
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.orbit import Sweep
+from shotc.kinds.rounds import filmed, ring
+from shotc.spec.fields import Angle, LengthSpan, Name, PositiveLengthSpan
+from shotc.spec.shot import ShotBase
+
+
+class SpiralShot(ShotBase):
+    """The parameters of a spiral."""
+
+    kind: Literal["spiral"] = Field(description="what sort of shot it is")
+    target: Name = Field(description="name of the target that is circled")
+    radius: PositiveLengthSpan = Field(description="horizontal distance from the target's axis, [from, to]")
+    altitude: LengthSpan = Field(description="z of the camera, [from, to]")
+    sweep: Sweep = Field(default=2 * pi, description="how far to turn; negative is clockwise seen from above")
+    start_azimuth: Angle = Field(
+        default=0.0, description="compass bearing from the target to the first point"
+    )
+
+
+def expand(shot: SpiralShot, scene: Scene) -> Expansion:
+    """Return keyframes round the target, at most 15 deg apart."""
+    target = scene.standing(shot.target, "target")
+    if not isinstance(target, Target):
+        return Expansion.of([target])
+    points = ring(target.centre, shot.start_azimuth, shot.sweep, shot.radius, shot.altitude)
+    return filmed(shot, scene, points)
+
+
+KIND = Kind("spiral", "turn about the target while distance and altitude change", SpiralShot, expand)

@@ -1,0 +1,57 @@
+"""Top-down: the camera looks straight down on the target, at rest or drifting."""
+
+from __future__ import annotations
+
+from math import atan2, hypot, pi
+from typing import Literal
+
+from pydantic import Field
+
+from shotc.ir.mission import Composition, Target
+from shotc.kinds.base import STILL, Expansion, Kind, Scene
+from shotc.spec.fields import Length, Name, Velocity
+from shotc.spec.shot import ShotBase
+
+KEEP = Composition("keep", keep=True)
+NORTH = pi / 2
+
+
+class TopDownShot(ShotBase):
+    """The parameters of a view from above; without drift it films for ``timing.duration``, or 5 s."""
+
+    kind: Literal["top-down"] = Field(description="what sort of shot it is")
+    target: Name = Field(description="name of the target below the camera")
+    altitude: Length = Field(description="z of the camera")
+    drift: Velocity | None = Field(
+        default=None, description="velocity of the camera from above the target; needs timing.duration"
+    )
+
+
+def expand(shot: TopDownShot, scene: Scene) -> Expansion:
+    """Return keyframes above the target that look straight down, the top of the picture along the drift.
+
+    Looking down is what this kind is for, so the camera tilts only for a composition that the shot
+    itself asks for.
+    """
+    target = scene.standing(shot.target, "target")
+    if not isinstance(target, Target):
+        return Expansion.of([target])
+    x, y, _ = target.centre
+    east, north, up = shot.drift or (0.0, 0.0, 0.0)
+    duration = shot.timing.duration
+    fixed = {
+        "aim": (atan2(north, east) if hypot(east, north) > 0 else NORTH, -pi / 2),
+        "composition": shot.composition or KEEP,
+    }
+    above = (x, y, shot.altitude)
+    if hypot(east, north, up) == 0:
+        return Expansion.of([scene.ideal(above, shot.target, hold=duration or STILL, **fixed)])
+    if duration is None:
+        return Expansion.of(
+            [scene.fault("K009", "a drift needs a duration", "add `timing: {duration: ...}`", "drift")]
+        )
+    end = (x + east * duration, y + north * duration, shot.altitude + up * duration)
+    return Expansion.of(scene.ideal(at, shot.target, **fixed) for at in (above, end))
+
+
+KIND = Kind("top-down", "look straight down on the target", TopDownShot, expand)

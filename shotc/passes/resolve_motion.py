@@ -1,0 +1,52 @@
+"""Lower bounds on flying time: what no drone within its limits can beat, whatever the solver does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from math import hypot, sqrt
+
+from shotc.ir.mission import Keyframe, Limits, Vec3
+
+
+def least_travel(points: Sequence[Vec3], limits: Limits, *, rests: bool = True) -> float:
+    """Return the least seconds along points joined by straight lines.
+
+    rests : whether the drone starts and ends at rest. Horizontal and vertical motion are bounded
+    apart, each with its own speed and the full acceleration, and the slower one counts.
+    """
+    chords = [tuple(b - a for a, b in zip(p, q, strict=True)) for p, q in pairwise(points)]
+    across = sum(hypot(c[0], c[1]) for c in chords)
+    up, down = sum(max(0.0, c[2]) for c in chords), sum(max(0.0, -c[2]) for c in chords)
+    a = limits.acceleration if rests else None
+    return max(
+        _least(across, limits.speed, a),
+        _least(up, limits.climb, a) if down == 0 else up / limits.climb + down / limits.descent,
+        _least(down, limits.descent, a) if up == 0 else 0.0,
+    )
+
+
+def least_shot(keyframes: Sequence[Keyframe], limits: Limits) -> float:
+    """Return the least seconds of a shot: its holds, and travel at rest at both ends and at each hold."""
+    total = sum(k.hold for k in keyframes)
+    stretch: list[Vec3] = []
+    for index, keyframe in enumerate(keyframes):
+        stretch.append(keyframe.at)
+        if index == len(keyframes) - 1 or keyframe.hold > 0:
+            total += least_travel(stretch, limits)
+            stretch = [keyframe.at]
+    return total
+
+
+def length(keyframes: Sequence[Keyframe]) -> float:
+    """Return the straight-line length from keyframe to keyframe, metres."""
+    return sum(hypot(*(b - a for a, b in zip(p.at, q.at, strict=True))) for p, q in pairwise(keyframes))
+
+
+def _least(way: float, speed: float, acceleration: float | None) -> float:
+    """Return the least time over ``way`` metres, from rest to rest where acceleration is given."""
+    if acceleration is None:
+        return way / speed
+    if way * acceleration <= speed * speed:
+        return 2 * sqrt(way / acceleration)
+    return way / speed + speed / acceleration

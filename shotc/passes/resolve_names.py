@@ -1,0 +1,93 @@
+"""Names that shots use: do they exist, are they unique, do they run in circles."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.spec.mission import MissionSpec
+from shotc.spec.model import nearest
+
+AUTO = "auto"
+
+
+def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str] | None) -> list[Diagnostic]:
+    """Return every fault of the names of drones, shots and emitters; kinds check their targets.
+
+    emitters : the names that can be used, or None where that is not known
+    """
+    faults = [*_drones(spec, origins), *_ids(spec, origins), *_waits(spec, origins)]
+    for i, name in enumerate(spec.output.emit):
+        if emitters is not None and name not in emitters:
+            path = ("output", "emit", i)
+            faults.append(_unknown("N005", "emitter", name, dict.fromkeys(emitters), origins, path))
+    return faults
+
+
+def _drones(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
+    return [
+        _unknown("N002", "drone", shot.drone, spec.drones, origins, ("shots", i, "drone"))
+        for i, shot in enumerate(spec.shots)
+        if shot.drone != AUTO and shot.drone not in spec.drones
+    ]
+
+
+def _ids(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
+    faults: list[Diagnostic] = []
+    first: dict[str, int] = {}
+    for i, shot in enumerate(spec.shots):
+        if shot.id not in first:
+            first[shot.id] = i
+            continue
+        labels = (
+            origins.value(("shots", i, "id")),
+            origins.value(("shots", first[shot.id], "id"), "the first shot of this name"),
+        )
+        message = f"two shots are called `{shot.id}`"
+        help_ = f"call this one something else, such as `{shot.id}-{i + 1}`"
+        faults.append(Diagnostic("N006", message, labels, help=help_))
+    return faults
+
+
+def _waits(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
+    """Return waits for shots that do not exist, and each circle of waits once."""
+    index = {shot.id: i for i, shot in reversed(list(enumerate(spec.shots)))}
+    waits = {shot.id: shot.timing.after for shot in spec.shots}
+    faults: list[Diagnostic] = []
+    told: set[str] = set()
+    for i, shot in enumerate(spec.shots):
+        after = shot.timing.after
+        if after is None:
+            continue
+        path = ("shots", i, "timing", "after")
+        if after not in index:
+            others = {name: None for name in index if name != shot.id}
+            faults.append(_unknown("N004", "shot", after, others, origins, path))
+            continue
+        circle = _circle(shot.id, waits)
+        if circle and told.isdisjoint(circle):
+            told.update(circle)
+            chain = " after ".join(f"`{name}`" for name in (*circle, circle[0]))
+            labels = tuple(origins.value(("shots", index[name], "timing", "after")) for name in circle)
+            message = (
+                "shots wait for each other in a circle" if len(circle) > 1 else "a shot waits for itself"
+            )
+            faults.append(Diagnostic("N007", message, labels, (chain,), "drop one `after`"))
+    return faults
+
+
+def _circle(start: str, waits: dict[str, str | None]) -> list[str]:
+    """Return the circle of waits that ``start`` is part of, or nothing."""
+    chain = [start]
+    while (following := waits.get(chain[-1])) is not None and following not in chain:
+        chain.append(following)
+    return chain if following == start else []
+
+
+def _unknown(
+    code: str, what: str, name: str, known: dict[str, Any], origins: OriginMap, path: KeyPath
+) -> Diagnostic:
+    help_ = nearest(name, known) if known else f"the mission has no other {what}"
+    return Diagnostic(code, f"unknown {what} `{name}`", (origins.value(path),), help=help_)

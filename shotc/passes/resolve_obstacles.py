@@ -1,0 +1,180 @@
+"""Zones and targets as obstacles to one drone: how much room a place lacks, and the shortest way out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import atan2, ceil, degrees, dist, floor, hypot, isfinite, pi
+from typing import Literal
+
+from shotc.geom.solids import (
+    Cylinder,
+    Prism,
+    Solid,
+    closest_on_segment,
+    edges,
+    inside_polygon,
+)
+from shotc.ir.mission import Drone, MissionIR, Vec2, Vec3
+from shotc.ir.origin import KeyPath
+
+ROUNDING = 1e-6  # metres
+NUDGE = 0.01  # metres that a proposed place lies farther off than it must
+WINDS = ("east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east")
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """Something to keep a distance from, or to stay inside of by a distance.
+
+    room : metres from the body's centre that must be free
+    """
+
+    name: str
+    role: Literal["out", "in", "target"]
+    solid: Solid
+    room: float
+    path: KeyPath
+
+    def lack(self, p: Vec3) -> float:
+        """Return how many metres of room are missing at ``p``; 0 or less where there is enough."""
+        return self.room - self._clear(p)
+
+    def _clear(self, p: Vec3) -> float:
+        """Return the free distance: to the solid, or into it for a keep-in zone; negative beyond its face."""
+        gap = signed_distance(self.solid, p)
+        return -gap if self.role == "in" else gap
+
+    def relation(self, p: Vec3) -> str:
+        """Say how ``p`` stands to the obstacle."""
+        clear = self._clear(p)
+        if self.role == "in":
+            return (
+                f"is {'outside' if clear <= 0 else 'too close to the border of'} keep-in zone `{self.name}`"
+            )
+        what = f"target `{self.name}`" if self.role == "target" else f"zone `{self.name}`"
+        return f"is {'inside' if clear <= 0 else 'too close to'} {what}"
+
+    def measure(self, p: Vec3, radius: float) -> str:
+        """Give the numbers: how deep or how close ``p`` is, and how much room it needs."""
+        clear = self._clear(p)
+        if self.role == "in":
+            where = f"{-clear:.2f} m outside" if clear <= 0 else f"{clear:.2f} m from its border"
+        else:
+            where = f"{-clear:.2f} m deep in it" if clear <= 0 else f"{clear:.2f} m away from it"
+        clearance = self.room - radius
+        need = f"the body radius of {radius:.2f} m"
+        if clearance > 0:
+            need = f"the target clearance of {clearance:.2f} m and {need}"
+        return f"it is {where}; {need} must be free"
+
+    def ways_out(self, p: Vec3) -> Iterator[Vec3]:
+        """Yield places near ``p`` that may have the room: up, down and sideways."""
+        room = self.room + NUDGE
+        if self.role == "in":
+            z = min(max(p[2], self.solid.bottom + room), self.solid.top - room)
+            yield (p[0], p[1], z)
+            for x, y in _sideways(self.solid, (p[0], p[1]), -room):
+                yield (x, y, z)
+            return
+        if isfinite(self.solid.top):
+            yield (p[0], p[1], self.solid.top + room)
+        if isfinite(self.solid.bottom):
+            yield (p[0], p[1], self.solid.bottom - room)
+        for x, y in _sideways(self.solid, (p[0], p[1]), room):
+            yield (x, y, p[2])
+
+
+def signed_distance(solid: Solid, p: Vec3) -> float:
+    """Return the distance of ``p`` from the solid, inside it minus its depth; metres, exact."""
+    x, y, z = p
+    if isinstance(solid, Cylinder):
+        across = hypot(x - solid.centre[0], y - solid.centre[1]) - solid.radius
+    else:
+        across = min(dist((x, y), closest_on_segment(a, b, (x, y))) for a, b in edges(solid.points))
+        across = -across if inside_polygon(solid.points, (x, y)) else across
+    upright = max(solid.bottom - z, z - solid.top)
+    if across <= 0 and upright <= 0:
+        return max(across, upright)
+    return hypot(max(across, 0.0), max(upright, 0.0))
+
+
+def obstacles_of(mission: MissionIR, drone: Drone) -> list[Obstacle]:
+    """Return all that a drone keeps clear of, the ground excepted."""
+    zones = [Obstacle(z.name, z.keep, z.solid, drone.radius, z.path) for z in mission.zones]
+    room = mission.rules.target_clearance + drone.radius
+    targets = [
+        Obstacle(
+            t.name,
+            "target",
+            Cylinder(
+                (t.centre[0], t.centre[1]), t.radius, t.centre[2] - t.height / 2, t.centre[2] + t.height / 2
+            ),
+            room,
+            t.path,
+        )
+        for t in mission.targets
+    ]
+    return [*zones, *targets]
+
+
+def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Obstacle) -> str:
+    """Return in words the shortest move out of an obstacle to a place that is free of all, or nothing."""
+    others = obstacles_of(mission, drone)
+    lowest = mission.rules.ground_clearance + drone.radius
+    places = [_outward(p, q) for q in obstacle.ways_out(p)]
+    free = [q for q in places if q[2] >= lowest - ROUNDING and all(o.lack(q) <= ROUNDING for o in others)]
+    if not free:
+        return ""
+    q = min(free, key=lambda place: dist(p, place))
+    return f"move it {dist(p, q):.2f} m {_direction(p, q)}, to [{q[0]:.2f}, {q[1]:.2f}, {q[2]:.2f}]"
+
+
+def _outward(p: Vec3, q: Vec3) -> Vec3:
+    """Round ``q`` to centimetres away from ``p``, so that the numbers given are enough."""
+    return tuple(  # type: ignore[return-value]
+        (ceil(b * 100 - 1e-6) if b > a else floor(b * 100 + 1e-6)) / 100 if abs(b - a) > 1e-9 else b
+        for a, b in zip(p, q, strict=True)
+    )
+
+
+def _sideways(solid: Solid, p: Vec2, room: float) -> Iterator[Vec2]:
+    """Yield places level with ``p`` whose distance to the solid's side is ``room``; negative is inside."""
+    if isinstance(solid, Cylinder):
+        yield from _from_axis(solid, p, room)
+        return
+    for a, b in edges(solid.points):
+        yield _from_edge(solid, a, b, p, room)
+
+
+def _from_axis(solid: Cylinder, p: Vec2, room: float) -> Iterator[Vec2]:
+    reach = solid.radius + room
+    dx, dy = p[0] - solid.centre[0], p[1] - solid.centre[1]
+    off = hypot(dx, dy)
+    if reach <= 0:
+        return
+    ux, uy = (dx / off, dy / off) if off > 1e-9 else (1.0, 0.0)
+    yield (solid.centre[0] + ux * reach, solid.centre[1] + uy * reach)
+
+
+def _from_edge(solid: Prism, a: Vec2, b: Vec2, p: Vec2, room: float) -> Vec2:
+    """Return the place off the edge's nearest point: along its outward normal, or away from a corner."""
+    foot = closest_on_segment(a, b, p)
+    length = dist(a, b)
+    outward = ((b[1] - a[1]) / length, (a[0] - b[0]) / length)  # the polygon runs counter-clockwise
+    away = (p[0] - foot[0], p[1] - foot[1])
+    off = hypot(*away)
+    at_corner = foot in (a, b) and off > 1e-9
+    if at_corner and room > 0 and not inside_polygon(solid.points, p):
+        return (foot[0] + away[0] / off * room, foot[1] + away[1] / off * room)
+    return (foot[0] + outward[0] * room, foot[1] + outward[1] * room)
+
+
+def _direction(p: Vec3, q: Vec3) -> str:
+    east, north, up = (b - a for a, b in zip(p, q, strict=True))
+    words = []
+    if hypot(east, north) > 1e-6:
+        words.append(WINDS[round(degrees(atan2(north, east) % (2 * pi)) / 45) % 8])
+    if abs(up) > 1e-6:
+        words.append("up" if up > 0 else "down")
+    return " and ".join(words)

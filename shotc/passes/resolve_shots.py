@@ -1,0 +1,84 @@
+"""Shots: their kinds expanded to keyframes, with timing, pace and promises."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target, Timing
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.spec.mission import MissionSpec
+from shotc.spec.shot import ShotBase
+
+
+@dataclass(frozen=True, slots=True)
+class Cast:
+    """What the shots of a mission are made with: everything a scene shows, without the shot.
+
+    drones : by name; targets : by name, None where one moves
+    """
+
+    kinds: Mapping[str, Kind]
+    drones: Mapping[str, Drone]
+    targets: Mapping[str, Target | None]
+    rules: Rules
+    origin: GeoOrigin | None
+    origins: OriginMap
+    read: Callable[[str, KeyPath], bytes | Diagnostic]
+
+
+@dataclass(frozen=True, slots=True)
+class Shots:
+    """Shots that have keyframes, and what stands against the others."""
+
+    shots: tuple[Shot, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    deferred: tuple[Deferred, ...]
+
+
+def expand_shots(spec: MissionSpec, cast: Cast, spare: Drone) -> Shots:
+    """Expand every shot; one without a drone of its own is checked with ``spare`` and left out."""
+    shots: list[Shot] = []
+    diagnostics: list[Diagnostic] = []
+    deferred: list[Deferred] = []
+    for i, written in enumerate(spec.shots):
+        path = ("shots", i)
+        expansion = _expand(spec, written, cast, cast.drones.get(written.drone, spare), path)
+        diagnostics += expansion.diagnostics
+        deferred += expansion.deferred
+        if expansion.keyframes and written.drone in cast.drones:
+            shots.append(_shot(spec, written, expansion, path))
+    return Shots(tuple(shots), tuple(diagnostics), tuple(deferred))
+
+
+def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: KeyPath) -> Expansion:
+    scene = Scene(
+        drone=drone,
+        rules=cast.rules,
+        composition=shot.composition or spec.rules.composition,
+        targets=cast.targets,
+        path=path,
+        origins=cast.origins,
+        origin=cast.origin,
+        read=cast.read,
+        fleets=tuple(spec.fleets),
+    )
+    return cast.kinds[shot.kind].expand(shot, scene)
+
+
+def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath) -> Shot:
+    require, timing = shot.require, shot.timing
+    return Shot(
+        id=shot.id,
+        kind=shot.kind,
+        drone=shot.drone,
+        subject=shot.target,
+        keyframes=expansion.keyframes,
+        timing=Timing(timing.start, timing.after, timing.duration),
+        pace=shot.pace or spec.rules.pace,
+        promise=Promise(require.in_frame, require.screen_error, require.size),
+        refine_optional=shot.refine.optional,
+        path=path,
+    )

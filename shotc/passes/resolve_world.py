@@ -1,0 +1,172 @@
+"""World, targets and drones: presets filled in, places put into W, zones made solids."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import isclose
+from typing import Any
+
+from pydantic import BaseModel
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
+from shotc.ir.mission import Drone, GeoOrigin, Gimbal, Limits, Target, Vec2, Vec3, Zone
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.spec.drones import DroneSpec
+from shotc.spec.fields import Geodetic
+from shotc.spec.mission import MissionSpec
+from shotc.spec.presets import PRESETS
+from shotc.spec.world import ZoneSpec
+
+Put = Callable[[Vec3 | Geodetic], Vec3]
+LEAST_AREA = 1e-4  # m^2
+LEAST_SPEED = 0.1  # m/s that the wind has to leave
+
+
+def geo_origin(spec: MissionSpec) -> GeoOrigin | None:
+    """Return where W is on the earth, if the mission says so."""
+    origin = spec.world.origin
+    return None if origin is None else GeoOrigin(origin.lat, origin.lon, origin.alt)
+
+
+def without_origin(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
+    """Return one fault at the first of the geodetic positions of a mission that has no origin."""
+    places = [] if spec.world.origin is not None else list(_geodetic(spec, ()))
+    if not places:
+        return []
+    more = f"; {len(places)} positions of this mission are so" if len(places) > 1 else ""
+    first = min((origins.value(path) for path in places), key=lambda label: label.span)
+    return [
+        Diagnostic(
+            "G015",
+            "a position in latitude and longitude, but the mission has no origin",
+            (first,),
+            (f"without `world.origin` it cannot be put into the world{more}",),
+            "add `world: {origin: {lat: ..., lon: ..., alt: ...}}`",
+        )
+    ]
+
+
+def _geodetic(value: Any, path: KeyPath) -> Iterator[KeyPath]:
+    if isinstance(value, Geodetic):
+        yield path
+    elif isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield from _geodetic(getattr(value, name), (*path, name))
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            yield from _geodetic(item, (*path, key))
+    elif isinstance(value, list | tuple):
+        for i, item in enumerate(value):
+            yield from _geodetic(item, (*path, i))
+
+
+def zones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[tuple[Zone, ...], list[Diagnostic]]:
+    """Return the zones as solids; a polygon that encloses nothing is a fault and no zone."""
+    found: list[Zone] = []
+    faults: list[Diagnostic] = []
+    for name, zone in spec.world.zones.items():
+        path = ("world", "zones", name)
+        solid = _solid(zone, put)
+        if isinstance(solid, str):
+            label = origins.value((*path, "polygon", "points"))
+            help_ = "list the corners in the order in which one walks round the zone"
+            faults.append(Diagnostic("G007", f"the polygon of zone `{name}` {solid}", (label,), help=help_))
+        else:
+            found.append(Zone(name, zone.keep, solid, path))
+    return tuple(found), faults
+
+
+def _solid(zone: ZoneSpec, put: Put) -> Solid | str:
+    """Return the solid of a zone, or what its polygon does wrong."""
+    if zone.cylinder is not None:
+        c = zone.cylinder
+        return Cylinder(c.center, c.radius, *c.height)
+    if zone.box is not None:
+        return box(put(zone.box.center), zone.box.size, zone.box.heading)
+    assert zone.polygon is not None
+    ring = _ring(zone.polygon.points)
+    if len(ring) < 3:
+        return f"has {len(ring)} different corners, not three or more"
+    if not is_simple(ring):
+        return "crosses or touches itself"
+    area = signed_area(ring)
+    if abs(area) < LEAST_AREA:
+        return "encloses no area"
+    return Prism(ring if area > 0 else ring[::-1], *zone.polygon.height)
+
+
+def _ring(points: tuple[Vec2, ...]) -> tuple[Vec2, ...]:
+    """Drop corners that repeat the one before them, as a closing point does."""
+    return tuple(p for i, p in enumerate(points) if not _same(p, points[i - 1]))
+
+
+def _same(p: Vec2, q: Vec2) -> bool:
+    return all(isclose(a, b, abs_tol=1e-6) for a, b in zip(p, q, strict=True))
+
+
+def targets(spec: MissionSpec, put: Put) -> dict[str, Target | None]:
+    """Return the targets by name; None for one that moves."""
+    return {
+        name: None
+        if target.at is None
+        else Target(name, put(target.at), target.radius, target.height, ("targets", name))
+        for name, target in spec.targets.items()
+    }
+
+
+def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, Drone], list[Diagnostic]]:
+    """Return the drones by name, with presets filled in and wind taken off their speed."""
+    found: dict[str, Drone] = {}
+    faults: list[Diagnostic] = []
+    wind = spec.world.wind
+    for name, drone in spec.drones.items():
+        resolved = resolve_drone(name, drone, put, wind)
+        if resolved.limits.speed < LEAST_SPEED:
+            faults.append(_becalmed(resolved, wind, origins))
+        found[name] = resolved
+    return found, faults
+
+
+def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: float) -> Drone:
+    """Return a drone as its preset and what the mission puts in its place; wind in m/s."""
+    preset = PRESETS[spec.model]
+    limits = _over(preset.limits, spec.limits)
+    limits["speed"] -= wind
+    camera = spec.camera
+    return Drone(
+        name=name,
+        model=spec.model,
+        home=put(spec.home),
+        limits=Limits(**limits),
+        gimbal=Gimbal(**_over(preset.gimbal, spec.gimbal)),
+        hfov=camera.field_of_view or preset.hfov,
+        aspect=camera.aspect_ratio or preset.aspect,
+        radius=spec.radius or preset.radius,
+        endurance=spec.endurance or preset.endurance,
+        priority=spec.priority,
+        body=spec.body or preset.body,
+        autopilot=preset.autopilot,
+        path=("drones", name),
+    )
+
+
+def _over(preset: Limits | Gimbal, spec: BaseModel) -> dict[str, Any]:
+    """Return the preset's fields, with what the mission gives in their place."""
+    given = {key: getattr(spec, key) for key in type(spec).model_fields}
+    return {key: getattr(preset, key) if given[key] is None else given[key] for key in given}
+
+
+def _becalmed(drone: Drone, wind: float, origins: OriginMap) -> Diagnostic:
+    speed = drone.limits.speed + wind
+    labels = (
+        origins.value(("world", "wind")),
+        origins.value((*drone.path, "limits", "speed"), f"drone `{drone.name}`"),
+    )
+    return Diagnostic(
+        "K011",
+        f"the wind leaves drone `{drone.name}` no speed",
+        labels,
+        (f"it flies {speed:.1f} m/s at most, and the wind takes {wind:.1f} m/s of that",),
+        f"wait for wind below {max(0.0, speed - LEAST_SPEED):.1f} m/s, or take a faster drone",
+    )
