@@ -25,8 +25,8 @@ from shotc.solvers.spline_fit import Fit, fit
 PIECES = 4  # per stretch between keyframes, at least
 SAMPLES = 6  # per piece
 FINER = (1, 2, 4, 8)
-CLOSE = 1e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
-STIFF = 1e-8  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
+CLOSE = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
+STIFF = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
 NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
 
 
