@@ -1,7 +1,182 @@
-"""The codes of this family; see shotc.diag.registry."""
+"""G: where things stand, and what the camera sees of them. See shotc.diag.registry."""
 
 from __future__ import annotations
 
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-CODES: tuple[CodeInfo, ...] = ()
+_PASSING = """\
+shotc: 1
+mission: tower-reveal
+world:
+  zones:
+    tree: {keep: out, cylinder: {center: [-30, 20], radius: 3, height: [0, 12]}}
+    field: {keep: in, polygon: {points: [[-80, -80], [80, -80], [80, 80], [-80, 80]], height: [2, 60]}}
+targets:
+  tower: {at: [0, 0, 12], radius: 4, height: 24}
+drones:
+  cam1: {model: x500, home: [0, -60, 0]}
+shots:
+  - id: reveal
+    kind: keyframes
+    drone: cam1
+    target: tower
+    keyframes:
+      - {at: [-40, -30, 10], heading: 45 deg, pitch: -4 deg}
+      - {at: [0, -45, 18], look_at: tower}
+      - {at: [45, 20, 15], look_at: tower, hfov: 60 deg}
+  - {id: round, kind: orbit, drone: cam1, target: tower, radius: 50, altitude: 20}
+"""
+
+
+def _code(
+    number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str], *, warns: bool = False
+) -> CodeInfo:
+    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
+    severity = Severity.WARNING if warns else Severity.ERROR
+    failing = _PASSING.replace(*slip)
+    return CodeInfo(f"G{number:03}", slug, severity, summary, explanation, failing, _PASSING)
+
+
+CODES: tuple[CodeInfo, ...] = (
+    _code(
+        1,
+        "too-low",
+        "a camera stands too close to the ground, or under it",
+        "The ground is z = 0. The body sphere of the drone keeps `rules.ground_clearance` from it, so the "
+        "camera's z is at least that clearance and the body's radius. The note gives both. Raise the "
+        "keyframe or the altitude, or lower the clearance.",
+        ("at: [0, -45, 18]", "at: [0, -45, 1]"),
+    ),
+    _code(
+        2,
+        "in-zone",
+        "a camera stands in a zone that is to be kept out of, or touches it",
+        "What the user places binds, so a keyframe in a keep-out zone can never be flown. The distance "
+        "counts from the body sphere. The help gives the shortest move to a place that is free of all "
+        "zones, targets and the ground.",
+        ("at: [-40, -30, 10]", "at: [-31, 21, 10]"),
+    ),
+    _code(
+        3,
+        "outside-zone",
+        "a camera stands outside a zone that is to be kept inside of",
+        "Keep-in zones bind every phase but take-off and landing, and where there are several, all of them "
+        "bind. The whole body sphere stays inside. Move the keyframe inward, or enlarge the zone.",
+        ("at: [45, 20, 15]", "at: [85, 20, 15]"),
+    ),
+    _code(
+        4,
+        "in-target",
+        "a camera stands in a target or too close to it",
+        "Targets are solid: the body sphere keeps `rules.target_clearance` from their cylinders. Move the "
+        "keyframe away, or make the cylinder as small as the target really is.",
+        ("at: [0, -45, 18]", "at: [0, -4, 18]"),
+    ),
+    _code(
+        5,
+        "home-blocked",
+        "a drone cannot take off from its home",
+        "Take-off and landing are vertical at home. A zone or target in that way, or a keep-in zone whose "
+        "walls do not enclose it, blocks the flight before it begins. Clearances and the floors of keep-in "
+        "zones do not apply there. Move the home, or the zone.",
+        ("home: [0, -60, 0]", "home: [0, -90, 0]"),
+    ),
+    _code(
+        6,
+        "home-underground",
+        "a drone's home lies under the ground",
+        "The ground is z = 0, and altitudes count upwards from it. A home may stand on a roof, but not "
+        "under the ground. Raise it.",
+        ("home: [0, -60, 0]", "home: [0, -60, -3]"),
+    ),
+    _code(
+        7,
+        "bad-polygon",
+        "the polygon of a zone crosses itself or encloses nothing",
+        "A polygon is given by its corners in the order in which one walks round it, either way. Its edges "
+        "may not cross or touch, and it has three different corners or more. Sort the corners.",
+        ("[[-80, -80], [80, -80], [80, 80], [-80, 80]]", "[[-80, -80], [80, 80], [80, -80], [-80, 80]]"),
+    ),
+    _code(
+        8,
+        "behind-camera",
+        "a target is behind the camera in the user's own framing",
+        "A heading and a pitch are a framing of the target, which composition then corrects. A camera that "
+        "looks the other way frames nothing that could be corrected. Headings are compass bearings: 0 is "
+        "North, 90 deg East. The help gives the heading and pitch that look straight at the target.",
+        ("heading: 45 deg", "heading: 225 deg"),
+    ),
+    _code(
+        9,
+        "out-of-frame",
+        "no part of a target is in the user's own framing",
+        "The target lies before the camera, but outside its frame: the heading, the pitch or the field of "
+        "view is not what was meant. The help gives the heading and pitch that look straight at it.",
+        ("heading: 45 deg", "heading: 115 deg"),
+    ),
+    _code(
+        10,
+        "target-too-large",
+        "a target does not fit into the frame anywhere on its composition set",
+        "A place on screen where the target would be cropped is no candidate, and none is left, not even on "
+        "the vertical lines through the set's points. The help gives the least distance and the least field "
+        "of view that would do.",
+        ("at: [0, -45, 18]", "at: [0, -14, 18]"),
+    ),
+    _code(
+        11,
+        "off-composition",
+        "a target stands beside its composition set, because it would be cropped on it",
+        "Every place of the set crops the target, so the nearest place on the set's vertical lines that "
+        "shows it whole is taken. The note says which. Move away or widen the field of view to compose it "
+        "as asked.",
+        (
+            "at: [0, -45, 18], look_at: tower",
+            "at: [0, -40, 18], look_at: tower, frame: upper-left",
+        ),
+        warns=True,
+    ),
+    _code(
+        12,
+        "cropped",
+        "a target is cropped in a framing that `keep` keeps",
+        "With `keep` the user's framing stands as it is, even where it cuts the target. The note says by "
+        "how much. Turn the camera, move away, or widen the field of view if the whole target is wanted.",
+        ("heading: 45 deg, pitch: -4 deg", "heading: 75 deg, pitch: -4 deg, frame: keep"),
+        warns=True,
+    ),
+    _code(
+        13,
+        "beyond-gimbal",
+        "the gimbal does not reach the pitch that a keyframe needs",
+        "The camera's pitch counts from the horizon, up is positive, and stays within `gimbal.pitch`. A "
+        "keyframe far below or above its target may need more. The note gives the pitch and the range.",
+        ("pitch: -4 deg", "pitch: 40 deg"),
+    ),
+    _code(
+        14,
+        "looks-at-itself",
+        "a camera is to look at the place where it stands",
+        "`look_at` is the point in the middle of the picture; where it is the camera's own place there is "
+        "no direction. Give another point, or a heading and pitch.",
+        ("at: [0, -45, 18], look_at: tower", "at: [0, -45, 18], look_at: [0, -45, 18]"),
+    ),
+    _code(
+        15,
+        "no-origin",
+        "a position is given in latitude and longitude, but the mission has no origin",
+        "`world.origin` ties the world's metres to the earth; without it a geodetic position is nowhere. Add "
+        "`origin: {lat: ..., lon: ..., alt: ...}` under `world`, or give positions as [x, y, z].",
+        ("at: [0, -45, 18]", "at: {lat: 47.3769, lon: 8.5417, height: 18}"),
+    ),
+    _code(
+        16,
+        "ideal-blocked",
+        "a generated path leads through an obstacle and will leave its ideal",
+        "The path that a kind generates is an ideal. Where a zone or a target stands in it the plan goes "
+        "round, and says how far and when. Choose another altitude or distance to keep the ideal.",
+        ("radius: 50, altitude: 20", "radius: 36, altitude: 11"),
+        warns=True,
+    ),
+)

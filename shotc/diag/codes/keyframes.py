@@ -1,7 +1,128 @@
-"""The codes of this family; see shotc.diag.registry."""
+"""K: keyframes, kinds and their timing, told without a solver. See shotc.diag.registry."""
 
 from __future__ import annotations
 
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-CODES: tuple[CodeInfo, ...] = ()
+_PASSING = """\
+shotc: 1
+mission: tower-walk
+world: {wind: 1 m/s}
+targets:
+  tower: {at: [0, 0, 12], radius: 4, height: 24}
+drones:
+  cam1: {model: x500, home: [0, -60, 0], limits: {speed: 9 m/s}, endurance: 10 min}
+shots:
+  - id: walk
+    kind: keyframes
+    drone: cam1
+    target: tower
+    timing: {start: 20, duration: 40}
+    keyframes:
+      - {at: [-40, -30, 10], look_at: tower, time: 0}
+      - {at: [0, -45, 18], look_at: tower, hold: 2, time: 15}
+      - {at: [45, -20, 15], look_at: tower}
+  - {id: above, kind: top-down, drone: cam1, target: tower, altitude: 60, drift: [1, 0, 0],
+     timing: {start: 100, duration: 10}}
+  - {id: rise, kind: elevator, drone: cam1, target: tower, azimuth: 180 deg, distance: 50, altitude: [5, 30],
+     timing: {after: above}}
+"""
+
+
+def _code(number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str]) -> CodeInfo:
+    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
+    failing = _PASSING.replace(*slip)
+    return CodeInfo(f"K{number:03}", slug, Severity.ERROR, summary, explanation, failing, _PASSING)
+
+
+CODES: tuple[CodeInfo, ...] = (
+    _code(
+        1,
+        "times-not-rising",
+        "the times of keyframes do not rise",
+        "A keyframe's `time` counts from the shot's start, and keyframes are flown in the order in which "
+        "they are written. Give each a later time than the one before it, or no time at all.",
+        ("look_at: tower, time: 0}", "look_at: tower, time: 15}"),
+    ),
+    _code(
+        2,
+        "time-past-end",
+        "a keyframe comes, or is held, after its shot has ended",
+        "A given duration includes all holds. A keyframe's `time` and its `hold` together stay within it. "
+        "Lengthen the shot, or move the keyframe forward.",
+        ("hold: 2, time: 15", "hold: 2, time: 39"),
+    ),
+    _code(
+        3,
+        "holds-too-long",
+        "the holds of a shot are longer than the shot",
+        "A given duration includes all holds, and flying takes time too. Lengthen the shot, shorten the "
+        "holds, or write `timing: auto`.",
+        ("hold: 2, time: 15", "hold: 45"),
+    ),
+    _code(
+        4,
+        "too-fast",
+        "no drone within its limits flies that far in that time",
+        "Even straight from keyframe to keyframe, from rest to rest at full speed and acceleration, the "
+        "time does not suffice. The numbers are a lower bound: curves, jerk and turns of the camera take "
+        "more. Lengthen the shot, bring the keyframes closer, or raise the limits.",
+        ("{start: 20, duration: 40}", "{start: 20, duration: 16}"),
+    ),
+    _code(
+        5,
+        "beyond-endurance",
+        "a flight is longer than the drone can stay in the air",
+        "Shots, holds and waits, and the straight ways between them and home, add up to more than "
+        "`endurance`. Shorten or drop shots, or cut the mission in two.",
+        ("endurance: 10 min", "endurance: 1 min"),
+    ),
+    _code(
+        6,
+        "shots-overlap",
+        "two shots of one drone overlap in time",
+        "A drone films one shot at a time. With the starts and durations given, one shot begins before the "
+        "other can have ended. Start it later, or give it to another drone.",
+        ("{start: 100, duration: 10}", "{start: 50, duration: 10}"),
+    ),
+    _code(
+        7,
+        "starts-while-waiting",
+        "a shot starts before the one that it waits for has ended",
+        "`start` and `after` of the same timing contradict each other. Start it later, or drop one of them.",
+        ("{after: above}", "{after: above, start: 105}"),
+    ),
+    _code(
+        8,
+        "start-too-early",
+        "a shot starts before the drone can be there",
+        "`start` is the time of the first filmed frame, counted from the start of the mission; take-off and "
+        "the way there, or the way from the shot before, come first. Start the shot later.",
+        ("{start: 20, duration: 40}", "{start: 2, duration: 40}"),
+    ),
+    _code(
+        9,
+        "drift-without-duration",
+        "a drifting view from above has no duration",
+        "A drift is a velocity: how far it leads depends on how long it lasts. Add `duration` to the shot's "
+        "timing.",
+        ("{start: 100, duration: 10}", "{start: 100}"),
+    ),
+    _code(
+        10,
+        "nothing-moves",
+        "a moving shot does not move",
+        "Both ends of what should move are the same place. Give the moving parameter as [from, to], or use "
+        "`kind: static` for a camera that stands still.",
+        ("altitude: [5, 30]", "altitude: 30"),
+    ),
+    _code(
+        11,
+        "no-speed-left",
+        "the wind leaves a drone no speed",
+        "`world.wind` is taken off the horizontal speed of every drone, since it has to fly against it. "
+        "Wait for less wind, or take a faster drone.",
+        ("wind: 1 m/s", "wind: 10 m/s"),
+    ),
+)

@@ -1,7 +1,137 @@
-"""The codes of this family; see shotc.diag.registry."""
+"""N: names, and the files that a mission names. See shotc.diag.registry."""
 
 from __future__ import annotations
 
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-CODES: tuple[CodeInfo, ...] = ()
+_PASSING = """\
+shotc: 1
+mission: towers
+targets:
+  tower: {at: [0, 0, 12], radius: 4, height: 24}
+drones:
+  cam1: {model: x500, home: [0, -60, 0]}
+fleets:
+  swarm: {count: 20, layout: {grid: {spacing: 4}}}
+shots:
+  - {id: wide, kind: static, drone: cam1, at: [0, -50, 15], look_at: tower}
+  - {id: side, kind: static, drone: cam1, at: [50, 0, 15], look_at: tower, timing: {after: wide}}
+  - {id: show, kind: display, fleet: swarm, frames: {files: walk/*.ply, period: 2}}
+output: {emit: [csv]}
+"""
+
+_BY_FILE = """\
+shotc: 1
+mission: towers
+drones:
+  cam1: {model: x500, home: [0, -60, 0]}
+shots:
+  - {id: route, kind: follow-path, drone: cam1, points: [[0, -50, 15], [40, -50, 15]]}
+"""
+
+
+def _code(
+    number: int,
+    slug: str,
+    summary: str,
+    explanation: str,
+    slip: tuple[str, str],
+    passing: str = _PASSING,
+) -> CodeInfo:
+    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
+    failing = passing.replace(*slip)
+    return CodeInfo(f"N{number:03}", slug, Severity.ERROR, summary, explanation, failing, passing)
+
+
+CODES: tuple[CodeInfo, ...] = (
+    _code(
+        1,
+        "unknown-target",
+        "a target is named that the mission does not define",
+        "A shot's `target`, a `look_at` by name and the subjects of a framing refer to the keys under "
+        "`targets`. The nearest known name is proposed. Mend the name, or define the target.",
+        ("look_at: tower}", "look_at: towr}"),
+    ),
+    _code(
+        2,
+        "unknown-drone",
+        "a drone is named that the mission does not define",
+        "A shot's `drone` refers to a key under `drones`, or is `auto`. What the shot asks of its drone is "
+        "not judged until the drone is known. Mend the name, or define the drone.",
+        ("id: wide, kind: static, drone: cam1", "id: wide, kind: static, drone: cam"),
+    ),
+    _code(
+        3,
+        "unknown-fleet",
+        "a fleet is named that the mission does not define",
+        "A display's `fleet` refers to a key under `fleets`. Mend the name, or define the fleet.",
+        ("fleet: swarm", "fleet: swam"),
+    ),
+    _code(
+        4,
+        "unknown-shot",
+        "a shot waits for one that does not exist",
+        "`after` in a shot's timing names the id of another shot that has to end first. Mend the name, or "
+        "drop `after`: the shots of one drone run in the order in which they are written anyway.",
+        ("after: wide", "after: wider"),
+    ),
+    _code(
+        5,
+        "unknown-emitter",
+        "an output is asked for that no installed emitter makes",
+        "`output.emit` names emitters; `shotc list emitters` shows those that are installed, with those of "
+        "plugins. Mend the name, or install the plugin that brings it.",
+        ("emit: [csv]", "emit: [cvs]"),
+    ),
+    _code(
+        6,
+        "duplicate-shot",
+        "two shots have the same id",
+        "Outputs, waits and messages speak of shots by their ids, so each id may be used once. The second "
+        "shot of a name is reported. Give it another id.",
+        ("id: side", "id: wide"),
+    ),
+    _code(
+        7,
+        "circular-wait",
+        "shots wait for each other in a circle",
+        "Each shot of the circle waits, by `after`, for one that comes after itself, so that none can ever "
+        "begin. Drop one of the waits, or let one of the shots wait for another shot.",
+        ("look_at: tower}", "look_at: tower, timing: {after: side}}"),
+    ),
+    _code(
+        8,
+        "missing-file",
+        "a file that the mission names cannot be read",
+        "Tracks and routes may stand in files of their own. Their paths count from the folder of the "
+        "mission, with `/` between folders. Files of the same sort that lie there are proposed. Mend the "
+        "path, or put the file there.",
+        ("points: [[0, -50, 15], [40, -50, 15]]", "file: no-such-route.csv"),
+        _BY_FILE,
+    ),
+    CodeInfo(
+        "N009",
+        "unusable-file",
+        Severity.ERROR,
+        "a file that the mission names does not hold what it should",
+        "A track is a CSV file with the columns t,x,y,z and maybe heading, its times rising; a route is a CSV "
+        "file with x,y,z or lat,lon,height, or a GPX file with elevations. All numbers are finite. XML with a "
+        "document type declaration is refused, and so is a file of more than 4 MB. The note names the line of "
+        "the file. Mend that line.",
+        _BY_FILE.replace("points: [[0, -50, 15], [40, -50, 15]]", "file: route.csv"),
+        _BY_FILE,
+        phase="other",
+    ),
+    CodeInfo(
+        "N010",
+        "file-outside",
+        Severity.ERROR,
+        "a file that the mission names lies outside its folder",
+        "A mission may come from anywhere, so it reads nothing but what lies in its own folder: a link that "
+        "leads out of it is not followed. Put the file itself into the folder.",
+        _BY_FILE.replace("points: [[0, -50, 15], [40, -50, 15]]", "file: link-to-elsewhere.csv"),
+        _BY_FILE,
+        phase="other",
+    ),
+)
