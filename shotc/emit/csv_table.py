@@ -32,6 +32,8 @@ class CsvTable:
     """Writes both tables, rows sorted by drone, then time, on the common clock t = k / rate."""
 
     name: ClassVar[str] = "csv"
+    summary: ClassVar[str] = "trajectory.csv and framing.csv"
+    api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return trajectory.csv and framing.csv."""

@@ -43,6 +43,8 @@ class MavlinkEmitter:
     """Writes one or two mission files for each drone."""
 
     name: ClassVar[str] = "mavlink"
+    summary: ClassVar[str] = "QGroundControl plans, and waypoints for ArduPilot"
+    api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the mission files, with warnings and the error that the format adds."""

@@ -17,6 +17,8 @@ class PlanJson:
     """Writes plan.json (see ``shotc.planfile``, which also reads it)."""
 
     name: ClassVar[str] = "plan"
+    summary: ClassVar[str] = "plan.json, the whole plan with its certificate"
+    api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the plan file."""

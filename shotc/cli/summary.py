@@ -1,0 +1,126 @@
+"""What a finished plan tells at a glance: its shots, how near it comes to its limits, its files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import degrees, isfinite
+from pathlib import Path
+
+from shotc.ir.trajectory import Claim, Phase, VerifiedIR
+
+LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
+
+
+def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> str:
+    """Return the text that ``shotc plan`` ends with."""
+    mission = plan.trajectory.keyframes.mission
+    length = max(drone.curve.end for drone in plan.trajectory.drones)
+    shots = f"{len(mission.shots)} shot{'s' * (len(mission.shots) != 1)}"
+    return "\n".join(
+        [
+            f"{mission.name}: {shots}, {clock(length)} in the air, planned and proved",
+            "",
+            *_indent(table(shot_rows(plan))),
+            "",
+            *_indent([f"{name:<9} {text}" for name, text in _facts(plan, notes)]),
+            "",
+            *_indent(_files(paths)),
+        ]
+    )
+
+
+def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
+    """Return a heading and one row a shot: name, kind, when, how long, and what the framing is worth."""
+    kinds = {shot.id: shot.kind for shot in plan.trajectory.keyframes.mission.shots}
+    rows = [("shot", "kind", "from", "lasts", "target in frame", "screen error", "size")]
+    for drone in plan.trajectory.drones:
+        rows += [
+            (phase.shot, kinds[phase.shot], *_shot(plan.certificate, phase))
+            for phase in drone.phases
+            if phase.shot is not None
+        ]
+    return rows
+
+
+def table(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Set rows in columns two spaces apart."""
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+def clock(seconds: float) -> str:
+    """Write seconds as m:ss.s."""
+    minutes, rest = divmod(round(seconds, 1), 60)
+    return f"{int(minutes)}:{rest:04.1f}"
+
+
+def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
+    claims = [c for c in certificate if c.shot == phase.shot]
+
+    def worst(ending: str, pick: int) -> float | None:
+        values = sorted(c.worst for c in claims if c.constraint.endswith(ending) and isfinite(c.worst))
+        return values[pick] if values else None
+
+    frame, error = worst("in frame", 0), worst("screen error", -1)
+    small, large = worst("size smallest", 0), worst("size largest", -1)
+    return (
+        clock(phase.start),
+        f"{phase.end - phase.start:.2f} s",
+        "-" if frame is None else f"{100 * frame:.4g} %",
+        "-" if error is None else f"{error:.3f}",
+        "-" if small is None or large is None else f"{small:.2f} to {large:.2f}",
+    )
+
+
+def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
+    facts = [("limits", ", ".join(_used(plan.certificate)))]
+    facts += [("closest", text) for text in _closest(plan.certificate)]
+    hard = [c for c in plan.certificate if c.hard]
+    ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
+    facts.append(
+        (
+            "proof",
+            f"{len(hard)} requirements hold: {ways['bounded']} at every instant, "
+            f"{ways['exact']} by arithmetic, {ways['sampled']} at every output sample",
+        )
+    )
+    facts += [
+        ("bent", f"shot {d.shot} leaves its ideal by up to {d.distance:.2f} m: {d.cause}")
+        for d in plan.trajectory.deviations
+    ]
+    return facts + [("note", note) for note in notes]
+
+
+def _used(certificate: Iterable[Claim]) -> list[str]:
+    texts = []
+    for claim in certificate:
+        if claim.constraint in LIMITS:
+            scale, unit = (
+                (degrees(1), claim.unit.replace("rad", "deg")) if "rad" in claim.unit else (1.0, claim.unit)
+            )
+            texts.append(f"{claim.constraint} {claim.worst * scale:.3g} of {claim.limit * scale:.3g} {unit}")
+    return texts
+
+
+def _closest(certificate: Iterable[Claim]) -> list[str]:
+    near = [
+        c for c in certificate if c.unit == "m" and not c.upper and isfinite(c.worst) and isfinite(c.limit)
+    ]
+    near.sort(key=lambda c: c.worst - c.limit)
+    return [
+        f"{c.worst:.2f} m, {c.limit:.2f} m needed: {c.constraint}"
+        + ("" if c.time is None else f" at {clock(c.time)}")
+        for c in near[:2]
+    ]
+
+
+def _files(paths: Sequence[Path]) -> list[str]:
+    folder = paths[0].parent
+    return [
+        f"wrote     {folder}/: {', '.join(path.name for path in paths)}",
+        f"next      shotc view {folder / 'plan.json'}",
+    ]
+
+
+def _indent(lines: Iterable[str]) -> list[str]:
+    return ["  " + line for line in lines]
