@@ -1,4 +1,4 @@
-"""Gridpoints on s for one move: dense where the motion will be slow or the path bends, fitted to its pieces."""
+"""Gridpoints on s for one move: dense where the motion will be slow or the path bends, fitted to its kinks."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, bernstein_basis
+from shotc.ir.path import HFOV
 from shotc.passes.time_limits import Axis
 
 Array = NDArray[np.float64]
@@ -18,6 +19,8 @@ FEWEST, MOST = 36, 100
 # Shares of the cells that are spread evenly over the length and over changes of speed; the rest is
 # spread over the time.
 OVER_LENGTH, OVER_CHANGE = 0.15, 0.25
+# Breaks where the third derivative jumps by less than this share of its maximum count as smooth.
+KINK = 1e-2
 # sdot^2 where nothing else binds: paths are parametrised by metres, and nothing flies at 1000 m/s.
 FASTEST = 1e6
 
@@ -46,17 +49,26 @@ class Samples:
 
 
 def sample(curve: Piecewise, grid: Array) -> Samples:
-    """Return the derivatives on a grid no cell of which crosses a break of the curve."""
+    """Return the derivatives inside each cell; where a cell ends at a break, those of its own side."""
     middle = 0.5 * (grid[1:] + grid[:-1])
-    piece = np.clip(np.searchsorted(curve.breaks, middle, side="right") - 1, 0, len(curve.ctrl) - 1)
-    lo = curve.breaks[piece]
-    width = curve.breaks[piece + 1] - lo
-    x = np.stack([(s - lo) / width for s in (grid[:-1], middle, grid[1:])], axis=1)
+    s = np.stack([grid[:-1], middle, grid[1:]], axis=1)
+    last = len(curve.ctrl) - 1
+    piece = np.searchsorted(curve.breaks, s, side="right") - 1
+    piece[:, 2] = np.searchsorted(curve.breaks, s[:, 2], side="left") - 1
+    piece = np.clip(piece, 0, last)
+    x = (s - curve.breaks[piece]) / (curve.breaks[piece + 1] - curve.breaks[piece])
     derivatives = []
     for order in (1, 2, 3):
         part = curve.derivative(order)
-        derivatives.append(np.einsum("nxk,nkd->nxd", bernstein_basis(part.degree, x), part.ctrl[piece]))
+        derivatives.append(np.einsum("nxk,nxkd->nxd", bernstein_basis(part.degree, x), part.ctrl[piece]))
     return Samples(grid, *derivatives)
+
+
+def kinks(curve: Piecewise) -> Array:
+    """Return the breaks where the third derivative jumps: no cell may cross them."""
+    third = curve.derivative(3).ctrl[:, :, :HFOV]
+    jump = np.abs(third[1:, 0] - third[:-1, -1]).max(axis=1)
+    return np.asarray(curve.breaks[1:-1][jump > KINK * max(float(np.abs(third).max()), 1e-12)])
 
 
 def rate_cap(d1: Array, limits: tuple[Axis, ...]) -> Array:
@@ -107,7 +119,7 @@ def rough_profile(curve: Piecewise, s0: float, s1: float, limits: tuple[Axis, ..
 
 
 def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
-    """Return gridpoints about even in time under the guess (s, b), with every break and given node among them.
+    """Return gridpoints about even in time under the guess (s, b), with every kink and given node among them.
 
     nodes : places that have to be gridpoints, any order, may lie outside
     """
@@ -120,7 +132,7 @@ def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
     change = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(sd)))])
     mass = (1 - OVER_LENGTH - OVER_CHANGE) * time / time[-1]
     mass += OVER_LENGTH * (s - s[0]) / (s[-1] - s[0]) + OVER_CHANGE * change / change[-1]
-    fixed = np.concatenate([curve.breaks, nodes])
+    fixed = np.concatenate([kinks(curve), nodes])
     gap = 1e-9 * (s[-1] - s[0])
     fixed = np.unique(fixed[(fixed > s[0] + gap) & (fixed < s[-1] - gap)])
     fixed = fixed[np.concatenate([[True], np.diff(fixed) > gap])] if len(fixed) else fixed

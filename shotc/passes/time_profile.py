@@ -12,12 +12,16 @@ from shotc.solvers.retiming_socp import cell_times
 
 Array = NDArray[np.float64]
 
+# Path parameters, metres, that count as one place.
+SAME = 1e-9
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Profile:
-    """Motion from rest to rest.
+    """Motion along a path from rest to rest, holds possibly among it.
 
-    t, s, sd, sdd : shape (N + 1,); t starts at 0, sd and sdd are zero at both ends
+    t, s, sd, sdd : shape (N + 1,); t starts at 0 and rises, s does not fall (where it stays is a
+        hold), sd and sdd are zero at both ends
     """
 
     t: Array
@@ -38,20 +42,26 @@ class Profile:
         """Return s(t), one channel."""
         return quintic_hermite(self.t, self.s[:, None], self.sd[:, None], self.sdd[:, None])
 
-    def time_at(self, s: Array) -> Array:
-        """Return t where the path parameter is ``s``; s(t) increases, so bisection finds it."""
-        s = np.clip(s, self.s[0], self.s[-1])
-        cell = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, len(self.s) - 2)
+    def arrival(self, s: float) -> float:
+        """Return when path parameter ``s`` is first reached."""
+        k = int(np.searchsorted(self.s, s - SAME))
+        return self._between(k - 1, s) if k == len(self.s) or self.s[k] - s > SAME else float(self.t[k])
+
+    def departure(self, s: float) -> float:
+        """Return when path parameter ``s`` is left: later than its arrival only where there is a hold."""
+        k = int(np.searchsorted(self.s, s + SAME)) - 1
+        return self._between(k, s) if k < 0 or s - self.s[k] > SAME else float(self.t[k])
+
+    def _between(self, knot: int, s: float) -> float:
+        """Return t at s after a knot, by bisection, since s(t) rises."""
+        if not 0 <= knot < len(self.s) - 1:
+            return float(self.t[0 if knot < 0 else -1])
         curve = self.curve()
-        low, high = self.t[cell], self.t[cell + 1]
+        low, high = float(self.t[knot]), float(self.t[knot + 1])
         for _ in range(50):
             middle = 0.5 * (low + high)
-            below = curve(middle)[..., 0] < s
-            low, high = np.where(below, middle, low), np.where(below, high, middle)
-        # Exact at the knots, where marks and the ends of spans lie.
-        at_knot = np.minimum(np.abs(s - self.s[cell]), np.abs(s - self.s[cell + 1])) == 0
-        knot = np.where(s == self.s[cell], self.t[cell], self.t[cell + 1])
-        return np.asarray(np.where(at_knot, knot, 0.5 * (low + high)))
+            low, high = (middle, high) if curve(middle)[0] < s else (low, middle)
+        return 0.5 * (low + high)
 
 
 def profile_of(s: Array, b: Array, a: Array) -> Profile:

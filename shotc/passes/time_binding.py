@@ -1,0 +1,141 @@
+"""Says which limits hold a leg back, where, and how far one of them alone would have to rise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import degrees
+
+import numpy as np
+
+from shotc.diag.model import Label
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import Leg, Mark
+from shotc.passes.time_flown import usages
+from shotc.passes.time_limits import Ceiling, ceiling_of
+from shotc.passes.time_move import Move, axes_of
+
+# A limit holds a piece back where at least this share of it is used.
+BINDING = 0.97
+# A limit is searched up to this multiple, and as finely as so many halvings of a doubling give.
+HIGHEST = 16.0
+HALVINGS = 6
+
+
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    key: tuple[str, str]
+    words: str
+    unit: str
+    angular: bool = False
+
+
+_SHOWN = {
+    "speed": _Shown(("limits", "speed"), "speed", "m/s"),
+    "climb": _Shown(("limits", "climb"), "climb", "m/s"),
+    "descent": _Shown(("limits", "descent"), "descent", "m/s"),
+    "acceleration": _Shown(("limits", "acceleration"), "acceleration", "m/s^2"),
+    "jerk": _Shown(("limits", "jerk"), "jerk", "m/s^3"),
+    "yaw_rate": _Shown(("limits", "yaw_rate"), "yaw rate", "deg/s", True),
+    "yaw_acceleration": _Shown(("limits", "yaw_acceleration"), "yaw acceleration", "deg/s^2", True),
+    "gimbal_rate": _Shown(("gimbal", "rate"), "gimbal rate", "deg/s", True),
+    "gimbal_acceleration": _Shown(("gimbal", "acceleration"), "gimbal acceleration", "deg/s^2", True),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """The seconds between two neighbouring keyframes and the limit that binds longest in them."""
+
+    first: Mark
+    second: Mark
+    seconds: float
+    name: str
+    held: float
+
+
+def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> tuple[Stretch, ...]:
+    """Return, between keyframes, what holds moves at full limits back; most seconds first."""
+    pieces = [_held(move, ceiling) for move in moves]
+    marks = sorted(leg.marks, key=lambda m: (m.s, m.index))
+    found = []
+    for a, b in zip(marks[:-1], marks[1:], strict=True):
+        total: dict[str, float] = {}
+        seconds = 0.0
+        for middle, step, held in pieces:
+            inside = (middle > a.s) & (middle < b.s)
+            seconds += float(step[inside].sum())
+            for name, binds in held.items():
+                total[name] = total.get(name, 0.0) + float(step[inside & binds].sum())
+        if total:
+            name = max(total, key=lambda n: total[n])
+            if total[name] > 0:
+                found.append(Stretch(a, b, seconds, name, total[name]))
+    return tuple(sorted(found, key=lambda f: -f.held))
+
+
+def _held(move: Move, ceiling: Ceiling) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    profile = move.profile
+    limits = axes_of(move.path, (float(profile.s[0]), float(profile.s[-1])), ceiling)
+    held: dict[str, np.ndarray] = {}
+    for usage in usages(move.curve, limits):
+        held[usage.name] = held.get(usage.name, False) | (usage.share > BINDING)
+    return 0.5 * (profile.s[1:] + profile.s[:-1]), np.diff(profile.t), held
+
+
+def binding_notes(mission: MissionIR, drone: Drone, stretches: tuple[Stretch, ...]) -> tuple[str, ...]:
+    """Return up to three sentences on what holds the drone back and where."""
+    return tuple(
+        f"between keyframes {f.first.index + 1} and {f.second.index + 1} it needs {f.seconds:.1f} s: "
+        f"{_SHOWN[f.name].words} {limit_text(mission, drone, f.name)} holds it back for {f.held:.1f} s of them"
+        for f in stretches[:3]
+    )
+
+
+def binding_labels(mission: MissionIR, drone: Drone, stretches: tuple[Stretch, ...]) -> tuple[Label, ...]:
+    """Return labels on the lines of the limits that bind, at most three."""
+    names = list(dict.fromkeys(f.name for f in stretches))[:3]
+    labels = [
+        mission.origins.value((*drone.path, *_SHOWN[name].key), f"{_SHOWN[name].words} binds")
+        for name in names
+    ]
+    return tuple({label.span: label for label in labels}.values())
+
+
+def raises(
+    mission: MissionIR, drone: Drone, names: tuple[str, ...], enough: Callable[[Ceiling], bool]
+) -> list[str]:
+    """Return which of the named limits would do if it alone rose, and how far, as text."""
+    full = ceiling_of(drone)
+    found = []
+    for name in names:
+        factor = _least_factor(lambda f, n=name: enough(replace(full, **{n: f * getattr(full, n)})))
+        if factor is not None:
+            found.append(
+                f"raise `{'.'.join(_SHOWN[name].key)}` to {limit_text(mission, drone, name, factor)}"
+            )
+    return found
+
+
+def _least_factor(enough: Callable[[float], bool]) -> float | None:
+    high = 2.0
+    while not enough(high):
+        high *= 2.0
+        if high > HIGHEST:
+            return None
+    low = high / 2.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if enough(middle) else (middle, high)
+    return high
+
+
+def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:
+    """Return a limit as the mission writes it, times a factor and then rounded up."""
+    shown = _SHOWN[name]
+    value = factor * getattr(ceiling_of(drone), name)
+    value = degrees(value) if shown.angular else value
+    value += mission.wind if name == "speed" else 0.0
+    if factor != 1.0:
+        value = np.ceil(value * 100) / 100
+    return f"{value:.2f} {shown.unit}"
