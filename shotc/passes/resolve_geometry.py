@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import replace
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
@@ -26,8 +27,9 @@ def check_geometry(mission: MissionIR) -> list[Diagnostic]:
         drone = mission.drone(shot.drone)
         for path, keyframes in _by_line(shot).items():
             faults += _too_low(mission, shot, drone, path, keyframes)
+            raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
             for obstacle in obstacles_of(mission, drone):
-                faults += _blocked(mission, shot, drone, keyframes, obstacle)
+                faults += _blocked(mission, shot, drone, raised, obstacle)
     return faults
 
 
@@ -37,6 +39,12 @@ def _by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:
     for keyframe in shot.keyframes:
         groups[keyframe.path].append(keyframe)
     return groups
+
+
+def _raised(keyframe: Keyframe, floor: float) -> Keyframe:
+    """Return a keyframe that is too low as it is once that is mended, so that one fault is told once."""
+    x, y, z = keyframe.at
+    return keyframe if z >= floor else replace(keyframe, at=(x, y, floor))
 
 
 def _too_low(

@@ -66,7 +66,8 @@ def _waits(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
             others = {name: None for name in index if name != shot.id}
             faults.append(_unknown("N004", "shot", after, others, origins, path))
             continue
-        circle = _circle(shot.id, waits)
+        # Two shots of one name can close a circle that is none; the name is the fault then.
+        circle = _circle(shot.id, waits) if len(waits) == len(spec.shots) else []
         if circle and told.isdisjoint(circle):
             told.update(circle)
             chain = " after ".join(f"`{name}`" for name in (*circle, circle[0]))

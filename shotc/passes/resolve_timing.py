@@ -150,15 +150,15 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
         return []
     label = timing_label(mission, shot)
     remedy = f"start it at {_up(max(there, waits))} s or later"
+    if start < waits - SLACK:
+        note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
+        message = f"shot `{shot.id}` starts at {start:.1f} s, before the shot it waits for has ended"
+        return [Diagnostic("K007", message, (label,), (note,), remedy)]
     if before.shot is not None and start < before.time - SLACK:
         note = f"`{before.shot.id}` ends at {before.time:.1f} s at the earliest; this starts at {start:.1f} s"
         message = f"shots `{before.shot.id}` and `{shot.id}` of drone `{shot.drone}` overlap"
         labels = (label, timing_label(mission, before.shot, "the other shot"))
         return [Diagnostic("K006", message, labels, (note,), remedy)]
-    if start < waits - SLACK:
-        note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
-        message = f"shot `{shot.id}` starts at {start:.1f} s, before the shot it waits for has ended"
-        return [Diagnostic("K007", message, (label,), (note,), remedy)]
     origin = "its home" if before.shot is None else f"the end of `{before.shot.id}`"
     note = f"from {origin} it takes at least {_up(there - before.time)} s to its first keyframe"
     message = f"drone `{shot.drone}` cannot be in place for shot `{shot.id}` at {start:.1f} s"

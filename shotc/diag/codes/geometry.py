@@ -55,7 +55,7 @@ CODES: tuple[CodeInfo, ...] = (
         "What the user places binds, so a keyframe in a keep-out zone can never be flown. The distance "
         "counts from the body sphere. The help gives the shortest move to a place that is free of all "
         "zones, targets and the ground.",
-        ("at: [-40, -30, 10]", "at: [-31, 21, 10]"),
+        ("at: [0, -45, 18]", "at: [-31, 21, 10]"),
     ),
     _code(
         3,

@@ -63,12 +63,12 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     _code(
         4,
-        "too-fast",
+        "duration-too-short",
         "no drone within its limits flies that far in that time",
         "Even straight from keyframe to keyframe, from rest to rest at full speed and acceleration, the "
         "time does not suffice. The numbers are a lower bound: curves, jerk and turns of the camera take "
         "more. Lengthen the shot, bring the keyframes closer, or raise the limits.",
-        ("{start: 20, duration: 40}", "{start: 20, duration: 16}"),
+        ("{start: 20, duration: 40}", "{start: 20, duration: 18}"),
     ),
     _code(
         5,

@@ -10,7 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from shotc.geom.camera import silhouette_bounds, view
-from shotc.ir.mission import Composition
+from shotc.ir.mission import Composition, Vec2
 from shotc.passes.place_candidates import (
     TOUCH,
     Line,
@@ -56,7 +56,7 @@ def whole(setting: Setting, uv: tuple[float, float]) -> bool:
 
 
 @given(settings, places)
-def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting, asked):
+def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_candidate(setting, THIRDS, asked)
     good = [p for p in THIRDS.points if whole(setting, p)]
     # Places on the very edge of being cropped may fall to either side.
@@ -69,7 +69,7 @@ def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting, as
 
 
 @given(settings, places)
-def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting, asked):
+def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_candidate(setting, LINES, asked)
     lines = [*(Line(c, True) for c in LINES.u_lines), *(Line(c, False) for c in LINES.v_lines)]
     sampled = [line.point(-1 + i / 100) for line in lines for i in range(201)]
@@ -86,7 +86,7 @@ def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting, as
 
 
 @given(settings, places)
-def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting, asked):
+def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_on_verticals(setting, THIRDS, asked)
     sampled = [(u, -1 + i / 100) for u in (0.0, -THIRD, THIRD) for i in range(201)]
     good = [p for p in sampled if setting.slack(p) >= 0]
@@ -98,7 +98,7 @@ def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting, a
     assert all(setting.apart(asked, chosen) <= setting.apart(asked, p) + 1e-7 for p in good)
 
 
-def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance():
+def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance() -> None:
     setting = Setting((20.0, 0.0, 0.0), 0.1, 0.1, radians(90), 1.0, (-pi / 2, pi / 2))
     # On u = 1 the direction (1, v, 1) is nearest to (0, 1, 1) / sqrt 2 where v = (1 + 1) / (0 + 1) * 1 / 1,
     # past the frame's edge: the angle pulls it beyond the pixel foot v = 1.
@@ -107,7 +107,7 @@ def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance():
     assert Line(0.5, False).foot(setting, (0.4, 0.0)) == pytest.approx(0.4 * (1 + 0.25))
 
 
-def test_a_stretch_that_just_fits_is_found_between_the_samples():
+def test_a_stretch_that_just_fits_is_found_between_the_samples() -> None:
     tower = Setting((40.0, 0.0, 0.0), 1.0, 24.0, radians(70), 16 / 9, (-pi / 2, pi / 2))
     low, high = 0.1, 1.0
     for _ in range(60):  # the nearest distance at which the tower fits on u = 0.2
@@ -123,14 +123,14 @@ def test_a_stretch_that_just_fits_is_found_between_the_samples():
     assert abs(place[1]) < 1e-3
 
 
-def test_ties_fall_to_the_first_point_of_the_set():
+def test_ties_fall_to_the_first_point_of_the_set() -> None:
     setting = Setting((30.0, 0.0, 0.0), 0.5, 1.0, radians(60), 1.5, (-pi / 2, pi / 2))
     corners = Composition("corners", points=CORNERS)
     assert nearest_candidate(setting, corners, (0.0, 0.0)) == CORNERS[0]
     assert nearest_candidate(setting, corners, (1e-13, 1e-13)) == CORNERS[0]
 
 
-def test_a_place_that_the_gimbal_cannot_reach_is_no_candidate():
+def test_a_place_that_the_gimbal_cannot_reach_is_no_candidate() -> None:
     above = Setting((20.0, 0.0, 10.0), 0.5, 1.0, radians(60), 16 / 9, (-pi / 2, radians(20)))
     # Looking straight at it takes 26.6 deg; putting it high in the frame takes less.
     chosen = nearest_candidate(above, Composition("u0", u_lines=(0.0,)), (0.0, 0.0))
@@ -143,7 +143,7 @@ def test_a_place_that_the_gimbal_cannot_reach_is_no_candidate():
     assert chosen[1] == pytest.approx(wanted, abs=1e-6)
 
 
-def test_directions_are_unit_vectors_of_the_pinhole():
+def test_directions_are_unit_vectors_of_the_pinhole() -> None:
     setting = Setting((1.0, 0.0, 0.0), 0.1, 0.1, radians(90), 2.0, (-1.0, 1.0))
     assert hypot(*setting.direction((0.7, -0.3))) == pytest.approx(1.0)
     x, y, z = setting.direction((1.0, 1.0))
