@@ -55,7 +55,7 @@ RULES = {
     "distance from keyframes": Rule("V016", help=REPLAN),
     "delay of keyframes": Rule("V016", help=REPLAN),
     "drift from the vertical": Rule("V017", help=REPLAN),
-    "height over home": Rule("V017", help=REPLAN),
+    "depth below home": Rule("V017", help=REPLAN),
     "targets not framed": Rule("V024", help=REPLAN),
 }
 

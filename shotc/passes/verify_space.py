@@ -93,5 +93,5 @@ def _vertical(flight: Flight, upright: Pieces) -> Iterator[Claim]:
     home, path = np.array(flight.drone.home), (*flight.drone.path, "home")
     drift = sup_convex(upright, lambda c: norm(c[..., :2] - home[:2]), gap(DRIFT))
     yield bounded(flight, Limit("drift from the vertical", DRIFT, "m", path), drift)
-    low = inf_channel(upright, 2, gap(float(home[2])))
-    yield bounded(flight, Limit("height over home", 0.0, "m", path, upper=False), _less(low, home[2]))
+    sunk = sup_convex(upright, lambda c: home[2] - c[..., 2], gap(0.0))
+    yield bounded(flight, Limit("depth below home", 0.0, "m", path), sunk)

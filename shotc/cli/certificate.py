@@ -1,0 +1,44 @@
+"""A certificate as a table: what was asked, the worst that happens, when, and how that is known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import isfinite
+
+from shotc.cli.summary import clock, table
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify_report import measure
+
+WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}
+HEADING = ("", "claim", "asked", "worst", "at", "known by")
+
+
+def certificate_text(certificate: Sequence[Claim]) -> str:
+    """Return one table for every drone's flight and for each of its shots."""
+    parts: list[str] = []
+    for subject, shot in dict.fromkeys((c.subject, c.shot) for c in certificate):
+        claims = [c for c in certificate if (c.subject, c.shot) == (subject, shot)]
+        parts.append(f"{subject}, " + ("whole flight" if shot is None else f"shot {shot}"))
+        parts += ["  " + line for line in table([HEADING, *_rows(claims)])]
+        parts.append("")
+    return "\n".join(parts[:-1])
+
+
+def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
+    for claim in claims:
+        asked = f"{'<=' if claim.upper else '>='} {measure(claim.limit, claim.unit)}"
+        yield (
+            mark(claim),
+            claim.constraint,
+            asked if isfinite(claim.limit) else "-",
+            measure(claim.worst, claim.unit) if isfinite(claim.worst) else "-",
+            "" if claim.time is None else clock(claim.time),
+            WAYS[claim.method],
+        )
+
+
+def mark(claim: Claim) -> str:
+    """Return a word for what has become of a claim."""
+    if not claim.holds:
+        return "BROKEN" if claim.hard else "lost"
+    return "ok" if isfinite(claim.limit) else ""

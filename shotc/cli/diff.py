@@ -1,0 +1,76 @@
+"""``shotc diff``: what two plans differ in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from shotc.cli import console
+from shotc.cli.plans import proved
+from shotc.cli.summary import table
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify_report import measure
+from shotc.planfile.compare import Comparison, ShotChange, compare
+
+Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the folder that holds it.")]
+New = Annotated[Path, typer.Argument(metavar="NEW", help="The plan to compare it with.")]
+
+CENTIMETRE = 0.01
+"""Two flights nearer than this are called the same; metres."""
+
+
+def diff(old: Old, new: New) -> None:
+    """Compare two plans: shots, path, limits, framing and certificate.
+
+    Example: shotc diff out/tower/plan.json out/tower-slow/plan.json
+    """
+    found = compare(proved(old), proved(new))
+    console.out("\n".join(_lines(found)))
+
+
+def _lines(found: Comparison) -> Iterator[str]:
+    yield from table([("shot", "starts", "lasts", "camera apart"), *map(_shot, found.shots)])
+    rows = [row for change in found.claims if (row := _claim(change.old, change.new)) is not None]
+    yield ""
+    if rows:
+        yield from table([("claim", "asked", "worst"), *rows])
+    else:
+        yield "the certificates say the same"
+
+
+def _shot(change: ShotChange) -> tuple[str, ...]:
+    apart = "-"
+    if change.distance is not None and change.share is not None:
+        same = change.distance < CENTIMETRE
+        apart = "same path" if same else f"{change.distance:.2f} m at {100 * change.share:.0f} %"
+    return (change.shot, _seconds(change.start), _seconds(change.duration), apart)
+
+
+def _seconds(pair: tuple[float | None, float | None]) -> str:
+    return _arrow(*("none" if value is None else f"{value:.2f} s" for value in pair))
+
+
+def _claim(old: Claim | None, new: Claim | None) -> tuple[str, ...] | None:
+    """Return a row, or None where two claims read the same."""
+    either = new or old
+    assert either is not None
+    name = f"{either.subject}: {either.constraint}" + (f" ({either.shot})" if either.shot else "")
+    asked = _arrow(*(_say(c, c.limit) if c else "none" for c in (old, new)))
+    worst = _arrow(*(_say(c, c.worst) + _state(c) if c else "none" for c in (old, new)))
+    return None if "->" not in asked + worst else (name, asked, worst)
+
+
+def _say(claim: Claim, value: float) -> str:
+    return measure(value, claim.unit) if isfinite(value) else "-"
+
+
+def _state(claim: Claim) -> str:
+    return "" if claim.holds else " (lost)"
+
+
+def _arrow(old: str, new: str) -> str:
+    return old if old == new else f"{old} -> {new}"

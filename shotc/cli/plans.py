@@ -1,0 +1,44 @@
+"""Plan files that commands are given: read, proved again, and reported."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from shotc.api import PlanReport, verify_plan
+from shotc.cli import console
+from shotc.diag.codes.yaml import UNREADABLE_FILE
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.trajectory import VerifiedIR
+from shotc.source.file import WHOLE_FILE
+
+PlanPath = Annotated[Path, typer.Argument(metavar="PLAN", help="A plan.json, or the folder that holds it.")]
+
+
+def prove(place: Path) -> PlanReport:
+    """Read a plan file and prove it again; where it cannot be read, say so and exit."""
+    path = place / "plan.json" if place.is_dir() else place
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        fault = Diagnostic(
+            UNREADABLE_FILE,
+            f"the file cannot be read: {reason}",
+            (Label(path.as_posix(), WHOLE_FILE),),
+            help="give the plan.json that `shotc plan` wrote",
+        )
+        console.report([fault], {})
+        raise typer.Exit(console.EXIT_REJECTED) from None
+    return verify_plan(data, path.as_posix())
+
+
+def proved(place: Path) -> VerifiedIR:
+    """Return a plan that holds; where it does not, report why and exit."""
+    report = prove(place)
+    if report.plan is None:
+        console.report(report.diagnostics, report.sources)
+        raise typer.Exit(console.EXIT_REJECTED)
+    return report.plan
