@@ -40,8 +40,10 @@ class ParameterizeTime:
         """
         pilots = [_Pilot(ir.keyframes.mission, path, ctx) for path in ir.drones]
         ends: dict[str, float] = {}
-        while any([pilot.advance(ends) for pilot in pilots]):
+        while any(pilot.advance(ends) for pilot in pilots):
             pass
+        if any(pilot.done < len(pilot.path.legs) for pilot in pilots):
+            raise ValueError("shots wait for each other in a circle")
         faults = [d for pilot in pilots for d in pilot.faults]
         if faults:
             return Outcome(None, tuple(faults))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
 from math import degrees
 
 import numpy as np
@@ -59,7 +61,7 @@ def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> tuple[Stretc
     pieces = [_held(move, ceiling) for move in moves]
     marks = sorted(leg.marks, key=lambda m: (m.s, m.index))
     found = []
-    for a, b in zip(marks[:-1], marks[1:], strict=True):
+    for a, b in pairwise(marks):
         total: dict[str, float] = {}
         seconds = 0.0
         for middle, step, held in pieces:
@@ -87,7 +89,7 @@ def binding_notes(mission: MissionIR, drone: Drone, stretches: tuple[Stretch, ..
     """Return up to three sentences on what holds the drone back and where."""
     return tuple(
         f"between keyframes {f.first.index + 1} and {f.second.index + 1} it needs {f.seconds:.1f} s: "
-        f"{_SHOWN[f.name].words} {limit_text(mission, drone, f.name)} holds it back for {f.held:.1f} s of them"
+        f"{_SHOWN[f.name].words} {limit_text(mission, drone, f.name)} binds for {f.held:.1f} s of them"
         for f in stretches[:3]
     )
 
@@ -109,12 +111,16 @@ def raises(
     full = ceiling_of(drone)
     found = []
     for name in names:
-        factor = _least_factor(lambda f, n=name: enough(replace(full, **{n: f * getattr(full, n)})))
+        factor = _least_factor(partial(_with, enough, full, name))
         if factor is not None:
             found.append(
                 f"raise `{'.'.join(_SHOWN[name].key)}` to {limit_text(mission, drone, name, factor)}"
             )
     return found
+
+
+def _with(enough: Callable[[Ceiling], bool], full: Ceiling, name: str, factor: float) -> bool:
+    return enough(replace(full, **{name: factor * getattr(full, name)}))
 
 
 def _least_factor(enough: Callable[[float], bool]) -> float | None:

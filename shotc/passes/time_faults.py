@@ -60,7 +60,7 @@ def start_too_early(
     """
     return Diagnostic(
         "T003",
-        f"shot `{leg.shot}` starts at {plain(asked)} s, and the drone is there at {up(earliest)} s at the earliest",
+        f"shot `{leg.shot}` starts at {plain(asked)} s, but {up(earliest)} s is the earliest possible",
         (timing_label(mission, leg.path, "start"),),
         (f"before it come {_listed(phases)}",),
         f"give it `start: {up(earliest)} s` or later, or shorten what comes before",

@@ -1,4 +1,4 @@
-"""Holds flown quintics to the limits: bounds for every instant from control points, and the scaling they ask for."""
+"""Holds flown quintics to the limits, at every instant, by their control points; and how much to slow."""
 
 from __future__ import annotations
 

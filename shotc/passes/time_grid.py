@@ -1,4 +1,4 @@
-"""Gridpoints on s for one move: dense where the motion will be slow or the path bends, fitted to its kinks."""
+"""Gridpoints on s for one move: dense where it will be slow or change its speed, fitted to its kinks."""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ alike from the fastest that the limits allow. What follows the last anchor keeps
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -68,7 +69,7 @@ def meet_times(
     plan = _with_waits(leg, plan, anchors)
     parts: list[_Part] = []
     reached = 0.0
-    for i, (a, b) in enumerate(zip(anchors[:-1], anchors[1:], strict=True)):
+    for i, (a, b) in enumerate(pairwise(anchors)):
         found = _parts(plan, fast, a.s, b.s)
         least = sum(seconds for _, _, seconds in found)
         room = b.time - a.time - _holds(plan, a.s, b.s)
@@ -106,7 +107,7 @@ def _anchors(leg: Leg, plan: Plan) -> list[_Anchor]:
 
 def _with_waits(leg: Leg, plan: Plan, anchors: list[_Anchor]) -> Plan:
     """Wait at a stop for which a later time is given than it takes to get there from the same place."""
-    for a, b in zip(anchors[:-1], anchors[1:], strict=True):
+    for a, b in pairwise(anchors):
         if b.s - a.s <= SAME:
             held = _holds(plan, a.s, a.s + 2 * SAME)
             plan = plan.waiting(a.s, max(0.0, b.time - a.time - held))

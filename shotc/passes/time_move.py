@@ -30,7 +30,7 @@ from shotc.solvers.retiming_socp import (
     retime,
     start_from,
 )
-from shotc.solvers.topp import FastestProfile, LinearLimits, fastest
+from shotc.solvers.topp import LinearLimits, fastest
 
 Array = NDArray[np.float64]
 
@@ -141,7 +141,7 @@ def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
             on_a += [first, -first]
             on_b += [second, -second]
         else:
-            frame = np.linalg.qr(np.stack([first, second], axis=-1), mode="r")
+            frame = np.asarray(np.linalg.qr(np.stack([first, second], axis=-1), mode="r"))
             angle = 2 * np.pi * np.arange(CORNERS) / CORNERS
             normal = np.stack([np.cos(angle), np.sin(angle)]) / np.cos(np.pi / CORNERS)
             on_a.append(frame[:, :2, 0] @ normal)

@@ -23,8 +23,8 @@ class ConeRows:
 
     def __init__(self, unknowns: int) -> None:
         self.unknowns = unknowns
-        self._rows: list[Array] = []
-        self._cols: list[Array] = []
+        self._rows: list[NDArray[Any]] = []
+        self._cols: list[NDArray[Any]] = []
         self._values: list[Array] = []
         self._constants: list[Array] = []
         self._cones: list[tuple[str, int, int]] = []

@@ -322,6 +322,6 @@ def _triangular(columns: Array) -> Array:
     columns : shape (N, 3, dim, k); result (N, 3, rows, k). A rotation keeps norms, so a straight
     path needs one row and a plane one two.
     """
-    frame = columns if columns.shape[2] == 1 else np.linalg.qr(columns, mode="r")
+    frame: Array = columns if columns.shape[2] == 1 else np.asarray(np.linalg.qr(columns, mode="r"))
     size = np.abs(frame).max(axis=(0, 1, 3))
     return np.asarray(frame[:, :, size > NEGLIGIBLE * max(1.0, size.max())])
