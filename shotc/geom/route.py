@@ -22,6 +22,7 @@ from shotc.geom.solids import Cylinder, Solid
 
 ROUTE_MARGIN = 2 * MARGIN  # the route leaves the corridor some play
 NODE_MARGIN = 2.4 * MARGIN  # nodes stand clear of the prisms that edges are tested against
+SHARES = (1.0, 0.2, 0.05)  # of these margins, tried in turn: a narrow gap is better than no way
 CLIMB_PRICE = 0.3  # extra length for each metre up or down
 OVERFLIGHT_PRICE = 0.3  # extra length for each metre above an obstacle
 
@@ -47,30 +48,55 @@ def find_route(room: Room, start: Array, end: Array) -> Array | None:
     if not first.any():
         return np.stack([start, end])
     grown = [_grow(o) for o in room.obstacles]
+    for share in SHARES:
+        route = _search(_Scene(room, grown, share), first, start, end)
+        if route is not None:
+            return _level(room, route)
+    return None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Scene:
+    """What a search runs in; ``share`` is the part of the usual margins that it keeps."""
+
+    room: Room
+    grown: list[_Grown]
+    share: float
+
+    def reach(self, j: int) -> float:
+        """Return how far obstacle j is grown for testing edges, metres."""
+        return self.grown[j].clearance + self.share * ROUTE_MARGIN
+
+    def node_reach(self, j: int) -> float:
+        """Return how far obstacle j is grown for placing nodes, metres."""
+        return self.grown[j].clearance + self.share * NODE_MARGIN
+
+
+def _search(scene: _Scene, first: BoolArray, start: Array, end: Array) -> Array | None:
     active = first
     best: Array | None = None
-    for _ in range(len(room.obstacles) + 1):
-        graph = _Graph(room, grown, np.flatnonzero(active), start, end)
+    for _ in range(len(scene.grown) + 1):
+        graph = _Graph(scene, np.flatnonzero(active), start, end)
         best, touched = graph.search()
         if (touched <= active).all():
             break
         active = active | touched
-    return None if best is None else _level(room, best)
+    return best
 
 
 class _Graph:
     """One search: nodes from some obstacles, edges tested against all of them."""
 
-    def __init__(self, room: Room, grown: list[_Grown], active: IntArray, start: Array, end: Array) -> None:
-        self.room, self.grown = room, grown
-        corners = [_nodes(grown, j, active, start, end) for j in active]
+    def __init__(self, scene: _Scene, active: IntArray, start: Array, end: Array) -> None:
+        self.scene = scene
+        corners = [_nodes(scene, j, active, start, end) for j in active]
         nodes = np.concatenate([np.stack([start, end]), *corners])
-        free = bounds_slack(room, nodes) >= MARGIN
-        for g in grown:
-            free &= ~_inside(g, nodes, ROUTE_MARGIN)
+        free = bounds_slack(scene.room, nodes) >= scene.share * MARGIN
+        for j, g in enumerate(scene.grown):
+            free &= ~_inside(g, nodes, scene.reach(j))
         free[:2] = True
         self.nodes: Array = nodes[free]
-        self.touched = np.zeros(len(grown), dtype=bool)
+        self.touched = np.zeros(len(scene.grown), dtype=bool)
 
     def search(self) -> tuple[Array | None, BoolArray]:
         """Return the cheapest way found, and which obstacles stopped an edge."""
@@ -107,8 +133,8 @@ class _Graph:
         b = self.nodes[others]
         length = np.linalg.norm(b - a, axis=1)
         price = length + CLIMB_PRICE * np.abs(b[:, 2] - a[:, 2])
-        for j, g in enumerate(self.grown):
-            enter, leave = _clip(g, a, b, ROUTE_MARGIN)
+        for j, g in enumerate(self.scene.grown):
+            enter, leave = _clip(g, a, b, self.scene.reach(j))
             over = np.maximum(leave - enter, 0.0)
             if g.top < FAR:
                 price = price + OVERFLIGHT_PRICE * over * length
@@ -122,22 +148,21 @@ class _Graph:
 
     def _hits(self, j: int, a: Array, b: Array, enter: Array, leave: Array) -> BoolArray:
         """Edges that cut the grown prism, given where they are above or below its footprint."""
-        g = self.grown[j]
-        reach = g.clearance + ROUTE_MARGIN
+        g, reach = self.scene.grown[j], self.scene.reach(j)
         low, high = _clip_heights(a[:, 2], b[:, 2] - a[:, 2], g.bottom - reach, g.top + reach)
         return np.asarray(np.maximum(enter, low) < np.minimum(leave, high) - 1e-9)
 
     def _close(self, j: int, i: int, others: IntArray) -> BoolArray:
         """Edges whose start or end point of the whole way stands inside the grown prism."""
-        inside = _inside(self.grown[j], self.nodes[:2], ROUTE_MARGIN + 1e-6)
+        inside = _inside(self.scene.grown[j], self.nodes[:2], self.scene.reach(j) + 1e-6)
         if i <= 1 and inside[i]:
             return np.ones(len(others), dtype=np.bool_)
         return np.asarray((others == 1) & inside[1])
 
     def _near(self, j: int, a: Array, b: Array) -> BoolArray:
-        o = self.room.obstacles[j]
+        o = self.scene.room.obstacles[j]
         own = np.minimum(distances(o.part, a), distances(o.part, b)) - o.clearance
-        need = o.clearance + np.minimum(MARGIN, 0.5 * np.maximum(own, 0.0))
+        need = o.clearance + np.minimum(self.scene.share * MARGIN, 0.5 * np.maximum(own, 0.0))
         return np.asarray(segment_distances(o.part, a, b) < need - 1e-9)
 
 
@@ -178,31 +203,29 @@ def _corners(g: _Grown, growth: float) -> Array:
     return np.stack([x, y], axis=1)
 
 
-def _nodes(grown: list[_Grown], j: int, active: IntArray, start: Array, end: Array) -> Array:
+def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) -> Array:
     """Corners of one grown obstacle at the heights a way may want to pass them."""
-    g = grown[j]
-    xy = _corners(g, g.clearance + NODE_MARGIN)
+    xy = _corners(scene.grown[j], scene.node_reach(j))
     way = end[:2] - start[:2]
     progress = np.clip((xy - start[:2]) @ way / max(float(way @ way), 1e-9), 0.0, 1.0)
     levels = [start[2] + progress * (end[2] - start[2])]
     heights = [float(start[2]), float(end[2])]
     for k in active:
-        reach = grown[k].clearance + NODE_MARGIN
-        heights += [h for h in (grown[k].top + reach, grown[k].bottom - reach) if abs(h) < FAR / 2]
+        g, reach = scene.grown[k], scene.node_reach(k)
+        heights += [h for h in (g.top + reach, g.bottom - reach) if abs(h) < FAR / 2]
     levels += [np.full(len(xy), h) for h in sorted(set(heights))]
     return np.concatenate([np.column_stack([xy, z]) for z in levels])
 
 
-def _inside(g: _Grown, p: Array, margin: float) -> BoolArray:
-    reach = g.clearance + margin
+def _inside(g: _Grown, p: Array, reach: float) -> BoolArray:
     flat = (p[:, :2] @ g.normals.T <= g.offsets + reach - 1e-9).all(axis=1)
     return np.asarray(flat & (p[:, 2] < g.top + reach - 1e-9) & (p[:, 2] > g.bottom - reach + 1e-9))
 
 
-def _clip(g: _Grown, a: Array, b: Array, margin: float) -> tuple[Array, Array]:
+def _clip(g: _Grown, a: Array, b: Array, reach: float) -> tuple[Array, Array]:
     """Clip segments to the grown footprint (Cyrus-Beck); returns the stretch [enter, leave] of [0, 1]."""
     rate = (b[:, :2] - a[:, :2]) @ g.normals.T
-    room = g.offsets + g.clearance + margin - a[:, :2] @ g.normals.T
+    room = g.offsets + reach - a[:, :2] @ g.normals.T
     with np.errstate(divide="ignore", invalid="ignore"):
         t = room / rate
     enter = np.where(rate < -1e-12, t, -np.inf).max(axis=1)

@@ -175,8 +175,6 @@ def _fitted(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
         Fit(breaks, samples.s, samples.yaw, density * across**2, samples.anchor_s, samples.anchor_yaw, stiff)
     )
     low, high = drone.gimbal.pitch
-    low = min(low, float(samples.anchor_pitch.min()))
-    high = max(high, float(samples.anchor_pitch.max()))
     shape = (len(breaks) - 1, 6)
     weight = np.full(len(samples.s), density)
     pitch_status, pitch = fit(
@@ -186,7 +184,7 @@ def _fitted(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
             samples.pitch,
             weight,
             samples.anchor_s,
-            samples.anchor_pitch,
+            np.clip(samples.anchor_pitch, low, high),
             stiff,
             np.full(shape, low),
             np.full(shape, high),

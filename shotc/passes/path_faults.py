@@ -15,8 +15,8 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation
 from shotc.passes.path_angles import Cut
 from shotc.passes.path_gap import narrow_gap, opening
-from shotc.passes.path_legs import PadBlocked
 from shotc.passes.path_lines import NoWay, TooNear
+from shotc.passes.path_pad import PadBlocked
 from shotc.passes.path_room import GROUND, owner_path
 from shotc.passes.path_shots import AngleFailure, Failure, Stuck
 from shotc.solvers.conic import Status
@@ -43,18 +43,30 @@ def failure(
 
 def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnostic:
     """Return the error for a pad that cannot be left straight up."""
+    lack = what.needs - what.has
+    match what.why:
+        case "outside":
+            message = f"the pad of {drone.name} is not inside {what.owner}"
+            note = f"the drone's body is {lack:.2f} m beyond its rim"
+            help_ = f"move home at least {lack:.2f} m inwards, or widen {what.owner}"
+        case "ceiling":
+            message = f"{what.owner} leaves {drone.name} no height to fly at above its pad"
+            note = f"the drone's centre must keep above {what.needs:.2f} m and below {what.has:.2f} m"
+            help_ = f"raise the top of {what.owner} by {lack:.2f} m, or lower rules.ground_clearance"
+        case _:
+            over = "in the way above" if what.why == "above" else "too near to fly off from"
+            message = f"{what.owner} is {over} the pad of {drone.name}"
+            note = f"the drone's centre has {max(what.has, 0.0):.2f} m and needs {what.needs:.2f} m"
+            help_ = f"move home at least {lack:.2f} m away from {what.owner}"
     return Diagnostic(
         "Q002",
-        f"{what.owner} is in the way above the pad of {drone.name}",
+        message,
         (
             mission.origins.value((*drone.path, "home"), "take-off and landing are vertical here"),
-            _owner_label(mission, what.owner, "reaches over the pad"),
+            _owner_label(mission, what.owner, "stops it"),
         ),
-        (
-            f"the drone's centre rises from {what.bottom:.2f} m to {what.top:.2f} m",
-            f"it comes within {max(what.has, 0.0):.2f} m of {what.owner} and needs {what.needs:.2f} m",
-        ),
-        f"move home at least {what.needs - min(what.has, what.needs):.2f} m away from {what.owner}",
+        (note,),
+        help_,
     )
 
 
@@ -204,10 +216,9 @@ def _ends(
     if keyframes[0] < 0:
         return [mission.origins.key(shot.shot.path, "on the way to this shot")]
     first, last = (shot.keyframes[k] for k in keyframes)
-    labels = [mission.origins.value(first.path, "from here")]
-    if last.path != first.path:
-        labels.append(mission.origins.value(last.path, "to here"))
-    return labels
+    if first.path == last.path:
+        return [mission.origins.value(first.path, "here")]
+    return [mission.origins.value(first.path, "from here"), mission.origins.value(last.path, "to here")]
 
 
 def _leading(shot: PlacedShot | None, keyframes: tuple[int, int]) -> str:

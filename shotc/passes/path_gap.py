@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import closest_points, support
-from shotc.geom.corridor import Obstacle, Room, Wall
+from shotc.geom.corridor import MARGIN, Obstacle, Room, Wall
 from shotc.geom.route import find_route
 
 HALVINGS = 7
@@ -42,7 +42,7 @@ def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -
     (first, second), gap, needed = pair
     return Gap(
         f"the gap between {first} and {second} is {gap:.2f} m; the drone needs {needed:.2f} m",
-        f"widen the gap by {needed - gap:.2f} m, or use a drone whose radius is {lent:.2f} m smaller",
+        f"widen the gap by {needed - gap + MARGIN:.2f} m, or use a drone whose radius is {lent:.2f} m smaller",
     )
 
 

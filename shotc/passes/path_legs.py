@@ -9,8 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, subdivide
-from shotc.geom.convex import segment_distances
-from shotc.geom.corridor import Room, bounds_slack, breaches
+from shotc.geom.corridor import Room
 from shotc.ir.mission import Drone
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop
@@ -20,53 +19,10 @@ from shotc.passes.path_position import Stretch, solve_stretch
 from shotc.passes.path_shots import AngleFailure, Failure, ShotCurve, Stuck, stack
 from shotc.solvers.conic import Status
 
-PAD_MARGIN = 0.1  # metres that the transit altitude keeps beyond what clearances ask
-LIFT = 1.0  # metres above the pad at least
 SAME_ANGLE = 1e-6
 PIECES = 4
 
 Pose = tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class PadBlocked:
-    """Something is in the way straight above the pad, between these heights of the drone's centre."""
-
-    owner: str
-    bottom: float
-    top: float
-    needs: float
-    has: float
-
-
-def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
-    """Return the lowest point over the pad where flight's rules hold and that is reached straight up."""
-    home = np.array(drone.home, dtype=np.float64)
-    floors = [w.offset for w in flight.walls if w.normal[2] > 0.5]
-    lowest = max([home[2] + LIFT, *(f + PAD_MARGIN for f in floors)])
-    tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles]
-    heights = sorted({lowest, *(t for t in tops if t > lowest)})
-    points = np.array([[home[0], home[1], z] for z in heights])
-    inside = bounds_slack(flight, points) >= 0
-    free = next((p for p, ok in zip(points, inside, strict=True) if ok and not breaches(flight, p)), None)
-    if free is None:
-        near = breaches(flight, points[0])
-        return PadBlocked(
-            near[0].owner, points[0, 2], points[-1, 2], near[0].clearance, near[0].clearance - near[0].lack
-        )
-    return _column(pad, home, free)
-
-
-def _column(pad: Room, home: Array, top: Array) -> Array | PadBlocked:
-    for o in pad.obstacles:
-        has = float(segment_distances(o.part, home[None], top[None])[0])
-        if has < o.clearance - 1e-9:
-            return PadBlocked(o.owner, float(home[2]), float(top[2]), o.clearance, has)
-    for p in (home, top):
-        near = breaches(Room((), pad.walls, pad.discs), p)
-        if near:
-            return PadBlocked(near[0].owner, float(home[2]), float(top[2]), 0.0, -near[0].lack)
-    return top
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -19,6 +19,7 @@ from shotc.passes.path_position import Solved, Stretch, solve_stretch
 from shotc.solvers.conic import Status
 
 NOTICE = 0.1  # metres off a generated keyframe that are worth telling
+LEFT = 0.02  # metres off that belong to a stretch worth telling
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -224,29 +225,26 @@ def _marks(placed: PlacedShot, track: Track) -> tuple[Mark, ...]:
 
 
 def _deviations(room: Room, placed: PlacedShot, track: Track) -> tuple[Deviation, ...]:
-    """Return, for each run of generated keyframes that were left, the worst of it."""
-    runs: list[list[Deviation]] = []
-    open_run = False
-    for i, (keyframe, s) in enumerate(zip(placed.keyframes, track.s, strict=True)):
-        point = np.array(keyframe.at)
-        away = float(np.linalg.norm(track.position(float(s)) - point))
-        if away < NOTICE:
-            open_run = False
-            continue
-        near = breaches(room, point)
-        cause = near[0].owner if near else ""
-        if not open_run:
-            runs.append([])
-        runs[-1].append(Deviation(placed.shot.id, away, float(s), cause))
-        open_run = True
-        assert i >= 0
-    worst = []
-    for run in runs:
-        causes = [d.cause for d in run if d.cause]
-        top = max(run, key=lambda d: d.distance)
-        cause = top.cause or (causes[0] if causes else "the way round")
-        worst.append(Deviation(top.shot, top.distance, top.s, cause))
-    return tuple(worst)
+    """Return, for each run of keyframes that the path leaves, the worst of it."""
+    points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
+    away = np.linalg.norm(track.position(track.s) - points, axis=1)
+    runs: list[list[int]] = []
+    for i in np.flatnonzero(away > LEFT):
+        if runs and runs[-1][-1] == i - 1:
+            runs[-1].append(int(i))
+        else:
+            runs.append([int(i)])
+    worst = [max(run, key=lambda i: float(away[i])) for run in runs]
+    return tuple(
+        Deviation(placed.shot.id, float(away[i]), float(track.s[i]), _cause(room, points[i]))
+        for i in worst
+        if away[i] > NOTICE
+    )
+
+
+def _cause(room: Room, point: Array) -> str:
+    near = breaches(room, point)
+    return near[0].owner if near else "what lies between its keyframes"
 
 
 def _stats(

@@ -18,7 +18,8 @@ from shotc.ir.mission import Drone
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.path_faults import cut_framing, failure, follow_camera_impossible, moved, pad_blocked
-from shotc.passes.path_legs import Flight, PadBlocked, drone_legs, transit_point
+from shotc.passes.path_legs import Flight, drone_legs
+from shotc.passes.path_pad import PadBlocked, transit_point
 from shotc.passes.path_room import flight_room, pad_room
 from shotc.passes.path_shots import ShotCurve, shot_curve
 

@@ -1,0 +1,67 @@
+"""The transit point: where a drone that rose straight from its pad starts to fly by the rules."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.convex import segment_distances
+from shotc.geom.corridor import Room, bounds_slack, breaches
+from shotc.ir.mission import Drone
+
+PAD_MARGIN = 0.1  # metres that the transit altitude keeps beyond what clearances ask
+LIFT = 1.0  # metres above the pad at least
+
+
+@dataclass(frozen=True, slots=True)
+class PadBlocked:
+    """Why a pad cannot be left straight up.
+
+    owner : what stops it
+    why   : "above" something hangs over the pad, "outside" the pad is beyond a rim,
+            "beside" something is too near at every height, "ceiling" no height is left
+    needs, has : metres of clearance; for a ceiling the lowest height of the drone's centre the other
+            rules allow, and the highest
+    """
+
+    owner: str
+    why: Literal["above", "outside", "beside", "ceiling"]
+    needs: float
+    has: float
+
+
+def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
+    """Return the lowest point over the pad where flight's rules hold and that is reached straight up."""
+    home = np.array(drone.home, dtype=np.float64)
+    outside = breaches(Room((), tuple(w for w in pad.walls if w.normal[2] == 0.0), pad.discs), home)
+    if outside:
+        return PadBlocked(outside[0].owner, "outside", outside[0].lack, 0.0)
+    floors = [w.offset for w in flight.walls if w.normal[2] > 0.5]
+    lowest = max([home[2] + LIFT, *(f + PAD_MARGIN for f in floors)])
+    ceiling = min(((-w.offset, w.owner) for w in pad.walls if w.normal[2] < -0.5), default=None)
+    if ceiling is not None and ceiling[0] < lowest:
+        return PadBlocked(ceiling[1], "ceiling", lowest, ceiling[0])
+    tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles]
+    heights = sorted({lowest, *(t for t in tops if t > lowest)})
+    points = np.array([[home[0], home[1], z] for z in heights])
+    inside = bounds_slack(flight, points) >= 0
+    for point in points[inside]:
+        over = _in_column(pad, home, point)
+        if over is not None:
+            return over
+        if not breaches(flight, point):
+            return np.asarray(point)
+    near = breaches(flight, points[0])[0]
+    return PadBlocked(near.owner, "beside", near.clearance, near.clearance - near.lack)
+
+
+def _in_column(pad: Room, home: Array, top: Array) -> PadBlocked | None:
+    hits = []
+    for o in pad.obstacles:
+        has = float(segment_distances(o.part, home[None], top[None])[0])
+        if has < o.clearance - 1e-9:
+            hits.append((o.part.bottom, PadBlocked(o.owner, "above", o.clearance, has)))
+    return min(hits, key=lambda hit: hit[0])[1] if hits else None
