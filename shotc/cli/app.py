@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import errno
+import gc
 import os
 import sys
-import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -43,6 +43,9 @@ _BROKEN_PIPE = 128 + 13
 
 def main() -> None:
     """Run the command line of this process, and end the process."""
+    # Most of a short run is imports: they make no garbage, and pydantic need not look for plugins.
+    gc.set_threshold(100_000, 50, 100)
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.exit(run(sys.argv[1:]))
 
 
@@ -174,6 +177,7 @@ def _no_output(error: OSError) -> int:
 
 def _bug(bug: BaseException) -> int:
     """Report our own failure as a diagnostic; the traceback is for those who ask for it."""
+    import traceback
     from platform import platform, python_version
 
     from shotc.diag.model import Diagnostic

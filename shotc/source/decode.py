@@ -9,8 +9,10 @@ from shotc.source.fault import Fault
 from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.source.limits import MAX_BYTES, MAX_STRAY_CHARACTERS
 
-# What YAML 1.2 section 5.1 allows, less the byte order mark inside the text.
-_STRAY = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+# What YAML 1.2 section 5.1 leaves out, and the byte order mark inside the text. One class over all planes
+# would take longer to compile than a mission takes to read.
+_STRAY_LATIN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f]")
+_STRAY_OTHERS = ("\ufeff", "\ufffe", "\uffff")
 _REPLACEMENT = "\ufffd"
 _WIDE_MARKS = (
     (b"\xff\xfe\x00\x00", "utf-32-le", "UTF-32"),
@@ -40,7 +42,7 @@ def decode(data: bytes, name: str) -> tuple[SourceFile, tuple[Fault, ...], bool]
     except UnicodeDecodeError as error:
         text = data.decode("utf-8", "replace")
         faults = (_not_utf8(data, error, SourceFile(name, text)),)
-    file = SourceFile(name, _STRAY.sub(_REPLACEMENT, text))
+    file = SourceFile(name, _without_stray(text))
     stray, is_text = _stray_characters(text, file)
     return file, (*faults, *stray), is_text
 
@@ -67,7 +69,7 @@ def _wide_without_mark(head: bytes) -> str | None:
 
 def _wide(data: bytes, name: str, codec: str, title: str) -> tuple[SourceFile, tuple[Fault, ...], bool]:
     """Show the text of a file in a wider encoding, and refuse it."""
-    text = _STRAY.sub(_REPLACEMENT, data.decode(codec, "replace"))
+    text = _without_stray(data.decode(codec, "replace"))
     fault = Fault(
         "not-utf8", f"the file is written in {title}; missions are UTF-8", WHOLE_FILE, help=_SAVE_AS
     )
@@ -84,9 +86,19 @@ def _not_utf8(data: bytes, error: UnicodeDecodeError, file: SourceFile) -> Fault
     return Fault("not-utf8", "the file is not UTF-8 text", file.point(offset), tuple(notes), help=_SAVE_AS)
 
 
+def _without_stray(text: str) -> str:
+    for character in _STRAY_OTHERS:
+        text = text.replace(character, _REPLACEMENT)
+    return _STRAY_LATIN.sub(_REPLACEMENT, text)
+
+
 def _stray_characters(text: str, file: SourceFile) -> tuple[list[Fault], bool]:
     """Report characters that YAML does not allow; many of them make the file no text at all."""
-    offsets = [match.start() for match in _STRAY.finditer(text)]
+    offsets = [match.start() for match in _STRAY_LATIN.finditer(text)]
+    for character in _STRAY_OTHERS:
+        if character in text:
+            offsets += [offset for offset, found in enumerate(text) if found == character]
+    offsets.sort()
     if len(offsets) <= MAX_STRAY_CHARACTERS:
         return [_stray_character(text, offset, file) for offset in offsets], True
     first = offsets[0]
