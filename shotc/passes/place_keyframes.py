@@ -65,7 +65,8 @@ def _place(
         return _placed(keyframe, _own_aim(keyframe, drone, course), None, None), None
     setting = setting_of(mission, drone, keyframe, course)
     aim = own_framing(setting, keyframe, course)
-    asked = setting.screen(aim)
+    # A camera that looks at its target holds it in the middle, to the last bit.
+    asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
     if asked is None or keyframe.composition.keep:
         kept = _placed(keyframe, aim, asked, asked)
         return kept, (cropped(keyframe, setting, aim) if setting.slack(asked or (0.0, 0.0)) < 0 else None)
@@ -149,5 +150,7 @@ def _minus(a: Vec3, b: Vec3) -> Vec3:
 
 
 def _wrapped(angle: float) -> float:
+    if -pi < angle <= pi:
+        return angle  # not by way of the remainder, which would change its last bits
     wrapped = (angle + pi) % (2 * pi) - pi
     return pi if wrapped == -pi else wrapped

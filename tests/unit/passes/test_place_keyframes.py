@@ -1,0 +1,281 @@
+"""place-keyframes: the camera turns so that the target comes to its place, whole; it never moves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from math import atan2, cos, hypot, pi, radians, sin
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from shotc.geom.camera import silhouette_bounds, view
+from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
+from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target, Timing
+from shotc.passes.base import Outcome, PassContext
+from shotc.passes.flown_order import flown_order
+from shotc.passes.place_keyframes import PlaceKeyframes
+from shotc.spec.compositions import COMPOSITIONS, FRAMES
+from tests.front import clean, placed
+from tests.samples import orbit_mission
+
+TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))
+
+
+def mission_of(keyframes: tuple[Keyframe, ...]) -> MissionIR:
+    base = orbit_mission()
+    return replace(base, targets=(TOWER,), zones=(), shots=(replace(base.shots[0], keyframes=keyframes),))
+
+
+def keyframe(**changes: object) -> Keyframe:
+    values: dict[str, object] = {
+        "at": (0.0, -50.0, 12.0),
+        "aim": None,
+        "target": "tower",
+        "composition": COMPOSITIONS["thirds"],
+        "hfov": radians(70),
+        "hold": 0.0,
+        "time": None,
+        "placed": True,
+        "path": ("shots", 0, "keyframes", 0),
+    }
+    return Keyframe(**{**values, **changes})  # type: ignore[arg-type]
+
+
+def run(*keyframes: Keyframe) -> Outcome[KeyframeIR]:
+    return PlaceKeyframes().run(mission_of(keyframes), PassContext())
+
+
+def place(**changes: object) -> PlacedKeyframe:
+    outcome = run(keyframe(**changes))
+    assert outcome.diagnostics == ()
+    assert outcome.value is not None
+    return outcome.value.shots[0].keyframes[0]
+
+
+def seen(k: PlacedKeyframe, target: Target = TOWER) -> tuple[float, float, float]:
+    offset = tuple(a - b for a, b in zip(target.centre, k.at, strict=True))
+    return view(k.yaw, k.pitch, k.hfov, 16 / 9).project(offset)  # type: ignore[arg-type]
+
+
+def bounds(k: PlacedKeyframe) -> tuple[float, float, float, float]:
+    offset = tuple(a - b for a, b in zip(TOWER.centre, k.at, strict=True))
+    camera = view(k.yaw, k.pitch, k.hfov, 16 / 9)
+    return silhouette_bounds(camera, offset, TOWER.radius, TOWER.height)  # type: ignore[arg-type]
+
+
+def test_looking_at_a_target_puts_it_in_the_middle() -> None:
+    k = place()
+    assert (k.yaw, k.pitch) == pytest.approx((pi / 2, 0))
+    assert k.reference == k.asked == (0, 0)
+
+
+def test_a_framing_moves_to_the_nearest_third() -> None:
+    # The user holds the tower right of the middle: u = 20 deg off of 35 deg.
+    k = place(at=(0.0, -70.0, 12.0), aim=(pi / 2 + radians(20), radians(-9)))
+    assert k.asked is not None
+    assert k.asked[0] > 0.3
+    assert k.reference == (1 / 3, 1 / 3)
+    u, v, depth = seen(k)
+    assert depth > 0
+    assert (u, v) == pytest.approx((1 / 3, 1 / 3))
+    assert k.at == (0.0, -70.0, 12.0)
+
+
+def test_keep_keeps_the_users_angles() -> None:
+    aim = (pi / 2 + radians(7), radians(-3))
+    k = place(aim=aim, composition=COMPOSITIONS["keep"])
+    assert (k.yaw, k.pitch) == aim
+    assert k.reference == k.asked
+    assert k.asked == pytest.approx(seen(k)[:2])
+
+
+def test_a_frame_of_its_own_overrides_the_shots_composition() -> None:
+    k = place(aim=(pi / 2 - radians(10), 0.0), composition=FRAMES["right-third"])
+    assert k.reference == (1 / 3, 0.0)
+    assert seen(k)[:2] == pytest.approx((1 / 3, 0))
+
+
+def test_lines_take_the_nearest_point_of_the_nearest_line() -> None:
+    aim = (pi / 2 + radians(12), radians(-2))
+    k = place(at=(0.0, -70.0, 12.0), aim=aim, composition=COMPOSITIONS["thirds-lines"])
+    assert k.asked is not None
+    assert k.reference is not None
+    assert k.reference[0] == pytest.approx(1 / 3)
+    assert k.reference[1] == pytest.approx(k.asked[1], abs=0.01)
+
+
+def test_a_keyframe_without_a_target_keeps_its_angles() -> None:
+    k = place(target=None, aim=(1.25, -0.5))
+    assert (k.yaw, k.pitch, k.reference, k.asked) == (1.25, -0.5, None, None)
+
+
+def test_a_point_is_looked_at_straight() -> None:
+    k = place(target=None, aim=(0.0, 0.0, 12.0), at=(30.0, 0.0, 42.0))
+    assert (k.yaw, k.pitch) == pytest.approx((pi, -pi / 4))
+
+
+def test_yaw_is_wrapped() -> None:
+    assert place(target=None, aim=(3 * pi / 2, 0.0)).yaw == pytest.approx(-pi / 2)
+    assert place(target=None, aim=(-pi, 0.0)).yaw == pi
+
+
+def test_straight_down_the_picture_points_along_the_motion() -> None:
+    down = {"target": None, "aim": (0.0, 0.0, 0.0)}
+    outcome = run(
+        keyframe(at=(-30.0, -30.0, 40.0), **down),
+        keyframe(at=(0.0, 0.0, 40.0), **down),
+        keyframe(at=(0.0, 0.0, 60.0), **down),
+    )
+    assert outcome.value is not None
+    _, b, c = outcome.value.shots[0].keyframes
+    assert b.pitch == pytest.approx(-pi / 2)
+    assert b.yaw == pytest.approx(pi / 4)  # the way it came, for it only rises from there
+    assert c.yaw == pytest.approx(pi / 4)
+
+
+def test_a_target_that_is_cropped_on_the_set_moves_along_its_vertical_with_a_warning() -> None:
+    aim = (pi / 2 - radians(10), radians(-8))
+    outcome = run(keyframe(at=(0.0, -40.0, 12.0), aim=aim, composition=FRAMES["upper-left"]))
+    (warning,) = outcome.diagnostics
+    assert warning.code == "G011"
+    assert outcome.value is not None
+    k = outcome.value.shots[0].keyframes[0]
+    assert k.reference is not None
+    assert k.reference[0] == -1 / 3
+    assert 0 <= k.reference[1] < 1 / 3
+    assert max(map(abs, bounds(k))) == pytest.approx(1.0, abs=1e-4)  # as near to the point as it stays whole
+
+
+def test_a_target_that_fits_nowhere_is_an_error_whose_help_works() -> None:
+    outcome = run(keyframe(at=(0.0, -20.0, 12.0)))
+    assert outcome.value is None
+    (error,) = outcome.diagnostics
+    assert error.code == "G010"
+    distance = float(error.help.split("move to ")[1].split(" m")[0])
+    assert run(keyframe(at=(0.0, -distance, 12.0))).value is not None
+    assert run(keyframe(at=(0.0, -distance + 0.3, 12.0))).value is None
+    wide = float(error.help.split("`hfov` to ")[1].split(" deg")[0])
+    assert run(keyframe(at=(0.0, -20.0, 12.0), hfov=radians(wide))).value is not None
+    assert run(keyframe(at=(0.0, -20.0, 12.0), hfov=radians(wide - 0.5))).value is None
+
+
+def test_a_target_above_the_gimbals_reach_is_an_error_that_names_the_pitch() -> None:
+    high = replace(TOWER, centre=(0.0, 0.0, 100.0), height=4.0)
+    mission = replace(
+        mission_of((keyframe(at=(0.0, -50.0, 10.0), composition=COMPOSITIONS["center"]),)), targets=(high,)
+    )
+    (error,) = PlaceKeyframes().run(mission, PassContext()).diagnostics
+    assert error.code == "G013"
+    assert "60.9 deg" in error.notes[0]
+
+
+def test_generated_keyframes_are_reported_once_a_shot() -> None:
+    ring = tuple(
+        keyframe(at=(18 * cos(a), 18 * sin(a), 12.0), placed=False, path=("shots", 0, "kind"))
+        for a in (0.0, 0.5, 1.0, 1.5)
+    )
+    outcome = run(*ring)
+    (error,) = outcome.diagnostics
+    assert error.code == "G010"
+    assert "4 of the 4" in error.notes[-1]
+
+
+points = st.tuples(st.floats(-120, 120), st.floats(-120, 120), st.floats(3, 60)).filter(
+    lambda p: hypot(p[0], p[1]) > 12
+)
+
+
+@settings(max_examples=60)
+@given(
+    points,
+    st.floats(-25, 25),
+    st.floats(-12, 12),
+    st.sampled_from(["center", "thirds", "thirds-lines", "phi"]),
+)
+def test_every_placed_target_is_whole_and_on_its_reference(
+    at: tuple[float, float, float], turn: float, tilt: float, name: str
+) -> None:
+    straight = atan2(-at[1], -at[0]), atan2(12 - at[2], hypot(at[0], at[1]))
+    aim = (straight[0] + radians(turn), max(-pi / 2, min(pi / 6, straight[1] + radians(tilt))))
+    outcome = run(keyframe(at=at, aim=aim, composition=COMPOSITIONS[name]))
+    if outcome.value is None:
+        assert {d.code for d in outcome.diagnostics} <= {"G010", "G013"}
+        return
+    k = outcome.value.shots[0].keyframes[0]
+    assert k.at == at
+    assert k.reference is not None
+    assert seen(k)[:2] == pytest.approx(k.reference, abs=1e-9)
+    assert max(map(abs, bounds(k))) <= 1 + 1e-5
+    assert -pi < k.yaw <= pi
+    assert -pi / 2 - 1e-6 <= k.pitch <= radians(30) + 1e-6
+
+
+def shots(*timings: tuple[str, str, Timing]) -> list[Shot]:
+    base = orbit_mission().shots[0]
+    return [replace(base, id=i, drone=d, timing=t) for i, d, t in timings]
+
+
+def ids(order: tuple[Shot, ...]) -> str:
+    return "".join(s.id for s in order)
+
+
+def test_shots_fly_as_written_unless_their_timing_says_otherwise() -> None:
+    auto = Timing()
+    assert ids(flown_order(shots(("a", "x", auto), ("b", "x", auto), ("c", "x", auto)))) == "abc"
+    late, early = Timing(start=50), Timing(start=5)
+    assert ids(flown_order(shots(("a", "x", late), ("b", "x", auto), ("c", "x", early)))) == "cba"
+    assert ids(flown_order(shots(("a", "x", late), ("b", "y", early)))) == "ab"
+    assert ids(flown_order(shots(("a", "x", Timing(after="c")), ("b", "x", auto), ("c", "x", auto)))) == "bca"
+    assert ids(flown_order(shots(("a", "x", Timing(after="b")), ("b", "x", Timing(after="a"))))) == "ab"
+
+
+@given(st.permutations("abcdef"), st.lists(st.sampled_from("abcdef"), min_size=6, max_size=6))
+def test_a_shot_comes_after_the_one_it_waits_for(order: list[str], waits: list[str]) -> None:
+    # Waits only for shots of a smaller letter run in no circle.
+    timings = [(c, "x", Timing(after=w) if w < c else Timing()) for c, w in zip(order, waits, strict=True)]
+    flown = ids(flown_order(shots(*timings)))
+    assert sorted(flown) == list("abcdef")
+    assert all(flown.index(t.after) < flown.index(c) for c, _, t in timings if t.after is not None)
+
+
+def test_an_orbit_turns_the_camera_evenly() -> None:
+    text = """\
+shotc: 1
+mission: round
+targets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}
+drones: {cam1: {home: [0, -60, 0]}}
+shots:
+  - {id: round, kind: orbit, drone: cam1, target: tower, radius: 45, altitude: 20}
+"""
+    keyframes = clean(text).shots[0].keyframes
+    turns = [(b.yaw - a.yaw) % (2 * pi) for a, b in pairwise(keyframes)]
+    assert turns == pytest.approx([pi / 12] * 24)
+    assert len({round(k.pitch, 9) for k in keyframes}) == 1
+
+
+def test_an_error_stops_the_pass_but_tells_all() -> None:
+    text = """\
+shotc: 1
+mission: near
+targets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}
+drones: {cam1: {home: [0, -60, 0]}}
+shots:
+  - id: walk
+    kind: keyframes
+    drone: cam1
+    keyframes:
+      - {at: [0, -20, 12], look_at: tower}
+      - {at: [0, -60, 12], look_at: tower}
+      - {at: [15, 0, 12], look_at: tower}
+"""
+    value, found = placed(text)
+    assert value is None
+    assert [(d.code, d.labels[0].span.line) for d in found] == [("G010", 10), ("G010", 12)]
+
+
+def test_own_points_are_a_set() -> None:
+    own = Composition("own", points=((-0.2, 0.1), (0.2, 0.1)))
+    k = place(at=(0.0, -70.0, 12.0), aim=(pi / 2 + 0.1, 0.0), composition=own)
+    assert k.reference == (0.2, 0.1)
