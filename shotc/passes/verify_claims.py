@@ -58,9 +58,9 @@ def slack(limit: float) -> float:
 def gap(limit: float) -> Callable[[float], float]:
     """Return how tight a bound has to be, given the worst value so far.
 
-    Half of the slack near the limit; a thousandth of the distance to it far away.
+    Half of the slack near the limit; a ten-thousandth of the distance to it far away.
     """
-    return lambda worst: max(0.5 * slack(limit), 1e-3 * abs(limit - worst))
+    return lambda worst: max(0.5 * slack(limit), 1e-4 * abs(limit - worst))
 
 
 def claim(flight: Flight, limit: Limit, worst: Worst) -> Claim:

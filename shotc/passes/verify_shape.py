@@ -29,8 +29,12 @@ def structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
     mission = ir.keyframes.mission
     known = {drone.name: drone for drone in mission.drones}
     shots = {shot.id for shot in mission.shots}
-    for name in {t.drone for t in ir.drones} - set(known):
-        yield Diagnostic("V014", f"the trajectory of `{name}` belongs to no drone of the mission")
+    for name in sorted({t.drone for t in ir.drones} - set(known)):
+        yield Diagnostic(
+            "V014",
+            f"the flight of `{name}` belongs to no drone of the mission",
+            help="plan the mission again",
+        )
     for track in ir.drones:
         if track.drone in known:
             label = mission.origins.key(known[track.drone].path)
