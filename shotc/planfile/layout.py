@@ -12,6 +12,9 @@ ROW = 100
 FIELDS = 20
 """Items up to which a value may stand on one line."""
 
+IN_ROW = 10
+"""Numbers in a line of a long list."""
+
 RECORD = 420
 """Characters up to which an object of plain values stands on one line."""
 
@@ -27,6 +30,12 @@ def _parts(value: Any, pad: str) -> Iterator[str]:
         yield line
         return
     inner = pad + "  "
+    if isinstance(value, list) and not any(isinstance(item, dict | list) for item in value):
+        rows = (
+            json.dumps(value[i : i + IN_ROW], allow_nan=False)[1:-1] for i in range(0, len(value), IN_ROW)
+        )
+        yield f"[\n{inner}" + f",\n{inner}".join(rows) + f"\n{pad}]"
+        return
     pairs = value.items() if isinstance(value, dict) else ((None, item) for item in value)
     opening, closing = ("{", "}") if isinstance(value, dict) else ("[", "]")
     yield opening
@@ -40,8 +49,6 @@ def _one_line(value: Any) -> str | None:
     if not isinstance(value, dict | list) or not value:
         return json.dumps(value, allow_nan=False)
     items = list(value.values()) if isinstance(value, dict) else value
-    if isinstance(value, list) and not any(isinstance(item, dict | list) for item in items):
-        return json.dumps(value, allow_nan=False)
     if len(items) > FIELDS or not all(map(_is_short, items)):
         return None
     line = json.dumps(value, allow_nan=False)
