@@ -28,38 +28,36 @@ Kind = Literal[
     "unknown-unit", "wrong-dimension", "bare-angle", "missing-unit", "not-a-quantity", "absurd-value"
 ]
 
-_DEG = pi / 180
-_FOOT = 0.3048
+_SI = (1.0, 1.0)
+_DEG = (pi / 180, 1.0)
+_FOOT = (0.3048, 1.0)
+_KMH = (1.0, 3.6)
+_KNOT = (1852.0, 3600.0)
 
-# Per dimension: factor to SI of every spelling that is understood.
-UNITS: dict[Dimension, dict[str, float]] = {
-    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "ft": _FOOT},
-    "duration": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0},
+# Per dimension, every spelling that is understood: what to multiply with and then to divide by for SI,
+# so that 95 % is 0.95 to the last digit.
+UNITS: dict[Dimension, dict[str, tuple[float, float]]] = {
+    "length": {"m": _SI, "mm": (1.0, 1e3), "cm": (1.0, 1e2), "km": (1e3, 1.0), "ft": _FOOT},
+    "duration": {"s": _SI, "ms": (1.0, 1e3), "min": (60.0, 1.0), "h": (3600.0, 1.0)},
     "speed": {
-        "m/s": 1.0,
-        "km/h": 1 / 3.6,
-        "kmh": 1 / 3.6,
-        "kn": 1852 / 3600,
-        "kt": 1852 / 3600,
-        "mph": 1609.344 / 3600,
+        "m/s": _SI,
+        "km/h": _KMH,
+        "kmh": _KMH,
+        "kn": _KNOT,
+        "kt": _KNOT,
+        "mph": (1609.344, 3600.0),
         "ft/s": _FOOT,
     },
-    "acceleration": {"m/s^2": 1.0, "m/s²": 1.0, "m/s2": 1.0},
-    "jerk": {"m/s^3": 1.0, "m/s³": 1.0, "m/s3": 1.0},
-    "angle": {"deg": _DEG, "°": _DEG, "rad": 1.0},
-    "angular rate": {"deg/s": _DEG, "°/s": _DEG, "rad/s": 1.0},
+    "acceleration": dict.fromkeys(("m/s^2", "m/s²", "m/s2"), _SI),
+    "jerk": dict.fromkeys(("m/s^3", "m/s³", "m/s3"), _SI),
+    "angle": {"deg": _DEG, "°": _DEG, "rad": _SI},
+    "angular rate": {"deg/s": _DEG, "°/s": _DEG, "rad/s": _SI},
     "angular acceleration": {
-        "deg/s^2": _DEG,
-        "deg/s²": _DEG,
-        "deg/s2": _DEG,
-        "°/s²": _DEG,
-        "°/s^2": _DEG,
-        "rad/s^2": 1.0,
-        "rad/s²": 1.0,
-        "rad/s2": 1.0,
+        **dict.fromkeys(("deg/s^2", "deg/s²", "deg/s2", "°/s²", "°/s^2"), _DEG),
+        **dict.fromkeys(("rad/s^2", "rad/s²", "rad/s2"), _SI),
     },
-    "ratio": {"%": 1e-2},
-    "frequency": {"Hz": 1.0},
+    "ratio": {"%": (1.0, 1e2)},
+    "frequency": {"Hz": _SI},
 }
 
 # Beyond these magnitudes (SI) no camera drone operates: the number is a slip of the pen.
@@ -108,7 +106,8 @@ ANGULAR: frozenset[Dimension] = frozenset({"angle", "angular rate", "angular acc
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 # Text longer than this is no quantity; the bound keeps messages and the search for a near unit short.
 _LONGEST_TEXT = 60
-_QUANTITY = re.compile(rf"\s*({NUMBER})\s*(\S*)\s*")
+# A unit begins with a letter or a sign of its own: `1,5` and `9**9` are no numbers with units.
+_QUANTITY = re.compile(rf"\s*({NUMBER})\s*((?:[^\W\d_]|[°%'])\S*)?\s*")
 
 # Spellings that are near to nothing in the table by letters, or near to the wrong thing.
 _MEANT = {
@@ -209,10 +208,10 @@ def _parse_text(text: str, dimension: Dimension) -> float:
         raise QuantityError(
             "not-a-quantity", f"expected {a(dimension)}, got {describe(text)}", _such_as(dimension)
         )
-    number, unit = float(match[1]), match[2]
-    factor = UNITS[dimension].get(unit)
-    if factor is not None:
-        return number * factor
+    number, unit = float(match[1]), match[2] or ""
+    scale = UNITS[dimension].get(unit)
+    if scale is not None:
+        return number * scale[0] / scale[1]
     if not unit:
         raise _without_unit(match[1], dimension)
     other = _dimension_of(unit)

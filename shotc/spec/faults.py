@@ -53,8 +53,8 @@ def details_of(error: ValidationError | PydanticCustomError, loc: Loc = ()) -> l
     if isinstance(error, PydanticCustomError):
         return [InitErrorDetails(type=error, loc=loc, input=None)]
     return [
-        InitErrorDetails(type=_again(item), loc=(*loc, *item["loc"]), input=None)
-        for item in error.errors(include_url=False, include_input=False)
+        InitErrorDetails(type=_again(item), loc=(*loc, *item["loc"]), input=item["input"])
+        for item in error.errors(include_url=False)
     ]
 
 

@@ -130,7 +130,7 @@ class Model(BaseModel):
             _missing(key, cls.model_fields[key]) for key in missing if key not in misspelt | data.keys()
         ]
         strange = [_unknown(key, missing, cls.model_fields) for key in unknown]
-        others = [d for d in details if not (_is(d, "missing") or _is(d, "extra_forbidden"))]
+        others = [d for d in details if not (_is(d, "missing") or _is(d, "extra_forbidden") or _echo(d, details))]
         return [*others, *absent, *strange]
 
 
@@ -166,6 +166,13 @@ def _is(detail: InitErrorDetails, kind: str) -> bool:
     """Tell whether a fault is pydantic's about a key of this very mapping."""
     error = detail["type"]
     return len(detail.get("loc", ())) == 1 and not isinstance(error, str) and error.type == kind
+
+
+def _echo(detail: InitErrorDetails, details: list[InitErrorDetails]) -> bool:
+    """Tell whether pydantic calls a list too short only because it does not count faulty items."""
+    loc = detail["loc"]
+    below = any(len(d["loc"]) > len(loc) and d["loc"][: len(loc)] == loc for d in details)
+    return below and not isinstance(detail["type"], str) and detail["type"].type == "too_short"
 
 
 def _empty(key: str) -> InitErrorDetails:
