@@ -16,6 +16,7 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.convex import BoolArray, distances, segment_distances, separate, support
 from shotc.geom.solids import Solid
 
+COMFORT = 0.5  # kept beyond that by a curve where there is room, metres
 MARGIN = 0.05  # kept beyond what verification asks, metres: later stages interpolate the path
 
 
@@ -150,14 +151,14 @@ class Planes:
     offset: Array
 
 
-def corridor(room: Room, hulls: Array, reach: float, margin: float = MARGIN) -> tuple[Planes, Array]:
+def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Planes:
     """Separate every piece from every obstacle within ``reach`` metres beyond its clearance.
 
     hulls : shape (P, m, 3), points whose hull holds each piece
-    Returns the planes and, for each, by how much the piece's own points clear it (negative: they do
-    not), metres. Where a piece is nearer than clearance and margin, half of what there is counts.
+    share : of the distance a piece has beyond the clearance, this much is kept, COMFORT at most
+    A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
     """
-    pieces, obstacles, normals, offsets, clear = [], [], [], [], []
+    pieces, obstacles, normals, offsets = [], [], [], []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
     for j, o in enumerate(room.obstacles):
         near = np.flatnonzero(distances(o.part, middle) < o.clearance + reach + size)
@@ -166,20 +167,23 @@ def corridor(room: Room, hulls: Array, reach: float, margin: float = MARGIN) -> 
         n, gap = separate(o.part, hulls[near])
         keep = gap < o.clearance + reach
         near, n, gap = near[keep], n[keep], gap[keep]
-        need = o.clearance + np.minimum(margin, 0.5 * np.maximum(gap - o.clearance, 0.0))
+        need = o.clearance + kept(gap - o.clearance, share)
         points = np.einsum("nmd,nd->nm", hulls[near], n).min(axis=1)
         pieces.append(near)
         obstacles.append(np.full(len(near), j))
         normals.append(n)
         offsets.append(points - gap + need)
-        clear.append(gap - need)
     if not pieces:
         none = np.zeros(0, dtype=np.intp)
-        return Planes(none, none, np.zeros((0, 3)), np.zeros(0)), np.zeros(0)
-    planes = Planes(
+        return Planes(none, none, np.zeros((0, 3)), np.zeros(0))
+    return Planes(
         np.concatenate(pieces), np.concatenate(obstacles), np.concatenate(normals), np.concatenate(offsets)
     )
-    return planes, np.concatenate(clear)
+
+
+def kept(slack: Array, share: float) -> Array:
+    """Return the margin to keep, metres, where there is ``slack`` beyond the clearance."""
+    return np.minimum(COMFORT, share * np.maximum(slack, 0.0))
 
 
 def shortfall(room: Room, hulls: Array) -> Array:

@@ -22,7 +22,9 @@ from shotc.geom.solids import Cylinder, Solid
 
 ROUTE_MARGIN = 2 * MARGIN  # the route leaves the corridor some play
 NODE_MARGIN = 2.4 * MARGIN  # nodes stand clear of the prisms that edges are tested against
-SHARES = (1.0, 0.2, 0.05)  # of these margins, tried in turn: a narrow gap is better than no way
+ROOMY = 10.0  # times these margins where there is room for it
+DETOUR = 1.15  # how much longer a roomy way may be than one that scrapes past
+NARROW = (0.2, 0.05)  # of these margins, tried in turn: a narrow gap is better than no way
 CLIMB_PRICE = 0.3  # extra length for each metre up or down
 OVERFLIGHT_PRICE = 0.3  # extra length for each metre above an obstacle
 
@@ -48,11 +50,22 @@ def find_route(room: Room, start: Array, end: Array) -> Array | None:
     if not first.any():
         return np.stack([start, end])
     grown = [_grow(o) for o in room.obstacles]
-    for share in SHARES:
-        route = _search(_Scene(room, grown, share), first, start, end)
-        if route is not None:
-            return _level(room, route)
+    near = _search(_Scene(room, grown, 1.0), first, start, end)
+    if near is not None:
+        roomy = _search(_Scene(room, grown, ROOMY), first, start, end)
+        if roomy is not None and length(roomy) <= DETOUR * length(near):
+            near = roomy
+        return _level(room, near)
+    for share in NARROW:
+        narrow = _search(_Scene(room, grown, share), first, start, end)
+        if narrow is not None:
+            return narrow
     return None
+
+
+def length(route: Array) -> float:
+    """Return the length of a polyline, shape (K, 3), metres."""
+    return float(np.linalg.norm(np.diff(route, axis=0), axis=1).sum())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -131,13 +144,13 @@ class _Graph:
     def _prices(self, i: int, others: IntArray) -> Array:
         a = np.broadcast_to(self.nodes[i], (len(others), 3))
         b = self.nodes[others]
-        length = np.linalg.norm(b - a, axis=1)
-        price = length + CLIMB_PRICE * np.abs(b[:, 2] - a[:, 2])
+        stride = np.linalg.norm(b - a, axis=1)
+        price = stride + CLIMB_PRICE * np.abs(b[:, 2] - a[:, 2])
         for j, g in enumerate(self.scene.grown):
             enter, leave = _clip(g, a, b, self.scene.reach(j))
             over = np.maximum(leave - enter, 0.0)
             if g.top < FAR:
-                price = price + OVERFLIGHT_PRICE * over * length
+                price = price + OVERFLIGHT_PRICE * over * stride
             hit = self._hits(j, a, b, enter, leave)
             exact = self._close(j, i, others)
             if exact.any():

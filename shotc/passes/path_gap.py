@@ -37,12 +37,12 @@ def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -
     if pair is None:
         return Gap(
             f"with {lent:.2f} m less clearance to everything there would be a way",
-            f"use a drone whose radius is {lent:.2f} m smaller, or make that much room",
+            f"use a drone with a radius {lent:.2f} m smaller, or make that much room",
         )
     (first, second), gap, needed = pair
     return Gap(
         f"the gap between {first} and {second} is {gap:.2f} m; the drone needs {needed:.2f} m",
-        f"widen the gap by {needed - gap + MARGIN:.2f} m, or use a drone whose radius is {lent:.2f} m smaller",
+        f"widen the gap by {needed - gap + MARGIN:.2f} m, or use a drone with a radius {lent:.2f} m smaller",
     )
 
 

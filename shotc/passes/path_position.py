@@ -6,13 +6,12 @@ the curve stops getting better; every curve handed out has been proved clear by 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import (
-    IntArray,
     Rows,
     control_rows,
     count,
@@ -22,13 +21,13 @@ from shotc.geom.bspline import (
     subdivide,
     value_rows,
 )
-from shotc.geom.corridor import MARGIN, Planes, Room, corridor, shortfall
+from shotc.geom.corridor import Room, shortfall
 from shotc.ir.mission import Limits
+from shotc.passes.path_corridor import Around, with_corridor
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
     Cones,
     Equalities,
-    Floors,
     Goal,
     Relaxation,
     SplineProblem,
@@ -41,6 +40,8 @@ PIECES = 3  # per straight stretch of the polyline
 PULL = 10.0  # weight of a generated keyframe that does not bind, against the energy in m^2
 EXCESS_PRICE = 10.0  # of speed and acceleration above nominal, against the energy in m^2
 ROUNDS = 4
+FIRST_SHARE = 0.5  # of its distance from an obstacle a chord may give up half
+LATER_SHARE = 0.95  # a solved curve hardly any, or the margins would melt away round by round
 FINER = (1, 2, 4)
 GAIN = 0.01  # a round that improves the objective by less ends the iteration
 
@@ -123,10 +124,11 @@ def _iterate(
     chords = np.stack([polyline[:-1], polyline[1:]], axis=1)
     base = _base_problem(stretch, limits, breaks)
     reach = max(2.0, 0.25 * float(np.diff(stretch.s).max()))
-    hulls, best = chords, None
+    hulls, share = chords, FIRST_SHARE
+    best: SplineSolution | None = None
     problem = base
     for used in range(1, ROUNDS + 1):
-        problem = _with_corridor(base, room, breaks, hulls, reach)
+        problem = with_corridor(base, Around(room, breaks, hulls, reach, share))
         solution = minimise(problem)
         if solution.coef is None:
             return problem, best or solution.status, used
@@ -134,19 +136,15 @@ def _iterate(
         if shortfall(room, points).max() > 1e-6:
             # The curve swung into something that was out of reach of the corridor: widen it.
             reach *= 4.0
-            hulls = chords
+            hulls, share = chords, FIRST_SHARE
             continue
         total = solution.objective + solution.excess
         done = best is not None and total > (1 - GAIN) * (best.objective + best.excess)
         best = solution if best is None or not done else best
-        if done or not _has_corridor(problem):
+        if done or not problem.floors:
             break
-        hulls = points
+        hulls, share = points, LATER_SHARE
     return problem, best or Status.INFEASIBLE, used
-
-
-def _has_corridor(problem: SplineProblem) -> bool:
-    return any(len(f.offset) for f in problem.floors)
 
 
 def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProblem:
@@ -204,63 +202,6 @@ def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> t
         cone(first, (2,), min(limits.climb, limits.descent) / v1, unit),
         cone(second, (0, 1, 2), limits.acceleration / v2**2, unit * scale),
     )
-
-
-def _with_corridor(
-    base: SplineProblem, room: Room, breaks: Array, hulls: Array, reach: float
-) -> SplineProblem:
-    index = {name: i for i, name in enumerate(room.owners)}
-    planes, _ = corridor(room, hulls, reach)
-    owner = np.array([index[o.owner] for o in room.obstacles], dtype=np.intp)
-    floors = [_floors(breaks, planes, owner[planes.obstacle] if len(planes.obstacle) else planes.obstacle)]
-    floors += _wall_floors(room, breaks, hulls, reach, index)
-    return replace(
-        base,
-        floors=tuple(f for f in floors if len(f.offset)),
-        cones=base.cones + _disc_cones(room, breaks, hulls, reach, index),
-    )
-
-
-def _floors(breaks: Array, planes: Planes, owner: IntArray) -> Floors:
-    rows = _points_of(breaks, planes.piece)
-    return Floors(rows, np.repeat(planes.normal, 6, axis=0), np.repeat(planes.offset, 6), np.repeat(owner, 6))
-
-
-def _points_of(breaks: Array, pieces: IntArray) -> Rows:
-    every = control_rows(breaks).weight.reshape(-1, 6, 6)
-    return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
-
-
-def _wall_floors(
-    room: Room, breaks: Array, hulls: Array, reach: float, index: dict[str, int]
-) -> list[Floors]:
-    floors = []
-    for wall in room.walls:
-        n = np.array(wall.normal)
-        slack = (hulls @ n).min(axis=1) - wall.offset
-        near = np.flatnonzero(slack < reach)
-        offset = wall.offset + np.minimum(MARGIN, 0.5 * np.maximum(slack[near], 0.0))
-        planes = Planes(near, near, np.tile(n, (len(near), 1)), offset)
-        floors.append(_floors(breaks, planes, np.full(len(near), index[wall.owner])))
-    return floors
-
-
-def _disc_cones(
-    room: Room, breaks: Array, hulls: Array, reach: float, index: dict[str, int]
-) -> tuple[Cones, ...]:
-    cones = []
-    for disc in room.discs:
-        centre = np.array(disc.centre)
-        slack = disc.radius - np.linalg.norm(hulls[:, :, :2] - centre, axis=2).max(axis=1)
-        near = np.flatnonzero(slack < reach)
-        if not len(near):
-            continue
-        bound = disc.radius - np.minimum(MARGIN, 0.5 * np.maximum(slack[near], 0.0))
-        rows = _points_of(breaks, near)
-        owner = np.full(len(rows.piece), index[disc.owner])
-        middle = np.tile(centre, (len(rows.piece), 1))
-        cones.append(Cones(rows, (0, 1), middle, np.repeat(bound, 6), None, owner))
-    return tuple(cones)
 
 
 def _pinned(curve: Piecewise, stretch: Stretch) -> Piecewise:

@@ -1,0 +1,77 @@
+"""The corridor as constraints: every piece's Bernstein points inside half-spaces and discs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray, Rows, control_rows
+from shotc.geom.corridor import Planes, Room, corridor, kept
+from shotc.solvers.spline_qp import Cones, Floors, SplineProblem
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Around:
+    """What the corridor is built round.
+
+    hulls : shape (P, m, 3), for each piece points whose hull holds it, or is to hold it
+    reach : obstacles within this distance beyond their clearance count, metres
+    share : see ``geom.corridor.corridor``
+    """
+
+    room: Room
+    breaks: Array
+    hulls: Array
+    reach: float
+    share: float
+
+
+def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
+    """Return the problem with every piece kept clear of all that is near; owners index room.owners."""
+    index = {name: i for i, name in enumerate(around.room.owners)}
+    planes = corridor(around.room, around.hulls, around.reach, around.share)
+    owner = np.array([index[o.owner] for o in around.room.obstacles], dtype=np.intp)
+    floors = [_floors(around, planes, owner[planes.obstacle])] if len(planes.obstacle) else []
+    floors += _wall_floors(around, index)
+    return replace(base, floors=tuple(floors), cones=base.cones + _disc_cones(around, index))
+
+
+def _floors(around: Around, planes: Planes, owner: IntArray) -> Floors:
+    rows = _points_of(around.breaks, planes.piece)
+    return Floors(rows, np.repeat(planes.normal, 6, axis=0), np.repeat(planes.offset, 6), np.repeat(owner, 6))
+
+
+def _points_of(breaks: Array, pieces: IntArray) -> Rows:
+    every = control_rows(breaks).weight.reshape(-1, 6, 6)
+    return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
+
+
+def _wall_floors(around: Around, index: dict[str, int]) -> list[Floors]:
+    floors = []
+    for wall in around.room.walls:
+        n = np.array(wall.normal)
+        slack = (around.hulls @ n).min(axis=1) - wall.offset
+        near = np.flatnonzero(slack < around.reach)
+        if not len(near):
+            continue
+        offset = wall.offset + kept(slack[near], around.share)
+        planes = Planes(near, near, np.tile(n, (len(near), 1)), offset)
+        floors.append(_floors(around, planes, np.full(len(near), index[wall.owner])))
+    return floors
+
+
+def _disc_cones(around: Around, index: dict[str, int]) -> tuple[Cones, ...]:
+    cones = []
+    for disc in around.room.discs:
+        centre = np.array(disc.centre)
+        slack = disc.radius - np.linalg.norm(around.hulls[:, :, :2] - centre, axis=2).max(axis=1)
+        near = np.flatnonzero(slack < around.reach)
+        if not len(near):
+            continue
+        bound = np.repeat(disc.radius - kept(slack[near], around.share), 6)
+        rows = _points_of(around.breaks, near)
+        owner = np.full(len(rows.piece), index[disc.owner])
+        cones.append(Cones(rows, (0, 1), np.tile(centre, (len(bound), 1)), bound, None, owner))
+    return tuple(cones)
