@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
-from shotc.emit.rerun_motion import frame_size
+from shotc.emit.rerun_motion import camera_entity, frame_size
 from shotc.emit.rerun_series import Plot
-from shotc.ir.mission import Drone
+from shotc.ir.mission import Drone, MissionIR
 
 Array = NDArray[np.float64]
 
@@ -19,11 +20,19 @@ SKY = (96, 118, 140, 255)
 
 
 def blueprint(
-    drones: tuple[Drone, ...], plots: dict[str, tuple[Plot, ...]], bounds: tuple[Array, Array]
+    mission: MissionIR, flown: dict[str, tuple[float, tuple[Plot, ...]]], bounds: tuple[Array, Array]
 ) -> Any:
-    """Return the blueprint of a recording of these drones in a scene with these corners."""
-    cameras = [_camera_view(drone) for drone in drones]
-    views = [_series(drone, plot, many=len(drones) > 1) for drone in drones for plot in plots[drone.name]]
+    """Return the blueprint of a recording.
+
+    flown : for every drone its last instant (s) and its plots; bounds : the corners of the scene
+    """
+    drones = [mission.drone(name) for name in flown]
+    cameras = [_camera_view(drone, mission) for drone in drones]
+    views = [
+        _series(drone, plot, flown[drone.name][0], many=len(drones) > 1)
+        for drone in drones
+        for plot in flown[drone.name][1]
+    ]
     facts = rrb.TextDocumentView(origin="summary", name="Mission and certificate")
     right = rrb.Vertical(
         cameras[0] if len(cameras) == 1 else rrb.Tabs(*cameras), facts, row_shares=[3.0, 2.0]
@@ -31,8 +40,8 @@ def blueprint(
     return rrb.Blueprint(
         rrb.Vertical(
             rrb.Horizontal(_world(bounds, drones), right, column_shares=[1.35, 1.0]),
-            rrb.Grid(*views, grid_columns=max(1, len(views) // len(drones))),
-            row_shares=[3.2, 1.0 * len(drones)],
+            rrb.Grid(*views, grid_columns=4),
+            row_shares=[2.3, 1.0],
         ),
         rrb.TimePanel(
             timeline="t", playback_speed=1.0, play_state="playing", loop_mode="all", state="collapsed"
@@ -44,12 +53,12 @@ def blueprint(
     )
 
 
-def _world(bounds: tuple[Array, Array], drones: tuple[Drone, ...]) -> Any:
+def _world(bounds: tuple[Array, Array], drones: list[Drone]) -> Any:
     low, high = bounds
     centre = (low + high) / 2
-    reach = float(np.linalg.norm(high - low)) * 0.62 + 12.0
+    reach = float(np.linalg.norm(high - low)) * 0.66 + 12.0
     eye = centre + reach * np.array([-0.62, -0.92, 0.72])
-    hidden = [f"- /world/cameras/{drone.name}/overlay/**" for drone in drones]
+    hidden = [f"- /{camera_entity(drone)}/screen/**" for drone in drones]
     return rrb.Spatial3DView(
         origin="world",
         name="World (East, North, Up)",
@@ -65,20 +74,26 @@ def _world(bounds: tuple[Array, Array], drones: tuple[Drone, ...]) -> Any:
     )
 
 
-def _camera_view(drone: Drone) -> Any:
+def _camera_view(drone: Drone, mission: MissionIR) -> Any:
+    hidden = [f"- /world/zones/{zone.name}/**" for zone in mission.zones if zone.keep == "in"]
+    shown = ("world/ground", "world/zones", "world/targets", f"{camera_entity(drone)}/screen")
     width, height = frame_size(drone)
     return rrb.Spatial2DView(
-        origin=f"world/cameras/{drone.name}",
+        origin=f"{camera_entity(drone)}/lens",
         name=f"What {drone.name} sees",
-        contents=["$origin/**", "/world/ground/**", "/world/zones/**", "/world/targets/**"],
+        contents=[*(f"/{path}/**" for path in shown), *hidden],
         background=SKY,
         visual_bounds=rrb.VisualBounds2D(x_range=[0, width], y_range=[0, height]),
     )
 
 
-def _series(drone: Drone, plot: Plot, *, many: bool) -> Any:
+def _series(drone: Drone, plot: Plot, end: float, *, many: bool) -> Any:
+    span = rr.TimeRange(
+        start=rr.TimeRangeBoundary.absolute(seconds=0.0), end=rr.TimeRangeBoundary.absolute(seconds=end)
+    )
     return rrb.TimeSeriesView(
         origin=f"plots/{drone.name}/{plot.name}",
         name=f"{drone.name}: {plot.title}" if many else plot.title,
-        plot_legend=rrb.PlotLegend(visible=len(plot.lines) > 1, corner=rrb.Corner2D.LeftTop),
+        axis_x=rrb.TimeAxis(view_range=span),
+        plot_legend=rrb.PlotLegend(visible=len(plot.lines) > 2, corner=rrb.Corner2D.RightTop),
     )

@@ -23,7 +23,14 @@ Array = NDArray[np.float64]
 WIDTH = 1280
 """Pixels across the camera's view."""
 
-LIMIT_COLOR = KEEP_OUT
+SCREEN_DEPTH = 0.3
+"""How far before the camera its overlay hangs, metres. The viewer draws 2D lines behind every 3D thing
+that it projects into a camera's view, so the overlay is 3D, too, and nearer than anything else."""
+
+LIMIT_COLOR, PROMISED = KEEP_OUT, "promised"
+AFTER = 1e-3
+"""How long after a shot its overlay goes, seconds."""
+
 LINE_COLORS = (CAMERA, shade(SUBJECT, 1.45), (0.80, 0.47, 0.65), (0.60, 0.63, 0.68))
 
 
@@ -84,37 +91,38 @@ def _drone(stream: Any, drone: Drone, t: Array, poses: Array) -> None:
 
 
 def _camera(stream: Any, drone: Drone, t: Array, poses: Array, frustum: float) -> None:
-    entity = f"world/cameras/{drone.name}"
-    index = [rr.TimeColumn("t", duration=t)]
+    entity = camera_entity(drone)
     stream.send_columns(
         entity,
-        indexes=index,
+        indexes=[rr.TimeColumn("t", duration=t)],
         columns=rr.Transform3D.columns(
             translation=poses[:, :3], quaternion=camera_quaternions(poses[:, CAM_YAW], poses[:, CAM_PITCH])
         ),
     )
+    # Where the lens does not zoom, one row without a time stands for all of them.
+    fixed = bool(np.ptp(poses[:, HFOV]) < 1e-9)
+    ticks, half = (t[:1], poses[:1, HFOV] / 2) if fixed else (t, poses[:, HFOV] / 2)
+    index = [] if fixed else [rr.TimeColumn("t", duration=ticks)]
     width, height = frame_size(drone)
-    focal = width / 2 / np.tan(poses[:, HFOV] / 2)
-    zoom = not np.allclose(focal, focal[0], rtol=1e-6)
-    lens = rr.Pinhole(
-        focal_length=float(focal[0]),
-        width=width,
-        height=height,
-        camera_xyz=rr.ViewCoordinates.RDF,
-        image_plane_distance=float(frustum),
-        color=rgba8(CAMERA),
-        line_width=2.0,
+    count = len(ticks)
+    matrices = np.zeros((count, 3, 3))
+    matrices[:, 0, 0] = matrices[:, 1, 1] = width / 2 / np.tan(half)
+    matrices[:, :, 2] = (width / 2, height / 2, 1.0)
+    # All of a pinhole's parts in the same rows: a part without a time hides those that have one.
+    lens = rr.Pinhole.columns(
+        image_from_camera=matrices,
+        resolution=[[width, height]] * count,
+        image_plane_distance=[frustum] * count,
+        color=[rgba8(CAMERA)] * count,
+        line_width=[rr.Radius.ui_points(1.2)] * count,
     )
-    stream.log(entity, lens, static=not zoom)
-    if zoom:
-        matrices = np.zeros((len(t), 3, 3))
-        matrices[:, 0, 0] = matrices[:, 1, 1] = focal
-        matrices[:, :, 2] = (width / 2, height / 2, 1.0)
-        stream.send_columns(
-            entity,
-            indexes=index,
-            columns=rr.Pinhole.columns(image_from_camera=matrices, resolution=[[width, height]] * len(t)),
-        )
+    stream.send_columns(f"{entity}/lens", indexes=index, columns=lens)
+    # Below this entity x and y are (u, v).
+    reach = SCREEN_DEPTH * np.tan(half)
+    scale = np.stack([reach, -reach / drone.aspect, np.full(len(half), SCREEN_DEPTH)], axis=-1)
+    place = np.tile([0.0, 0.0, SCREEN_DEPTH], (len(half), 1))
+    columns = rr.Transform3D.columns(translation=place, scale=scale)
+    stream.send_columns(f"{entity}/screen", indexes=index, columns=columns)
 
 
 def camera_quaternions(yaw: Array, pitch: Array) -> Array:
@@ -131,63 +139,71 @@ def frame_size(drone: Drone) -> tuple[int, int]:
     return WIDTH, round(WIDTH / drone.aspect)
 
 
-def _pixels(uv: Array, drone: Drone) -> Array:
-    width, height = frame_size(drone)
-    return np.stack([(uv[..., 0] + 1) / 2 * width, (1 - uv[..., 1]) / 2 * height], axis=-1)
+def camera_entity(drone: Drone) -> str:
+    """Return where a drone's camera is logged; ``lens`` and ``screen`` are below it."""
+    return f"world/cameras/{drone.name}"
 
 
 def _subject(stream: Any, drone: Drone, target: Target, flown: tuple[Array, Array], span: Reference) -> None:
-    """Log the outline of a framed subject, its centre, and where that is wanted, in pixels."""
+    """Log the outline of a framed subject, its centre, and where that is wanted, on the screen."""
     t, poses = flown
     inside = (t >= span.start) & (t <= span.end)
     if not inside.any():
         return
     ticks, poses = t[inside], poses[inside]
-    entity = f"world/cameras/{drone.name}/overlay/{span.target}"
-    camera = views(poses[:, None], drone.aspect)
+    entity = f"{camera_entity(drone)}/screen/{span.target}"
     away = np.stack(offsets(poses, target), axis=-1)
-    polygons = project_loops(camera, cylinder_contour(away, target.radius, target.height, count=25))
-    outlines = [
-        _pixels(np.clip(np.concatenate([loop, loop[:1]]), -20, 20), drone) for loop in polygons if len(loop)
-    ]
+    contours = cylinder_contour(away, target.radius, target.height, count=25)
+    polygons = project_loops(views(poses[:, None], drone.aspect), contours)
+    outlines = [np.clip(np.concatenate([loop, loop[:1]]), -9, 9) for loop in polygons if len(loop)]
     _strips(stream, f"{entity}/outline", ticks, outlines, [int(len(loop) > 0) for loop in polygons])
-    _style(stream, f"{entity}/outline", rgba8(shade(SUBJECT, 1.5)), 2.0)
-    u, v, depth = views(poses, drone.aspect).project(offsets(poses, target))
-    centre = np.where((depth > 0)[:, None], np.stack([u, v], axis=-1), 30.0)
-    stream.send_columns(
-        f"{entity}/centre",
-        indexes=[rr.TimeColumn("t", duration=[*ticks, span.end + 1e-3])],
-        columns=rr.Points2D.columns(positions=_pixels(np.clip(centre, -30, 30), drone)).partition(
-            [1] * len(ticks) + [0]
-        ),
-    )
-    dot = rr.Points2D.from_fields(radii=rr.Radius.ui_points(4.5), colors=[rgba8(WHITE)], draw_order=60.0)
-    stream.log(f"{entity}/centre", dot, static=True)
+    _style(stream, f"{entity}/outline", rgba8(shade(SUBJECT, 1.75)), 1.2)
+    _centre(stream, f"{entity}/centre", drone, target, (ticks, poses))
     if isinstance(span.reference, Piecewise):
-        crosses = [_cross(point) for point in _pixels(span.reference(ticks), drone)]
+        crosses = [_cross(point, drone.aspect) for point in span.reference(ticks)]
         strips = [strip for cross in crosses for strip in cross]
         _strips(stream, f"{entity}/wanted", ticks, strips, [len(cross) for cross in crosses])
-        _style(stream, f"{entity}/wanted", rgba8(CAMERA), 2.5)
+        _style(stream, f"{entity}/wanted", rgba8(CAMERA), 1.4)
 
 
-def _cross(at: Array) -> list[Array]:
+def _centre(stream: Any, entity: str, drone: Drone, target: Target, flown: tuple[Array, Array]) -> None:
+    ticks, poses = flown
+    u, v, depth = views(poses, drone.aspect).project(offsets(poses, target))
+    seen = (depth > 0) & (abs(u) < 2) & (abs(v) < 2)
+    points = np.column_stack([u, v, np.zeros(len(u))])[seen]
+    if not len(points):
+        return
+    stream.send_columns(
+        entity,
+        indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER])],
+        columns=rr.Points3D.columns(positions=points).partition([*seen.astype(int), 0]),
+    )
+    dot = rr.Points3D.from_fields(radii=rr.Radius.ui_points(3.5), colors=[rgba8(WHITE)])
+    stream.log(entity, dot, static=True)
+
+
+def _cross(at: Array, aspect: float) -> list[Array]:
+    size = np.array([1.0, aspect])
     arms = ((1, 0), (-1, 0), (0, 1), (0, -1))
     turn = np.linspace(0, 2 * np.pi, 33)
-    ring = at + 22 * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    return [at + np.array([[sx * 12, sy * 12], [sx * 40, sy * 40]]) for sx, sy in arms] + [ring]
+    ring = at + 0.035 * size * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    return [at + size * np.array([[sx * r, sy * r] for r in (0.02, 0.06)]) for sx, sy in arms] + [ring]
 
 
 def _strips(stream: Any, entity: str, ticks: Array, strips: list[Array], lengths: list[int]) -> None:
-    """Log line strips for every tick, and none any more just after the last one."""
+    """Log (u, v) lines for every tick, and none any more just after the last one."""
+    if not strips:
+        return
+    lifted = [np.column_stack([strip, np.zeros(len(strip))]) for strip in strips]
     stream.send_columns(
         entity,
-        indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + 1e-3])],
-        columns=rr.LineStrips2D.columns(strips=strips).partition([*lengths, 0]),
+        indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER])],
+        columns=rr.LineStrips3D.columns(strips=lifted).partition([*lengths, 0]),
     )
 
 
 def _style(stream: Any, entity: str, color: tuple[int, int, int, int], width: float) -> None:
-    style = rr.LineStrips2D.from_fields(radii=rr.Radius.ui_points(width), colors=[color], draw_order=50.0)
+    style = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(width), colors=[color])
     stream.log(entity, style, static=True)
 
 
@@ -196,23 +212,24 @@ def _composition(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, phase: 
     placed = next(s for s in plan.trajectory.keyframes.shots if s.shot.id == phase.shot)
     drone = plan.trajectory.keyframes.mission.drone(flight.drone)
     marks = [k for k in flight.keyframes if k.shot == phase.shot]
-    times = [phase.start] + [(a.time + b.time) / 2 for a, b in pairwise(marks)]
-    lines = [_composition_lines(placed.shot.keyframes[k.index].composition, drone) for k in marks]
+    lines = [_guides(placed.shot.keyframes[k.index].composition) for k in marks]
     strips = [strip for some in lines for strip in some]
-    entity = f"world/cameras/{drone.name}/overlay/composition"
-    if strips:
-        stream.send_columns(
-            entity,
-            indexes=[rr.TimeColumn("t", duration=[*times, phase.end])],
-            columns=rr.LineStrips2D.columns(strips=strips).partition([*(len(some) for some in lines), 0]),
-        )
-        _style(stream, entity, rgba8(WHITE, 0.55), 0.8)
+    if not strips:
+        return
+    times = [phase.start] + [(a.time + b.time) / 2 for a, b in pairwise(marks)]
+    entity = f"{camera_entity(drone)}/screen/composition"
+    stream.send_columns(
+        entity,
+        indexes=[rr.TimeColumn("t", duration=[*times, phase.end + AFTER])],
+        columns=rr.LineStrips3D.columns(strips=strips).partition([*(len(some) for some in lines), 0]),
+    )
+    _style(stream, entity, rgba8(WHITE, 0.5), 0.5)
 
 
-def _composition_lines(composition: Composition, drone: Drone) -> list[Array]:
+def _guides(composition: Composition) -> list[Array]:
     us, vs = guide_lines(composition)
-    strips = [np.array([[u, -1.0], [u, 1.0]]) for u in us] + [np.array([[-1.0, v], [1.0, v]]) for v in vs]
-    return [_pixels(strip, drone) for strip in strips]
+    upright = [np.array([[u, -1.0, 0.0], [u, 1.0, 0.0]]) for u in us]
+    return upright + [np.array([[-1.0, v, 0.0], [1.0, v, 0.0]]) for v in vs]
 
 
 def _screen_plot(
@@ -236,23 +253,19 @@ def _screen_plot(
         return None
     lines = [Line("screen error", error)]
     if not np.isnan(promise).all():
-        lines.append(Line("promised", promise))
-    return Plot("screen_error", "Screen error (half frames)", tuple(lines))
+        lines.append(Line(PROMISED, promise))
+    return Plot("screen_error", "Screen error", tuple(lines))
 
 
 def _plot(stream: Any, drone: str, plot: Plot, t: Array) -> None:
     for i, line in enumerate(plot.lines):
-        color = LIMIT_COLOR if line.name == "promised" else LINE_COLORS[i % len(LINE_COLORS)]
+        color = LIMIT_COLOR if line.name == PROMISED else LINE_COLORS[i % len(LINE_COLORS)]
         entity = f"plots/{drone}/{plot.name}/{line.name.replace(' ', '_')}"
         _curve(stream, entity, t, line.values, (line.name, rgba8(color)))
-        if line.limit is not None:
-            name = "limit" if len(plot.lines) == 1 else f"limit of {line.name}"
-            shown = LIMIT_COLOR if len(plot.lines) == 1 else shade(color, 0.65)
-            ends = np.array([t[0], t[-1]])
-            _curve(stream, f"{entity}_limit", ends, np.full(2, line.limit), (name, rgba8(shown)))
-    if plot.name == "clearance":
-        ends = np.array([t[0], t[-1]])
-        _curve(stream, f"plots/{drone}/{plot.name}/limit", ends, np.zeros(2), ("limit", rgba8(LIMIT_COLOR)))
+    ends = np.array([t[0], t[-1]])
+    for i, limit in enumerate(plot.limits):
+        entity = f"plots/{drone}/{plot.name}/limit{'' if i == 0 else i + 1}"
+        _curve(stream, entity, ends, np.full(2, limit), ("limit", rgba8(LIMIT_COLOR)))
 
 
 def _curve(

@@ -25,7 +25,8 @@ def record(plan: VerifiedIR, path: Path) -> None:
     strict = rr.strict_mode()
     rr.set_strict_mode(True)
     try:
-        stream = rr.RecordingStream("shotc", recording_id=identity, send_properties=False)
+        # The viewer keeps one layout for every application id, so each mission has its own.
+        stream = rr.RecordingStream(f"shotc {mission.name}", recording_id=identity, send_properties=False)
         stream.set_log_time_enabled(False)
         stream.set_log_tick_enabled(False)
         stream.save(path)
@@ -41,10 +42,12 @@ def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
     bounds = scene_bounds(plan)
     log_world(stream, plan)
     frustum = float(np.clip(np.linalg.norm(bounds[1] - bounds[0]) / 14, 2.0, 40.0))
-    plots = {flight.drone: log_motion(stream, plan, flight, frustum) for flight in plan.trajectory.drones}
+    flown = {
+        flight.drone: (flight.curve.end, log_motion(stream, plan, flight, frustum))
+        for flight in plan.trajectory.drones
+    }
     for flight in plan.trajectory.drones[:1]:
         for start, text in phase_texts(plan, flight):
             stream.set_time("t", duration=start)
             stream.log("summary", rr.TextDocument(text, media_type="text/markdown"))
-    flying = tuple(mission.drone(flight.drone) for flight in plan.trajectory.drones)
-    stream.send_blueprint(blueprint(flying, plots, bounds), make_active=True, make_default=True)
+    stream.send_blueprint(blueprint(mission, flown, bounds), make_active=True, make_default=True)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import degrees
 
 import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, X, Y, Z
+from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z
 from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
@@ -20,20 +21,23 @@ RATE, MOST = 25.0, 6000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
-    """One curve of a plot: its name, samples over the flight's sample times, and its limit if it has one."""
+    """One curve of a plot: its name, and its samples at the flight's sample times, NaN for none."""
 
     name: str
     values: Array
-    limit: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plot:
-    """Curves that share an axis; ``title`` names the quantity and its unit."""
+    """Curves that share an axis, and the limits that they must not cross.
+
+    title : the quantity and its unit
+    """
 
     name: str
     title: str
     lines: tuple[Line, ...]
+    limits: tuple[float, ...] = ()
 
 
 def sample_times(flight: DroneTrajectory) -> Array:
@@ -44,33 +48,28 @@ def sample_times(flight: DroneTrajectory) -> Array:
 
 
 def motion_plots(flight: DroneTrajectory, drone: Drone, t: Array) -> tuple[Plot, ...]:
-    """Return speed, acceleration, jerk and turning rate against what the drone may do."""
-    place = flight.curve.channels(X, Y, Z)
-    velocity, limits = place.derivative()(t), drone.limits
+    """Return speeds, acceleration, jerk, turning rate and gimbal pitch against what the drone may do."""
+    place, limits = flight.curve.channels(X, Y, Z), drone.limits
+    velocity = place.derivative()(t)
     acceleration = np.linalg.norm(place.derivative(2)(t), axis=-1)
     jerk = np.linalg.norm(place.derivative(3)(t), axis=-1)
-    yaw_rate = np.degrees(np.abs(flight.curve.channels(BODY_YAW).derivative()(t)[:, 0]))
+    yaw_rate = np.degrees(flight.curve.channels(BODY_YAW).derivative()(t)[:, 0])
+    pitch = np.degrees(flight.curve.channels(CAM_PITCH)(t)[:, 0])
+    most_yaw, gimbal = degrees(limits.yaw_rate), tuple(degrees(end) for end in drone.gimbal.pitch)
+    speed = Line("speed", np.hypot(velocity[:, 0], velocity[:, 1]))
+    climb = Line("climb", velocity[:, 2])
     return (
-        Plot(
-            "speed",
-            "Speed (m/s)",
-            (
-                Line("horizontal", np.hypot(velocity[:, 0], velocity[:, 1]), limits.speed),
-                Line("climb", np.maximum(velocity[:, 2], 0.0), limits.climb),
-                Line("descent", np.maximum(-velocity[:, 2], 0.0), limits.descent),
-            ),
-        ),
+        Plot("speed", "Horizontal speed (m/s)", (speed,), (limits.speed,)),
+        Plot("climb", "Climb and descent (m/s)", (climb,), (limits.climb, -limits.descent)),
         Plot(
             "acceleration",
             "Acceleration (m/s²)",
-            (Line("acceleration", acceleration, limits.acceleration),),
+            (Line("acceleration", acceleration),),
+            (limits.acceleration,),
         ),
-        Plot("jerk", "Jerk (m/s³)", (Line("jerk", jerk, limits.jerk),)),
-        Plot(
-            "yaw_rate",
-            "Yaw rate (°/s)",
-            (Line("body", yaw_rate, float(np.degrees(limits.yaw_rate))),),
-        ),
+        Plot("jerk", "Jerk (m/s³)", (Line("jerk", jerk),), (limits.jerk,)),
+        Plot("yaw_rate", "Yaw rate (°/s)", (Line("yaw rate", yaw_rate),), (most_yaw, -most_yaw)),
+        Plot("gimbal_pitch", "Gimbal pitch (°)", (Line("pitch", pitch),), gimbal),
     )
 
 
@@ -103,27 +102,27 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
         ("ground", [ground]),
     )
     lines = tuple(Line(name, np.min(group, axis=0)) for name, group in groups if group)
-    return Plot("clearance", "Room left (m)", lines)
+    return Plot("clearance", "Room left (m)", lines, (0.0,))
 
 
 def gap(solid: Solid, p: Array) -> Array:
     """Return the distance of points from a solid, 0 inside; p has shape (n, 3), metres."""
     across = np.maximum(_across(solid, p), 0.0)
     below, above = solid.bottom - p[:, 2], p[:, 2] - solid.top
-    return np.hypot(across, np.maximum(np.maximum(below, above), 0.0))
+    return np.asarray(np.hypot(across, np.maximum(np.maximum(below, above), 0.0)))
 
 
 def room(solid: Solid, p: Array) -> Array:
     """Return how deep points lie inside a solid, negative outside; p has shape (n, 3), metres."""
     vertical = np.minimum(p[:, 2] - solid.bottom, solid.top - p[:, 2])
     inner = np.minimum(vertical, -_across(solid, p))
-    return np.where(inner >= 0, inner, -gap(solid, p))
+    return np.asarray(np.where(inner >= 0, inner, -gap(solid, p)))
 
 
 def _across(solid: Solid, p: Array) -> Array:
     """Return the signed horizontal distance to the footprint's edge, negative inside."""
     if isinstance(solid, Cylinder):
-        return np.hypot(p[:, 0] - solid.centre[0], p[:, 1] - solid.centre[1]) - solid.radius
+        return np.asarray(np.hypot(p[:, 0] - solid.centre[0], p[:, 1] - solid.centre[1]) - solid.radius)
     corner = np.array(solid.points)
     side = np.roll(corner, -1, axis=0) - corner
     away = p[:, None, :2] - corner[None]
@@ -134,4 +133,4 @@ def _across(solid: Solid, p: Array) -> Array:
     with np.errstate(divide="ignore", invalid="ignore"):
         x_cross = corner[:, 0] + side[:, 0] * away[..., 1] / side[:, 1]
     inside = (rises & (p[:, None, 0] < x_cross)).sum(axis=1) % 2 == 1
-    return np.where(inside, -distance, distance)
+    return np.asarray(np.where(inside, -distance, distance))

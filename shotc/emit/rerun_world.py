@@ -19,6 +19,9 @@ Array = NDArray[np.float64]
 SIDES = 48
 LIGHT = np.radians(215.0)
 """Where the light comes from, an angle of W."""
+MANY = 12
+"""From more keyframes than this on, only the shot is named."""
+
 PHASE_COLORS: dict[str, Rgb] = {
     "takeoff": VERTICAL,
     "transit": FLIGHT,
@@ -45,7 +48,7 @@ def log_world(stream: Any, plan: VerifiedIR) -> None:
         )
         stream.log(f"world/homes/{drone.name}", home, static=True)
     for flight in plan.trajectory.drones:
-        _flight(stream, flight)
+        _flight(stream, plan, flight)
 
 
 def scene_bounds(plan: VerifiedIR) -> tuple[Array, Array]:
@@ -84,7 +87,7 @@ def _zones(stream: Any, mission: MissionIR) -> None:
         color = KEEP_OUT if zone.keep == "out" else KEEP_IN
         entity = f"world/zones/{zone.name}"
         strips = [strip.tolist() for strip in edge_strips(zone.solid, SIDES)]
-        edges = rr.LineStrips3D(strips, radii=rr.Radius.ui_points(1.2), colors=[rgba8(color)])
+        edges = rr.LineStrips3D(strips, radii=rr.Radius.ui_points(0.7), colors=[rgba8(color)])
         stream.log(f"{entity}/edges", edges, static=True)
         if zone.keep == "out":
             points, faces, _ = solid_mesh(zone.solid)
@@ -93,7 +96,9 @@ def _zones(stream: Any, mission: MissionIR) -> None:
             )
             stream.log(f"{entity}/volume", mesh, static=True)
         stream.log(
-            f"{entity}/name", _name(_top(zone.solid), f"keep {zone.keep}: {zone.name}", color), static=True
+            f"{entity}/name",
+            _name(_top(zone.solid), f"keep {zone.keep}: {zone.name}", shade(color, 1.45)),
+            static=True,
         )
 
 
@@ -109,28 +114,29 @@ def _targets(stream: Any, mission: MissionIR) -> None:
         stream.log(f"world/targets/{target.name}/name", name, static=True)
 
 
-def _flight(stream: Any, flight: DroneTrajectory) -> None:
+def _flight(stream: Any, plan: VerifiedIR, flight: DroneTrajectory) -> None:
     for i, phase in enumerate(flight.phases):
         count = int(np.clip((phase.end - phase.start) * 10, 2, 600))
         strip = flight.curve(np.linspace(phase.start, phase.end, count))[:, :3]
-        width = 2.5 if phase.name == "shot" else 1.2
+        width = 1.6 if phase.name == "shot" else 0.8
         line = rr.LineStrips3D(
             [strip], radii=rr.Radius.ui_points(width), colors=[rgba8(PHASE_COLORS[phase.name])]
         )
         what = phase.name if phase.shot is None else f"shot_{phase.shot}"
         stream.log(f"world/path/{flight.drone}/{i:02d}_{what}", line, static=True)
-    for shot in dict.fromkeys(k.shot for k in flight.keyframes):
-        marks = [k for k in flight.keyframes if k.shot == shot]
-        few = len(marks) <= 12
-        places = np.stack([flight.curve(k.time)[:3] for k in marks])
-        points = rr.Points3D(
-            places,
-            radii=rr.Radius.ui_points(4 if few else 2),
-            colors=[rgba8(shade(CAMERA, 1.3))],
-            labels=[f"{shot} {k.index + 1}" for k in marks] if few else None,
-            show_labels=few,
-        )
-        stream.log(f"world/keyframes/{flight.drone}/{shot}", points, static=True)
+    for placed in plan.trajectory.keyframes.shots:
+        marks = [k for k in flight.keyframes if k.shot == placed.shot.id]
+        if marks:
+            by_hand = len(marks) <= MANY and all(keyframe.placed for keyframe in placed.keyframes)
+            named = [f"{k.shot} {k.index + 1}" for k in marks] if by_hand else []
+            points = rr.Points3D(
+                np.stack([flight.curve(k.time)[:3] for k in marks]),
+                radii=rr.Radius.ui_points(4.0 if by_hand else 2.5),
+                colors=[rgba8(shade(CAMERA, 1.3))],
+                labels=named or [placed.shot.id, *[""] * (len(marks) - 1)],
+                show_labels=True,
+            )
+            stream.log(f"world/keyframes/{flight.drone}/{placed.shot.id}", points, static=True)
 
 
 def _name(at: tuple[float, float, float], text: str, color: Rgb) -> Any:
