@@ -35,8 +35,15 @@ COMMANDS = {
     "schema": _Command("shotc.cli.schema:schema", _LEARN),
     "plan": _Command("shotc.cli.plan:plan", _PLAN),
 }
-_HELP = "Compile a YAML mission into verified, flyable camera motion."
-_EPILOG = "Example: shotc new landmark -o tower.yaml, then shotc check tower.yaml, then shotc plan tower.yaml"
+_HELP = """Compile a YAML mission into verified, flyable camera motion.
+
+In three steps:
+
+1. `shotc new landmark -o tower.yaml` starts a mission from a template
+2. `shotc check tower.yaml` says what is wrong with it, and where
+3. `shotc plan tower.yaml` plans it, proves the plan and writes what flies
+"""
+_EPILOG = "Exit status: 0 clean, 1 mission rejected, 2 usage, 70 a bug of ours, 130 interrupted."
 _BROKEN_PIPE = 128 + 13
 """What a shell reports of a command that a closed pipe ended."""
 
@@ -76,7 +83,7 @@ def application(names: Sequence[str] = tuple(COMMANDS)) -> typer.Typer:
         help=_HELP,
         epilog=_EPILOG,
         add_completion=len(names) == len(COMMANDS),
-        rich_markup_mode="rich",
+        rich_markup_mode="markdown",
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )

@@ -51,7 +51,7 @@ def check(specs: Specs, format: FormatOption = None, stdin_filename: StdinName =
     Loads no solver, so it serves editors, hooks and CI. Findings go to standard output; the exit status is
     1 if a mission is rejected.
 
-    Example: shotc check specs/ --format concise
+    Example: `shotc check specs/ --format concise`
     """
     chosen = format or (Format.GITHUB if os.environ.get("GITHUB_ACTIONS") else Format.TEXT)
     gathered = gather(specs, stdin_filename)

@@ -23,7 +23,7 @@ Code = Annotated[
 def explain(code: Code = None) -> None:
     """Explain a diagnostic: what it means, why, and how to mend it.
 
-    Example: shotc explain Y012, or shotc explain duplicate-key
+    Example: `shotc explain Y012` or `shotc explain duplicate-key`
     """
     table = registry()
     console.out(_listing(table) if code is None else _page(_find(code, table)))

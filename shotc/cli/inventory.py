@@ -27,7 +27,7 @@ GroupArgument = Annotated[Group, typer.Argument(help="What to list.")]
 def show(group: GroupArgument) -> None:
     """List what a mission can name: kinds, drones, refiners, emitters or compositions.
 
-    Example: shotc list kinds
+    Example: `shotc list kinds`
     """
     rows = _rows(group)
     width = max((len(name) for name, _ in rows), default=0)

@@ -29,7 +29,7 @@ Force = Annotated[bool, typer.Option("--force", help="Replace the file if it exi
 def new(template: Template = None, output: OutputFile = None, force: Force = False) -> None:
     """Start a mission from a template.
 
-    Example: shotc new landmark -o tower.yaml
+    Example: `shotc new landmark -o tower.yaml`
     """
     templates = _templates()
     if template is None:

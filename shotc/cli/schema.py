@@ -10,8 +10,8 @@ from shotc.cli import console
 def schema() -> None:
     """Print the JSON Schema of a mission, with the kinds that are installed.
 
-    Example: shotc schema > mission.schema.json, then begin a mission with the line
-    "# yaml-language-server: $schema=mission.schema.json" to have an editor complete and check it.
+    Example: `shotc schema > mission.schema.json`; an editor completes and checks a mission
+    whose first line is `# yaml-language-server: $schema=mission.schema.json`.
     """
     from shotc.api import json_schema
 

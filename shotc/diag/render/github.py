@@ -29,7 +29,7 @@ def _command(diagnostic: Diagnostic) -> str:
 
 
 def _text(diagnostic: Diagnostic) -> str:
-    remarks = [f"note: {note}" for note in diagnostic.notes]
+    remarks = [f"note: {note}" for note in diagnostic.notes if note]
     if diagnostic.help:
         remarks.append(f"help: {diagnostic.help}")
     return "\n".join([diagnostic.message, *remarks])

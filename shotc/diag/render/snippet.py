@@ -70,8 +70,8 @@ def _marked_line(content: str, marks: Sequence[_Mark], style: Style, gutter: int
     shown = visible(content[left:right])
     head = _CUT if left else ""
     tail = _CUT if right < len(content) else ""
-    number: Piece = (f"{marks[0].line:>{gutter}} | ", "gutter")
-    yield [number, (f"{head}{shown}{tail}".rstrip(), "plain")]
+    source = f"{head}{shown}{tail}".rstrip()
+    yield [(f"{marks[0].line:>{gutter}} |", "gutter"), (f" {source}" if source else "", "plain")]
     for mark in marks:
         if mark.end - 1 <= left or mark.start - 1 > right:  # cut away; a mark may stand behind the end
             continue
