@@ -213,7 +213,11 @@ def _is_ear(ring: list[Vec2], i: int) -> bool:
 
 
 def _segments_cross(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool:
-    return _cross(a, b, c) * _cross(a, b, d) <= 0 and _cross(c, d, a) * _cross(c, d, b) <= 0
+    # Lines that cross or touch, and boxes that overlap: the second tells collinear segments apart.
+    boxes = all(
+        max(min(a[k], b[k]), min(c[k], d[k])) <= min(max(a[k], b[k]), max(c[k], d[k])) for k in (0, 1)
+    )
+    return boxes and _cross(a, b, c) * _cross(a, b, d) <= 0 and _cross(c, d, a) * _cross(c, d, b) <= 0
 
 
 def _cross(a: Vec2, b: Vec2, c: Vec2) -> float:
