@@ -18,21 +18,21 @@ Loc = tuple[str | int, ...]
 T = TypeVar("T")
 
 
-def fault(slug: str, message: str, help: str = "", notes: tuple[str, ...] = ()) -> PydanticCustomError:
+def fault(
+    slug: str, message: str, help: str = "", notes: tuple[str, ...] = (), beside: str = ""
+) -> PydanticCustomError:
     """Return an error for pydantic that ``load`` reports under the code with this slug.
 
     message : lower case, no final stop; help : the change that would make it work; notes : facts
+    beside : a key of the same mapping that has to do with it, shown too
     """
     # pydantic fills the template from the context; only the context is read back.
-    return PydanticCustomError(slug, "{message}", {"message": message, "help": help, "notes": notes})
+    context = {"message": message, "help": help, "notes": notes, "beside": beside}
+    return PydanticCustomError(slug, "{message}", context)
 
 
 def fault_at(
-    loc: Loc,
-    slug: str,
-    message: str,
-    help: str = "",
-    notes: tuple[str, ...] = (),
+    loc: Loc, slug: str, message: str, help: str = "", notes: tuple[str, ...] = ()
 ) -> ValidationError:
     """Return the same fault placed at ``loc`` below the value under validation."""
     return together([InitErrorDetails(type=fault(slug, message, help, notes), loc=loc, input=None)])
@@ -61,7 +61,7 @@ def details_of(error: ValidationError | PydanticCustomError, loc: Loc = ()) -> l
 def _again(item: Any) -> PydanticCustomError:
     ctx = item.get("ctx", {})
     if "message" in ctx:
-        return fault(item["type"], ctx["message"], ctx["help"], ctx["notes"])
+        return fault(item["type"], ctx["message"], ctx["help"], ctx["notes"], ctx["beside"])
     return PydanticCustomError(item["type"], item["msg"].replace("{", "("), ctx)
 
 

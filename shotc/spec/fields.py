@@ -59,7 +59,7 @@ __all__ = [
 _LENGTH = Quantity("Length", "length")
 _POSITIVE_LENGTH = Quantity("PositiveLength", "length", SMALLEST["length"])
 _ANGLE = Quantity("Angle", "angle")
-_PITCH = Quantity("Pitch", "angle", -pi / 2, pi / 2)
+_PITCH = Quantity("Pitch", "angle", -pi / 2, pi / 2, noun="pitch")
 _VELOCITY = Quantity("SignedSpeed", "speed")
 _SHARE = Quantity("Share", "ratio", 0.0, 1.0)
 _POSITIVE_SHARE = Quantity("PositiveShare", "ratio", SMALLEST["ratio"], 1.0)
@@ -74,7 +74,10 @@ Jerk = Annotated[float, Quantity("Jerk", "jerk", SMALLEST["jerk"])]
 Angle = Annotated[float, _ANGLE]
 Pitch = Annotated[float, _PITCH]
 FieldOfView = Annotated[
-    float, Quantity("FieldOfView", "angle", radians(1), radians(170), fault="impossible-camera")
+    float,
+    Quantity(
+        "FieldOfView", "angle", radians(1), radians(170), fault="impossible-camera", noun="field of view"
+    ),
 ]
 AngularRate = Annotated[float, Quantity("AngularRate", "angular rate", SMALLEST["angular rate"])]
 AngularAcceleration = Annotated[

@@ -134,4 +134,5 @@ def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:
     label = origins.value(finding.path) if finding.blame == "value" else origins.key(finding.path)
     if finding.path == ():
         label = Label(origins.file, WHOLE_FILE)
-    return Diagnostic(_CODES[finding.slug], finding.message, (label,), finding.notes, finding.help)
+    related = (origins.key(finding.beside, "given here"),) if finding.beside else ()
+    return Diagnostic(_CODES[finding.slug], finding.message, (label, *related), finding.notes, finding.help)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, ValidationError, model_validator
 from pydantic.fields import FieldInfo
@@ -50,12 +50,9 @@ class OneOf:
 
     def _conflict(self, present: list[str]) -> InitErrorDetails:
         first, last = present[0], next(k for k in present if not self._together(present[0], k))
-        return _detail(
-            (last,),
-            "conflicting-fields",
-            f"`{last}` cannot stand beside `{first}`",
-            f"give {self._choice()}",
-        )
+        message = f"`{last}` cannot stand beside `{first}`"
+        clash = fault("conflicting-fields", message, f"give {self._choice()}", beside=first)
+        return InitErrorDetails(type=clash, loc=(last,), input=None)
 
     def _together(self, one: str, other: str) -> bool:
         return any(one in form and other in form for form in self.forms)
@@ -130,7 +127,8 @@ class Model(BaseModel):
             _missing(key, cls.model_fields[key]) for key in missing if key not in misspelt | data.keys()
         ]
         strange = [_unknown(key, missing, cls.model_fields) for key in unknown]
-        others = [d for d in details if not (_is(d, "missing") or _is(d, "extra_forbidden") or _echo(d, details))]
+        own = [d for d in details if _is(d, "missing") or _is(d, "extra_forbidden")]
+        others = [d for d in details if d not in own and not _echo(d, details)]
         return [*others, *absent, *strange]
 
 
@@ -184,10 +182,21 @@ def _missing(key: str, field: FieldInfo) -> InitErrorDetails:
     return _detail((), "missing-field", f"missing key `{key}`", help_)
 
 
-def _unknown(key: str, missing: list[str], known: Mapping[str, object]) -> InitErrorDetails:
+def _unknown(key: str, missing: list[str], known: Mapping[str, FieldInfo]) -> InitErrorDetails:
     close = get_close_matches(key, missing, n=1, cutoff=0.6)
+    below = [name for name, field in known.items() if key in _keys_below(field)]
     help_ = f"did you mean `{close[0]}`?" if close else nearest(key, known)
+    if below:
+        help_ = f"`{key}` belongs under `{below[0]}`"
     return _detail((key,), "unknown-field", f"unknown key `{clip(key)}`", help_)
+
+
+def _keys_below(field: FieldInfo) -> Mapping[str, object]:
+    """Return the keys of the mapping that a field holds, if it holds one."""
+    for part in (field.annotation, *get_args(field.annotation)):
+        if isinstance(part, type) and issubclass(part, Model):
+            return part.model_fields
+    return {}
 
 
 def _detail(loc: tuple[str | int, ...], slug: str, message: str, help_: str = "") -> InitErrorDetails:

@@ -31,7 +31,7 @@ from shotc.units import (
 class Quantity(FieldType):
     """A number with a dimension, kept in SI, between ``low`` and ``high`` (SI, inclusive).
 
-    fault : slug of the code for a value out of bounds
+    fault : slug of the code for a value out of bounds; noun : what messages about bounds call it
     """
 
     label: str
@@ -39,6 +39,7 @@ class Quantity(FieldType):
     low: float = -inf
     high: float = inf
     fault: str = "out-of-range"
+    noun: str = ""
 
     def read(self, value: Any) -> float:
         """Return the value in SI."""
@@ -51,7 +52,7 @@ class Quantity(FieldType):
         raise fault(
             self.fault,
             f"`{clip(str(value))}` is {'below' if number < self.low else 'above'} "
-            f"what {a(self.dimension)} may be here",
+            f"what {a(self.noun or self.dimension)} may be here",
             f"give {self._bounds()}",
         )
 
@@ -69,7 +70,7 @@ class Quantity(FieldType):
     def _bounds(self) -> str:
         if self.low == SMALLEST[self.dimension]:
             most = f", at most {self.show(self.high)}" if self.high < inf else ""
-            return f"{a(self.dimension)} above 0{most}"
+            return f"{a(self.noun or self.dimension)} above 0{most}"
         if self.high == inf:
             return f"at least {self.show(self.low)}"
         if self.low == -inf:

@@ -22,6 +22,7 @@ class Finding:
     """A fault before it has a place in the text.
 
     path : key path from the top of the mission; slug : of its code; blame : what to underline there
+    beside : path of another key that has to do with it
     """
 
     path: KeyPath
@@ -30,6 +31,7 @@ class Finding:
     help: str = ""
     notes: tuple[str, ...] = ()
     blame: Literal["key", "value"] = "value"
+    beside: KeyPath | None = None
 
 
 def findings(error: ValidationError) -> list[Finding]:
@@ -45,7 +47,8 @@ def _finding(item: Any) -> Finding:
     if "message" not in ctx:
         return _own_words(path, item)
     blame: Literal["key", "value"] = "key" if on_key else "value"
-    return Finding(path, slug, ctx["message"], ctx["help"], tuple(ctx["notes"]), blame)
+    beside = (*path[:-1], ctx["beside"]) if ctx["beside"] else None
+    return Finding(path, slug, ctx["message"], ctx["help"], tuple(ctx["notes"]), blame, beside)
 
 
 def _own_words(path: KeyPath, item: Any) -> Finding:

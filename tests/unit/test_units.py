@@ -135,7 +135,9 @@ def test_anything_is_a_bounded_number_or_a_fault(value, dimension):
     try:
         number = parse_quantity(value, dimension)
     except QuantityError as error:
-        assert error.message
-        assert "\n" not in error.message + error.help
+        fault = error
     else:
         assert abs(number) <= LARGEST[dimension]
+        return
+    assert fault.message
+    assert "\n" not in fault.message + fault.help

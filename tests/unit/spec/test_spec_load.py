@@ -141,7 +141,7 @@ shots:
   - {id: a, kind: orbit, drone: cam1, target: tower, radius: 3, altitud: 5}
   - {id: b, kind: whirl, drone: cam1, pace: 3}
   - 7
-  - {id: c, kind: keyframes, drone: cam1, keyframes: [{at: [0, 0, 1], heading: 1 deg}, {at: [0, 0], look_at: 3}]}
+  - {id: c, kind: keyframes, drone: cam1, keyframes: [{at: [0, 0], look_at: 3}, {heading: 1 deg}]}
 """
     expected = [
         (1, "missing-version"),
@@ -160,9 +160,10 @@ shots:
         (13, "unknown-kind"),
         (13, "out-of-range"),
         (14, "wrong-type"),
-        (15, "missing-field"),
         (15, "wrong-length"),
         (15, "wrong-type"),
+        (15, "missing-field"),
+        (15, "missing-field"),
     ]
     found = loads(text).diagnostics
     assert [(d.labels[0].span.line, registry()[d.code].slug) for d in found] == expected
@@ -171,6 +172,17 @@ shots:
 def test_a_misspelt_key_is_one_fault_not_two(loads):
     found = loads(BASE.replace("radius: 4", "radios: 4")).diagnostics
     assert [(d.code, d.help) for d in found] == [(CODE_OF["unknown-field"], "did you mean `radius`?")]
+
+
+def test_a_key_one_level_too_high_is_told_where_it_belongs(loads):
+    found = loads(BASE.replace("home:", "hfov: 60 deg, home:")).diagnostics
+    assert [(d.code, d.help) for d in found] == [(CODE_OF["unknown-field"], "`hfov` belongs under `camera`")]
+
+
+def test_conflicting_keys_are_both_shown(loads):
+    (found,) = loads(BASE.replace("radius: 4", "radius: 4, track: {file: a.csv}")).diagnostics
+    assert [label.span.column for label in found.labels] == [38, 11]
+    assert found.help == "give `at` or `track`"
 
 
 def test_another_version_silences_everything_else(loads):
