@@ -28,15 +28,14 @@ from shotc.emit.mavlink_report import coarsened, cut, left_out, no_origin, note,
 from shotc.emit.mavlink_speed import DEFAULTS
 from shotc.emit.mavlink_steps import Step, steps_of, whole_seconds
 from shotc.emit.mavlink_style import Style, style_of
-from shotc.emit.mavlink_thin import Thinner, Tolerance, thinner_of
+from shotc.emit.mavlink_thin import Leg, Tolerance, thinner_of
 from shotc.emit.mavlink_track import SAMPLE_STEP, Track, track_of
 from shotc.emit.mavlink_wpl import read_waypoints, write_waypoints
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
-COARSER = 1.4  # step by which tolerances grow until a flight fits into the autopilot's memory
-FRAMING_MOST = 16.0  # times the framing tolerances, after which position gives way too
-POSITION_MOST = 16.0  # times the position tolerance; a list still too long then is all stops
+COARSER = 16.0  # times the tolerances at most, first those of framing, then that of position
+HALVINGS = 6  # of the search for the least coarseness that fits into the autopilot's memory
 
 
 class MavlinkEmitter:
@@ -138,21 +137,27 @@ class _Job:
 
     def _fit(self) -> _Flight:
         thinner = thinner_of(self.track, self.drone, self.style, self.obstacles)
-        framing = position = 1.0
-        while True:
-            flight = self._write(thinner, Tolerance().scaled(framing, position), coarser=framing > 1.0)
-            if len(flight.items) <= self.dialect.most_items or position > POSITION_MOST:
-                return flight
-            if framing < FRAMING_MOST:
-                framing *= COARSER
-            else:
-                position *= COARSER
+        intended = Tolerance()
+        flight = self._write(thinner.legs(intended), coarser=False)
+        if len(flight.items) <= self.dialect.most_items:
+            return flight
+        low, high = 0.0, 2.0
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            trial = self._write(thinner.legs(_coarse(intended, middle), even=False), coarser=True)
+            low, high = (low, middle) if len(trial.items) <= self.dialect.most_items else (middle, high)
+        return self._write(thinner.legs(_coarse(intended, high), even=False), coarser=True)
 
-    def _write(self, thinner: Thinner, tolerance: Tolerance, *, coarser: bool) -> _Flight:
-        asked = steps_of(self.track, self.style, thinner.legs(tolerance))
+    def _write(self, legs: list[Leg], *, coarser: bool) -> _Flight:
+        asked = steps_of(self.track, self.style, legs)
         steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
         builder = Builder(self.drone, self.style, self.dialect, self.geo, DEFAULTS[self.drone.autopilot])
         return _Flight(builder.build(self.track, steps), asked, steps, coarser)
+
+
+def _coarse(intended: Tolerance, degree: float) -> Tolerance:
+    """Return the tolerance at a degree of coarseness: framing gives way up to 1, position beyond, to 2."""
+    return intended.scaled(COARSER ** min(degree, 1.0), COARSER ** max(degree - 1.0, 0.0))
 
 
 EMITTER = MavlinkEmitter()

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 SEARCH = 3.0  # metres of way before and behind the expected place in which the nearest point is sought
 CHUNK = 256  # planned points compared at once, to bound memory
-ORDER = 0.02  # how much a metre of wrong progress counts against a metre of distance
+ORDER = 1e-3  # how much a metre of wrong progress counts against a metre of distance
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,7 @@ from shotc.ir.mission import Vec3
 Array = NDArray[np.float64]
 
 SETTLE = 1.0  # seconds of standstill before and after a shot that begins or ends at rest
+ALIGN = 3.0  # seconds, in which a body turns half round
 STANDSTILL = 0.05  # m/s
 SAME = float(np.radians(0.1))  # angles closer than this need no command of their own
 RADIUS_LEAST, RADIUS_REST = 0.3, 0.5  # metres, of acceptance
@@ -45,6 +46,8 @@ class Step:
 def steps_of(track: Track, style: Style, legs: list[Leg]) -> list[Step]:
     """Return the steps that fly ``legs``; a stay that asks for no new angles joins the step before it."""
     steps: list[Step] = []
+    if legs and legs[0].shot is not None:
+        steps.append(_aligned(track))
     for index, leg in enumerate(legs):
         step = _step(track, style, leg, legs[index + 1] if index + 1 < len(legs) else None)
         if leg.rest and steps and _joins(track, steps[-1], step):
@@ -63,6 +66,12 @@ def whole_seconds(steps: list[Step]) -> list[Step]:
         owed = step.hold + owed - hold if step.hold > 0 else 0.0
         out.append(replace(step, hold=hold))
     return out
+
+
+def _aligned(track: Track) -> Step:
+    """Return a stay above the pad, for a flight that films from there: no other leg turns the body first."""
+    command = command_of(track.poses, 0, 0, filmed=False)
+    return Step(Leg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, ALIGN, RADIUS_REST)
 
 
 def _step(track: Track, style: Style, leg: Leg, following: Leg | None) -> Step:

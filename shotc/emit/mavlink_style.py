@@ -25,7 +25,9 @@ Array = NDArray[np.float64]
 
 CENTRED = 0.02  # (u, v); a target that stays this near to the centre is framed by following it
 SWIVEL_LEAST = 2.0  # degrees of gimbal yaw; less is no freedom
-MOVES_LEAST = 1.0  # metres; a camera that stays in place gains nothing from a region of interest
+WINDOW = 20  # samples over which looking at a place is compared with looking in a direction
+GAIN_LEAST = 0.5  # a place has to halve the error to be worth it
+TURN_LEAST = 1e-7  # 1 - cos of the turn in a window that counts as one
 AWAY_MOST = 500.0  # metres to a region of interest where nothing near is framed
 NEAR_PARALLEL = 1e-7  # mean squared angle between camera axes that no longer tells where they meet, rad^2
 PAN_LEAST = np.radians(0.5)  # body and camera that never part further than this count as one
@@ -73,7 +75,7 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style
         target = _lone_target(flight, phase)
         if target is not None and _is_centred(select(poses, inside), track.subject[inside], drone):
             followed[phase.shot] = mission.target(target).centre
-        elif swivels(drone) and np.ptp(poses.position[inside], axis=0).max() > MOVES_LEAST:
+        elif swivels(drone) and _gains(select(poses, inside), track.subject[inside]):
             aimed.add(phase.shot)
     return Style(drone.autopilot, bool(parted > PAN_LEAST), followed, frozenset(aimed))
 
@@ -84,22 +86,7 @@ def region_of(style: Style, track: Track, part: slice, shot: str | None) -> Vec3
         return style.followed[shot or ""]
     if shot not in style.aimed:
         return None
-    poses = track.poses
-    position, yaw, pitch = poses.position[part], poses.cam_yaw[part], poses.cam_pitch[part]
-    level = np.cos(pitch)
-    axis = np.stack([level * np.cos(yaw), level * np.sin(yaw), np.sin(pitch)], axis=1)
-    middle = len(axis) // 2
-    away = min(float(np.linalg.norm(track.subject[part][middle] - position[middle])), AWAY_MOST)
-    ahead = position[middle] + away * axis[middle]
-    # The point with the least squared distance to all axes, held near ``ahead`` where they are parallel.
-    across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
-    pull = NEAR_PARALLEL * len(axis)
-    meeting = np.linalg.solve(
-        across.sum(axis=0) + pull * np.eye(3),
-        np.einsum("nij,nj->i", across, position) + pull * ahead,
-    )
-    best = min((meeting, ahead), key=lambda point: _off_axis(point, position, axis))
-    return (float(best[0]), float(best[1]), float(best[2]))
+    return _meeting(select(track.poses, part), track.subject[part])
 
 
 def command_of(poses: Poses, first: int, last: int, *, filmed: bool) -> Command:
@@ -148,6 +135,44 @@ def select(poses: Poses, part: NDArray[np.bool_] | slice) -> Poses:
         poses.cam_pitch[part],
         poses.hfov[part],
     )
+
+
+def _meeting(poses: Poses, subject: Array) -> Vec3:
+    """Return the point with the least squared distance to all camera axes, or one straight ahead."""
+    position, axis = poses.position, _axes(poses)
+    middle = len(axis) // 2
+    away = min(float(np.linalg.norm(subject[middle] - position[middle])), AWAY_MOST)
+    ahead = position[middle] + away * axis[middle]
+    # Held near ``ahead`` where the axes are parallel.
+    across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
+    pull = NEAR_PARALLEL * len(axis)
+    meeting = np.linalg.solve(
+        across.sum(axis=0) + pull * np.eye(3),
+        np.einsum("nij,nj->i", across, position) + pull * ahead,
+    )
+    best = min((meeting, ahead), key=lambda point: _off_axis(point, position, axis))
+    return (float(best[0]), float(best[1]), float(best[2]))
+
+
+def _axes(poses: Poses) -> Array:
+    level = np.cos(poses.cam_pitch)
+    return np.stack(
+        [level * np.cos(poses.cam_yaw), level * np.sin(poses.cam_yaw), np.sin(poses.cam_pitch)], axis=1
+    )
+
+
+def _gains(poses: Poses, subject: Array) -> bool:
+    """Tell whether looking at places shows a shot better than looking in directions, window by window."""
+    axis = _axes(poses)
+    by_place = by_direction = 0.0
+    for first in range(0, len(axis) - 1, WINDOW):
+        part = slice(first, first + WINDOW + 1)
+        point = _meeting(select(poses, part), subject[part])
+        by_place += _off_axis(np.array(point), poses.position[part], axis[part])
+        middle = axis[part][len(axis[part]) // 2]
+        by_direction += float(1.0 - (axis[part] @ middle).min())
+    turns = by_direction > TURN_LEAST * len(axis) / WINDOW
+    return turns and by_place < GAIN_LEAST * by_direction
 
 
 def _off_axis(point: Array, position: Array, axis: Array) -> float:

@@ -62,9 +62,10 @@ class Thinner:
     obstacles: tuple[Obstacle, ...]
     planned_shortfall: tuple[Array, ...]
 
-    def legs(self, tolerance: Tolerance) -> list[Leg]:
-        """Return the legs of the whole track."""
-        return [leg for stretch in self.track.stretches for leg in self._even(stretch, tolerance)]
+    def legs(self, tolerance: Tolerance, *, even: bool = True) -> list[Leg]:
+        """Return the legs of the whole track; ``even`` ones cost more time and no more legs."""
+        cut = self._even if even else self._greedy
+        return [leg for stretch in self.track.stretches for leg in cut(stretch, tolerance)]
 
     def _even(self, stretch: Stretch, tolerance: Tolerance) -> list[Leg]:
         # Greedy cutting leaves a short last leg; a tighter tolerance that needs no more legs evens them.
