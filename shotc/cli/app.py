@@ -7,6 +7,7 @@ import gc
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Annotated
@@ -114,7 +115,8 @@ def _global_flags(
 ) -> None:
     console.configure(color, quiet=quiet)
     if ctx.invoked_subcommand is None:
-        console.note(ctx.get_help())
+        with redirect_stdout(sys.stderr):  # asked for nothing, it is a message and no result
+            ctx.get_help()
         raise typer.Exit(console.EXIT_USAGE)
 
 

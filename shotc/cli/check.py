@@ -90,5 +90,6 @@ def _conclusion(gathered: Gathered, *, clean: bool) -> str:
     number = len(gathered.missions)
     said = f"checked {number} mission{'s' if number > 1 else ''}" + (": no errors" if clean else "")
     if gathered.skipped:
-        said += f"; passed over {gathered.skipped} YAML files without a top-level key `shotc`"
+        files = "file" if gathered.skipped == 1 else "files"
+        said += f"; passed over {gathered.skipped} YAML {files} without a top-level key `shotc`"
     return said

@@ -1,0 +1,109 @@
+"""The commands that teach: explain, list, new and schema."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from shotc.cli import new
+from shotc.diag.registry import registry
+from tests.cli.conftest import GOOD, Run
+
+
+@pytest.mark.parametrize("name", ["Y012", "y012", "duplicate-key", "Duplicate-Key"])
+def test_a_code_by_number_or_name(run: Run, name: str) -> None:
+    result = run("explain", name)
+    assert result.code == 0
+    assert result.out.startswith("Y012 duplicate-key: a key is given twice\nerror, since 0.1\n")
+    assert "Raises it:\n\n    shotc: 1\n    mission: look\n    mission: again\n" in result.out
+    assert "Passes:" in result.out
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [("duplicat-key", "Y012 (duplicate-key)"), ("Y912", "Y012"), ("zzzz", "lists all codes")],
+)
+def test_an_unknown_code_gets_the_nearest(run: Run, name: str, hint: str) -> None:
+    result = run("explain", name)
+    assert (result.code, result.out) == (2, "")
+    assert hint in result.err
+
+
+def test_all_codes_by_family(run: Run) -> None:
+    out = run("explain").out
+    assert out.startswith("Y: text and YAML\n  Y001  ")
+    assert all(f"  {code}  {info.slug}" in out for code, info in registry().items())
+
+
+@pytest.mark.parametrize(
+    ("group", "name"),
+    [
+        ("kinds", "orbit"),
+        ("drones", "x500"),
+        ("refiners", "none"),
+        ("emitters", "csv"),
+        ("compositions", "thirds"),
+    ],
+)
+def test_lists_name_and_summary(run: Run, group: str, name: str) -> None:
+    result = run("list", group)
+    assert result.code == 0
+    rows = dict(line.split(maxsplit=1) for line in result.out.splitlines())
+    assert rows[name]
+
+
+def test_an_unknown_list(run: Run) -> None:
+    assert run("list", "planes").code == 2
+
+
+def test_the_schema_is_json(run: Run) -> None:
+    document = json.loads(run("schema").out)
+    assert document["$schema"].startswith("https://json-schema.org/")
+    assert "shots" in document["properties"]
+
+
+@pytest.fixture
+def _templates(monkeypatch: pytest.MonkeyPatch) -> None:
+    texts = {"landmark": b"# A tower.\n" + GOOD.encode(), "orbit": GOOD.encode()}
+    monkeypatch.setattr(new, "_templates", lambda: texts)
+
+
+@pytest.mark.usefixtures("_templates")
+class TestNew:
+    def test_templates_are_listed(self, run: Run) -> None:
+        assert run("new").out == "landmark  A tower.\norbit\n"
+
+    def test_a_mission_that_checks(self, run: Run) -> None:
+        result = run("new", "landmark", "-o", "a/my.yaml")
+        assert (result.code, result.out) == (0, "wrote a/my.yaml\n")
+        assert "shotc check a/my.yaml" in result.err
+        assert run("check", "a/my.yaml").code == 0
+
+    def test_the_name_is_the_default(self, run: Run) -> None:
+        assert run("new", "orbit.yaml").code == 0
+        assert Path("orbit.yaml").read_text() == GOOD
+
+    def test_nothing_is_overwritten_unasked(self, run: Run) -> None:
+        Path("orbit.yaml").write_text("mine")
+        result = run("new", "orbit")
+        assert result.code == 2
+        assert "--force" in result.err
+        assert Path("orbit.yaml").read_text() == "mine"
+        assert run("new", "orbit", "--force").code == 0
+        assert Path("orbit.yaml").read_text() == GOOD
+
+    def test_to_standard_output(self, run: Run) -> None:
+        assert run("new", "orbit", "-o", "-").out == GOOD
+
+    def test_an_unknown_template_gets_the_nearest(self, run: Run) -> None:
+        result = run("new", "landmrk")
+        assert result.code == 2
+        assert "`landmark`" in result.err
+
+    def test_a_place_that_cannot_be_written(self, run: Run) -> None:
+        Path("file").write_text("")
+        result = run("new", "orbit", "-o", "file/x.yaml")
+        assert result.code == 1
+        assert "error[E901]" in result.err
