@@ -117,7 +117,11 @@ def _broken(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
     rule = rule_of(claim.constraint, mission)
     phase = _phase_of(ir, claim)
     limit = f"{'at most' if claim.upper else 'at least'} {measure(claim.limit, claim.unit)}"
-    state = f"is {measure(claim.worst, claim.unit)}" if isfinite(claim.worst) else UNKNOWN[rule.code]
+    state = (
+        f"is {measure(claim.worst, claim.unit)}"
+        if isfinite(claim.worst)
+        else UNKNOWN.get(rule.code, "has no bound")
+    )
     wanted = "allowed" if claim.upper else "needed"
     return Diagnostic(
         rule.code,

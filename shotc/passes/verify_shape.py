@@ -20,6 +20,12 @@ AT_HOME = 1e-3
 AT_REST = 1e-6
 """m/s and rad/s (m/s^2, rad/s^2) of any channel that still count as rest."""
 
+LARGEST = 1e6
+"""Metres or radians beyond which nothing is a flight; within it doubles resolve a nanometre."""
+
+SHORTEST = 1e-5
+"""Seconds of the shortest piece; below it third derivatives drown in rounding."""
+
 ROUNDING = 16 * np.finfo(float).eps
 ORDERS = ("value", "rate", "acceleration")
 
@@ -51,6 +57,12 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
     curve, phases = track.curve, track.phases
     if curve.ctrl.shape[2] != len(CHANNELS):
         yield f"its curve has {curve.ctrl.shape[2]} channels, not {len(CHANNELS)}"
+        return
+    if np.abs(curve.ctrl).max() > LARGEST:
+        yield f"its curve reaches {np.abs(curve.ctrl).max():.3g}, beyond any flight"
+        return
+    if np.diff(curve.breaks).min() < SHORTEST:
+        yield f"a piece of its curve lasts only {np.diff(curve.breaks).min():.3g} s"
         return
     times = [t for p in phases for t in (p.start, p.end)] + [k.time for k in track.keyframes]
     times += [t for f in track.framing for t in (f.start, f.end)]

@@ -28,6 +28,9 @@ UNLIMITED = {
     (Claim, "worst"),
 }
 
+LARGEST = 1e12
+"""Size of the largest number that is read: whatever it measures, more than that is damage."""
+
 INFINITE = {"inf": inf, "-inf": -inf}
 
 
@@ -143,11 +146,11 @@ class Decoder:
     def _scalar(self, kind: Any, value: Any, path: str) -> Any:
         if kind is float and is_number(value):
             try:
-                if isfinite(float(value)):
+                if abs(float(value)) <= LARGEST:
                     return float(value)
             except OverflowError:
                 pass
-            self.fault(path, f"{show(value)} is not a finite number")
+            self.fault(path, f"{show(value)} is not a finite number, or too large a one")
             return None
         if type(value) is not kind:
             self.fault(path, f"{show(value)} is not {NAMES[kind]}")
@@ -172,10 +175,12 @@ class Decoder:
     def _array(self, value: Any, depth: int, path: str) -> Any:
         try:
             if numeric(value, depth):
-                return np.array(value, dtype=np.float64)
+                found = np.array(value, dtype=np.float64)
+                if np.abs(found).max() <= LARGEST:
+                    return found
         except (ValueError, OverflowError):
             pass
-        self.fault(path, f"is not a table of numbers in {depth} dimension{'s' * (depth > 1)}")
+        self.fault(path, f"is not a table of finite numbers in {depth} dimension{'s' * (depth > 1)}")
         return None
 
 

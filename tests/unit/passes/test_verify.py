@@ -119,6 +119,8 @@ def test_known_values() -> None:
     assert claim(PLAN, "tower in frame").method == "bounded"
 
 
+CURVE = PLAN.drones[0].curve
+
 TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("speed limit", with_limits(speed=7.8), {"V001"}),
     ("climb limit", with_limits(climb=1.8), {"V001"}),
@@ -150,6 +152,9 @@ TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("unknown shot", with_phase(2, shot="other"), {"V014"}),
     ("no phases", with_track(phases=()), {"V014"}),
     ("unknown drone", with_track(drone="cam9"), {"V014"}),
+    ("huge control point", with_ctrl(lambda c: c.__setitem__((5, 2, 1), 1e300)), {"V014"}),
+    ("nanosecond piece", with_track(curve=Piecewise(
+        np.insert(CURVE.breaks, 1, 1e-9), np.insert(CURVE.ctrl, 0, 0.0, axis=0))), {"V014"}),
     ("five channels", with_track(curve=PLAN.drones[0].curve.channels(0, 1, 2, 3, 4)), {"V014"}),
     ("duration", with_shot(timing=Timing(duration=29.0)), {"V015"}),
     ("start", with_shot(timing=Timing(start=21.0)), {"V015"}),
