@@ -88,7 +88,9 @@ def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
     found = [*plugins.discover("kinds").diagnostics, *loaded.diagnostics]
     if loaded.mission is not None:
         kinds = plugins.discover("kinds").plugins
-        found += run(front_passes(kinds), loaded.mission, PassContext()).diagnostics
+        found += run(
+            front_passes(kinds, plugins.names("emitters")), loaded.mission, PassContext()
+        ).diagnostics
     return CheckReport(tuple(found), {name: loaded.file})
 
 
@@ -104,7 +106,9 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     if loaded.mission is None or has_errors(found):
         return Compilation(None, (), tuple(found), sources)
     ctx = PassContext(options.seed, options.progress)
-    front = run(front_passes(kinds.plugins), loaded.mission, ctx, options.stop_after)
+    front = run(
+        front_passes(kinds.plugins, plugins.names("emitters")), loaded.mission, ctx, options.stop_after
+    )
     found += front.diagnostics
     if front.value is None or not isinstance(front.value, KeyframeIR):
         return Compilation(None, front.reports, tuple(found), sources)

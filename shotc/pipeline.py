@@ -39,9 +39,9 @@ class Run:
     reports: tuple[PassReport, ...]
 
 
-def front_passes(kinds: Any) -> tuple[AnyPass, ...]:
-    """Return the passes that need no solver: what ``check`` runs."""
-    return (Resolve(kinds), PlaceKeyframes())
+def front_passes(kinds: Any, emitters: Any = None) -> tuple[AnyPass, ...]:
+    """Return the passes that need no solver: what ``check`` runs; emitters are the known names, if known."""
+    return (Resolve(kinds, emitters), PlaceKeyframes())
 
 
 def default_passes(kinds: Any, refiner: Any) -> tuple[AnyPass, ...]:

@@ -123,10 +123,11 @@ class Scene:
         origin = (self.origin.lat_deg, self.origin.lon_deg, self.origin.alt)
         return to_world((lat_deg, lon_deg, alt), origin)
 
-    def ideal(self, at: Vec3, target: str | None, **changes: Any) -> Keyframe:
-        """Return a keyframe that a kind generates: refinement may leave it.
+    def keyframe(self, at: Vec3, target: str | None, **changes: Any) -> Keyframe:
+        """Return a keyframe of a camera at ``at`` that looks at ``target`` and does not hold.
 
-        changes : fields other than a camera that looks at ``target``, without a hold
+        It is a generated one, which refinement may leave, unless ``changes`` says ``placed=True``.
+        changes : other values of fields
         """
         values: dict[str, Any] = {
             "aim": None,
@@ -194,10 +195,6 @@ def postponed(kind: str) -> Callable[[ShotBase, Scene], Expansion]:
     """Return the expansion of a kind that is part of the language but cannot be planned yet."""
 
     def expand(shot: ShotBase, scene: Scene) -> Expansion:
-        later = Deferred(f"a shot of kind `{kind}`", (*scene.path, "kind"))
-        if shot.target is not None and shot.target not in scene.targets:
-            wrong = unknown_target(scene.origins, (*scene.path, "target"), shot.target, scene.targets)
-            return Expansion(diagnostics=(wrong,), deferred=(later,))
-        return Expansion(deferred=(later,))
+        return Expansion.of([Deferred(f"a shot of kind `{kind}`", (*scene.path, "kind"))])
 
     return expand

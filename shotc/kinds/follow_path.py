@@ -54,7 +54,7 @@ def expand(shot: FollowPathShot, scene: Scene) -> Expansion:
     if not isinstance(aims, list):
         return Expansion.of([aims])
     parts: list[Part] = [
-        scene.ideal(at, target, aim=aim, placed=True, path=(*scene.path, *path))
+        scene.keyframe(at, target, aim=aim, placed=True, path=(*scene.path, *path))
         for (at, path), (aim, target) in zip(points, aims, strict=True)
     ]
     return Expansion.of(parts)

@@ -29,7 +29,7 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
     aim = scene.aim(shot, spec, *path)
     if not isinstance(aim, tuple):
         return aim
-    return scene.ideal(
+    return scene.keyframe(
         scene.place(spec.at),
         aim[1],
         aim=aim[0],

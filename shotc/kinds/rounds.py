@@ -64,7 +64,7 @@ def filmed(shot: ShotBase, scene: Scene, points: list[Vec3]) -> Expansion:
                 )
             ]
         )
-    return Expansion.of(scene.ideal(p, shot.target) for p in points)
+    return Expansion.of(scene.keyframe(p, shot.target) for p in points)
 
 
 def _between(span: Span, t: float) -> float:

@@ -29,7 +29,7 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
     aim = scene.aim(shot, shot)
     if not isinstance(aim, tuple):
         return Expansion.of([aim])
-    keyframe = scene.ideal(
+    keyframe = scene.keyframe(
         scene.place(shot.at),
         aim[1],
         aim=aim[0],

@@ -45,13 +45,13 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     }
     above = (x, y, shot.altitude)
     if hypot(east, north, up) == 0:
-        return Expansion.of([scene.ideal(above, shot.target, hold=duration or STILL, **fixed)])
+        return Expansion.of([scene.keyframe(above, shot.target, hold=duration or STILL, **fixed)])
     if duration is None:
         return Expansion.of(
             [scene.fault("K009", "a drift needs a duration", "add `timing: {duration: ...}`", "drift")]
         )
     end = (x + east * duration, y + north * duration, shot.altitude + up * duration)
-    return Expansion.of(scene.ideal(at, shot.target, **fixed) for at in (above, end))
+    return Expansion.of(scene.keyframe(at, shot.target, **fixed) for at in (above, end))
 
 
 KIND = Kind("top-down", "look straight down on the target", TopDownShot, expand)

@@ -22,6 +22,7 @@ from shotc.passes.place_candidates import (
 
 FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
 WIDEST = radians(150)
+TILT = 1e-6  # rad past the gimbal's stop that are rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +49,13 @@ def off_composition(keyframe: Keyframe, setting: Setting, place: Vec2) -> Miss:
     )
 
 
-def cropped(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
-    """Warn that a kept framing crops its target."""
+def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
+    """Tell of a kept framing that the gimbal does not reach, or warn that it crops its target."""
+    if not setting.pitch[0] - TILT <= aim[1] <= setting.pitch[1] + TILT:
+        return _beyond_gimbal(keyframe, setting, aim)
     over = -setting.margin(aim)
+    if over <= TOUCH:
+        return None
     return Miss(
         "G012",
         keyframe,

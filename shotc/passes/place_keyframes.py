@@ -20,7 +20,7 @@ from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.flown_order import flown_order
 from shotc.passes.place_candidates import Setting, nearest_candidate, nearest_on_verticals
-from shotc.passes.place_faults import Miss, cropped, does_not_fit, off_composition, report
+from shotc.passes.place_faults import Miss, does_not_fit, keeps, off_composition, report
 
 NORTH = pi / 2
 
@@ -68,8 +68,7 @@ def _place(
     # A camera that looks at its target holds it in the middle, to the last bit.
     asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
     if asked is None or keyframe.composition.keep:
-        kept = _placed(keyframe, aim, asked, asked)
-        return kept, (cropped(keyframe, setting, aim) if setting.slack(asked or (0.0, 0.0)) < 0 else None)
+        return _placed(keyframe, aim, asked, asked), keeps(keyframe, setting, aim)
     miss: Miss | None = None
     place = nearest_candidate(setting, keyframe.composition, asked)
     if place is None:

@@ -8,9 +8,9 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.camera import Vec2, heading_of, nearest_depth, silhouette_bounds, view
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.place_candidates import Setting
+from shotc.passes.place_faults import TILT
 from shotc.passes.place_keyframes import explicit_aim, setting_of
 
-TILT = 1e-6  # rad past the gimbal's stop that are rounding
 SAME = 1e-3  # metres within which a camera looks at its own place
 
 

@@ -74,8 +74,10 @@ class Obstacle:
         if self.role == "in":
             z = min(max(p[2], self.solid.bottom + room), self.solid.top - room)
             yield (p[0], p[1], z)
-            for x, y in _sideways(self.solid, (p[0], p[1]), -room):
-                yield (x, y, z)
+            level = list(_sideways(self.solid, (p[0], p[1]), -room))
+            # Off a corner, two walls are in the way: from the nearest wall on, to the next.
+            near = min(level, key=lambda q: dist(q, p[:2]), default=(p[0], p[1]))
+            yield from ((x, y, z) for x, y in (*level, *_sideways(self.solid, near, -room)))
             return
         if isfinite(self.solid.top):
             yield (p[0], p[1], self.solid.top + room)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target, Timing
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
 
@@ -45,12 +45,16 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Drone) -> Shots:
     deferred: list[Deferred] = []
     for i, written in enumerate(spec.shots):
         path = ("shots", i)
+        if written.target is not None and written.target not in cast.targets:
+            where = (*path, "target")
+            diagnostics.append(unknown_target(cast.origins, where, written.target, cast.targets))
         expansion = _expand(spec, written, cast, cast.drones.get(written.drone, spare), path)
         diagnostics += expansion.diagnostics
         deferred += expansion.deferred
         if expansion.keyframes and written.drone in cast.drones:
             shots.append(_shot(spec, written, expansion, path))
-    return Shots(tuple(shots), tuple(diagnostics), tuple(deferred))
+    # A name that several keyframes use is reported once.
+    return Shots(tuple(shots), tuple(dict.fromkeys(diagnostics)), tuple(deferred))
 
 
 def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: KeyPath) -> Expansion:

@@ -63,7 +63,7 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     _code(
         4,
-        "duration-too-short",
+        "impossible-duration",
         "no drone within its limits flies that far in that time",
         "Even straight from keyframe to keyframe, from rest to rest at full speed and acceleration, the "
         "time does not suffice. The numbers are a lower bound: curves, jerk and turns of the camera take "
@@ -95,7 +95,7 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     _code(
         8,
-        "start-too-early",
+        "unreachable-start",
         "a shot starts before the drone can be there",
         "`start` is the time of the first filmed frame, counted from the start of the mission; take-off and "
         "the way there, or the way from the shot before, come first. Start the shot later.",
