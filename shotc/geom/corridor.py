@@ -100,7 +100,7 @@ def bounds_slack(room: Room, p: Array) -> Array:
     return slack
 
 
-def breaches(room: Room, p: Array, tolerance: float = 1e-6) -> list[Breach]:
+def breaches(room: Room, p: Array, tolerance: float = 2e-6) -> list[Breach]:
     """Return what one point (3,) is too near to, the worst first."""
     found = []
     for o in room.obstacles:

@@ -17,7 +17,7 @@ from shotc.passes.path_angles import Cut
 from shotc.passes.path_gap import narrow_gap, opening
 from shotc.passes.path_lines import NoWay, TooNear
 from shotc.passes.path_pad import PadBlocked
-from shotc.passes.path_room import GROUND, owner_path
+from shotc.passes.path_room import GROUND, named, owner_path
 from shotc.passes.path_shots import AngleFailure, Failure, Stuck
 from shotc.solvers.conic import Status
 
@@ -43,21 +43,21 @@ def failure(
 
 def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnostic:
     """Return the error for a pad that cannot be left straight up."""
-    lack = what.needs - what.has
+    lack, owner = what.needs - what.has, named(what.owner)
     match what.why:
         case "outside":
-            message = f"the pad of {drone.name} is not inside {what.owner}"
+            message = f"the pad of `{drone.name}` is not inside {owner}"
             note = f"the drone's body is {lack:.2f} m beyond its rim"
-            help_ = f"move home at least {lack:.2f} m inwards, or widen {what.owner}"
+            help_ = f"move home at least {lack:.2f} m inwards, or widen {owner}"
         case "ceiling":
-            message = f"{what.owner} leaves {drone.name} no height to fly at above its pad"
+            message = f"{owner} leaves `{drone.name}` no height to fly at above its pad"
             note = f"the drone's centre must keep above {what.needs:.2f} m and below {what.has:.2f} m"
-            help_ = f"raise the top of {what.owner} by {lack:.2f} m, or lower rules.ground_clearance"
+            help_ = f"raise the top of {owner} by {lack:.2f} m, or lower rules.ground_clearance"
         case _:
             over = "in the way above" if what.why == "above" else "too near to fly off from"
-            message = f"{what.owner} is {over} the pad of {drone.name}"
+            message = f"{owner} is {over} the pad of `{drone.name}`"
             note = f"the drone's centre has {max(what.has, 0.0):.2f} m and needs {what.needs:.2f} m"
-            help_ = f"move home at least {lack:.2f} m away from {what.owner}"
+            help_ = f"move home at least {lack:.2f} m away from {owner}"
     return Diagnostic(
         "Q002",
         message,
@@ -75,7 +75,7 @@ def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:
     low, high = (degrees(a) for a in drone.gimbal.yaw)
     return Diagnostic(
         "Q005",
-        f"the gimbal of {drone.name} cannot look straight ahead, which body: follow-camera needs",
+        f"the gimbal of `{drone.name}` cannot look straight ahead, which body: follow-camera needs",
         (
             mission.origins.value((*drone.path, "gimbal", "yaw"), "does not hold 0 deg"),
             mission.origins.value((*drone.path, "body"), "needs a gimbal yaw of 0 deg"),
@@ -93,11 +93,11 @@ def moved(mission: MissionIR, shot: PlacedShot, deviation: Deviation) -> Diagnos
         labels.append(_owner_label(mission, deviation.cause, "is in the way"))
     return Diagnostic(
         "Q006",
-        f"shot {shot.shot.id} leaves its ideal path by up to {deviation.distance:.2f} m, "
-        f"round {deviation.cause}",
+        f"shot `{shot.shot.id}` leaves its ideal path by up to {deviation.distance:.2f} m, "
+        f"round {named(deviation.cause)}",
         tuple(labels),
         (f"the largest distance is {where}",),
-        "",
+        "move the path or what is in its way if the ideal matters",
     )
 
 
@@ -113,7 +113,7 @@ def cut_framing(mission: MissionIR, drone: Drone, shot: PlacedShot, cut: Cut) ->
     keyframe = shot.keyframes[cut.index]
     return Diagnostic(
         "Q007",
-        f"between keyframes {cut.index + 1} and {cut.index + 2} of shot {shot.shot.id} "
+        f"between keyframes {cut.index + 1} and {cut.index + 2} of shot `{shot.shot.id}` "
         "the gimbal cannot keep the target in its place",
         (
             mission.origins.key(keyframe.path, "from this keyframe on"),
@@ -136,12 +136,12 @@ def _no_way(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | Non
         notes.append(gap.note)
         help_ = gap.help
     elif openers:
-        help_ = f"move or shrink {_either(openers)}, or move the end points"
+        help_ = f"move or shrink {_either(tuple(map(named, openers)))}, or move the end points"
     else:
         help_ = "move the end points to one side, or remove zones between them"
     return Diagnostic(
         "Q001",
-        f"there is no way for {drone.name} {_leading(shot, what.keyframes)}",
+        f"there is no way for `{drone.name}` {_leading(shot, what.keyframes)}",
         tuple(labels),
         tuple(notes),
         help_,
@@ -160,10 +160,10 @@ def _too_near(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: T
     )
     return Diagnostic(
         "Q004",
-        f"{_point(what.point)} is too near to {breach.owner} for {drone.name}",
+        f"{_point(what.point)} is too near to {named(breach.owner)} for `{drone.name}`",
         tuple(labels),
         (note,),
-        f"move the point or {breach.owner} by {breach.lack + 0.01:.2f} m",
+        f"move the point or {named(breach.owner)} by {breach.lack + 0.01:.2f} m",
     )
 
 
@@ -179,14 +179,16 @@ def _stuck(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: Stuc
     shifts = [(k, float(x)) for k, x in enumerate(relaxation.point_shift) if x > LEAST]
     labels = _ends(mission, drone, shot, ends)
     labels += [_owner_label(mission, name, f"would have to give {x:.2f} m") for name, x in lack]
-    notes = [f"{name} would have to be {x:.2f} m smaller" for name, x in lack]
+    notes = [f"{named(name)} would have to be {x:.2f} m smaller" for name, x in lack]
     notes += [f"keyframe {_bound_name(what, k)} would have to move by {x:.2f} m" for k, x in shifts]
     help_ = (
-        f"shrink or move {lack[0][0]} by {lack[0][1] + 0.01:.2f} m" if lack else "move the keyframes apart"
+        f"shrink or move {named(lack[0][0])} by {lack[0][1] + 0.01:.2f} m"
+        if lack
+        else "move the keyframes apart"
     )
     return Diagnostic(
         "Q003",
-        f"the corridor {_leading(shot, ends)} is too tight for a smooth path of {drone.name}",
+        f"the corridor {_leading(shot, ends)} is too tight for a smooth path of `{drone.name}`",
         tuple(labels),
         tuple(notes),
         help_,
@@ -201,7 +203,7 @@ def _solver_failed(mission: MissionIR, drone: Drone, shot: PlacedShot | None, wh
     path = drone.path if shot is None else shot.shot.path
     return Diagnostic(
         "Q008",
-        f"the convex solver gave up on the {what} of {drone.name}",
+        f"the convex solver gave up on the {what} of `{drone.name}`",
         (mission.origins.key(path, "while planning this"),),
         (),
         "scale the mission down, or report it with the mission file",
@@ -225,8 +227,8 @@ def _leading(shot: PlacedShot | None, keyframes: tuple[int, int]) -> str:
     if shot is None:
         return "back home"
     if keyframes[0] < 0:
-        return f"to shot {shot.shot.id}"
-    return f"from keyframe {keyframes[0] + 1} to {keyframes[1] + 1} of shot {shot.shot.id}"
+        return f"to shot `{shot.shot.id}`"
+    return f"from keyframe {keyframes[0] + 1} to {keyframes[1] + 1} of shot `{shot.shot.id}`"
 
 
 def _bound_name(what: Stuck, k: int) -> str:

@@ -11,8 +11,10 @@ from shotc.geom.bernstein import Array
 from shotc.geom.convex import closest_points, support
 from shotc.geom.corridor import MARGIN, Obstacle, Room, Wall
 from shotc.geom.route import find_route
+from shotc.passes.path_room import named
 
 HALVINGS = 7
+MOST = 0.8  # of the body's radius that a smaller drone may lack
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,15 +43,15 @@ def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -
         )
     (first, second), gap, needed = pair
     return Gap(
-        f"the gap between {first} and {second} is {gap:.2f} m; the drone needs {needed:.2f} m",
+        f"the gap between {named(first)} and {named(second)} is {gap:.2f} m; the drone needs {needed:.2f} m",
         f"widen the gap by {needed - gap + MARGIN:.2f} m, or use a drone with a radius {lent:.2f} m smaller",
     )
 
 
 def _least_loan(room: Room, start: Array, end: Array) -> float | None:
     """Return the least clearance to give up everywhere so that a way opens, by bisection."""
-    most = max((o.clearance for o in room.obstacles), default=0.0)
-    if most == 0.0 or find_route(room.lent(most), start, end) is None:
+    most = MOST * min((o.clearance for o in room.obstacles), default=0.0)
+    if most <= 0.0 or find_route(room.lent(most), start, end) is None:
         return None
     low, high = 0.0, most
     for _ in range(HALVINGS):

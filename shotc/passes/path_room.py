@@ -51,6 +51,12 @@ def owner_path(mission: MissionIR, owner: str) -> KeyPath:
     return ("rules", "ground_clearance")
 
 
+def named(owner: str) -> str:
+    """Write an owner for people: zone `tree` instead of zone tree."""
+    kind, _, name = owner.partition(" ")
+    return f"{kind} `{name}`" if kind in {"zone", "target"} else owner if owner != GROUND else "the ground"
+
+
 def _keep_outs(mission: MissionIR, drone: Drone) -> list[Obstacle]:
     return [
         Obstacle(f"zone {zone.name}", bounded(part), drone.radius)
