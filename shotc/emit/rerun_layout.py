@@ -7,13 +7,11 @@ from typing import Any
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
-from numpy.typing import NDArray
 
 from shotc.emit.rerun_motion import camera_entity, frame_size
 from shotc.emit.rerun_series import Plot
+from shotc.geom.bernstein import Array
 from shotc.ir.mission import Drone, MissionIR
-
-Array = NDArray[np.float64]
 
 BACKGROUND = (24, 27, 32, 255)
 SKY = (96, 118, 140, 255)

@@ -7,18 +7,17 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
 from shotc.emit.palette import CAMERA, KEEP_OUT, SUBJECT, WHITE, rgba8, shade
 from shotc.emit.rerun_series import Line, Plot, clearance_plot, motion_plots, sample_times
-from shotc.emit.screen import guide_lines, offsets, screen_error, views
-from shotc.geom.bernstein import Piecewise
+from shotc.emit.screen import guide_lines, screen_track
+from shotc.geom.bernstein import Array
+from shotc.geom.framing import Cameras, Frames, frames
 from shotc.geom.silhouette import cylinder_contour, project_loops
-from shotc.ir.mission import Composition, Drone, Target
+from shotc.ir.mission import Composition, Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.sampling import cylinder, framed
 from shotc.ir.trajectory import DroneTrajectory, Phase, Reference, VerifiedIR
-
-Array = NDArray[np.float64]
 
 WIDTH = 1280
 """Pixels across the camera's view."""
@@ -46,11 +45,14 @@ def log_motion(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, frustum: 
     _drone(stream, drone, t, poses)
     _camera(stream, drone, t, poses, frustum)
     for span in flight.framing:
-        _subject(stream, drone, mission.target(span.target), (t, poses), span)
+        _subject(stream, plan, flight, span, t)
+    edge = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [-1, -1, 0]], dtype=np.float64)
+    border = rr.LineStrips3D([edge], radii=rr.Radius.ui_points(0.8), colors=[rgba8(WHITE)])
+    stream.log(f"{camera_entity(drone)}/screen/frame", border, static=True)
     for phase in flight.phases:
         if phase.shot is not None:
             _composition(stream, plan, flight, phase)
-    error = _screen_plot(plan, flight, drone, (t, poses))
+    error = _screen_plot(plan, flight, t)
     motion = motion_plots(flight, drone, t)
     room = clearance_plot(flight, drone, mission, t)
     plots = (*motion, room) if error is None else (error, *motion, room)
@@ -144,39 +146,39 @@ def camera_entity(drone: Drone) -> str:
     return f"world/cameras/{drone.name}"
 
 
-def _subject(stream: Any, drone: Drone, target: Target, flown: tuple[Array, Array], span: Reference) -> None:
+def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Reference, t: Array) -> None:
     """Log the outline of a framed subject, its centre, and where that is wanted, on the screen."""
-    t, poses = flown
-    inside = (t >= span.start) & (t <= span.end)
-    if not inside.any():
+    mission = plan.trajectory.keyframes.mission
+    drone, target = mission.drone(flight.drone), mission.target(span.target)
+    ticks = t[(t >= span.start) & (t <= span.end)]
+    if not len(ticks):
         return
-    ticks, poses = t[inside], poses[inside]
     entity = f"{camera_entity(drone)}/screen/{span.target}"
-    away = np.stack(offsets(poses, target), axis=-1)
+    pose = flight.curve(ticks)
+    cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], drone.aspect)
+    away = np.array(target.centre) - cameras.position
     contours = cylinder_contour(away, target.radius, target.height, count=25)
-    polygons = project_loops(views(poses[:, None], drone.aspect), contours)
+    polygons = project_loops(cameras.view, contours)
     outlines = [np.clip(np.concatenate([loop, loop[:1]]), -9, 9) for loop in polygons if len(loop)]
     _strips(stream, f"{entity}/outline", ticks, outlines, [int(len(loop) > 0) for loop in polygons])
     _style(stream, f"{entity}/outline", rgba8(shade(SUBJECT, 1.75)), 1.2)
-    _centre(stream, f"{entity}/centre", drone, target, (ticks, poses))
-    if isinstance(span.reference, Piecewise):
+    _centre(stream, f"{entity}/centre", ticks, frames(cameras, cylinder(target)))
+    if span.reference is not None:
         crosses = [_cross(point, drone.aspect) for point in span.reference(ticks)]
         strips = [strip for cross in crosses for strip in cross]
         _strips(stream, f"{entity}/wanted", ticks, strips, [len(cross) for cross in crosses])
         _style(stream, f"{entity}/wanted", rgba8(CAMERA), 1.4)
 
 
-def _centre(stream: Any, entity: str, drone: Drone, target: Target, flown: tuple[Array, Array]) -> None:
-    ticks, poses = flown
-    u, v, depth = views(poses, drone.aspect).project(offsets(poses, target))
-    seen = (depth > 0) & (abs(u) < 2) & (abs(v) < 2)
-    points = np.column_stack([u, v, np.zeros(len(u))])[seen]
+def _centre(stream: Any, entity: str, ticks: Array, shown: Frames) -> None:
+    near = (np.abs(shown.u) < 2) & (np.abs(shown.v) < 2)
+    points = np.column_stack([shown.u, shown.v, np.zeros(len(near))])[near]
     if not len(points):
         return
     stream.send_columns(
         entity,
         indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER])],
-        columns=rr.Points3D.columns(positions=points).partition([*seen.astype(int), 0]),
+        columns=rr.Points3D.columns(positions=points).partition([*near.astype(int), 0]),
     )
     dot = rr.Points3D.from_fields(radii=rr.Radius.ui_points(3.5), colors=[rgba8(WHITE)])
     stream.log(entity, dot, static=True)
@@ -232,23 +234,15 @@ def _guides(composition: Composition) -> list[Array]:
     return upright + [np.array([[-1.0, v, 0.0], [1.0, v, 0.0]]) for v in vs]
 
 
-def _screen_plot(
-    plan: VerifiedIR, flight: DroneTrajectory, drone: Drone, flown: tuple[Array, Array]
-) -> Plot | None:
-    t, poses = flown
-    mission = plan.trajectory.keyframes.mission
+def _screen_plot(plan: VerifiedIR, flight: DroneTrajectory, t: Array) -> Plot | None:
     shots = {placed.shot.id: placed.shot for placed in plan.trajectory.keyframes.shots}
     error, promise = np.full(len(t), np.nan), np.full(len(t), np.nan)
-    for span in flight.framing:
-        if not isinstance(span.reference, Piecewise):
-            continue
-        inside = (t >= span.start) & (t <= span.end)
-        found = screen_error(
-            poses[inside], mission.target(span.target), drone.aspect, span.reference(t[inside])
-        )
+    for shot, target in dict.fromkeys((span.shot, span.target) for span in flight.framing):
+        inside = framed(flight, shot, target, t)
+        found = screen_track(plan, flight, (shot, target), t[inside]).error
         error[inside] = np.fmax(error[inside], found)
-        if shots[span.shot].promise.screen_error is not None:
-            promise[inside] = shots[span.shot].promise.screen_error
+        if shots[shot].promise.screen_error is not None:
+            promise[inside] = shots[shot].promise.screen_error
     if np.isnan(error).all():
         return None
     lines = [Line("screen error", error)]

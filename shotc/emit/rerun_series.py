@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from math import degrees
 
 import numpy as np
-from numpy.typing import NDArray
 
-from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.bernstein import Array
+from shotc.geom.solids_array import signed_distance
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z
+from shotc.ir.sampling import cylinder
 from shotc.ir.trajectory import DroneTrajectory
-
-Array = NDArray[np.float64]
 
 RATE, MOST = 25.0, 6000
 """Samples a second, and the most of a whole flight: longer ones are sampled more coarsely."""
@@ -85,52 +84,18 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
         if phase.name in {"takeoff", "land"}:
             free &= ~((t >= phase.start) & (t <= phase.end))
     bound = np.where(free, 0.0, np.nan)
-    out = [gap(z.solid, p) - drone.radius for z in mission.zones if z.keep == "out"]
-    inside = [room(z.solid, p) - drone.radius + bound for z in mission.zones if z.keep == "in"]
-    subjects = [
-        gap(Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2), p)
-        - (drone.radius + mission.rules.target_clearance)
-        + bound
-        for target in mission.targets
-        for x, y, z in [target.centre]
+    radius, rules = drone.radius, mission.rules
+    zones = [
+        signed_distance(zone.solid, p) - radius
+        if zone.keep == "out"
+        else -signed_distance(zone.solid, p) - radius + bound
+        for zone in mission.zones
     ]
-    ground = p[:, 2] - drone.radius - mission.rules.ground_clearance + bound
-    groups = (
-        ("keep-out zones", out),
-        ("keep-in zones", inside),
-        ("subjects", subjects),
-        ("ground", [ground]),
-    )
-    lines = tuple(Line(name, np.min(group, axis=0)) for name, group in groups if group)
+    subjects = [
+        signed_distance(cylinder(target), p) - radius - rules.target_clearance + bound
+        for target in mission.targets
+    ]
+    ground = p[:, 2] - radius - rules.ground_clearance + bound
+    groups = (("zones", zones), ("subjects", subjects), ("ground", [ground]))
+    lines = tuple(Line(name, np.fmin.reduce(group)) for name, group in groups if group)
     return Plot("clearance", "Room left (m)", lines, (0.0,))
-
-
-def gap(solid: Solid, p: Array) -> Array:
-    """Return the distance of points from a solid, 0 inside; p has shape (n, 3), metres."""
-    across = np.maximum(_across(solid, p), 0.0)
-    below, above = solid.bottom - p[:, 2], p[:, 2] - solid.top
-    return np.asarray(np.hypot(across, np.maximum(np.maximum(below, above), 0.0)))
-
-
-def room(solid: Solid, p: Array) -> Array:
-    """Return how deep points lie inside a solid, negative outside; p has shape (n, 3), metres."""
-    vertical = np.minimum(p[:, 2] - solid.bottom, solid.top - p[:, 2])
-    inner = np.minimum(vertical, -_across(solid, p))
-    return np.asarray(np.where(inner >= 0, inner, -gap(solid, p)))
-
-
-def _across(solid: Solid, p: Array) -> Array:
-    """Return the signed horizontal distance to the footprint's edge, negative inside."""
-    if isinstance(solid, Cylinder):
-        return np.asarray(np.hypot(p[:, 0] - solid.centre[0], p[:, 1] - solid.centre[1]) - solid.radius)
-    corner = np.array(solid.points)
-    side = np.roll(corner, -1, axis=0) - corner
-    away = p[:, None, :2] - corner[None]
-    along = np.clip(np.einsum("nkd,kd->nk", away, side) / np.einsum("kd,kd->k", side, side), 0.0, 1.0)
-    distance = np.linalg.norm(away - along[..., None] * side[None], axis=-1).min(axis=1)
-    # Crossing number: how many edges a ray towards East meets.
-    rises = (corner[None, :, 1] > p[:, None, 1]) != ((corner + side)[None, :, 1] > p[:, None, 1])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        x_cross = corner[:, 0] + side[:, 0] * away[..., 1] / side[:, 1]
-    inside = (rises & (p[:, None, 0] < x_cross)).sum(axis=1) % 2 == 1
-    return np.asarray(np.where(inside, -distance, distance))

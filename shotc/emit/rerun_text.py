@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import degrees
+from math import degrees, isfinite
 
 from shotc.emit.screen import screen_tracks, summary
 from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, VerifiedIR
 
+HOW = {"bounded": "at every instant", "exact": "by arithmetic", "sampled": "at every sample"}
 SHOWN = {
     "takeoff": "Taking off",
     "transit": "Flying to the next shot",
@@ -39,21 +40,39 @@ def mission_text(plan: VerifiedIR) -> str:
 
 
 def certificate_text(certificate: tuple[Claim, ...]) -> str:
-    """Return the certificate as a Markdown table."""
-    rows = ["| requirement | worst | limit | when | how | |", "|---|---|---|---|---|---|"]
-    for claim in certificate:
+    """Return the certificate as a Markdown table: what is broken first, arithmetic on joints last."""
+    rows = ["| | requirement | asked | worst | when | known |", "|---|---|---|---|---|---|"]
+    order = sorted(
+        certificate,
+        key=lambda c: (c.holds or not c.hard, c.constraint.startswith("jump"), c.shot is not None),
+    )
+    for claim in order:
         what = claim.constraint if claim.shot is None else f"{claim.constraint} ({claim.shot})"
         when = "" if claim.time is None else f"{claim.time:.1f} s"
-        sign = "≤" if claim.upper else "≥"
-        verdict = "holds" if claim.holds else "**broken**"
-        limit = f"{sign} {quantity(claim.limit, claim.unit)}"
-        worst = quantity(claim.worst, claim.unit)
-        rows.append(f"| {what} | {worst} | {limit} | {when} | {claim.method} | {verdict} |")
+        asked = _asked(claim)
+        cells = (verdict(claim), what, asked, quantity(claim.worst, claim.unit), when, HOW[claim.method])
+        rows.append(f"| {' | '.join(cells)} |")
     return "\n".join(rows)
+
+
+def _asked(claim: Claim) -> str:
+    sign = "≤" if claim.upper else "≥"
+    return f"{sign} {quantity(claim.limit, claim.unit)}" if isfinite(claim.limit) else "–"
+
+
+def verdict(claim: Claim) -> str:
+    """Return a word for what has become of a claim; none for one that asks for nothing."""
+    if not isfinite(claim.limit):
+        return ""
+    if claim.holds:
+        return "ok"
+    return "**broken**" if claim.hard else "lost"
 
 
 def quantity(value: float, unit: str) -> str:
     """Return a number with its unit as people read it: angles in degrees."""
+    if not isfinite(value):
+        return "–"
     if unit.startswith("rad"):
         return f"{degrees(value):.4g} deg{unit[3:]}"
     return f"{value:.4g} {unit}".strip()

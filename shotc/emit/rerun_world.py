@@ -9,12 +9,12 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTICAL, WHITE, Rgb, rgba8, shade
+from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid, triangles
 from shotc.ir.mission import MissionIR
+from shotc.ir.sampling import cylinder
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
-
-Array = NDArray[np.float64]
 
 SIDES = 48
 LIGHT = np.radians(215.0)
@@ -104,13 +104,12 @@ def _zones(stream: Any, mission: MissionIR) -> None:
 
 def _targets(stream: Any, mission: MissionIR) -> None:
     for target in mission.targets:
-        x, y, z = target.centre
-        solid = Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
+        solid = cylinder(target)
         points, faces, light = solid_mesh(solid)
         colors = [rgba8(shade(SUBJECT, float(value))) for value in light]
         mesh = rr.Mesh3D(vertex_positions=points, triangle_indices=faces, vertex_colors=colors)
         stream.log(f"world/targets/{target.name}/body", mesh, static=True)
-        name = _name((x, y, solid.top), target.name, shade(SUBJECT, 1.6))
+        name = _name(_top(solid), target.name, shade(SUBJECT, 1.6))
         stream.log(f"world/targets/{target.name}/name", name, static=True)
 
 

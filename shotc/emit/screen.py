@@ -1,24 +1,21 @@
-"""What cameras see over time, for the outputs that are looked at: views, screen errors, cropping."""
+"""Framing in numbers, and composition in lines, for the outputs that are looked at."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from shotc.geom.bernstein import Piecewise
-from shotc.geom.camera import View, frustum_margins, nearest_depth
-from shotc.ir.mission import Composition, Target
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
+from shotc.ir.mission import Composition
+from shotc.ir.sampling import clock, framed, references, seen
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScreenTrack:
-    """One subject of one shot on the screen, sampled.
+    """One subject of one shot on the screen.
 
     t : seconds, shape (n,); error : distance on screen to the reference, (u, v) units, NaN where
     there is no reference or the subject is behind the camera; in_frame : whether it is seen whole
@@ -29,7 +26,7 @@ class ScreenTrack:
     target: str
     t: Array
     error: Array
-    in_frame: NDArray[np.bool_]
+    in_frame: Mask
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,57 +42,28 @@ class ScreenSummary:
     in_frame: float | None
 
 
-def views(poses: Array, aspect: float) -> View:
-    """Return the view of many poses at once.
-
-    poses : shape (..., 7), channels ir.path.CHANNELS
-    """
-    half = np.tan(poses[..., HFOV] / 2)
-    yaw, pitch = poses[..., CAM_YAW], poses[..., CAM_PITCH]
-    return View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / aspect)
-
-
-def offsets(poses: Array, target: Target) -> tuple[Array, Array, Array]:
-    """Return the target's centre less the camera's place, W, three arrays of shape (...)."""
-    x, y, z = target.centre
-    return x - poses[..., 0], y - poses[..., 1], z - poses[..., 2]
-
-
-def seen_whole(poses: Array, target: Target, aspect: float) -> NDArray[np.bool_]:
-    """Tell for each pose whether the whole cylinder is inside the frame."""
-    camera, offset = views(poses, aspect), offsets(poses, target)
-    margins = np.stack(frustum_margins(camera, offset, target.radius, target.height))
-    ahead = nearest_depth(camera, offset, target.radius, target.height) > 0
-    return np.asarray((margins.min(axis=0) >= 0) & ahead)
-
-
-def screen_error(poses: Array, target: Target, aspect: float, wanted: Array) -> Array:
-    """Return how far the target's centre is from where it is wanted, (u, v) units, NaN behind the camera.
-
-    poses : shape (n, 7); wanted : shape (n, 2)
-    """
-    u, v, depth = views(poses, aspect).project(offsets(poses, target))
-    return np.asarray(np.where(depth > 0, np.hypot(u - wanted[:, 0], v - wanted[:, 1]), np.nan))
-
-
 def screen_tracks(plan: VerifiedIR) -> tuple[ScreenTrack, ...]:
-    """Sample every framed stretch of the plan at the output rate."""
-    return tuple(
-        _track(plan, flight, i) for flight in plan.trajectory.drones for i in range(len(flight.framing))
-    )
+    """Sample every subject of every shot at the output rate."""
+    rate = plan.trajectory.keyframes.mission.rate
+    tracks = []
+    for flight in plan.trajectory.drones:
+        ticks = clock(rate, flight.curve.end)
+        for shot, target in dict.fromkeys((span.shot, span.target) for span in flight.framing):
+            times = ticks[framed(flight, shot, target, ticks)]
+            if len(times):
+                tracks.append(screen_track(plan, flight, (shot, target), times))
+    return tuple(tracks)
 
 
-def _track(plan: VerifiedIR, flight: DroneTrajectory, index: int) -> ScreenTrack:
-    mission = plan.trajectory.keyframes.mission
-    span = flight.framing[index]
-    target, aspect = mission.target(span.target), mission.drone(flight.drone).aspect
-    ticks = np.arange(np.ceil(span.start * mission.rate), np.floor(span.end * mission.rate) + 1)
-    t = np.asarray(ticks / mission.rate if len(ticks) else np.array([span.start]), dtype=np.float64)
-    poses = flight.curve(t)
-    error = np.full(len(t), np.nan)
-    if isinstance(span.reference, Piecewise):
-        error = screen_error(poses, target, aspect, span.reference(t))
-    return ScreenTrack(flight.drone, span.shot, span.target, t, error, seen_whole(poses, target, aspect))
+def screen_track(
+    plan: VerifiedIR, flight: DroneTrajectory, subject: tuple[str, str], t: Array
+) -> ScreenTrack:
+    """Sample one subject, given as (shot, target), at some times."""
+    shot, target = subject
+    frames = seen(plan.trajectory.keyframes.mission, flight, target, t)
+    wanted = references(flight, shot, target, t)
+    error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
+    return ScreenTrack(flight.drone, shot, target, t, error, frames.in_frame)
 
 
 def summary(tracks: tuple[ScreenTrack, ...]) -> ScreenSummary:

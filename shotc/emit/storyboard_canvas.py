@@ -20,11 +20,10 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox, TransformedBbox
-from numpy.typing import NDArray
 
 from shotc.emit.palette import INK, PAPER, WHITE, Rgb
+from shotc.geom.bernstein import Array
 
-Array = NDArray[np.float64]
 Color = tuple[float, ...]
 
 

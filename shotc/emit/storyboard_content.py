@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from shotc.emit.screen import ScreenSummary, screen_tracks, summary
+from shotc.emit.screen import ScreenSummary, ScreenTrack, summary
+from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Composition, Drone, Shot, Vec2
+from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
-
-Array = NDArray[np.float64]
 
 MOST_PLACED, MOST_GENERATED = 12, 6
 
@@ -24,6 +23,7 @@ class Moment:
     number : from 1, in the shot, or among those shown where a kind generated them
     time : seconds; pose : channels, shape (7,)
     reference, asked : (u, v) wanted of the subject, and what the user's own framing gave
+    fault : "cropped" or "hidden" where the subject is not seen as it should be, or ""
     """
 
     number: int
@@ -34,6 +34,7 @@ class Moment:
     reference: Vec2 | None
     asked: Vec2 | None
     composition: Composition
+    fault: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,7 +45,6 @@ class ShotBoard:
     total : how many keyframes the shot has; note : where the path left its ideal, or ""
     """
 
-    number: int
     shot: Shot
     drone: Drone
     start: float
@@ -57,9 +57,12 @@ class ShotBoard:
     note: str
 
 
-def shot_boards(plan: VerifiedIR, most_generated: int = MOST_GENERATED) -> tuple[ShotBoard, ...]:
+def shot_boards(
+    plan: VerifiedIR, tracks: tuple[ScreenTrack, ...], most_generated: int = MOST_GENERATED
+) -> tuple[ShotBoard, ...]:
     """Return the boards of all shots in the order they are filmed.
 
+    tracks : the framing of the whole plan
     most_generated : how many frames of a shot to show whose keyframes a kind generated
     """
     found = []
@@ -70,30 +73,29 @@ def shot_boards(plan: VerifiedIR, most_generated: int = MOST_GENERATED) -> tuple
                 found.append((phases[0].start, phases[-1].end, placed, flight))
     found.sort(key=lambda item: (item[0], item[2].shot.id))
     return tuple(
-        _board(plan, number, (start, end), (placed, flight), most_generated)
-        for number, (start, end, placed, flight) in enumerate(found, start=1)
+        _board(plan, (start, end), (placed, flight), tracks, most_generated)
+        for start, end, placed, flight in found
     )
 
 
 def _board(
     plan: VerifiedIR,
-    number: int,
     interval: Vec2,
     pair: tuple[PlacedShot, DroneTrajectory],
+    tracks: tuple[ScreenTrack, ...],
     most_generated: int,
 ) -> ShotBoard:
     placed, flight = pair
     shot, (start, end) = placed.shot, interval
-    tracks = tuple(t for t in screen_tracks(plan) if t.shot == shot.id and t.drone == flight.drone)
+    own = tuple(track for track in tracks if track.shot == shot.id and track.drone == flight.drone)
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
     times = [k for k in flight.keyframes if k.shot == shot.id]
     chosen = _spread(times, MOST_PLACED if by_hand else most_generated)
     numbers = [k.index + 1 if by_hand else i for i, k in enumerate(chosen, start=1)]
-    moments = tuple(_moment(placed, flight, k, n) for k, n in zip(chosen, numbers, strict=True))
+    moments = tuple(_moment(plan, (placed, flight), k, n) for k, n in zip(chosen, numbers, strict=True))
     deviations = [d for d in plan.trajectory.deviations if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(
-        number=number,
         shot=shot,
         drone=plan.trajectory.keyframes.mission.drone(flight.drone),
         start=start,
@@ -102,7 +104,7 @@ def _board(
         total=len(times),
         path=flight.curve(np.linspace(start, end, 200))[:, :3],
         flight=flight.curve(np.linspace(flight.curve.start, flight.curve.end, 600))[:, :3],
-        framing=summary(tracks),
+        framing=summary(own),
         note="" if worst is None else f"leaves its ideal by up to {worst.distance:.1f} m: {worst.cause}",
     )
 
@@ -113,8 +115,16 @@ def _spread(times: list[KeyframeTime], most: int) -> list[KeyframeTime]:
     return [times[i] for i in np.linspace(0, len(times) - 1, most).round().astype(int)]
 
 
-def _moment(placed: PlacedShot, flight: DroneTrajectory, at: KeyframeTime, number: int) -> Moment:
+def _moment(
+    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime, number: int
+) -> Moment:
+    placed, flight = pair
     keyframe: PlacedKeyframe = placed.keyframes[at.index]
+    fault = ""
+    if keyframe.target is not None:
+        frames = seen(plan.trajectory.keyframes.mission, flight, keyframe.target, np.array([at.time]))
+        fault = "" if frames.in_frame[0] else "cropped"
+        fault = "hidden" if not fault and frames.hidden[0] else fault
     return Moment(
         number=number,
         time=at.time,
@@ -124,4 +134,5 @@ def _moment(placed: PlacedShot, flight: DroneTrajectory, at: KeyframeTime, numbe
         reference=keyframe.reference,
         asked=keyframe.asked,
         composition=placed.shot.keyframes[at.index].composition,
+        fault=fault,
     )

@@ -6,18 +6,15 @@ from dataclasses import dataclass
 from math import degrees
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shotc.emit.palette import CAMERA, INK, KEEP_OUT, QUIET, WHITE
-from shotc.emit.screen import guide_lines, seen_whole
+from shotc.emit.screen import guide_lines
 from shotc.emit.storyboard_canvas import Box, Canvas, Type, chip
 from shotc.emit.storyboard_content import Moment
 from shotc.emit.storyboard_scene import Picture, draw_scene, name_places, picture
 from shotc.geom.camera import heading_of
 from shotc.ir.mission import Composition, MissionIR, Vec2, Vec3
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-
-Array = NDArray[np.float64]
 
 LINE = 0.165
 """Height of a line of a caption, inches."""
@@ -39,16 +36,15 @@ class Cell:
 def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, grid: float) -> None:
     """Draw a panel: the picture, and its caption under it; grid is the width of a ground square, metres."""
     box = cell.picture
-    aspect = box.width / box.height
-    shown = picture(moment.pose, aspect, box)
+    shown = picture(moment.pose, box.width / box.height, box)
     draw_scene(canvas, shown, mission, moment.target, grid)
     _composition(canvas, shown, moment.composition)
     taken: list[Box] = []
     if moment.target is not None:
         target = mission.target(moment.target)
         taken += _marks(canvas, shown, moment, shown.offset(target))
-        if not bool(seen_whole(moment.pose, target, aspect)):
-            taken.append(chip(canvas, (box.right - 0.07, box.top - 0.07), "CROPPED", KEEP_OUT))
+    if moment.fault:
+        taken.append(chip(canvas, (box.right - 0.07, box.top - 0.07), moment.fault.upper(), KEEP_OUT))
     _names(canvas, shown, mission, taken)
     canvas.polygons([box.outline()], "none", INK, 0.8)
     _caption(canvas, cell, moment, mission)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shotc.emit.palette import (
     CAMERA,
@@ -22,11 +21,10 @@ from shotc.emit.palette import (
 )
 from shotc.emit.storyboard_canvas import Box, Canvas, Type
 from shotc.emit.storyboard_content import Moment, ShotBoard
+from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_YAW, HFOV
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -179,12 +177,16 @@ def _square(at: tuple[float, float], half: float) -> Box:
 
 
 def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> None:
+    subjects = [t for t in mission.targets if _is_on(sheet, np.array(t.centre))]
     labels: list[tuple[str, Rgb, Array, float]] = [
-        (t.name, shade(SUBJECT, 0.75), np.array(t.centre[:2]), t.radius) for t in mission.targets
+        (t.name, shade(SUBJECT, 0.75), np.array(t.centre[:2]), t.radius) for t in subjects
     ]
-    for zone in mission.zones:
+    for target in subjects:
+        x, y = (float(c) for c in sheet.place(np.array(target.centre)))
+        taken.append(_square((x, y), target.radius * sheet.inches))
+    for zone in (z for z in mission.zones if z.keep == "out"):
         plan = footprint(zone.solid)
-        if zone.keep == "out":
+        if _is_on(sheet, (plan.min(axis=0) + plan.max(axis=0)) / 2):
             middle = (plan.min(axis=0) + plan.max(axis=0)) / 2
             labels.append((zone.name, shade(KEEP_OUT, 0.8), middle, float(np.ptp(plan[:, 1])) / 2))
     if any(drone.name == board.drone.name for drone in mission.drones):
@@ -197,6 +199,11 @@ def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, t
             labels.append(("home", QUIET, home, 0.0))
     for name, color, centre, radius in labels:
         _name(canvas, sheet, (name, color), (centre, radius), taken)
+
+
+def _is_on(sheet: Sheet, place: Array) -> bool:
+    x, y = (float(c) for c in sheet.place(place))
+    return sheet.box.holds(Box(x, y, 0.0, 0.0))
 
 
 def _name(

@@ -69,7 +69,8 @@ def layout(aspect: float, shots: int) -> Layout:
 def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
     """Return the whole storyboard as PNG bytes."""
     shots = len(plan.trajectory.keyframes.shots)
-    boards = shot_boards(plan) if shots <= MANY else shot_boards(plan, most_generated=4)
+    tracks = screen_tracks(plan)
+    boards = shot_boards(plan, tracks) if shots <= MANY else shot_boards(plan, tracks, most_generated=4)
     layouts = [layout(board.drone.aspect, shots) for board in boards]
     heights = [place.height(board) for place, board in zip(layouts, boards, strict=True)]
     height = HEADING + sum(heights) + FOOTING
@@ -80,7 +81,7 @@ def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
     for place, board, used in zip(layouts, boards, heights, strict=True):
         _shot(canvas, top, (place, board), plan, grid)
         top -= used
-    _footing(canvas, plan)
+    _footing(canvas, plan, summary(tracks))
     return canvas.png()
 
 
@@ -211,7 +212,8 @@ def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
     text = "  ·  ".join(facts)
     canvas.text(x, base, text, Type(9.5, QUIET))
     right = _framing(board.framing)
-    canvas.text(WIDTH - MARGIN, base, right, Type(9.5, INK, across="right"))
+    complete = board.framing.in_frame is None or board.framing.in_frame == 1.0
+    canvas.text(WIDTH - MARGIN, base, right, Type(9.5, INK if complete else KEEP_OUT, across="right"))
     if board.note:
         room = x + canvas.extent(text, Type(9.5))[0] + 0.25
         style = Type(9.5, KEEP_OUT)
@@ -229,9 +231,8 @@ def _framing(framing: ScreenSummary) -> str:
     return "  ·  ".join(parts)
 
 
-def _footing(canvas: Canvas, plan: VerifiedIR) -> None:
+def _footing(canvas: Canvas, plan: VerifiedIR, whole: ScreenSummary) -> None:
     canvas.lines([np.array([[MARGIN, FOOTING - 0.2], [WIDTH - MARGIN, FOOTING - 0.2]])], FAINT, 0.8)
-    whole = summary(screen_tracks(plan))
     parts = []
     if whole.error is not None and whole.time is not None:
         parts.append(f"Worst screen error {whole.error:.3f} ({whole.shot}, {clock(whole.time)})")
@@ -242,11 +243,10 @@ def _footing(canvas: Canvas, plan: VerifiedIR) -> None:
 
 
 def headline(certificate: tuple[Claim, ...]) -> str:
-    """Return the certificate in one line: how many requirements hold, and how they were shown."""
-    holds = sum(claim.holds for claim in certificate)
-    proved = sum(claim.method in {"exact", "bounded"} for claim in certificate)
-    return (
-        f"Certificate: {holds} of {len(certificate)} requirements hold, {proved} proved for every instant"
-        if holds == len(certificate)
-        else f"Certificate: {len(certificate) - holds} of {len(certificate)} requirements do not hold"
-    )
+    """Return the certificate in one line: how many hard requirements hold, and how they were shown."""
+    hard = [claim for claim in certificate if claim.hard]
+    always = sum(claim.method == "bounded" for claim in hard)
+    lost = sum(not claim.holds for claim in hard)
+    if lost:
+        return f"{lost} of {len(hard)} requirements do not hold"
+    return f"All {len(hard)} requirements hold, {always} of them proved for every instant"

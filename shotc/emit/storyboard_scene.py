@@ -7,17 +7,15 @@ from itertools import pairwise
 from math import tan
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shotc.emit.palette import GROUND, GROUND_FAR, KEEP_OUT, SKY, SKY_LOW, SUBJECT, Rgb, shade
 from shotc.emit.storyboard_canvas import Box, Canvas
+from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
 from shotc.geom.solids import Vec3
 from shotc.ir.mission import MissionIR, Target, Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-
-Array = NDArray[np.float64]
 
 LIGHT = np.radians(215.0)
 """Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""

@@ -7,6 +7,7 @@ camera is drawn right, too. Screen coordinates are those of ``geom.camera``.
 
 from __future__ import annotations
 
+from dataclasses import fields
 from itertools import pairwise
 
 import numpy as np
@@ -75,10 +76,11 @@ def project_loop(camera: View, loop: Array) -> Array:
 def project_loops(camera: View, loops: Array) -> list[Array]:
     """Return the screen polygons of one contour seen by many cameras, each of shape (K, 2).
 
-    camera : its fields have shape (T, 1); loops : shape (T, M, 3), offsets from each camera, W
+    camera : its fields have shape (T,); loops : shape (T, M, 3), offsets from each camera, W
     """
-    points = np.stack(camera.to_camera((loops[..., 0], loops[..., 1], loops[..., 2])), axis=-1)
-    half = np.stack([camera.half_width[:, 0], camera.half_height[:, 0]], axis=-1)
+    each = View(*(np.asarray(getattr(camera, field.name))[:, None] for field in fields(View)))
+    points = np.stack(each.to_camera((loops[..., 0], loops[..., 1], loops[..., 2])), axis=-1)
+    half = np.stack([camera.half_width, camera.half_height], axis=-1)
     return [_scaled(_clip_near(loop), *pair) for loop, pair in zip(points, half, strict=True)]
 
 
