@@ -5,6 +5,7 @@ Everything here takes bytes and gives values; ``write`` alone touches the disk.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
@@ -20,11 +21,12 @@ from shotc.ir.mission import MissionIR
 from shotc.passes.base import PassContext, silent
 from shotc.pipeline import PassReport, default_passes, front_passes, run
 from shotc.source.file import SourceFile
+from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import load
 from shotc.spec.schema import json_schema as _json_schema
 
 if TYPE_CHECKING:  # the base install has no numpy
-    from shotc.ir.trajectory import VerifiedIR
+    from shotc.ir.trajectory import Claim, VerifiedIR
 
 SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra")
 
@@ -72,6 +74,21 @@ class Emitted:
     artifacts: tuple[Artifact, ...]
     diagnostics: tuple[Diagnostic, ...]
     notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class PlanReport:
+    """A plan file, proved again.
+
+    plan : None where it breaks a hard claim, differs from its own certificate, or is no plan
+    certificate : every claim as proved now, broken ones included
+    sources : the mission that the diagnostics point into, where it still is what was planned
+    """
+
+    plan: VerifiedIR | None
+    certificate: tuple[Claim, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    sources: dict[str, SourceFile]
 
 
 def json_schema() -> dict[str, Any]:
@@ -146,6 +163,32 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
 
 
+def verify_plan(data: bytes, name: str) -> PlanReport:
+    """Prove the plan in the bytes of a plan.json, from them alone; ``name`` is how to show the file."""
+    missing = _missing_libraries(("numpy",))
+    if missing:
+        return PlanReport(None, (), missing, {})
+    from shotc.passes.verify_file import verify_file
+
+    verdict = verify_file(data, name, PassContext())
+    sources = {} if verdict.mission is None else _unchanged(*verdict.mission)
+    return PlanReport(verdict.plan, verdict.certificate, verdict.diagnostics, sources)
+
+
+def _unchanged(name: str, sha256: str) -> dict[str, SourceFile]:
+    """Return the text of a mission that a plan was made from, where the file still holds those bytes."""
+    path = Path(name)
+    try:
+        if not path.is_file() or path.stat().st_size > MAX_BYTES:
+            return {}
+        data = path.read_bytes()
+    except (OSError, ValueError):
+        return {}
+    if hashlib.sha256(data).hexdigest() != sha256:
+        return {}
+    return {name: SourceFile(name, data.decode("utf-8-sig", "replace"))}
+
+
 def _models() -> Mapping[str, Any]:
     return {name: kind.model for name, kind in plugins.discover("kinds").plugins.items()}
 
@@ -171,7 +214,11 @@ def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:
                 help="plan the shots of standing targets by one drone in a mission of their own",
             ),
         )
-    missing = [library for library in SOLVERS if find_spec(library) is None]
+    return _missing_libraries(SOLVERS)
+
+
+def _missing_libraries(libraries: Sequence[str]) -> tuple[Diagnostic, ...]:
+    missing = [library for library in libraries if find_spec(library) is None]
     if missing:
         return (
             Diagnostic(

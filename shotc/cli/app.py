@@ -7,7 +7,7 @@ import gc
 import os
 import sys
 from collections.abc import Sequence
-from contextlib import redirect_stdout
+from contextlib import redirect_stdout, suppress
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Annotated
@@ -35,6 +35,9 @@ COMMANDS = {
     "list": _Command("shotc.cli.inventory:show", _LEARN),
     "schema": _Command("shotc.cli.schema:schema", _LEARN),
     "plan": _Command("shotc.cli.plan:plan", _PLAN),
+    "verify": _Command("shotc.cli.verify:verify", _PLAN),
+    "emit": _Command("shotc.cli.emit:emit", _PLAN),
+    "diff": _Command("shotc.cli.diff:diff", _PLAN),
 }
 _HELP = """Compile a YAML mission into verified, flyable camera motion.
 
@@ -51,10 +54,13 @@ _BROKEN_PIPE = 128 + 13
 
 def main() -> None:
     """Run the command line of this process, and end the process."""
-    # Most of a short run is imports: they make no garbage, and pydantic need not look for plugins.
+    # Most of a short run is imports: they make no garbage, neither on the way nor at the end, and
+    # pydantic need not look for plugins.
     gc.set_threshold(100_000, 50, 100)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    sys.exit(run(sys.argv[1:]))
+    code = run(sys.argv[1:])
+    gc.freeze()
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -169,7 +175,8 @@ def _interrupted() -> int:
 
 def _pipe_closed() -> int:
     """Leave nothing for the interpreter to flush into a pipe that nobody reads."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    with suppress(OSError, ValueError):  # a stream that is no file has nothing to flush
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return _BROKEN_PIPE
 
 

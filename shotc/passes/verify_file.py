@@ -27,11 +27,13 @@ class FileVerdict:
 
     plan : the verified plan, or None where it breaks a hard claim or is no plan
     certificate : every claim as proved now, broken ones included
+    mission : what the mission file was called, and the SHA-256 of its bytes, where the plan can be read
     """
 
     plan: VerifiedIR | None
     certificate: tuple[Claim, ...]
     diagnostics: tuple[Diagnostic, ...]
+    mission: tuple[str, str] | None = None
 
 
 def verify_file(data: bytes, name: str, ctx: PassContext) -> FileVerdict:
@@ -51,8 +53,13 @@ def verify_file(data: bytes, name: str, ctx: PassContext) -> FileVerdict:
         if len(differing) > REPORTED:
             more = f"{len(differing) - REPORTED} more claims of the certificate differ"
             diagnostics.append(Diagnostic("V040", more, label))
-    plan = VerifiedIR(read.trajectory, verdict.certificate)
-    return FileVerdict(None if has_errors(diagnostics) else plan, verdict.certificate, tuple(diagnostics))
+    mission = read.trajectory.keyframes.mission
+    return FileVerdict(
+        None if has_errors(diagnostics) else VerifiedIR(read.trajectory, verdict.certificate),
+        verdict.certificate,
+        tuple(diagnostics),
+        (mission.origins.file, mission.source_sha256),
+    )
 
 
 def _differences(written: tuple[Claim, ...], proved: tuple[Claim, ...], *, same_tool: bool) -> Iterator[str]:
