@@ -57,16 +57,24 @@ def gather(specs: Sequence[str], stdin_name: str | None = None) -> Gathered:
     gathered = Gathered()
     seen: set[str] = set()
     for spec in specs:
-        if spec != STDIN and Path(spec).is_dir():
+        if spec != STDIN and _is_folder(spec):
             _gather_folder(Path(spec), gathered, seen)
         elif _is_new(spec, seen):
             _keep(_read(spec, stdin_name), gathered)
     return gathered
 
 
+def _is_folder(spec: str) -> bool:
+    try:
+        return Path(spec).is_dir()
+    except OSError:  # a name that is too long; reading the file will say so
+        return False
+
+
 def _gather_folder(folder: Path, gathered: Gathered, seen: set[str]) -> None:
     holds_any = False
-    for path in _yaml_files(folder):
+    errors: list[OSError] = []
+    for path in _yaml_files(folder, errors):
         found = _read(str(path), None)
         if isinstance(found, MissionText) and not _MISSION.search(found.data):
             gathered.skipped += 1
@@ -74,13 +82,17 @@ def _gather_folder(folder: Path, gathered: Gathered, seen: set[str]) -> None:
         holds_any = True
         if _is_new(str(path), seen):
             _keep(found, gathered)
-    if not holds_any:
+    gathered.diagnostics += [_unreadable("folder", str(error.filename), error) for error in errors]
+    if not (holds_any or errors):
         gathered.diagnostics.append(_no_mission(folder))
 
 
-def _yaml_files(folder: Path) -> Iterator[Path]:
-    """Yield the YAML files in and below a folder in order of name; hidden folders are left out."""
-    for parent, folders, files in os.walk(folder):
+def _yaml_files(folder: Path, errors: list[OSError]) -> Iterator[Path]:
+    """Yield the YAML files in and below a folder in order of name; hidden folders are left out.
+
+    errors : grows by what keeps a folder from being read
+    """
+    for parent, folders, files in os.walk(folder, onerror=errors.append):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in sorted(files):
             path = Path(parent) / name
@@ -105,21 +117,28 @@ def _keep(found: MissionText | Diagnostic, gathered: Gathered) -> None:
 
 def _read(spec: str, stdin_name: str | None) -> MissionText | Diagnostic:
     if spec == STDIN:
-        folder = Path(stdin_name).parent if stdin_name else Path()
-        return MissionText(_bounded(sys.stdin.buffer), stdin_name or STDIN_NAME, folder)
-    path = Path(spec)
-    name = path.as_posix()
+        name = stdin_name or STDIN_NAME
+        path = Path(stdin_name or "")
+    else:
+        path = Path(spec)
+        name = path.as_posix()
     try:
+        if spec == STDIN:
+            return MissionText(_bounded(sys.stdin.buffer) if sys.stdin else b"", name, path.parent)
         with path.open("rb") as stream:
             return MissionText(_bounded(stream), name, path.parent)
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        return Diagnostic(
-            UNREADABLE_FILE,
-            f"the file cannot be read: {reason}",
-            (Label(name, WHOLE_FILE),),
-            help="check the path; it is relative to the current folder",
-        )
+        return _unreadable("file", name, error)
+
+
+def _unreadable(what: str, name: str, error: OSError) -> Diagnostic:
+    reason = (error.strerror or str(error)).lower()
+    return Diagnostic(
+        UNREADABLE_FILE,
+        f"the {what} cannot be read: {reason}",
+        (Label(name, WHOLE_FILE),),
+        help="check the path, which is relative to the current folder, and the right to read it",
+    )
 
 
 def _bounded(stream: BinaryIO) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -59,6 +60,27 @@ def test_a_missing_file_is_a_diagnostic(run: Run) -> None:
     (found,) = json.loads(result.out)["diagnostics"]
     assert (found["code"], found["file"], found["line"], found["column"]) == ("Y022", "none.yaml", 1, 1)
     assert found["message"] == "the file cannot be read: no such file or directory"
+
+
+def test_a_name_no_file_can_have(run: Run) -> None:
+    result = run("check", "x" * 5000, "--format", "concise")
+    assert result.code == 1
+    assert " Y022 the file cannot be read: " in result.out
+
+
+def test_closed_standard_input() -> None:
+    command = f"exec {sys.executable} -m shotc check - --format concise <&-"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (1, "<stdin>:1:1: Y015 the file holds no mission\n")
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="a superuser reads everything")
+def test_a_folder_that_may_not_be_read(run: Run) -> None:
+    Path("m/locked").mkdir(parents=True, mode=0o755)
+    Path("m/locked").chmod(0)
+    result = run("check", "m", "--format", "concise")
+    assert result.code == 1
+    assert "m/locked:1:1: Y022 the folder cannot be read" in result.out
 
 
 def test_a_folder_is_searched_for_missions(run: Run) -> None:
