@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, ClassVar, Self, get_args
@@ -15,6 +15,10 @@ from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from shotc.spec.faults import details_of, fault, together
 from shotc.units import clip, describe
+
+# Looking for the nearest word takes time; nobody reads a thousand proposals.
+_ADVISED = 100
+_LONGEST_WORD = 80
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,16 +123,16 @@ class Model(BaseModel):
         details = details_of(error)
         missing = [str(d["loc"][0]) for d in details if _is(d, "missing")]
         unknown = [str(d["loc"][0]) for d in details if _is(d, "extra_forbidden")]
-        # A missing key that an unknown one resembles is one slip of the pen, not two faults.
-        misspelt = {
-            close[0] for key in unknown if (close := get_close_matches(key, missing, n=1, cutoff=0.6))
-        }
-        absent = [
-            _missing(key, cls.model_fields[key]) for key in missing if key not in misspelt | data.keys()
+        strange = [_unknown(key, missing, cls.model_fields) for key in unknown[:_ADVISED]]
+        strange += [
+            _detail((key,), "unknown-field", f"unknown key `{clip(key)}`") for key in unknown[_ADVISED:]
         ]
-        strange = [_unknown(key, missing, cls.model_fields) for key in unknown]
-        own = [d for d in details if _is(d, "missing") or _is(d, "extra_forbidden")]
-        others = [d for d in details if d not in own and not _echo(d, details)]
+        # A missing key that an unknown one resembles is one slip of the pen, not two faults.
+        accounted = {closest(key, missing) for key in unknown[:_ADVISED]} | data.keys()
+        absent = [_missing(key, cls.model_fields[key]) for key in missing if key not in accounted]
+        others = [
+            d for d in details if not (_is(d, "missing") or _is(d, "extra_forbidden") or _echo(d, details))
+        ]
         return [*others, *absent, *strange]
 
 
@@ -140,10 +144,18 @@ def section(description: str) -> Any:
     return Field(default={}, validate_default=True, description=description)
 
 
-def nearest(word: str, known: Mapping[str, object]) -> str:
+def closest(word: str, known: Iterable[str]) -> str | None:
+    """Return the known word that ``word`` is most likely meant to be, if there is one."""
+    if len(word) > _LONGEST_WORD:
+        return None
+    return next(iter(get_close_matches(word, list(known), n=1, cutoff=0.6)), None)
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
     """Return a help that proposes the nearest known word, or lists them all."""
-    close = get_close_matches(word, known, n=1, cutoff=0.6)
-    return f"did you mean `{close[0]}`?" if close else f"known are {', '.join(known)}"
+    words = list(known)
+    close = closest(word, words)
+    return f"did you mean `{close}`?" if close else f"known are {', '.join(words)}"
 
 
 def _exactly(given: tuple[str, ...], absent: set[str]) -> JsonSchemaValue:
@@ -169,8 +181,9 @@ def _is(detail: InitErrorDetails, kind: str) -> bool:
 def _echo(detail: InitErrorDetails, details: list[InitErrorDetails]) -> bool:
     """Tell whether pydantic calls a list too short only because it does not count faulty items."""
     loc = detail["loc"]
-    below = any(len(d["loc"]) > len(loc) and d["loc"][: len(loc)] == loc for d in details)
-    return below and not isinstance(detail["type"], str) and detail["type"].type == "too_short"
+    if isinstance(detail["type"], str) or detail["type"].type != "too_short":
+        return False
+    return any(len(d["loc"]) > len(loc) and d["loc"][: len(loc)] == loc for d in details)
 
 
 def _empty(key: str) -> InitErrorDetails:
@@ -183,9 +196,9 @@ def _missing(key: str, field: FieldInfo) -> InitErrorDetails:
 
 
 def _unknown(key: str, missing: list[str], known: Mapping[str, FieldInfo]) -> InitErrorDetails:
-    close = get_close_matches(key, missing, n=1, cutoff=0.6)
     below = [name for name, field in known.items() if key in _keys_below(field)]
-    help_ = f"did you mean `{close[0]}`?" if close else nearest(key, known)
+    close = closest(key, missing)
+    help_ = f"did you mean `{close}`?" if close else nearest(key, known)
     if below:
         help_ = f"`{key}` belongs under `{below[0]}`"
     return _detail((key,), "unknown-field", f"unknown key `{clip(key)}`", help_)

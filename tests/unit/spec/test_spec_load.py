@@ -300,3 +300,27 @@ def test_loading_needs_no_heavy_library():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not heavy & set(done.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("x500", "x" * 1_000_000),
+        ("static", "x" * 1_000_000),
+        ("mission: look", "mission: " + "x" * 1_000_000),
+        ("3 m/s", "3 " + "x" * 1_000_000),
+        ('"16:9"', '"' + "1" * 1_000_000 + ':1"'),
+        ("3 m/s", "-" + "9" * 1_000_000),
+    ],
+    ids=["model", "kind", "name", "unit", "aspect", "number"],
+)
+def test_endless_words_give_short_messages(loads, right, wrong):
+    (found,) = loads(BASE.replace(right, wrong)).diagnostics
+    assert len(found.message + found.help) < 400
+
+
+def test_thousands_of_faults_in_one_mapping_are_judged_in_linear_time(loads):
+    keys = "\n".join(f"oddity{i}: 1" for i in range(4000))
+    found = loads(BASE + keys + "\n").diagnostics
+    assert len(found) == MAX_DIAGNOSTICS
+    assert found[-1].notes == ("3900 more faults of this file are not shown",)
