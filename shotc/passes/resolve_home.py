@@ -60,6 +60,8 @@ def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[s
 
 
 def _nearest_level(home: Vec3, top: float, obstacle: Obstacle) -> Vec3:
-    """Return the place of the vertical take-off that is closest to an obstacle."""
-    z = max(home[2], min(top, max(obstacle.solid.bottom, min(obstacle.solid.top, home[2]))))
-    return (home[0], home[1], z)
+    """Return the place of the vertical take-off that is closest to an obstacle, or deepest in it."""
+    low, high = max(home[2], obstacle.solid.bottom), min(top, obstacle.solid.top)
+    if low > high:  # it is all above the take-off, or all below
+        return (home[0], home[1], top if obstacle.solid.bottom > top else home[2])
+    return (home[0], home[1], (low + high) / 2)
