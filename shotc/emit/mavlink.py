@@ -21,10 +21,10 @@ from shotc.emit.mavlink_compare import Error, compare, nearest_miss
 from shotc.emit.mavlink_dialect import DIALECTS, Dialect
 from shotc.emit.mavlink_fence import fence_of
 from shotc.emit.mavlink_geo import Geo, tie
-from shotc.emit.mavlink_items import CHANGE_SPEED, TAKEOFF, Item
+from shotc.emit.mavlink_items import CHANGE_SPEED, Item
 from shotc.emit.mavlink_plan_file import read_plan, write_plan
 from shotc.emit.mavlink_refly import Flown, refly
-from shotc.emit.mavlink_report import coarsened, cut, left_out, no_origin, note, sidenotes, too_low, zooms
+from shotc.emit.mavlink_report import coarsened, cut, left_out, no_origin, note, raised, sidenotes, zooms
 from shotc.emit.mavlink_speed import DEFAULTS
 from shotc.emit.mavlink_steps import Step, steps_of, whole_seconds
 from shotc.emit.mavlink_style import Style, style_of
@@ -127,10 +127,10 @@ class _Job:
         return flown, compare(self.mission, self.flight, flown)
 
     def _warnings(self, flight: _Flight, flown: Flown, error: Error) -> list[Diagnostic]:
-        height = next(i.params[6] for i in flight.items if i.command == TAKEOFF) or 0.0
+        height = float(self.track.poses.position[0, 2]) - self.drone.home[2]
         found: list[Diagnostic | None] = [
             coarsened(self.mission, self.drone, error, self.dialect.most_items) if flight.coarser else None,
-            too_low(self.mission, self.drone, height),
+            raised(self.mission, self.drone, height, self.dialect.least_takeoff),
             cut(self.mission, self.drone, *nearest_miss(self.obstacles, flown)),
         ]
         return [d for d in found if d is not None] + zooms(self.mission, self.flight)

@@ -65,7 +65,8 @@ class Builder:
         places = self.geo.places(track.poses.position)
         start = float(track.poses.body_yaw[0])
         home = Place(self.geo.home_lat, self.geo.home_lon, 0.0)
-        self.items.extend(self.dialect.takeoff(replace(home, alt=places[0].alt), start))
+        above = replace(home, alt=max(places[0].alt, self.dialect.least_takeoff))
+        self.items.extend(self.dialect.takeoff(above, start))
         shot: str | None = None
         for step in steps:
             entered = step.leg.shot if step.leg.shot != shot else None

@@ -109,8 +109,7 @@ def _meet(plan: Poses, time: Array, flown: Flown, inside: NDArray[np.bool_]) -> 
 
 def _progress(position: Array, time: Array) -> Array:
     steps = np.linalg.norm(np.diff(position, axis=0), axis=1)
-    stays = np.where(steps < 1e-6, STAY_PACE * np.diff(time), 0.0)
-    return np.concatenate([[0.0], np.cumsum(steps + stays)])
+    return np.concatenate([[0.0], np.cumsum(np.maximum(steps, STAY_PACE * np.diff(time)))])
 
 
 def _nearest(points: Array, expected: Array, position: Array, progress: Array) -> tuple[Array, Array]:

@@ -40,6 +40,7 @@ class Px4:
     firmware = 12
     most_items = 500
     whole_seconds = False
+    least_takeoff = 3.0  # metres: the acceptance radius (NAV_ACC_RAD, 2 m for multirotors) plus 1 m
     vertical_speeds = False
     turns_by_item = False
     earth_pan = True
@@ -70,6 +71,7 @@ class ArduPilot:
     firmware = 3
     most_items = 649
     whole_seconds = True
+    least_takeoff = 1.0  # metres
     vertical_speeds = True
     turns_by_item = True
     earth_pan = False

@@ -36,7 +36,7 @@ class Flown:
     """Samples of the re-flight, between take-off and landing.
 
     part : (n,), counts starts and stops of recording: odd while the shots are filmed, in order
-    progress : (n,), way flown in m, stays counted at a nominal speed
+    progress : (n,), way flown in m, stays at STAY_PACE
     elapsed : (n,), s
     """
 
@@ -49,7 +49,7 @@ class Flown:
     elapsed: Array
 
 
-STAY_PACE = 0.2  # m/s at which stays count as progress
+STAY_PACE = 0.1  # m/s at which stays count as progress, as does all slower motion
 
 
 @dataclass(slots=True)
@@ -114,7 +114,7 @@ def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
     if moving > 0:
         count = min(STEPS_MOST, max(1, ceil(moving / STEP_TIME), ceil(length / STEP_WAY)))
         share = np.linspace(0.0, 1.0, count + 1)
-        _log(pilot, start + share[:, None] * way, share * moving, share * length)
+        _log(pilot, start + share[:, None] * way, share * moving, share * max(length, moving * STAY_PACE))
     pilot.position = target
     if hold > 0:
         share = np.linspace(0.0, 1.0, min(STEPS_MOST, max(2, ceil(hold / STEP_TIME))) + 1)

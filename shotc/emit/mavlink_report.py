@@ -15,7 +15,6 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import HFOV
 from shotc.ir.trajectory import DroneTrajectory
 
-PX4_ACCEPTANCE = 2.0  # metres, NAV_ACC_RAD of multirotors
 ZOOM_LEAST = np.radians(0.1)
 CUT_LEAST = 0.05  # metres, of clearance
 
@@ -56,20 +55,16 @@ def coarsened(mission: MissionIR, drone: Drone, error: Error, most: int) -> Diag
     )
 
 
-def too_low(mission: MissionIR, drone: Drone, height: float) -> Diagnostic | None:
-    """Say that PX4 refuses the take-off, or return None."""
-    least = PX4_ACCEPTANCE + 1.0
-    if drone.autopilot != "px4" or height >= least:
+def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Diagnostic | None:
+    """Say that the take-off goes higher than planned, or return None."""
+    if height >= least - 0.005:
         return None
     return Diagnostic(
         "E104",
-        f"PX4 refuses a take-off of {drone.name} to {height:.1f} m",
+        f"the mission file of {drone.name} takes off to {least:.1f} m instead of {height:.1f} m",
         (mission.origins.key(drone.path),),
-        (
-            f"{least:.1f} m is the least: the acceptance radius of {PX4_ACCEPTANCE:.1f} m (NAV_ACC_RAD)"
-            " plus 1 m",
-        ),
-        "begin the first shot higher, or lower NAV_ACC_RAD",
+        (f"{drone.autopilot} refuses a lower take-off",),
+        "begin higher above the pad, or see that the air above it is free",
     )
 
 

@@ -8,6 +8,7 @@ from math import acos, hypot, pi, tan
 import numpy as np
 from numpy.typing import NDArray
 
+from shotc.emit.mavlink_speed import SLOWEST
 from shotc.emit.mavlink_style import Command, Style, command_of, region_of
 from shotc.emit.mavlink_thin import Leg
 from shotc.emit.mavlink_track import Track
@@ -87,7 +88,9 @@ def _step(track: Track, style: Style, leg: Leg, following: Leg | None) -> Step:
     radius = RADIUS_REST
     if following is not None and not following.rest and not stops:
         radius = _radius(points[leg.first], points[leg.last], points[following.last], elapsed)
-    hold = SETTLE if stops and boundary else 0.0
+    # No autopilot creeps: it is there sooner, and waits.
+    hold = max(0.0, elapsed - float(np.linalg.norm(way)) / SLOWEST)
+    hold = max(hold, SETTLE) if stops and boundary else hold
     return Step(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink_clearance import Obstacle, shortfall
 from shotc.emit.mavlink_style import Style, command_of, facing, follow, region_of, select, turns_body
-from shotc.emit.mavlink_track import Poses, Stretch, Track, project
+from shotc.emit.mavlink_track import SAMPLE_STEP, Poses, Stretch, Track, project
 from shotc.ir.mission import Drone
 
 Array = NDArray[np.float64]
@@ -90,7 +90,7 @@ class Thinner:
 
     def _longest(self, stretch: Stretch, first: int, tolerance: Tolerance) -> int:
         time = self.track.time
-        least = int(np.searchsorted(time, time[first] + LEG_LEAST - 1e-9))
+        least = int(np.searchsorted(time, time[first] + LEG_LEAST - SAMPLE_STEP / 2))
         good, step = min(max(least, first + 1), stretch.last), 4
         bad = stretch.last + 1
         while good < stretch.last:

@@ -68,11 +68,12 @@ _MAVLINK_CODES = (
     ),
     CodeInfo(
         "E104",
-        "takeoff-too-low",
+        "takeoff-raised",
         Severity.WARNING,
-        "PX4 refuses a take-off this low",
+        "a mission file takes off higher than the plan, because the autopilot refuses less",
         "Before a mission PX4 checks that the take-off ends at least a metre higher than its acceptance radius, "
-        "which is 2 m for multirotors (NAV_ACC_RAD). Begin the first shot higher, or lower the parameter.",
+        "which is 2 m for multirotors (NAV_ACC_RAD); ArduPilot climbs a metre at least. Where the plan turns off "
+        "lower, the file climbs on to that height above the pad first, through air that was not verified.",
         "",
         "",
         "other",

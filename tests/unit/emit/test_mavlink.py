@@ -78,11 +78,14 @@ def test_a_flight_too_long_for_the_autopilot_is_coarsened_and_says_how_far(autop
     assert 0.25 < reached < 8.0
 
 
-def test_a_low_take_off_is_a_warning_for_px4_alone() -> None:
+def test_a_low_take_off_is_raised_for_px4_alone() -> None:
     low, high, east = (0.0, -60.0, 0.0, 0.0, 0.0), (0.0, -60.0, 2.5, 0.0, 0.0), (40.0, -60.0, 2.5, 0.0, 0.0)
     moves = [("takeoff", None, 4.0, high), ("shot", "half", 10.0, east), ("land", None, 4.0, low)]
     trajectory = flight(moves, pad=low)
-    assert [d.code for d in EMITTER.emit(plan(trajectory)).diagnostics] == ["E104"]
+    emission = EMITTER.emit(plan(trajectory))
+    assert [d.code for d in emission.diagnostics] == ["E104"]
+    assert "3.0 m instead of 2.5 m" in emission.diagnostics[0].message
+    assert json.loads(emission.artifacts[0].data)["mission"]["items"][0]["params"][6] == 3
     assert EMITTER.emit(plan(trajectory, autopilot="ardupilot")).diagnostics == ()
 
 
