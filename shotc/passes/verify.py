@@ -56,7 +56,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     claims: list[Claim] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
-        claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight)]
+        claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
     claims += separation(ir, flights)
     certificate = tuple(claims)
     return Verdict(certificate, (*_grounded(ir), *report(ir, certificate)))

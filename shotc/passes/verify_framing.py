@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.framing import Frames, margin_rate
-from shotc.geom.pieces import Pieces, cut
-from shotc.geom.proof import norm, sup_convex, sup_norm
-from shotc.ir.mission import Promise, Shot
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.geom.framing import Frames
+from shotc.ir.mission import Shot
 from shotc.ir.sampling import clock, framed, references, seen, subjects
-from shotc.ir.trajectory import Claim, Method, Phase
+from shotc.ir.trajectory import Claim, Method, Phase, TrajectoryIR
 from shotc.passes.verify_claims import Flight, Limit, Worst, claim
-
-HALVINGS = 10
-"""How often the time between two samples is halved to close it."""
+from shotc.passes.verify_close import errors_close, margins_close
+from shotc.passes.verify_reference import wanted_framing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,23 +33,20 @@ class View:
     error: Array
 
 
-def framing(flight: Flight) -> Iterator[Claim]:
+def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
     """Claim what every shot promises of its targets; without a promise the same claims are soft."""
-    for phase in flight.track.phases:
-        if phase.shot is None:
+    for placed in ir.keyframes.shots:
+        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
+        if len(flown) != 1 or placed.shot.drone != flight.drone.name:
             continue
-        shot = next(s for s in flight.mission.shots if s.id == phase.shot)
-        views = [v for v in (_view(flight, shot, t, phase) for t in _targets(flight, shot)) if v is not None]
-        yield from _unframed(flight, shot, views)
-        for view in views:
-            yield _in_frame(flight, view)
-            yield from _screen_error(flight, view)
-            yield from _size(flight, view)
-            yield _visible(flight, view)
-
-
-def _targets(flight: Flight, shot: Shot) -> tuple[str, ...]:
-    return subjects(flight.mission, flight.track, shot.id)
+        yield from wanted_framing(flight, placed, flown[0])
+        for target in subjects(flight.mission, flight.track, placed.shot.id):
+            view = _view(flight, placed.shot, target, flown[0])
+            if view is not None:
+                yield _in_frame(flight, view)
+                yield from _screen_error(flight, view)
+                yield from _size(flight, view)
+                yield _visible(flight, view)
 
 
 def _view(flight: Flight, shot: Shot, target: str, phase: Phase) -> View | None:
@@ -72,16 +65,6 @@ def _view(flight: Flight, shot: Shot, target: str, phase: Phase) -> View | None:
     return View(shot, target, times, frames, error)
 
 
-def _unframed(flight: Flight, shot: Shot, views: list[View]) -> Iterator[Claim]:
-    """Claim that what the keyframes frame is framed in flight, too."""
-    wanted = {k.target for k in shot.keyframes if k.target is not None}
-    missing = wanted - {view.target for view in views}
-    if wanted:
-        promised = shot.promise != Promise()
-        limit = Limit("targets not framed", 0.0, "of them", shot.path, hard=promised, shot=shot.id)
-        yield claim(flight, limit, Worst(float(len(missing)), None, "exact"))
-
-
 def _in_frame(flight: Flight, view: View) -> Claim:
     asked = view.shot.promise.in_frame
     share = float(view.frames.in_frame.mean())
@@ -96,53 +79,10 @@ def _in_frame(flight: Flight, view: View) -> Claim:
         hard=asked is not None,
         shot=view.shot.id,
     )
-    method: Method = "bounded" if share == 1.0 and _closes(flight, view) else "sampled"
+    method: Method = "sampled"
+    if share == 1.0 and margins_close(flight, view.target, view.times):
+        method = "bounded"
     return claim(flight, limit, Worst(share, float(view.times[k]), method))
-
-
-def _closes(flight: Flight, view: View) -> bool:
-    """Prove that the target stays whole in the frame between samples, too.
-
-    With L the fastest rate of a margin, it stays above the mean of two neighbours less L dt / 2.
-    """
-    fastest = _fastest_margin(flight, view)
-    times, margins = view.times, view.frames.margin
-    spans = np.diff(times) < 2.5 / flight.mission.rate
-    low, high, a, b = times[:-1][spans], times[1:][spans], margins[:-1][spans], margins[1:][spans]
-    for _ in range(HALVINGS):
-        is_open = a + b < fastest * (high - low)
-        if not is_open.any():
-            return True
-        low, high, a, b = low[is_open], high[is_open], a[is_open], b[is_open]
-        middle = 0.5 * (low + high)
-        m = seen(flight.mission, flight.track, view.target, middle).margin
-        if (m < 0).any():
-            return False
-        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
-        a, b = np.concatenate([a, m]), np.concatenate([m, b])
-    return False
-
-
-def _fastest_margin(flight: Flight, view: View) -> float:
-    pieces = cut(flight.track.curve, float(view.times[0]), float(view.times[-1]))
-    if not len(pieces):
-        return 0.0
-    target = flight.mission.target(view.target)
-    centre = np.array(target.centre)
-    far = sup_convex(pieces.channels(0, 1, 2), lambda c: norm(c - centre), _roughly).proven
-    rate = pieces.derivative()
-    turn = _sup(rate, CAM_YAW) + _sup(rate, CAM_PITCH)
-    speed = sup_norm(rate.channels(0, 1, 2), _roughly).proven
-    reach = far + target.height / 2 + target.radius
-    return margin_rate(reach, speed, turn, _sup(rate, HFOV), flight.drone.aspect)
-
-
-def _sup(rate: Pieces, channel: int) -> float:
-    return sup_norm(rate.channels(channel), _roughly).proven
-
-
-def _roughly(best: float) -> float:
-    return max(1e-3, 0.05 * abs(best))
 
 
 def _screen_error(flight: Flight, view: View) -> Iterator[Claim]:
@@ -152,7 +92,12 @@ def _screen_error(flight: Flight, view: View) -> Iterator[Claim]:
         return
     error = np.where(known, view.error, -inf)
     k = int(np.argmax(error))
-    yield _sampled(flight, view, ("screen error", "screen_error", asked), (float(error[k]), k))
+    found = _sampled(flight, view, ("screen error", "screen_error", asked), (float(error[k]), k))
+    if asked is not None and found.holds:
+        times = view.times[known]
+        if errors_close(flight, view.shot.id, view.target, times, asked):
+            found = replace(found, method="bounded")
+    yield found
 
 
 def _size(flight: Flight, view: View) -> Iterator[Claim]:

@@ -56,7 +56,9 @@ RULES = {
     "delay of keyframes": Rule("V016", help=REPLAN),
     "drift from the vertical": Rule("V017", help=REPLAN),
     "depth below home": Rule("V017", help=REPLAN),
-    "targets not framed": Rule("V024", help=REPLAN),
+    "frames without their target": Rule("V024", help=REPLAN),
+    "keyframes without a time": Rule("V024", help=REPLAN),
+    "reference off its keyframes": Rule("V024", help=REPLAN),
 }
 
 STARTING = {
@@ -75,6 +77,7 @@ ENDING = {
 }
 
 UNKNOWN = {
+    "V024": "cannot be told, there is none",
     "V016": "cannot be told, the keyframe is not reached in its shot",
     "V020": "cannot be told, the target is behind the camera",
     "V021": "cannot be told, the target is not all before the camera",

@@ -274,9 +274,10 @@ _FRAMING = (
         24,
         "promise-without-framing",
         (
-            "a shot promises something of a target that the plan does not frame",
-            "A promise speaks of the targets that the shot frames. The plan holds no framing of a target that the "
-            "shot's keyframes name, so the promise cannot be judged. A plan like this was edited or damaged.",
+            "a shot promises something of a target that the plan does not frame as its keyframes say",
+            "A promise is judged where the plan frames the target, against the reference in the plan. Between two "
+            "keyframes of one target it has to be framed all the time, and the reference has to lead from the one "
+            "keyframe's place on screen to the other's. A plan where it does not was edited or damaged.",
         ),
     ),
     _code(

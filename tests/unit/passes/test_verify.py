@@ -120,6 +120,7 @@ def test_known_values() -> None:
 
 
 CURVE = PLAN.drones[0].curve
+FRAMING = PLAN.drones[0].framing[0]
 
 TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("speed limit", with_limits(speed=7.8), {"V001"}),
@@ -167,6 +168,10 @@ TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("promised size", with_shot(promise=Promise(size=(0.82, 0.9))), {"V021"}),
     ("promised small size", with_shot(promise=Promise(size=(0.2, 0.8))), {"V021"}),
     ("framing removed", with_track(framing=()), {"V024"}),
+    ("framing shortened", with_track(framing=(replace(FRAMING, start=30.0, end=40.0),)), {"V024"}),
+    ("reference moved", with_track(framing=(replace(FRAMING, reference=Piecewise(
+        FRAMING.reference.breaks, FRAMING.reference.ctrl + 0.02)),)), {"V024"}),
+    ("reference removed", with_track(framing=(replace(FRAMING, reference=None),)), {"V024"}),
 ]  # fmt: skip
 
 
@@ -200,6 +205,39 @@ def test_framing_promises() -> None:
     away = shifted(CAM_YAW, pi * 0.9)
     found = {d.code: d for d in judge(away, CONTEXT).diagnostics}
     assert "behind the camera" in found["V020"].message
+
+
+def swaying(size: float) -> TrajectoryIR:
+    """The camera sways once a second while it films: by nothing at whole seconds."""
+    track = PLAN.drones[0]
+    t = np.concatenate([[0.0, 8.0], np.linspace(22, 52, 241), [82.0, 112.0, 122.0]])
+    value, rate, bend = (track.curve.derivative(n)(t) if n else track.curve(t) for n in range(3))
+    rest = ~((t >= 22) & (t <= 52))
+    rate[rest], bend[rest] = 0.0, 0.0
+    filmed = (t > 22) & (t < 52)
+    phase = 2 * pi * t[filmed]
+    value[filmed, CAM_YAW] += size * np.sin(phase) ** 2
+    rate[filmed, CAM_YAW] += size * 2 * pi * np.sin(2 * phase)
+    bend[filmed, CAM_YAW] += size * 8 * pi**2 * np.cos(2 * phase)
+    return with_track(curve=quintic_hermite(t, value, rate, bend))
+
+
+@pytest.mark.parametrize(("size", "method"), [(0.01, "bounded"), (0.1, "sampled")])
+def test_between_samples_a_promise_is_proved_or_only_sampled(size: float, method: str) -> None:
+    shot = replace(MISSION.shots[0], promise=Promise(screen_error=0.05))
+    ir = with_mission(swaying(size), rate=1.0, shots=(shot,))
+    error = claim(ir, "tower screen error")
+    assert error.worst < 0.003  # samples see nothing of it
+    assert error.method == method
+    seen = claim(with_mission(ir, rate=7.0), "tower screen error").worst
+    assert (seen > 0.05) is (method == "sampled")
+
+
+def test_whole_in_frame_between_samples() -> None:
+    for size, method in ((0.1, "bounded"), (0.6, "sampled")):
+        found = claim(with_mission(swaying(size), rate=1.0), "tower in frame")
+        assert found.worst == 1.0
+        assert found.method == method
 
 
 def test_without_promises_losses_are_warnings() -> None:
