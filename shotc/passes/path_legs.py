@@ -141,7 +141,7 @@ def _transit(flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: Ke
 def _smooth(flight: Flight, line: Line) -> Piecewise | Stuck:
     none = np.zeros(0)
     ends = (0, len(line.corners) - 1)
-    stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, True, 1.0)
+    stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
     solved = solve_stretch(flight.room, stretch, flight.drone.limits)
     return Stuck(solved, line.corners, ()) if solved.curve is None else solved.curve
 

@@ -28,7 +28,6 @@ class Line:
     corners : shape (M, 3); s : shape (M,), not decreasing
     of      : for each corner, the keyframe that stands there, or -1
     dropped : keyframes that the way leaves out; moved: whether the first, the last stand elsewhere
-    routed  : whether something had to be passed round
     """
 
     corners: Array
@@ -36,7 +35,6 @@ class Line:
     of: tuple[int, ...]
     dropped: tuple[int, ...] = ()
     moved: tuple[bool, bool] = (False, False)
-    routed: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,7 +69,7 @@ def straight_line(room: Room, start: Array, end: Array) -> Line | NoWay | TooNea
         return NoWay(start, end)
     steps = np.linalg.norm(np.diff(route, axis=0), axis=1)
     s = np.concatenate([[0.0], np.cumsum(steps)])
-    return Line(route, s, tuple([-1] * len(route)), routed=len(route) > 2)
+    return Line(route, s, tuple([-1] * len(route)))
 
 
 def shot_line(room: Room, keyframes: tuple[PlacedKeyframe, ...]) -> Line | NoWay | TooNear:
@@ -129,8 +127,7 @@ def _joined(
             corners += list(way[1:])
         s += list(s[-1] + np.cumsum(steps))
         of += [-1] * (len(way) - 2) + [j]
-    routed = any(len(way) > 2 for way in ways) or bool(dropped)
-    return Line(np.array(corners), np.array(s), tuple(of), dropped, moved, routed)
+    return Line(np.array(corners), np.array(s), tuple(of), dropped, moved)
 
 
 def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:

@@ -37,7 +37,7 @@ from shotc.solvers.spline_qp import (
 )
 
 PIECES = 3  # per straight stretch of the polyline
-PULL = 10.0  # weight of a generated keyframe that does not bind, against the energy in m^2
+PULL = 100.0  # weight of a generated keyframe that does not bind, against the energy in m^2
 EXCESS_PRICE = 10.0  # of speed and acceleration above nominal, against the energy in m^2
 ROUNDS = 4
 FIRST_SHARE = 0.5  # of its distance from an obstacle a chord may give up half
@@ -53,7 +53,6 @@ class Stretch:
     corners : shape (M, 3); s : shape (M,), path parameter at the corners
     bound   : indices of corners the curve must pass, ends included
     pulled  : points it should pass near, with their parameters, shapes (G, 3) and (G,)
-    taut    : whether to stay near the polyline (a routed way) or to be as smooth as can be
     speed   : share of the limits at which it is to be smooth, or None, with ``nominal`` m/s instead
     """
 
@@ -62,7 +61,6 @@ class Stretch:
     bound: tuple[int, ...]
     pulled: Array
     pulled_at: Array
-    taut: bool
     pace: float
     nominal: float | None = None
 
@@ -153,7 +151,7 @@ def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProb
     jerk = _scaled(energy_rows(breaks, 3), scale**2.5)
     goals = [Goal(jerk, np.zeros((len(jerk.piece), 3)))]
     direction, speed = _nominal(stretch, limits, breaks)
-    if stretch.taut or len(stretch.bound) < 3:
+    if len(stretch.bound) + len(stretch.pulled_at) < 3:
         bend = min(float(speed.min()) ** 2 / limits.acceleration, 0.25 * float(s[-1] - s[0]))
         slope = _scaled(energy_rows(breaks, 1), scale**0.5 * (scale / bend) ** 2)
         unit = slope.apply(greville(breaks)[:, None])

@@ -172,7 +172,6 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
         bound=tuple(bound),
         pulled=np.array(pulled).reshape(-1, 3),
         pulled_at=np.array(pulled_at),
-        taut=line.routed,
         pace=placed.shot.pace,
         nominal=nominal,
     )
