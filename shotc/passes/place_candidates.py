@@ -16,7 +16,7 @@ from shotc.ir.mission import Composition, Range
 
 TOUCH = 1e-6  # metres out of the frame, or past the gimbal's stop at the target, that are rounding
 TIE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first
-STEPS = 64  # samples of a line where its nearest point is no candidate
+STEPS = 32  # samples of a line where its nearest point is no candidate
 HALVINGS = 40
 GOLDEN = (sqrt(5) - 1) / 2
 
@@ -144,22 +144,32 @@ def _along(setting: Setting, line: Line, asked: Vec2) -> Vec2 | None:
     if setting.slack(line.point(foot)) >= -TOUCH:
         return line.point(foot)
     roomy = _best(setting, line)
+    if setting.slack(line.point(roomy)) < -TOUCH:
+        return None
     ends = [_first(setting, line, foot, end, roomy) for end in (-1.0, 1.0)]
     return _nearest(setting, asked, (line.point(t) for t in ends if t is not None))
 
 
 def _best(setting: Setting, line: Line) -> float:
     """Return the t of the largest slack: the best of an even sample, then golden section about it."""
-    ts = [-1.0 + 2.0 * i / STEPS for i in range(STEPS + 1)]
-    middle = max(ts, key=lambda t: setting.slack(line.point(t)))
+
+    def slack(t: float) -> float:
+        return setting.slack(line.point(t))
+
+    middle = max((-1.0 + 2.0 * i / STEPS for i in range(STEPS + 1)), key=slack)
     low, high = max(-1.0, middle - 2.0 / STEPS), min(1.0, middle + 2.0 / STEPS)
+    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_left, at_right = slack(left), slack(right)
     for _ in range(HALVINGS):
-        left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        if setting.slack(line.point(left)) >= setting.slack(line.point(right)):
-            high = right
+        if at_left >= at_right:
+            high, right, at_right = right, left, at_left
+            left = high - GOLDEN * (high - low)
+            at_left = slack(left)
         else:
-            low = left
-    return max(middle, (low + high) / 2, key=lambda t: setting.slack(line.point(t)))
+            low, left, at_left = left, right, at_right
+            right = low + GOLDEN * (high - low)
+            at_right = slack(right)
+    return max(middle, (low + high) / 2, key=slack)
 
 
 def _first(setting: Setting, line: Line, foot: float, end: float, roomy: float) -> float | None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from math import ceil, degrees, hypot, pi, radians
 
 from shotc.diag.model import Diagnostic, Label
@@ -27,14 +28,17 @@ TILT = 1e-6  # rad past the gimbal's stop that are rounding
 
 @dataclass(frozen=True, slots=True)
 class Miss:
-    """One keyframe that misses its composition; of several the heaviest is reported."""
+    """One keyframe that misses its composition; of several the heaviest is reported.
+
+    help : or what finds it, where that takes a search
+    """
 
     code: str
     keyframe: Keyframe
     weight: float
     message: str
     notes: tuple[str, ...] = ()
-    help: str = ""
+    help: Callable[[], str] | str = ""
 
 
 def off_composition(keyframe: Keyframe, setting: Setting, place: Vec2) -> Miss:
@@ -84,7 +88,7 @@ def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
             f"wherever `{keyframe.composition.name}` puts it, at least {over:.2f} m are cropped, "
             f"{_range(setting)} and {degrees(setting.hfov):.1f} deg wide",
         ),
-        _what_fits(keyframe.composition, setting),
+        partial(_what_fits, keyframe.composition, setting),
     )
 
 
@@ -150,7 +154,7 @@ def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagn
     generated: dict[str, list[Miss]] = {}
     for miss in misses:
         if miss.keyframe.placed:
-            out.append(_diagnostic(miss, mission.origins.value(miss.keyframe.path)))
+            out.append(_diagnostic(miss, framing_label(mission, miss.keyframe)))
         else:
             generated.setdefault(miss.code, []).append(miss)
     for group in generated.values():
@@ -162,6 +166,14 @@ def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagn
     return out
 
 
+def framing_label(mission: MissionIR, keyframe: Keyframe) -> Label:
+    """Return a label on a keyframe; on the aim of a shot that is one keyframe itself."""
+    written = mission.origins.values
+    own = [(*keyframe.path, key) for key in ("look_at", "heading") if len(keyframe.path) == 2]
+    return mission.origins.value(next((path for path in own if path in written), keyframe.path))
+
+
 def _diagnostic(miss: Miss, label: Label, note: str = "") -> Diagnostic:
     notes = (*miss.notes, note) if note else miss.notes
-    return Diagnostic(miss.code, miss.message, (label,), notes, miss.help)
+    help_ = miss.help if isinstance(miss.help, str) else miss.help()
+    return Diagnostic(miss.code, miss.message, (label,), notes, help_)

@@ -8,7 +8,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.camera import Vec2, heading_of, nearest_depth, silhouette_bounds, view
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.place_candidates import Setting
-from shotc.passes.place_faults import TILT
+from shotc.passes.place_faults import TILT, framing_label
 from shotc.passes.place_keyframes import explicit_aim, setting_of
 
 SAME = 1e-3  # metres within which a camera looks at its own place
@@ -54,7 +54,7 @@ def _beyond_gimbal(mission: MissionIR, drone: Drone, keyframe: Keyframe, pitch: 
     return Diagnostic(
         "G013",
         f"the gimbal cannot pitch to {asked:.1f} deg",
-        labels if (*drone.path, "gimbal", "pitch") in mission.origins.values else labels[:1],
+        labels,
         (f"the gimbal of `{drone.name}` reaches {low:.1f} to {high:.1f} deg",),
         f"pitch the camera to {max(low, min(high, asked)):.1f} deg at most",
     )
@@ -67,7 +67,7 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     straight = setting.aim((0.0, 0.0)) or aim
     right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
     remedy = f"write `look_at: {keyframe.target}`, or `{right}`"
-    label = (mission.origins.value(keyframe.path),)
+    label = (framing_label(mission, keyframe),)
     if off >= 90.0:
         note = f"it is {off:.0f} deg away from where the camera looks"
         return Diagnostic("G008", f"target `{keyframe.target}` is behind the camera", label, (note,), remedy)

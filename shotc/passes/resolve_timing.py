@@ -171,14 +171,14 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
         return []
     message = f"the shots of drone `{drone.name}` take longer than it can stay in the air"
     note = f"all its shots with the ways between take at least {_up(flight)} s"
-    label = mission.origins.value((*drone.path, "endurance"))
-    if (*drone.path, "endurance") not in mission.origins.values:
-        label = mission.origins.key(drone.path)
     return [
         Diagnostic(
             "K005",
             message,
-            (label, timing_label(mission, last.shot, "its last shot")),
+            (
+                mission.origins.value((*drone.path, "endurance")),
+                timing_label(mission, last.shot, "its last shot"),
+            ),
             (f"{note}, its endurance is {drone.endurance:.1f} s",),
             "drop or shorten shots, or cut the mission in two",
         )
