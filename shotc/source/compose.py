@@ -256,9 +256,7 @@ class _Composer:
     def _key(self, frame: _Open, node: Node, *, merge: bool) -> Entry | None:
         """Return the key that a node stands for, or None where its value is to be dropped."""
         if not isinstance(node, Scalar):
-            message = "a key is plain text, not a list, a mapping or an alias"
-            hint = "write the key as text; put a value that begins with '{', '[' or '*' in quotes"
-            self.blame("complex-key", message, node.start, node.end, hint)
+            self._complex_key(node)
             return None
         if merge:
             hint = "YAML 1.2 has no merge keys: write the keys out, or give whole values by alias"
@@ -272,6 +270,14 @@ class _Composer:
             self._duplicate(entry, first)
             return None
         return entry
+
+    def _complex_key(self, node: Node) -> None:
+        """Blame a key that is no scalar, once: a ``{{ name }}`` is one inside another."""
+        span = self.file.span(node.start, node.end)
+        self.faults = [f for f in self.faults if f.kind != "complex-key" or f.span < span]
+        message = "a key is plain text, not a list, a mapping or an alias"
+        hint = "write the key as text; put a value that begins with '{', '[' or '*' in quotes"
+        self.faults.append(Fault("complex-key", message, span, help=hint))
 
     def _key_not_text(self, node: Scalar) -> None:
         kind = _kind_of(node)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, field
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
 
@@ -23,22 +22,27 @@ class Span:
 WHOLE_FILE = Span(1, 1, 1, 1)
 
 
-@lru_cache(maxsize=64)
-def _line_starts(text: str) -> tuple[int, ...]:
-    """Return the offset at which each line begins; lines end as editors see them: LF, CRLF or CR."""
-    return (0, *(match.end() for match in _LINE_END.finditer(text)))
+def _position(starts: tuple[int, ...], offset: int) -> tuple[int, int]:
+    line = bisect_right(starts, offset)
+    return line, offset - starts[line - 1] + 1
 
 
 @dataclass(frozen=True, slots=True)
 class SourceFile:
-    """A text and the name it is shown under."""
+    """A text and the name it is shown under; lines end as editors see them: LF, CRLF or CR."""
 
     name: str
     text: str
+    _starts: tuple[int, ...] = field(init=False, repr=False, compare=False)
+    """The offset at which each line begins."""
+
+    def __post_init__(self) -> None:
+        starts = (0, *(match.end() for match in _LINE_END.finditer(self.text)))
+        object.__setattr__(self, "_starts", starts)
 
     def line(self, number: int) -> str:
         """Return line ``number`` (from 1) without its line end, or an empty string past the end."""
-        starts = _line_starts(self.text)
+        starts = self._starts
         if not 1 <= number <= len(starts):
             return ""
         end = starts[number] if number < len(starts) else len(self.text)
@@ -50,9 +54,7 @@ class SourceFile:
 
     def position(self, offset: int) -> tuple[int, int]:
         """Return line and column, from 1, of a code point offset into the text."""
-        starts = _line_starts(self.text)
-        line = bisect_right(starts, offset)
-        return line, offset - starts[line - 1] + 1
+        return _position(self._starts, offset)
 
     def point(self, offset: int) -> Span:
         """Return the span of one character, or an empty one where a line or the text ends."""
@@ -61,6 +63,10 @@ class SourceFile:
 
     def span(self, start: int, end: int) -> Span:
         """Return the span between two code point offsets, cut to the text; the end is exclusive."""
-        first = min(start, len(self.text))
-        last = min(max(start, end), len(self.text))
-        return Span(*self.position(first), *self.position(last))
+        starts, length = self._starts, len(self.text)
+        first = min(start, length)
+        line, column = _position(starts, first)
+        last = min(max(start, end), length)
+        if line == len(starts) or last < starts[line]:  # most spans lie in one line
+            return Span(line, column, line, column + last - first)
+        return Span(line, column, *_position(starts, last))
