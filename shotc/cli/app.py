@@ -37,6 +37,7 @@ COMMANDS = {
     "plan": _Command("shotc.cli.plan:plan", _PLAN),
     "verify": _Command("shotc.cli.verify:verify", _PLAN),
     "emit": _Command("shotc.cli.emit:emit", _PLAN),
+    "view": _Command("shotc.cli.view:view", _PLAN),
     "diff": _Command("shotc.cli.diff:diff", _PLAN),
 }
 _HELP = """Compile a YAML mission into verified, flyable camera motion.

@@ -98,4 +98,4 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
     ground = p[:, 2] - radius - rules.ground_clearance + bound
     groups = (("zones", zones), ("subjects", subjects), ("ground", [ground]))
     lines = tuple(Line(name, np.fmin.reduce(group)) for name, group in groups if group)
-    return Plot("clearance", "Room left (m)", lines, (0.0,))
+    return Plot("clearance", "Room left (m)", lines)

@@ -8,6 +8,9 @@ from shotc.emit.screen import screen_tracks, summary
 from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, VerifiedIR
 
 HOW = {"bounded": "at every instant", "exact": "by arithmetic", "sampled": "at every sample"}
+BOOKKEEPING = ("jump", "rate at", "distance from", "drift", "depth", "times", "error of", "targets not")
+"""How claims begin that no author asked for: they say that the plan is what it says it is."""
+
 SHOWN = {
     "takeoff": "Taking off",
     "transit": "Flying to the next shot",
@@ -40,12 +43,9 @@ def mission_text(plan: VerifiedIR) -> str:
 
 
 def certificate_text(certificate: tuple[Claim, ...]) -> str:
-    """Return the certificate as a Markdown table: what is broken first, arithmetic on joints last."""
+    """Return the certificate as a Markdown table: what is broken first, our own arithmetic last."""
     rows = ["| | requirement | asked | worst | when | known |", "|---|---|---|---|---|---|"]
-    order = sorted(
-        certificate,
-        key=lambda c: (c.holds or not c.hard, c.constraint.startswith("jump"), c.shot is not None),
-    )
+    order = sorted(certificate, key=_rank)
     for claim in order:
         what = claim.constraint if claim.shot is None else f"{claim.constraint} ({claim.shot})"
         when = "" if claim.time is None else f"{claim.time:.1f} s"
@@ -53,6 +53,16 @@ def certificate_text(certificate: tuple[Claim, ...]) -> str:
         cells = (verdict(claim), what, asked, quantity(claim.worst, claim.unit), when, HOW[claim.method])
         rows.append(f"| {' | '.join(cells)} |")
     return "\n".join(rows)
+
+
+def _rank(claim: Claim) -> int:
+    if claim.hard and not claim.holds:
+        return 0
+    if claim.constraint.startswith(BOOKKEEPING) or claim.constraint.endswith("at home"):
+        return 4
+    if not isfinite(claim.limit):
+        return 3
+    return 1 if claim.shot is None else 2
 
 
 def _asked(claim: Claim) -> str:

@@ -140,7 +140,58 @@ _FILE_CODES = (
     ),
 )
 
+_VIEW_CODES = (
+    CodeInfo(
+        "E201",
+        "no-viewer",
+        Severity.ERROR,
+        "`shotc view` needs the rerun viewer, and it is not installed",
+        "The recording is shown by the viewer that comes with rerun-sdk, which is not part of the base "
+        "install. Install it with `pip install 'shotc[view]'`; storyboard.png shows the same plan without it.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E202",
+        "no-display",
+        Severity.ERROR,
+        "`shotc view` opens a window, and there is no display here",
+        "The viewer is a window, and a machine without a screen (a server, a container, a remote shell) cannot "
+        "open one. Write the recording with `shotc plan` or `shotc emit`, and open mission.rrd elsewhere, or "
+        "serve it to a browser with `rerun --web-viewer mission.rrd`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E203",
+        "viewer-failed",
+        Severity.ERROR,
+        "the rerun viewer ended with an error",
+        "The recording was written, but the viewer did not run: most often there is no graphics driver that it "
+        "can use. What the viewer itself printed says more; a browser can show the recording instead, with "
+        "`rerun --web-viewer mission.rrd`.",
+        "",
+        "",
+        "other",
+    ),
+)
+
 CODES: tuple[CodeInfo, ...] = (
     *_FILE_CODES,
     *_MAVLINK_CODES,
+    *_VIEW_CODES,
+    CodeInfo(
+        "E901",
+        "outputs-not-written",
+        Severity.ERROR,
+        "the output files cannot be written",
+        "All files of a plan are written beside their places first and renamed when every one of them is whole. "
+        "A full disk, a folder that cannot be written to or something else in a file's place stops that, and the "
+        "files of an earlier run stay as they were. Free some space, or choose another folder with `-o`.",
+        "",
+        "",
+        "other",
+    ),
 )
