@@ -1,6 +1,6 @@
 """What to say where a composition cannot be had: which place was taken instead, or what would fit.
 
-Faults of keyframes that a kind generated are said once per shot, at the worst of them.
+Keyframes that share a line of the mission, as generated ones do, are reported once, at the worst of them.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from math import ceil, degrees, hypot, pi, radians
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.camera import Vec2
 from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot
+from shotc.ir.origin import KeyPath
 from shotc.passes.place_candidates import (
     TOUCH,
     Setting,
@@ -149,31 +150,8 @@ def _range(setting: Setting) -> str:
 
 
 def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagnostic]:
-    """Turn a shot's misses into diagnostics: one per placed keyframe, one per code for generated ones."""
-    out: list[Diagnostic] = []
-    generated: dict[str, list[Miss]] = {}
+    """Turn a shot's misses into diagnostics, one for each code and line of the mission."""
+    groups: dict[tuple[KeyPath, str], list[Miss]] = {}
     for miss in misses:
-        if miss.keyframe.placed:
-            out.append(_diagnostic(miss, framing_label(mission, miss.keyframe)))
-        else:
-            generated.setdefault(miss.code, []).append(miss)
-    for group in generated.values():
-        worst = max(group, key=lambda m: m.weight)
-        count = f"at {len(group)} of the {len(shot.keyframes)} keyframes of this {shot.kind}, this one at"
-        place = ", ".join(f"{c:.1f}" for c in worst.keyframe.at)
-        label = mission.origins.value((*shot.path, "kind"))
-        out.append(_diagnostic(worst, label, f"{count} [{place}]"))
-    return out
-
-
-def framing_label(mission: MissionIR, keyframe: Keyframe) -> Label:
-    """Return a label on a keyframe; on the aim of a shot that is one keyframe itself."""
-    written = mission.origins.values
-    own = [(*keyframe.path, key) for key in ("look_at", "heading") if len(keyframe.path) == 2]
-    return mission.origins.value(next((path for path in own if path in written), keyframe.path))
-
-
-def _diagnostic(miss: Miss, label: Label, note: str = "") -> Diagnostic:
-    notes = (*miss.notes, note) if note else miss.notes
-    help_ = miss.help if isinstance(miss.help, str) else miss.help()
-    return Diagnostic(miss.code, miss.message, (label,), notes, help_)
+        groups.setdefault((miss.keyframe.path, miss.code), []).append(miss)
+    return [_diagnostic(mission, shot, group) for group in groups.values()]
