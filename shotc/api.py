@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from shotc import plugins
 from shotc.diag.model import Diagnostic
@@ -48,7 +48,7 @@ class PlanOptions:
     """
 
     refiner: str = "none"
-    autopilot: str | None = None
+    autopilot: Literal["px4", "ardupilot"] | None = None
     stop_after: str | None = None
     seed: int = 0
     progress: Callable[[str], None] = silent
@@ -193,7 +193,7 @@ def _models() -> Mapping[str, Any]:
     return {name: kind.model for name, kind in plugins.discover("kinds").plugins.items()}
 
 
-def _with_autopilot(keyframes: KeyframeIR, autopilot: str | None) -> KeyframeIR:
+def _with_autopilot(keyframes: KeyframeIR, autopilot: Literal["px4", "ardupilot"] | None) -> KeyframeIR:
     if autopilot is None:
         return keyframes
     drones = tuple(replace(drone, autopilot=autopilot) for drone in keyframes.mission.drones)

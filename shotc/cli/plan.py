@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -19,7 +19,10 @@ Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or 
 Output = Annotated[Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION].")]
 Emit = Annotated[str | None, typer.Option(help="Emitters to run, separated by commas.", metavar="LIST")]
 RefinerName = Annotated[str, typer.Option("--refiner", help="Which refiner improves the path.")]
-Autopilot = Annotated[str | None, typer.Option(help="Write for px4 or ardupilot, whatever the model says.")]
+Autopilot = Annotated[
+    Literal["px4", "ardupilot"] | None,
+    typer.Option(help="Write for this autopilot, whatever the drone's model says."),
+]
 StopAfter = Annotated[
     str | None, typer.Option(help="Stop after this pass; nothing is written.", metavar="PASS")
 ]
@@ -49,7 +52,6 @@ def plan(
     for name in emitters or ():
         _known("--emit", name, plugins.names("emitters"))
     _known("--refiner", refiner, plugins.names("refiners"))
-    _known("--autopilot", autopilot, ["px4", "ardupilot"])
     _known("--stop-after", stop_after, list(PASS_NAMES))
     _known("--dump-ir", dump_ir, list(PASS_NAMES))
     source = read_mission(spec)

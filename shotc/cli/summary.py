@@ -32,7 +32,9 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
 def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     """Return a heading and one row a shot: name, kind, when, how long, and what the framing is worth."""
     kinds = {shot.id: shot.kind for shot in plan.trajectory.keyframes.mission.shots}
-    rows = [("shot", "kind", "from", "lasts", "target in frame", "screen error", "size")]
+    rows: list[tuple[str, ...]] = [
+        ("shot", "kind", "from", "lasts", "target in frame", "screen error", "size")
+    ]
     for drone in plan.trajectory.drones:
         rows += [
             (phase.shot, kinds[phase.shot], *_shot(plan.certificate, phase))
