@@ -155,3 +155,21 @@ def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagn
     for miss in misses:
         groups.setdefault((miss.keyframe.path, miss.code), []).append(miss)
     return [_diagnostic(mission, shot, group) for group in groups.values()]
+
+
+def _diagnostic(mission: MissionIR, shot: Shot, group: list[Miss]) -> Diagnostic:
+    worst = max(group, key=lambda m: m.weight)
+    notes = worst.notes
+    if worst.keyframe.path[-1:] in (("kind",), ("file",)):
+        place = ", ".join(f"{c:.1f}" for c in worst.keyframe.at)
+        count = f"at {len(group)} of the {len(shot.keyframes)} keyframes of this {shot.kind}"
+        notes = (*notes, f"{count}, this one at [{place}]")
+    help_ = worst.help if isinstance(worst.help, str) else worst.help()
+    return Diagnostic(worst.code, worst.message, (framing_label(mission, worst.keyframe),), notes, help_)
+
+
+def framing_label(mission: MissionIR, keyframe: Keyframe) -> Label:
+    """Return a label on a keyframe; on the aim of a shot that is one keyframe itself."""
+    written = mission.origins.values
+    own = [(*keyframe.path, key) for key in ("look_at", "heading") if len(keyframe.path) == 2]
+    return mission.origins.value(next((path for path in own if path in written), keyframe.path))
