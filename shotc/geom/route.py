@@ -227,7 +227,20 @@ def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) ->
         g, reach = scene.grown[k], scene.node_reach(k)
         heights += [h for h in (g.top + reach, g.bottom - reach) if abs(h) < FAR / 2]
     levels += [np.full(len(xy), h) for h in sorted(set(heights))]
-    return np.concatenate([np.column_stack([xy, z]) for z in levels])
+    corners = [np.column_stack([xy, z]) for z in levels]
+    return np.concatenate([*corners, *_crossings(scene, j, xy, start, end)])
+
+
+def _crossings(scene: _Scene, j: int, xy: Array, start: Array, end: Array) -> list[Array]:
+    """Places to pass over or under an obstacle: where the direct way meets its rim, and along its sides."""
+    g, reach = scene.grown[j], scene.node_reach(j)
+    enter, leave = _clip(g, start[None], end[None], reach)
+    rim = [0.5 * (xy + np.roll(xy, -1, axis=0))]
+    if enter[0] < leave[0]:
+        rim.append(start[:2] + np.stack([enter, leave]) * (end[:2] - start[:2]))
+    over = np.concatenate(rim)
+    heights = [h for h in (g.top + reach, g.bottom - reach) if abs(h) < FAR / 2]
+    return [np.column_stack([over, np.full(len(over), h)]) for h in heights]
 
 
 def _inside(g: _Grown, p: Array, reach: float) -> BoolArray:

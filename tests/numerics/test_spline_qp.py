@@ -1,0 +1,209 @@
+"""The path programme judged by analytic optima and residuals, not by its solver's word."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.interpolate import make_interp_spline
+
+from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, subdivide, value_rows
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_fit import Fit, fit
+from shotc.solvers.spline_qp import (
+    Cones,
+    Equalities,
+    Floors,
+    Goal,
+    SplineProblem,
+    minimise,
+    relax,
+    scalar_map,
+)
+
+
+def waypoints(count_, seed=0, step=10.0):
+    p = np.random.default_rng(seed).normal(size=(count_, 3)).cumsum(axis=0) * step
+    s = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(p, axis=0), axis=1))])
+    return p, s
+
+
+def least_jerk(p, s, pieces=3, floors=(), cones=()):
+    breaks = subdivide(s, pieces)
+    scale = s[-1] / (len(s) - 1)
+    jerk = energy_rows(breaks, 3)
+    goal = Goal(Rows(jerk.piece, jerk.weight * scale**2.5), np.zeros((len(jerk.piece), 3)))
+    fixed = Equalities(value_rows(breaks, s), p)
+    return breaks, SplineProblem(count(breaks), (goal,), fixed, tuple(floors), tuple(cones))
+
+
+def energy(problem, coef):
+    return sum(float(((g.rows.apply(coef) - g.value) ** 2).sum()) for g in problem.goals)
+
+
+def floor_on(breaks, normal, offset, owner=0):
+    rows = control_rows(breaks)
+    size = len(rows.piece)
+    return Floors(rows, np.tile(normal, (size, 1)), np.full(size, offset), np.full(size, owner))
+
+
+@pytest.mark.parametrize("pieces", [1, 2, 3])
+@pytest.mark.parametrize("count_", [6, 20])
+def test_free_it_is_the_natural_quintic_spline(count_, pieces):
+    p, s = waypoints(count_)
+    breaks, problem = least_jerk(p, s, pieces)
+    found = minimise(problem)
+    natural = [(3, np.zeros(3)), (4, np.zeros(3))]
+    truth = make_interp_spline(s, p, k=5, bc_type=(natural, natural))
+    at = np.linspace(0, s[-1], 300)
+    assert found.status is Status.SOLVED
+    assert np.abs(spline(breaks, found.coef)(at) - truth(at)).max() < 1e-7
+
+
+def test_three_points_make_a_parabola_without_energy():
+    s = np.array([0.0, 4.0, 10.0])
+    p = np.column_stack([s, 0.1 * s**2, 5 - s])
+    breaks, problem = least_jerk(p, s)
+    found = minimise(problem)
+    at = np.linspace(0, 10, 50)
+    assert spline(breaks, found.coef)(at) == pytest.approx(
+        np.column_stack([at, 0.1 * at**2, 5 - at]), abs=1e-6
+    )
+    assert found.objective == pytest.approx(0.0, abs=1e-6)
+
+
+def test_stationarity_on_the_waypoints_null_space():
+    p, s = waypoints(8, seed=4)
+    _, problem = least_jerk(p, s)
+    coef = minimise(problem).coef
+    jerk = scalar_map(problem.goals[0].rows, problem.size).toarray()
+    fixed = scalar_map(problem.equalities.rows, problem.size).toarray()
+    gradient = jerk.T @ (jerk @ coef)
+    multipliers = np.linalg.lstsq(fixed.T, gradient, rcond=None)[0]
+    residual = gradient - fixed.T @ multipliers
+    assert np.abs(residual).max() <= 1e-6 * np.abs(jerk.T @ jerk).max()
+
+
+def test_floors_hold_and_cost_what_they_must():
+    p, s = waypoints(7, seed=2)
+    p[:, 2] = [10, 12, 10, 10, 12, 10, 10]
+    breaks, loose = least_jerk(p, s)
+    free = minimise(loose)
+    lowest = spline(breaks, free.coef).ctrl[:, :, 2].min()
+    floor = 0.5 * (lowest + 10)
+    _, tight = least_jerk(p, s, floors=[floor_on(breaks, np.array([0.0, 0.0, 1.0]), floor)])
+    found = minimise(tight)
+    assert found.status is Status.SOLVED
+    assert spline(breaks, found.coef).ctrl[:, :, 2].min() >= floor - 1e-6
+    assert np.abs(tight.equalities.rows.apply(found.coef) - p).max() < 1e-6
+    assert found.objective > free.objective + 1e-9
+    # No feasible curve between the two is cheaper: the optimum is optimal along the segment.
+    for x in (0.01, 0.1):
+        mixed = (1 - x) * found.coef + x * free.coef
+        below = spline(breaks, mixed).ctrl[:, :, 2].min() < floor - 1e-9
+        assert below or energy(tight, mixed) >= found.objective - 1e-6
+
+
+def test_hard_cones_bound_the_norm():
+    p, s = waypoints(6, seed=5)
+    p[:, :2] *= 0.2
+    breaks = subdivide(s, 3)
+    rows = control_rows(breaks)
+    bound = np.full(len(rows.piece), 1.05 * np.linalg.norm(p[:, :2], axis=1).max())
+    disc = Cones(rows, (0, 1), np.zeros((len(bound), 2)), bound, None, np.zeros(len(bound), dtype=np.intp))
+    _, problem = least_jerk(p, s, cones=[disc])
+    found = minimise(problem)
+    assert found.status is Status.SOLVED
+    assert np.linalg.norm(rows.apply(found.coef)[:, :2], axis=1).max() <= bound[0] + 1e-6
+
+
+def test_priced_cones_bend_the_path_towards_the_limit_and_never_stop_it():
+    p, s = waypoints(6, seed=7)
+    breaks = subdivide(s, 3)
+    rows = control_rows(breaks, 2)
+    size = len(rows.piece)
+
+    def bent(bound):
+        price = np.full(size, 1e4)
+        cone = Cones(
+            rows, (0, 1, 2), np.zeros((size, 3)), np.full(size, bound), price, np.zeros(size, dtype=np.intp)
+        )
+        found = minimise(least_jerk(p, s, cones=[cone])[1])
+        assert found.status is Status.SOLVED
+        return np.linalg.norm(rows.apply(found.coef), axis=1), found
+
+    sharp, loose = bent(1e3)
+    bound = 0.6 * sharp.max()
+    soft, tight = bent(bound)
+    assert loose.excess == pytest.approx(0.0, abs=1e-4)
+    assert tight.excess == pytest.approx(1e4 * np.maximum(soft - bound, 0).sum(), rel=1e-3, abs=1e-3)
+    assert np.maximum(soft - bound, 0).sum() < 0.8 * np.maximum(sharp - bound, 0).sum()
+    assert tight.objective >= loose.objective - 1e-6
+    assert bent(1e-3)[1].coef is not None
+
+
+def test_the_least_give_way_is_the_distance_that_is_missing():
+    """Two points under a ceiling that is 1.5 m too low: the ceiling gives 1.5 m, or both points move."""
+    p, s = waypoints(2)
+    p[:, 2] = 4.0
+    breaks, problem = least_jerk(
+        p, s, floors=[floor_on(subdivide(s, 3), np.array([0.0, 0.0, -1.0]), -2.5, 1)]
+    )
+    assert minimise(problem).status is Status.INFEASIBLE
+    found = relax(problem, 3)
+    assert found.status in {Status.SOLVED, Status.INACCURATE}
+    assert found.floor_lack == pytest.approx([0.0, 1.5, 0.0], abs=1e-3)
+    assert found.point_shift == pytest.approx([0.0, 0.0], abs=1e-3)
+    assert spline(breaks, found.coef).ctrl[:, :, 2].max() <= 4.0 + 1e-3
+
+
+def test_one_point_moves_where_that_is_less_than_a_wall():
+    """One of three points is 1 m beyond one wall and 1 m beyond another: moving it is the smallest change."""
+    s = np.array([0.0, 10.0, 20.0])
+    p = np.array([[0.0, 0, 0], [10.0, 1, 1], [20.0, 0, 0]])
+    breaks = subdivide(s, 4)
+    floors = [
+        floor_on(breaks, np.array([0.0, -1.0, 0.0]), 0.0, 0),
+        floor_on(breaks, np.array([0.0, 0.0, -1.0]), 0.0, 1),
+    ]
+    found = relax(least_jerk(p, s, 4, floors=floors)[1], 2)
+    total = found.floor_lack.sum() + found.point_shift.sum()
+    assert total == pytest.approx(np.sqrt(2), abs=5e-3)  # less than the 2 m of both walls
+    assert found.point_shift[1] == pytest.approx(np.sqrt(2), abs=5e-3)
+
+
+def test_a_fit_without_bounds_is_the_exact_quadratic_optimum():
+    breaks = np.linspace(0, 10, 9)
+    at = np.linspace(0.1, 9.9, 60)
+    value = np.sin(at)
+    task = Fit(breaks, at, value, np.ones(60), np.array([0.0, 10.0]), np.array([0.2, -0.5]), (1e-6, 1e-8))
+    status, coef = fit(task)
+    assert status is Status.SOLVED
+    assert value_rows(breaks, task.anchor_at).apply(coef[:, None])[:, 0] == pytest.approx(task.anchor)
+    rng = np.random.default_rng(0)
+    fixed = scalar_map(value_rows(breaks, task.anchor_at), len(coef)).toarray()
+    _, _, basis = np.linalg.svd(fixed)
+
+    def cost(c):
+        miss = value_rows(breaks, at).apply(c[:, None])[:, 0] - value
+        rate = energy_rows(breaks, 1).apply(c[:, None])
+        third = energy_rows(breaks, 3).apply(c[:, None])
+        return (miss**2).sum() + 1e-6 * (rate**2).sum() + 1e-8 * (third**2).sum()
+
+    for _ in range(20):
+        step = basis[2:].T @ rng.normal(size=len(coef) - 2) * 1e-3
+        assert cost(coef + step) >= cost(coef) - 1e-12
+
+
+def test_bounds_hold_on_every_control_point():
+    breaks = np.linspace(0, 10, 11)
+    at = np.linspace(0, 10, 80)
+    low, high = np.full((10, 6), -0.4), np.full((10, 6), 0.6)
+    task = Fit(breaks, at, np.sin(at), np.ones(80), np.array([0.0]), np.array([0.0]), (1e-9, 1e-9), low, high)
+    status, coef = fit(task)
+    assert status is Status.SOLVED
+    ctrl = spline(breaks, coef[:, None]).ctrl[:, :, 0]
+    assert ctrl.min() >= -0.4 - 1e-7
+    assert ctrl.max() <= 0.6 + 1e-7
+    inside = np.abs(np.sin(at)) < 0.2
+    miss = value_rows(breaks, at).apply(coef[:, None])[:, 0] - np.sin(at)
+    assert np.abs(miss[inside]).max() < 0.1
