@@ -1,0 +1,118 @@
+"""verify, emit and diff: what they print where, what they write, and how they end."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from shotc.emit.plan_json import EMITTER
+from shotc.passes.base import PassContext
+from shotc.passes.verify import Verify
+from tests.cli.conftest import Run
+from tests.samples import orbit_plan
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> Path:
+    verified = Verify().run(orbit_plan().trajectory, PassContext()).value
+    assert verified is not None
+    path = tmp_path / "out" / "plan.json"
+    path.parent.mkdir()
+    path.write_bytes(EMITTER.emit(verified).artifacts[0].data)
+    return path
+
+
+def edited(plan: Path, old: str, new: str, name: str = "edited.json") -> Path:
+    text = plan.read_text()
+    assert old in text
+    path = plan.with_name(name)
+    path.write_text(text.replace(old, new))
+    return path
+
+
+def test_verify_prints_the_certificate(run: Run, plan: Path) -> None:
+    done = run("verify", str(plan))
+    assert done.code == 0
+    assert "speed" in done.out
+    assert "every instant" in done.out
+    assert "BROKEN" not in done.out
+    assert "the plan holds" in done.err
+    assert run("verify", str(plan.parent)).out == done.out
+
+
+def test_verify_marks_what_an_edit_breaks(run: Run, plan: Path) -> None:
+    done = run("verify", str(edited(plan, '"speed": 8.0', '"speed": 7.5')))
+    assert done.code == 1
+    assert "BROKEN  speed" in done.out
+    assert "error[V001]" in done.err
+    assert "error[V040]" in done.err
+    assert "7.854 m/s" in done.err
+
+
+def test_verify_as_json(run: Run, plan: Path) -> None:
+    good = json.loads(run("verify", str(plan), "--format", "json").out)
+    assert good["holds"] is True
+    assert good["diagnostics"] == []
+    speed = next(c for c in good["certificate"] if c["constraint"] == "speed")
+    assert (speed["limit"], speed["method"], speed["hard"]) == (8.0, "bounded", True)
+    bad = run("verify", str(edited(plan, '"speed": 8.0', '"speed": 7.5')), "--format", "json")
+    assert bad.code == 1
+    found = json.loads(bad.out)
+    assert found["holds"] is False
+    assert {d["code"] for d in found["diagnostics"]} == {"V001", "V040"}
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", '{"format": "shotc-plan", "version": 1}', "\0" * 9, "[" * 99999]
+)
+@pytest.mark.parametrize("command", ["verify", "emit"])
+def test_no_plan_is_told_without_a_traceback(run: Run, tmp_path: Path, command: str, text: str) -> None:
+    (tmp_path / "junk.json").write_text(text)
+    done = run(command, "junk.json")
+    assert done.code == 1
+    assert "error[E00" in done.err
+    assert "Traceback" not in done.err
+    assert list(tmp_path.iterdir()) == [tmp_path / "junk.json"]
+
+
+def test_a_file_that_is_not_there(run: Run) -> None:
+    for arguments in (["verify", "nowhere.json"], ["emit", "nowhere.json"], ["diff", "a.json", "b.json"]):
+        done = run(*arguments)
+        assert done.code == 1
+        assert "cannot be read" in done.err
+
+
+def test_emit_writes_beside_the_plan_or_elsewhere(run: Run, plan: Path, tmp_path: Path) -> None:
+    before = plan.read_bytes()
+    assert run("emit", str(plan), "--emit", "csv").code == 0
+    assert sorted(p.name for p in plan.parent.iterdir()) == ["framing.csv", "plan.json", "trajectory.csv"]
+    assert plan.read_bytes() == before
+    done = run("emit", str(plan.parent), "--emit", "csv", "-o", "tables")
+    assert "tables/trajectory.csv" in done.out
+    assert (tmp_path / "tables" / "framing.csv").read_bytes() == (plan.parent / "framing.csv").read_bytes()
+
+
+def test_emit_refuses_a_broken_plan_and_unknown_emitters(run: Run, plan: Path) -> None:
+    broken = edited(plan, '"speed": 8.0', '"speed": 7.5')
+    done = run("emit", str(broken), "--emit", "csv", "-o", "tables")
+    assert done.code == 1
+    assert not Path("tables").exists()
+    assert run("emit", str(plan), "--emit", "kmz").code == 2
+
+
+def test_diff_of_a_plan_with_itself_and_with_another(run: Run, plan: Path) -> None:
+    same = run("diff", str(plan), str(plan))
+    assert same.code == 0
+    assert "same path" in same.out
+    assert "the certificates say the same" in same.out
+    mission = orbit_plan(origin=False).trajectory
+    other = Verify().run(mission, PassContext()).value
+    assert other is not None
+    data = EMITTER.emit(other).artifacts[0].data.decode()
+    text = data.replace('"endurance": 1200.0', '"endurance": 900.0').replace(
+        '"limit": 1200.0', '"limit": 900.0'
+    )
+    plan.with_name("other.json").write_text(text)
+    done = run("diff", str(plan), str(plan.with_name("other.json")))
+    assert done.code == 0
+    assert "1200 s -> 900 s" in done.out
