@@ -63,11 +63,10 @@ def _planned(spec: str) -> VerifiedIR:
 
 
 def _show(path: Path) -> int:
-    """Run the viewer until it is closed and return its exit status."""
+    """Run a viewer of our own until it is closed and return its exit status."""
     console.note("the viewer is open; close it to go on")
-    return subprocess.run(
-        [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)], check=False
-    ).returncode
+    command = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", "--port", "auto", str(path)]
+    return subprocess.run(command, check=False).returncode
 
 
 def _obstacle() -> Diagnostic | None:
