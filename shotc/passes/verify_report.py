@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import degrees, inf, isfinite
+from math import ceil, degrees, floor, inf, isfinite, log10
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
@@ -188,7 +188,7 @@ def _notes(claim: Claim, phase: Phase | None) -> Iterator[str]:
 def _help(claim: Claim, rule: Rule, phase: Phase | None) -> str:
     if not isfinite(claim.worst):
         return REPLAN
-    worst = measure(claim.worst, claim.unit)
+    worst = enough(claim)
     if rule.power and phase is not None and phase.shot is not None:
         stretch = max(1.0, claim.worst / claim.limit) ** rule.power if claim.limit > 0 else inf
         longer = (phase.end - phase.start) * stretch
@@ -217,22 +217,36 @@ def _name(claim: Claim, code: str) -> str:
         return f"the distance of the body from {claim.constraint}"
     if code == "V008":
         return f"the margin of the body inside {claim.constraint}"
-    if code == "V015":
-        return f"{claim.constraint} of shot `{claim.shot}`"
-    return claim.constraint
+    if code == "V019":
+        target = claim.constraint.removesuffix(" in frame")
+        return f"the share of frames of shot `{claim.shot}` with all of {target}"
+    return claim.constraint if claim.shot is None else f"{claim.constraint} of shot `{claim.shot}`"
 
 
 def measure(value: float, unit: str) -> str:
     """Return a value with its unit as people read it: degrees for radians, percent for shares."""
     if not isfinite(value):
         return "unlimited"
+    number, sign = _as_read(value, unit)
+    if unit == "m" and abs(number) >= 1e-3:
+        return f"{number:.3f} m"
+    return f"{0.0 if abs(number) < 1e-9 else number:.4g} {sign}".strip()
+
+
+def enough(claim: Claim) -> str:
+    """Return the worst value as a limit that it keeps, rounded away from it to four digits."""
+    number, unit = _as_read(claim.worst, claim.unit)
+    if number == 0:
+        return f"0 {unit}"
+    step = 10.0 ** (floor(log10(abs(number))) - 3)
+    rounded = (ceil if claim.upper else floor)(number / step) * step
+    return f"{rounded:.4g} {unit}".strip()
+
+
+def _as_read(value: float, unit: str) -> tuple[float, str]:
     if unit.startswith("rad"):
-        return f"{degrees(value):.4g} deg{unit[3:]}"
-    if unit == "of samples":
-        return f"{100 * value:.4g} %"
-    if unit == "m":
-        return f"{value:.3f} m" if abs(value) >= 1e-3 or value == 0 else f"{value:.3g} m"
-    return f"{value:.4g} {unit}".strip()
+        return degrees(value), f"deg{unit[3:]}"
+    return (100 * value, "%") if unit == "of samples" else (value, unit)
 
 
 def _phase_of(ir: TrajectoryIR, claim: Claim) -> Phase | None:

@@ -11,23 +11,7 @@ from typing import Literal
 from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-_ENDURANCE = """\
-shotc: 1
-mission: mast
-targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
-drones: {cam: {model: x500, home: [0, -30, 0], endurance: %s}}
-shots:
-  - id: look
-    kind: keyframes
-    drone: cam
-    target: mast
-    timing: {duration: 10 s}
-    keyframes:
-      - {at: [-12, -20, 8], look_at: mast}
-      - {at: [12, -20, 10], look_at: mast}
-"""
-
-_PROMISE = """\
+_MISSION = """\
 shotc: 1
 mission: mast
 targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
@@ -37,11 +21,15 @@ shots:
     kind: keyframes
     drone: cam
     target: mast
-    require: {%s}
+    require: {PROMISE}
     keyframes:
-      - {at: [-12, -20, 8], look_at: mast}
-      - {at: [12, -20, 10], look_at: mast}
+      - {at: [-24, SOUTH, 6], look_at: mast}
+      - {at: [24, SOUTH, 6], look_at: mast}
 """
+
+
+def _promise(promise: str, south: int = -20) -> str:
+    return _MISSION.replace("PROMISE", promise).replace("SOUTH", str(south))
 
 
 def _code(
@@ -199,7 +187,6 @@ _FORM = (
             "`endurance` counts from take-off to touch-down, with transits, holds and the way home. Shorten shots, "
             "bring home nearer, split the mission, or state a longer endurance if the battery has it.",
         ),
-        (_ENDURANCE % "25 s", _ENDURANCE % "20 min"),
     ),
     _code(
         14,
@@ -249,6 +236,7 @@ _FRAMING = (
             "cylinder is inside the frame. The worst frame is named. Move back or widen the field of view there, "
             "slow the shot down, or promise less.",
         ),
+        (_promise("in_frame: 100 %", -8), _promise("in_frame: 100 %")),
     ),
     _code(
         20,
@@ -259,6 +247,7 @@ _FRAMING = (
             "target and its reference, in screen units of half a frame. Add a keyframe where the error is largest, "
             "slow the shot down, or promise less.",
         ),
+        (_promise("screen_error: 0.00001"), _promise("screen_error: 0.05")),
     ),
     _code(
         21,
@@ -268,7 +257,7 @@ _FRAMING = (
             "`require: {size: [low, high]}` promises the projected height of the target over the height of the "
             "frame. Change the distance or the field of view where the worst frame is, or the promise.",
         ),
-        (_PROMISE % "size: [0.9, 1.0]", _PROMISE % "size: [0.1, 0.9]"),
+        (_promise("size: [0.9, 1.0]"), _promise("size: [0.1, 0.9]")),
     ),
     _code(
         24,

@@ -6,6 +6,8 @@ from math import inf, nan, pi, radians
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
@@ -17,7 +19,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify, judge
-from shotc.passes.verify_report import rule_of
+from shotc.passes.verify_report import enough, measure, rule_of
 from shotc.source.file import Span
 from tests.samples import orbit_plan
 
@@ -391,3 +393,21 @@ def test_the_gap_of_a_pitch_limit_is_closed_to_a_microradian() -> None:
     for margin, holds in margins.items():
         ir = with_gimbal(pitch=(lowest - margin, radians(30)))
         assert claim(ir, "gimbal pitch min").holds is holds
+
+
+@given(st.floats(1e-9, 1e6), st.booleans(), st.sampled_from(["m/s", "rad", "of samples", "m"]))
+def test_a_proposed_limit_is_one_that_holds(worst: float, upper: bool, unit: str) -> None:
+    some = claim(PLAN, "speed")
+    proposed = float(enough(replace(some, worst=worst, upper=upper, unit=unit)).split()[0])
+    read = worst * {"rad": 180 / pi, "of samples": 100.0}.get(unit, 1.0)
+    assert proposed >= read * (1 - 1e-9) if upper else proposed <= read * (1 + 1e-9)
+    assert proposed == pytest.approx(read, rel=2e-3)
+
+
+def test_the_help_makes_the_plan_hold() -> None:
+    (found,) = judge(with_limits(speed=7.0), CONTEXT).diagnostics
+    assert "raise the limit to 7.855 m/s" in found.help
+    assert codes(with_limits(speed=7.855)) == []
+    assert measure(0.0, "m") == "0 m"
+    assert measure(radians(90), "rad/s") == "90 deg/s"
+    assert measure(inf, "m") == "unlimited"
