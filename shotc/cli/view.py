@@ -65,7 +65,7 @@ def _planned(spec: str) -> VerifiedIR:
 def _show(path: Path) -> int:
     """Run a viewer of our own until it is closed and return its exit status."""
     console.note("the viewer is open; close it to go on")
-    command = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", "--port", "auto", str(path)]
+    command = [sys.executable, "-P", "-m", "rerun", "--bind", "127.0.0.1", "--port", "auto", str(path)]
     return subprocess.run(command, check=False).returncode
 
 
