@@ -22,7 +22,7 @@ from shotc.ir.path import FramingSpan
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 
-PIECES = 4  # per stretch between keyframes, at least
+PIECES = 3  # per stretch between keyframes, at least
 SAMPLES = 6  # per piece
 FINER = (1, 2, 4, 8)
 CLOSE = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined

@@ -17,6 +17,7 @@ from shotc.geom.bspline import (
     count,
     energy_rows,
     greville,
+    restrict,
     spline,
     subdivide,
     value_rows,
@@ -43,6 +44,7 @@ ROUNDS = 4
 FIRST_SHARE = 0.5  # of its distance from an obstacle a chord may give up half
 LATER_SHARE = 0.95  # a solved curve hardly any, or the margins would melt away round by round
 FINER = (1, 2, 4)
+STRAIGHT = 1e-9  # metres
 GAIN = 0.01  # a round that improves the objective by less ends the iteration
 
 
@@ -66,8 +68,12 @@ class Stretch:
 
     @property
     def straight(self) -> bool:
-        """Whether there is nothing to solve."""
-        return len(self.corners) == 2 and not len(self.pulled_at)
+        """Whether the corners lie on one line in order, so that the line itself costs nothing."""
+        if len(self.pulled_at):
+            return False
+        way = self.corners[-1] - self.corners[0]
+        share = (self.s - self.s[0]) / (self.s[-1] - self.s[0])
+        return bool(np.abs(self.corners - self.corners[0] - share[:, None] * way).max() < STRAIGHT)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,8 +117,9 @@ def solve_stretch(room: Room, stretch: Stretch, limits: Limits) -> Solved:
 
 def _line(stretch: Stretch) -> Piecewise:
     x = np.linspace(0.0, 1.0, 6)[:, None]
-    ctrl = (1 - x) * stretch.corners[0] + x * stretch.corners[1]
-    return Piecewise(stretch.s, ctrl[None])
+    ctrl = (1 - x) * stretch.corners[0] + x * stretch.corners[-1]
+    line = Piecewise(stretch.s[[0, -1]], ctrl[None])
+    return restrict(line, stretch.s)
 
 
 def _iterate(
