@@ -9,6 +9,7 @@ fast as its pace of the limits allows. What cannot be met is an error that says 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import isfinite
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
@@ -17,11 +18,17 @@ from shotc.ir.path import DronePath, Leg, PathIR
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.time_binding import binding
-from shotc.passes.time_faults import endurance_exceeded, start_too_early, too_fast, without_length
+from shotc.passes.time_faults import (
+    Remedies,
+    endurance_exceeded,
+    start_too_early,
+    too_fast,
+    without_length,
+)
 from shotc.passes.time_flight import Flight
 from shotc.passes.time_leg import TINY, LegMotion, Plan, assemble, fastest_moves, plan_of
 from shotc.passes.time_limits import Ceiling, ceiling_of
-from shotc.passes.time_marks import TooFast, has_times, meet_times
+from shotc.passes.time_marks import TimedLeg, TooFast, has_times
 from shotc.passes.time_move import Move
 
 Stats = list[tuple[str, float | str]]
@@ -125,12 +132,12 @@ def time_leg(
     fault: Diagnostic | None = None
     if leg.curve is not None and has_times(leg):
         fast = fastest_moves(leg, plan, ceiling)
-        timed = _meet(leg, plan, fast, ceiling)
+        timed = _timed_leg(leg, plan, fast, ceiling).meet()
         if isinstance(timed, TooFast):
             fault = _explain(mission, drone, leg, plan, fast, timed)
             duration, moves = None, fast
         else:
-            plan, moves = timed
+            plan, moves = timed.plan, timed.moves
     else:
         moves = fastest_moves(leg, plan, ceiling.scaled(leg.pace) if leg.phase == "shot" else ceiling)
     motion = assemble(leg, plan, moves, duration)
@@ -139,25 +146,23 @@ def time_leg(
     return motion, fault
 
 
-def _meet(
-    leg: Leg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling
-) -> tuple[Plan, tuple[Move, ...]] | TooFast:
+def _timed_leg(leg: Leg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> TimedLeg:
     paced = fast if leg.duration is not None else fastest_moves(leg, plan, ceiling.scaled(leg.pace))
-    return meet_times(leg, plan, fast, paced, ceiling)
+    return TimedLeg(leg, plan, fast, paced, ceiling)
 
 
 def _explain(
     mission: MissionIR, drone: Drone, leg: Leg, plan: Plan, fast: tuple[Move, ...], fault: TooFast
 ) -> Diagnostic:
     def enough(ceiling: Ceiling) -> bool:
-        return not isinstance(_meet(leg, plan, fastest_moves(leg, plan, ceiling), ceiling), TooFast)
+        return _timed_leg(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
 
-    return too_fast(mission, drone, leg, fault, binding(leg, fast, ceiling_of(drone)), enough)
+    return too_fast(mission, drone, leg, fault, Remedies(binding(leg, fast, ceiling_of(drone)), enough))
 
 
 def _stats(name: str, move: Move) -> Stats:
     return [
-        (f"{name} topp_time", move.topp_time),
+        (f"{name} topp_time", move.topp_time if isfinite(move.topp_time) else "none"),
         (f"{name} time", move.duration),
         (f"{name} scale", move.scale),
         (f"{name} steps", float(move.steps)),

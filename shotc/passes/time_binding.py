@@ -19,9 +19,9 @@ from shotc.passes.time_move import Move, axes_of
 
 # A limit holds a piece back where at least this share of it is used.
 BINDING = 0.97
-# A limit is searched up to this multiple, and as finely as so many halvings of a doubling give.
-HIGHEST = 16.0
-HALVINGS = 6
+# Raising a limit further than this is no advice; so many halvings find the least within that.
+HIGHEST = 4.0
+HALVINGS = 7
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,33 +47,47 @@ _SHOWN = {
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """The seconds between two neighbouring keyframes and the limit that binds longest in them."""
+    """The seconds between two neighbouring keyframes, and how long each limit binds in them."""
 
     first: Mark
     second: Mark
     seconds: float
-    name: str
-    held: float
+    held: dict[str, float]
 
 
-def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> tuple[Stretch, ...]:
-    """Return, between keyframes, what holds moves at full limits back; most seconds first."""
+@dataclass(frozen=True, slots=True)
+class Holdup:
+    """What holds moves at full limits back.
+
+    stretches : those between keyframes where a limit binds, the slowest first
+    names : the limits that bind, the longest first
+    """
+
+    stretches: tuple[Stretch, ...]
+    names: tuple[str, ...]
+
+
+def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
+    """Return what holds the moves of a leg back."""
     pieces = [_held(move, ceiling) for move in moves]
     marks = sorted(leg.marks, key=lambda m: (m.s, m.index))
-    found = []
+    stretches = []
     for a, b in pairwise(marks):
-        total: dict[str, float] = {}
+        held: dict[str, float] = {}
         seconds = 0.0
-        for middle, step, held in pieces:
+        for middle, step, binds in pieces:
             inside = (middle > a.s) & (middle < b.s)
             seconds += float(step[inside].sum())
-            for name, binds in held.items():
-                total[name] = total.get(name, 0.0) + float(step[inside & binds].sum())
-        if total:
-            name = max(total, key=lambda n: total[n])
-            if total[name] > 0:
-                found.append(Stretch(a, b, seconds, name, total[name]))
-    return tuple(sorted(found, key=lambda f: -f.held))
+            for name, where in binds.items():
+                held[name] = held.get(name, 0.0) + float(step[inside & where].sum())
+        stretches.append(Stretch(a, b, seconds, {n: t for n, t in held.items() if t > 0}))
+    total: dict[str, float] = {}
+    for stretch in stretches:
+        for name, time in stretch.held.items():
+            total[name] = total.get(name, 0.0) + time
+    names = tuple(sorted(total, key=lambda name: -total[name]))
+    bound = sorted((s for s in stretches if s.held), key=lambda s: -s.seconds)
+    return Holdup(tuple(bound), names)
 
 
 def _held(move: Move, ceiling: Ceiling) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
@@ -85,21 +99,25 @@ def _held(move: Move, ceiling: Ceiling) -> tuple[np.ndarray, np.ndarray, dict[st
     return 0.5 * (profile.s[1:] + profile.s[:-1]), np.diff(profile.t), held
 
 
-def binding_notes(mission: MissionIR, drone: Drone, stretches: tuple[Stretch, ...]) -> tuple[str, ...]:
+def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str, ...]:
     """Return up to three sentences on what holds the drone back and where."""
-    return tuple(
-        f"between keyframes {f.first.index + 1} and {f.second.index + 1} it needs {f.seconds:.1f} s: "
-        f"{_SHOWN[f.name].words} {limit_text(mission, drone, f.name)} binds for {f.held:.1f} s of them"
-        for f in stretches[:3]
-    )
+    notes = []
+    for stretch in holdup.stretches[:3]:
+        longest = sorted(stretch.held, key=lambda name: -stretch.held[name])[:2]
+        binds = " and ".join(
+            f"{_SHOWN[name].words} {limit_text(mission, drone, name)} for {stretch.held[name]:.1f} s"
+            for name in longest
+        )
+        where = f"from keyframe {stretch.first.index + 1} to {stretch.second.index + 1}"
+        notes.append(f"{where} it takes {stretch.seconds:.1f} s, held back by {binds}")
+    return tuple(notes)
 
 
-def binding_labels(mission: MissionIR, drone: Drone, stretches: tuple[Stretch, ...]) -> tuple[Label, ...]:
-    """Return labels on the lines of the limits that bind, at most three."""
-    names = list(dict.fromkeys(f.name for f in stretches))[:3]
+def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[Label, ...]:
+    """Return labels on the lines of the limits that bind, at most two."""
     labels = [
         mission.origins.value((*drone.path, *_SHOWN[name].key), f"{_SHOWN[name].words} binds")
-        for name in names
+        for name in holdup.names[:2]
     ]
     return tuple({label.span: label for label in labels}.values())
 
@@ -124,12 +142,9 @@ def _with(enough: Callable[[Ceiling], bool], full: Ceiling, name: str, factor: f
 
 
 def _least_factor(enough: Callable[[float], bool]) -> float | None:
-    high = 2.0
-    while not enough(high):
-        high *= 2.0
-        if high > HIGHEST:
-            return None
-    low = high / 2.0
+    low, high = 1.0, HIGHEST
+    if not enough(high):
+        return None
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if enough(middle) else (middle, high)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import ceil
 
 from shotc.diag.model import Diagnostic, Label
@@ -10,44 +11,50 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import Leg
 from shotc.ir.trajectory import Phase
-from shotc.passes.time_binding import Stretch, binding_labels, binding_notes, raises
+from shotc.passes.time_binding import Holdup, binding_labels, binding_notes, raises
 from shotc.passes.time_limits import Ceiling
 from shotc.passes.time_marks import TooFast
 
-Enough = Callable[[Ceiling], bool]
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Remedies:
+    """What there is to say about a leg that is too slow.
 
-def too_fast(
-    mission: MissionIR,
-    drone: Drone,
-    leg: Leg,
-    fault: TooFast,
-    stretches: tuple[Stretch, ...],
-    enough: Enough,
-) -> Diagnostic:
-    """Return T001 for a duration or T002 for a keyframe's time that is too short.
-
-    stretches : what holds the fastest flight back; enough : whether limits would do
+    holdup : what holds its fastest flight back; enough : whether other limits would do
     """
-    labels = binding_labels(mission, drone, stretches)
-    names = tuple(dict.fromkeys(s.name for s in stretches))[:2]
-    remedies = raises(mission, drone, names, enough)
-    least = up(fault.shortest)
-    notes = binding_notes(mission, drone, stretches)
+
+    holdup: Holdup
+    enough: Callable[[Ceiling], bool]
+
+
+def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedies: Remedies) -> Diagnostic:
+    """Return T001 for a duration or T002 for a keyframe's time that is too short."""
+    labels = binding_labels(mission, drone, remedies.holdup)
+    notes = binding_notes(mission, drone, remedies.holdup)
+    raised = raises(mission, drone, remedies.holdup.names[:2], remedies.enough)
     if fault.mark is None:
+        least = up(fault.shortest or 0.0)
         return Diagnostic(
             "T001",
-            f"shot `{leg.shot}` is given {plain(fault.asked)} s, and {least} s is the shortest possible",
+            f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
             (timing_label(mission, leg.path, "duration"), *labels),
             (f"{least} s is at full limits, with holds", *notes),
-            _either([f"give it `duration: {least} s`", *remedies]),
+            _either([f"give it `duration: {least} s`", *raised]),
         )
+    message = (
+        f"keyframe {fault.mark.index + 1} of shot `{leg.shot}` cannot be reached at {plain(fault.asked)} s"
+    )
+    remedy = "give this keyframe or those next to it other times"
+    if fault.shortest is not None:
+        notes = (f"{up(fault.shortest)} s is the earliest possible at full limits", *notes)
+        rest = f", and all later times {up(fault.shortest - fault.asked)} s more" if fault.shifts_rest else ""
+        remedy = f"give it `time: {up(fault.shortest)} s`{rest}"
     return Diagnostic(
         "T002",
-        f"keyframe {fault.mark.index + 1} of shot `{leg.shot}` cannot be reached at {plain(fault.asked)} s",
+        message,
         (mission.origins.value((*fault.mark.path, "time")), *labels),
-        (f"at full limits the drone is there {least} s after the shot begins, at the earliest", *notes),
-        _either([f"give it `time: {least} s` or later", *remedies]),
+        notes,
+        _either([remedy, *raised]),
     )
 
 

@@ -49,16 +49,24 @@ class Plan:
         """Return the stretches of s between stops."""
         return tuple((a.s, b.s) for a, b in zip(self.stops[:-1], self.stops[1:], strict=True))
 
-    @property
-    def holds(self) -> float:
-        """Return the seconds spent at stops."""
-        return sum(stop.hold for stop in self.stops)
+    def hold_at(self, s: float) -> float:
+        """Return the seconds it rests at a place, 0 where it does not stop."""
+        return sum(stop.hold for stop in self.stops if abs(stop.s - s) <= SAME)
 
-    def waiting(self, s: float, seconds: float) -> Plan:
-        """Return the plan with a longer hold at the stop at ``s``."""
-        return Plan(
-            tuple(replace(p, hold=p.hold + seconds) if abs(p.s - s) < SAME else p for p in self.stops)
-        )
+    def holds_between(self, start: float, end: float) -> float:
+        """Return the seconds it rests strictly between two places."""
+        return sum(stop.hold for stop in self.stops if start + SAME < stop.s < end - SAME)
+
+    def rests_at(self, s: float) -> bool:
+        """Tell whether there is a stop at a place."""
+        return any(abs(stop.s - s) <= SAME for stop in self.stops)
+
+    def leaving(self, holds: dict[float, float]) -> Plan:
+        """Return the plan with other holds at some of its stops, given by place."""
+        stops = self.stops
+        for s, hold in holds.items():
+            stops = tuple(replace(p, hold=hold) if abs(p.s - s) <= SAME else p for p in stops)
+        return Plan(stops)
 
 
 def plan_of(leg: Leg) -> Plan:

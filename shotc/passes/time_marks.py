@@ -6,7 +6,8 @@ alike from the fastest that the limits allow. What follows the last anchor keeps
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +21,16 @@ from shotc.passes.time_windows import windowed_move
 
 # Rounding by which a time may be shorter than the shortest, relative and in seconds.
 ROUNDING = 1e-9
+# The search for the least delay that would do: first try, seconds; doublings; halvings after that.
+FIRST_DELAY, DOUBLINGS, HALVINGS = 0.05, 9, 5
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """The moves at the times asked for, and the plan with the waits that these need."""
+
+    plan: Plan
+    moves: tuple[Move, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,24 +38,32 @@ class TooFast:
     """The leg cannot be that fast.
 
     mark : the keyframe that is not reached in time; None for the end of the leg
-    asked, shortest : seconds from the leg's start
+    asked, shortest : seconds from the leg's start; shortest is what would do, None if no delay of it does
+    shifts_rest : whether all later times have to move by as much
     """
 
     mark: Mark | None
     asked: float
-    shortest: float
+    shortest: float | None
+    shifts_rest: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class _Anchor:
+    """A place with a time: the leg arrives there and leaves again, seconds from its start."""
+
     s: float
-    time: float
-    mark: Mark | None
+    arrives: float
+    leaves: float
+    mark: Mark | None = None
+
+    def later(self, seconds: float) -> _Anchor:
+        return replace(self, arrives=self.arrives + seconds, leaves=self.leaves + seconds)
 
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """A part of a move: its index, where it ends, how long it is to last, how long it does at least."""
+    """A part of a move: where it ends, how long it is to last, how long it does at least; its anchor."""
 
     move: int
     end: float
@@ -53,77 +72,98 @@ class _Part:
     anchor: int
 
 
+@dataclass(frozen=True, slots=True)
+class _Late:
+    """The anchor that is not reached in time, and by how much if that is known."""
+
+    anchor: int
+    lack: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimedLeg:
+    """A leg with times to meet.
+
+    fast : its moves at full limits, which are ``ceiling``; paced : at its pace, for what has no time
+    """
+
+    leg: Leg
+    plan: Plan
+    fast: tuple[Move, ...]
+    paced: tuple[Move, ...]
+    ceiling: Ceiling
+
+    def possible(self) -> bool:
+        """Tell whether the times can be met."""
+        return isinstance(_attempt(self, _anchors(self.leg, self.plan)), Timed)
+
+    def meet(self) -> Timed | TooFast:
+        """Return the moves at the times asked for, or the first that cannot be met and what could."""
+        anchors = _anchors(self.leg, self.plan)
+        found = _attempt(self, anchors)
+        if isinstance(found, Timed):
+            return found
+        late = anchors[found.anchor]
+        at_end = late.mark is None
+        asked = late.leaves if at_end else late.arrives
+        for shifts_rest in (False, True):
+            delay = _least_delay(self, anchors, found, shifts_rest)
+            if delay is not None:
+                return TooFast(late.mark, asked, asked + delay, shifts_rest)
+        return TooFast(late.mark, asked, None)
+
+
 def has_times(leg: Leg) -> bool:
     """Tell whether a keyframe's time or the leg's length is given."""
     return leg.duration is not None or any(mark.time is not None for mark in leg.marks)
 
 
-def meet_times(
-    leg: Leg, plan: Plan, fast: tuple[Move, ...], paced: tuple[Move, ...], ceiling: Ceiling
-) -> tuple[Plan, tuple[Move, ...]] | TooFast:
-    """Return the moves at the times asked for, and the plan with waits where keyframes ask for them.
-
-    fast : the moves at full limits, ceiling; paced : at the leg's pace, for what has no time
-    """
-    anchors = _anchors(leg, plan)
-    plan = _with_waits(leg, plan, anchors)
-    parts: list[_Part] = []
-    reached = 0.0
-    for i, (a, b) in enumerate(pairwise(anchors)):
-        found = _parts(plan, fast, a.s, b.s)
-        least = sum(seconds for _, _, seconds in found)
-        room = b.time - a.time - _holds(plan, a.s, b.s)
-        whole = _whole_moves(plan, a.s) and _whole_moves(plan, b.s)
-        if least > room * (1 + ROUNDING) + ROUNDING and (whole or room <= 0):
-            return TooFast(b.mark, b.time, reached + least + b.time - a.time - room)
-        share = room / least if least > 0 else 1.0
-        parts += [_Part(m, end, share * seconds, seconds, i + 1) for m, end, seconds in found]
-        reached = b.time
-    last = anchors[-1].s
-    for m, end, seconds in _parts(plan, paced, last, plan.stops[-1].s):
-        parts.append(_Part(m, end, seconds, seconds, len(anchors)))
-    moves: list[Move] = []
-    for m, move in enumerate(fast):
-        own = [p for p in parts if p.move == m]
-        made = _timed_move(leg, move, own, ceiling)
-        if not isinstance(made, Move):
-            return _too_fast(leg, anchors, own, made)
-        moves.append(made)
-    return plan, tuple(moves)
-
-
 def _anchors(leg: Leg, plan: Plan) -> list[_Anchor]:
-    """Return the fixed times in order of s, the start first; keyframes at one place keep the first."""
-    anchors = [_Anchor(plan.stops[0].s, 0.0, None)]
+    """Return the fixed times in order of s, the start first, one for each place."""
+    first = plan.stops[0]
+    anchors = [_Anchor(first.s, 0.0, first.hold)]
     for mark in sorted(leg.marks, key=lambda m: (m.s, m.index)):
-        if mark.time is not None and (mark.s - anchors[-1].s > SAME or mark.time > anchors[-1].time):
-            anchors.append(_Anchor(mark.s, mark.time, mark))
+        if mark.time is None:
+            continue
+        last = anchors[-1]
+        held = plan.hold_at(mark.s)
+        if mark.s - last.s > SAME:
+            anchors.append(_Anchor(mark.s, mark.time, mark.time + held, mark))
+        elif last.mark is None:
+            anchors[-1] = _Anchor(last.s, 0.0, mark.time + held, mark)
+        else:
+            anchors[-1] = replace(last, leaves=max(last.leaves, mark.time))
     if leg.duration is not None:
-        end = plan.stops[-1]
-        if end.s - anchors[-1].s > SAME:
-            anchors.append(_Anchor(end.s, leg.duration - end.hold, None))
+        end, last = plan.stops[-1], anchors[-1]
+        if end.s - last.s > SAME:
+            anchors.append(_Anchor(end.s, leg.duration - end.hold, leg.duration))
+        else:
+            anchors[-1] = replace(last, leaves=max(last.leaves, leg.duration))
     return anchors
 
 
-def _with_waits(leg: Leg, plan: Plan, anchors: list[_Anchor]) -> Plan:
-    """Wait at a stop for which a later time is given than it takes to get there from the same place."""
-    for a, b in pairwise(anchors):
-        if b.s - a.s <= SAME:
-            held = _holds(plan, a.s, a.s + 2 * SAME)
-            plan = plan.waiting(a.s, max(0.0, b.time - a.time - held))
-    end, last = plan.stops[-1], anchors[-1]
-    if leg.duration is not None and last.mark is not None and end.s - last.s <= SAME:
-        plan = plan.waiting(end.s, max(0.0, leg.duration - last.time - end.hold))
-    return plan
-
-
-def _holds(plan: Plan, start: float, end: float) -> float:
-    """Return the seconds held from the arrival at ``start`` to the arrival at ``end``."""
-    return sum(p.hold for p in plan.stops if start - SAME < p.s < end - SAME)
-
-
-def _whole_moves(plan: Plan, s: float) -> bool:
-    return any(abs(stop.s - s) < SAME for stop in plan.stops)
+def _attempt(timed: TimedLeg, anchors: list[_Anchor]) -> Timed | _Late:
+    parts: list[_Part] = []
+    plan = timed.plan.leaving({a.s: a.leaves - a.arrives for a in anchors})
+    for i, (a, b) in enumerate(pairwise(anchors)):
+        found = _parts(plan, timed.fast, a.s, b.s)
+        least = sum(seconds for _, _, seconds in found)
+        room = b.arrives - a.leaves - plan.holds_between(a.s, b.s)
+        lack = least - room
+        if lack > ROUNDING * (1 + room) and (room <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))):
+            return _Late(i + 1, lack)
+        parts += [_Part(m, end, room * seconds / least, seconds, i + 1) for m, end, seconds in found]
+    rest = _parts(plan, timed.paced, anchors[-1].s, plan.stops[-1].s)
+    parts += [_Part(m, end, seconds, seconds, len(anchors)) for m, end, seconds in rest]
+    moves: list[Move] = []
+    for m, move in enumerate(timed.fast):
+        own = [p for p in parts if p.move == m]
+        made = _made(timed, move, own)
+        if made is None:
+            known = [p for p in own if p.anchor < len(anchors)]
+            return _Late(min(known, key=lambda p: p.seconds / p.least).anchor)
+        moves.append(made)
+    return Timed(plan, tuple(moves))
 
 
 def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> list[tuple[int, float, float]]:
@@ -136,27 +176,38 @@ def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> lis
     return found
 
 
-def _timed_move(leg: Leg, fast: Move, parts: list[_Part], ceiling: Ceiling) -> Move | np.ndarray:
+def _made(timed: TimedLeg, fast: Move, parts: list[_Part]) -> Move | None:
     if len(parts) == 1:
         return fast.stretched(max(1.0, parts[0].seconds / fast.duration))
+    span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))
     ends = np.array([p.end for p in parts])
     seconds = np.array([p.seconds for p in parts])
-    assert leg.curve is not None
-    span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))
-    slower = min(p.seconds / p.least for p in parts)
-    lasting = seconds
-    # As gently as an even slowdown would be, if that will do; else with all that the drone has.
-    for limits in ((ceiling.scaled(1.0 / slower),) if slower > 1.0 else ()) + (ceiling,):
-        move, lasting = windowed_move(leg.curve, span, limits, ends, seconds)
-        if move is not None:
-            return move
-    return lasting
+    return windowed_move(fast.path, span, timed.ceiling, ends, seconds)
 
 
-def _too_fast(leg: Leg, anchors: list[_Anchor], parts: list[_Part], lasting: np.ndarray) -> TooFast:
-    """Name the first anchor that a move's parts reach too late."""
-    late = np.cumsum(lasting - np.array([p.seconds for p in parts]))
-    known = [i for i, p in enumerate(parts) if p.anchor < len(anchors)]
-    worst = next((i for i in known if late[i] > 1e-3), known[-1])
-    anchor = anchors[parts[worst].anchor]
-    return TooFast(anchor.mark, anchor.time, anchor.time + max(float(late[worst]), 1e-3))
+def _least_delay(timed: TimedLeg, anchors: list[_Anchor], late: _Late, shifts_rest: bool) -> float | None:
+    """Return by how much the late anchor (and all after it) has to move at least, or None."""
+
+    def enough(delay: float) -> bool:
+        k = late.anchor
+        moved = [a.later(delay) if i == k or (shifts_rest and i > k) else a for i, a in enumerate(anchors)]
+        return isinstance(_attempt(timed, moved), Timed)
+
+    if late.lack > 0 and enough(late.lack):
+        return late.lack
+    return _first_enough(enough, max(FIRST_DELAY, late.lack))
+
+
+def _first_enough(enough: Callable[[float], bool], first: float) -> float | None:
+    high = first
+    for _ in range(DOUBLINGS):
+        if enough(high):
+            break
+        high *= 2.0
+    else:
+        return None
+    low = high / 2.0 if high > first else 0.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if enough(middle) else (middle, high)
+    return high

@@ -25,7 +25,6 @@ from shotc.solvers.retiming_socp import (
     Iterate,
     NormLimit,
     RetimingProblem,
-    Window,
     cell_times,
     retime,
     start_from,
@@ -54,7 +53,9 @@ class Move:
     """One timed move.
 
     profile : s over local time from 0; curve : the flown quintics over the same knots
-    topp_time : the fastest time without a jerk limit; scale : final slowdown, at least 1
+    topp_time : the fastest time without a jerk limit, by TOPP-RA; infinite where it gave none, which
+        costs convex steps but no safety
+    scale : final slowdown, at least 1
     steps, cells : convex steps solved, and cells of the last grid
     """
 
@@ -100,9 +101,9 @@ def time_move(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> M
     grid = lay_grid(path, rough_s, rough_b, np.empty(0))
     samples = sample(path, grid)
     quickest = fastest(topp_limits(samples, limits))
-    if quickest.status is not Status.SOLVED:
-        raise RetimingFailed(f"TOPP-RA found no profile on {len(grid)} gridpoints")
-    around = np.minimum(quickest.b, np.interp(grid, rough_s, rough_b))
+    around = np.interp(grid, rough_s, rough_b)
+    if quickest.status is Status.SOLVED:
+        around = np.minimum(around, quickest.b)
     steps = 0
     for _ in range(REFINEMENTS + 1):
         bounded, used = bounded_profile(samples, limits, around)
@@ -178,9 +179,7 @@ def bounded_profile(samples: Samples, limits: tuple[Axis, ...], around: Array) -
     return best, steps
 
 
-def retiming_problem(
-    samples: Samples, limits: tuple[Axis, ...], windows: tuple[Window, ...] = ()
-) -> RetimingProblem:
+def retiming_problem(samples: Samples, limits: tuple[Axis, ...]) -> RetimingProblem:
     """Return the cone program's data."""
     accelerations, jerks = [], []
     for axis in limits:
@@ -193,4 +192,4 @@ def retiming_problem(
             jerks.append(NormLimit(*(d / axis.jerk[1] for d in (d1, d2, d3))))
     cap = rate_cap(np.concatenate([samples.d1[:, 0], samples.d1[-1:, 2]]), limits)
     middle = rate_cap(samples.d1[:, 1], limits)
-    return RetimingProblem(samples.widths, cap, middle, tuple(accelerations), tuple(jerks), windows)
+    return RetimingProblem(samples.widths, cap, middle, tuple(accelerations), tuple(jerks))

@@ -1,4 +1,4 @@
-"""A move that passes given places at given times: the evenest profile whose stretches last as asked."""
+"""A move that passes given places at given times: the smoothest law of s over t that the limits allow."""
 
 from __future__ import annotations
 
@@ -6,61 +6,105 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise
-from shotc.passes.time_flown import needed_scale, usages
-from shotc.passes.time_grid import lay_grid, rough_profile, sample
-from shotc.passes.time_limits import Ceiling
-from shotc.passes.time_move import KEEP, Move, axes_of, retiming_problem
-from shotc.passes.time_profile import fly, profile_of
+from shotc.passes.time_flown import needed_scale, path_error, usages
+from shotc.passes.time_grid import rate_cap
+from shotc.passes.time_limits import Axis, Ceiling
+from shotc.passes.time_move import STRAY, Move, axes_of
+from shotc.passes.time_profile import Profile, fly
 from shotc.solvers.conic import Status
-from shotc.solvers.retiming_socp import Window, retime, start_from
+from shotc.solvers.timed_qp import PathLimits, TimeLaw, time_law
 
 Array = NDArray[np.float64]
 
-# A place is passed at its time to within this, seconds; rounds of correction to get there.
-ON_TIME = 2e-4
-ROUNDS = 10
+# Cells of the time law for the whole move, and at least for each stretch.
+CELLS, LEAST_CELLS = 72, 12
+# Rounds in which the limits are taken anew along the last law.
+ROUNDS = 8
+# The law is laid under this share of the limits, so that what happens inside cells fits too.
+MARGIN = 0.985
+# After so many rounds a law that still overdraws, and hardly less than the last, will go on to.
+SETTLED, LEFT = 3, 1e-3
+# An inaccurate law is good enough to be checked.
+USABLE = (Status.SOLVED, Status.INACCURATE)
+# Halvings of the law's cells until the flown quintics are on the path.
+HALVINGS = 4
 
 
 def windowed_move(
     path: Piecewise, span: tuple[float, float], ceiling: Ceiling, ends: Array, seconds: Array
-) -> tuple[Move | None, Array]:
-    """Return the move whose stretches of s, which end at ``ends``, last ``seconds`` each.
+) -> Move | None:
+    """Return the move whose stretches of s, which end at ``ends``, last ``seconds`` each, or None.
 
-    ends, seconds : shape (W,); the last end is that of the span. The whole lasts exactly the sum,
-    the inner ends are met to within ON_TIME. Where the ceiling does not allow that the move is
-    None, and the array has what the stretches would last at least.
+    ends, seconds : shape (W,); the last end is that of the span. Places are met by equality
+    constraints, to about 1e-7 s.
     """
     limits = axes_of(path, span, ceiling)
-    s, b = rough_profile(path, *span, limits)
-    grid = lay_grid(path, s, b, ends[:-1])
-    at = np.searchsorted(grid, ends - 1e-9 * (span[1] - span[0]))
-    samples = sample(path, grid)
-    guess = np.interp(grid, s, b)
-    slower = max(1.0, float(seconds.sum()) / _time(samples.widths, guess))
-    around = start_from(samples.widths, np.maximum(guess, 1e-9 * guess.max()) / slower**2)
-    targets, lasting = seconds, np.full(len(seconds), np.inf)
+    inner = axes_of(path, span, ceiling.scaled(MARGIN))
+    t, places = _knots(span[0], ends, seconds)
+    law = time_law(t, places, None, None)
     for steps in range(1, ROUNDS + 1):
-        firsts = [0, *at[:-1]]
-        windows = tuple(Window(int(i), int(k), float(t)) for i, k, t in zip(firsts, at, targets, strict=True))
-        status, found = retime(retiming_problem(samples, limits, windows), around)
-        if status is not Status.SOLVED:
-            break
-        profile = profile_of(grid, found.b, found.a)
-        flown = fly(path, profile)
+        if law.status not in USABLE:
+            return None
+        profile, flown = _flown(path, law)
         needed = float(needed_scale(usages(flown, limits)).max())
-        scale = max(1.0, needed)
-        passed = np.diff(profile.t[[0, *at]])
-        lasting = scale * passed
-        exact = float(seconds.sum()) / profile.duration
-        on_time = np.abs(np.cumsum(exact * passed - seconds)).max() < ON_TIME
-        if steps > 1 and on_time and exact >= needed:
-            move = Move(path, profile, flown, 0.0, scale, steps, len(flown.ctrl))
-            return move.stretched(exact), lasting
-        around = around.blend(found, KEEP)
-        targets = targets * np.clip(seconds / lasting, 0.9, 1.1)
-    return None, lasting
+        if needed <= 1.0:
+            return Move(path, profile, flown, np.inf, 1.0, steps, len(flown.ctrl))
+        previous, law = law, time_law(t, places, _path_limits(path, inner, law.s), law)
+        if steps >= SETTLED and law.overdraft > max(LEFT, 0.7 * previous.overdraft):
+            return None
+    return None
 
 
-def _time(widths: Array, b: Array) -> float:
-    speed = np.sqrt(b)
-    return float(np.sum(2.0 * widths / np.maximum(speed[1:] + speed[:-1], 1e-9)))
+def _knots(start: float, ends: Array, seconds: Array) -> tuple[Array, tuple[tuple[int, float], ...]]:
+    """Return knots of t, even inside each stretch, and the knots at which places are fixed."""
+    total = float(seconds.sum())
+    parts, places, clock = [np.zeros(1)], [(0, start)], 0.0
+    for end, time in zip(ends, seconds, strict=True):
+        cells = max(LEAST_CELLS, round(CELLS * time / total))
+        parts.append(clock + time * np.arange(1, cells + 1) / cells)
+        clock = float(parts[-1][-1])
+        places.append((places[-1][0] + cells, float(end)))
+    return np.concatenate(parts), tuple(places)
+
+
+def _path_limits(path: Piecewise, limits: tuple[Axis, ...], s: Array) -> PathLimits:
+    derivatives = [path.derivative(k)(s) for k in (1, 2, 3)]
+    accelerations, jerks = [], []
+    for axis in limits:
+        d1, d2, d3 = (d @ axis.pick.T for d in derivatives)
+        if max(np.abs(d).max() for d in (d1, d2, d3)) < 1e-12:
+            continue
+        if axis.acceleration is not None:
+            most = axis.acceleration[1]
+            accelerations.append((d1 / most, d2 / most, d3 / most))
+        if axis.jerk is not None:
+            most = axis.jerk[1]
+            jerks.append((d1 / most, d2 / most, d3 / most))
+    speed = np.sqrt(rate_cap(derivatives[0], limits))
+    return PathLimits(speed, tuple(accelerations), tuple(jerks))
+
+
+def _flown(path: Piecewise, law: TimeLaw) -> tuple[Profile, Piecewise]:
+    """Return the law as a profile, on halved cells until the flown quintics are on the path."""
+    for halvings in range(HALVINGS + 1):
+        profile = _halved(law, 2**halvings)
+        flown = fly(path, profile)
+        if path_error(path, profile, flown).max() <= STRAY:
+            break
+    return profile, flown
+
+
+def _halved(law: TimeLaw, parts: int) -> Profile:
+    """Return the law at the ends of every cell's parts: exact, since it is a cubic there."""
+    x = np.arange(parts) / parts
+    h = np.diff(law.t)[:, None] * x
+    v0, a0, j = law.v[:-1, None], law.a[:-1, None], law.j[:, None]
+    columns = (
+        (law.t[:-1, None] + h, law.t[-1]),
+        (law.s[:-1, None] + h * v0 + h**2 / 2 * a0 + h**3 / 6 * j, law.s[-1]),
+        (np.maximum(v0 + h * a0 + h**2 / 2 * j, 0.0), 0.0),
+        (a0 + h * j, 0.0),
+    )
+    t, s, v, a = (np.append(column.ravel(), end) for column, end in columns)
+    v[0] = a[0] = 0.0
+    return Profile(t, np.maximum.accumulate(s), v, a)

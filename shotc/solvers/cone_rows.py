@@ -30,14 +30,9 @@ class ConeRows:
         self._cones: list[tuple[str, int, int]] = []
         self._count = 0
 
-    def extend(self, more: int) -> int:
-        """Add unknowns; return the column of the first."""
-        self.unknowns += more
-        return self.unknowns - more
-
-    def zero(self, terms: list[Term]) -> None:
-        """Demand that the sum of the terms is zero."""
-        self._add("zero", [np.zeros(len(terms[0][0]))], [terms])
+    def zero(self, terms: list[Term], constant: Array | None = None) -> None:
+        """Demand constant + terms = 0."""
+        self._add("zero", [np.zeros(len(terms[0][0])) if constant is None else constant], [terms])
 
     def positive(self, constant: Array, terms: list[Term]) -> None:
         """Demand constant + terms >= 0."""
@@ -65,10 +60,10 @@ class ConeRows:
         self._cones.append((kind, dim, cones))
         self._count += dim * cones
 
-    def solve(self, cost: Array, tolerance: float) -> tuple[Status, Array]:
-        """Minimise cost.x; returns the status and x (meaningless unless SOLVED)."""
+    def solve(self, cost: Array, tolerance: float, squares: Array | None = None) -> tuple[Status, Array]:
+        """Minimise cost.x + sum of squares x^2 / 2; returns the status and x (meaningless unless SOLVED)."""
         import clarabel
-        from scipy.sparse import csc_matrix
+        from scipy.sparse import csc_matrix, diags_array
 
         shape = (self._count, self.unknowns)
         places = (np.concatenate(self._rows), np.concatenate(self._cols))
@@ -85,8 +80,8 @@ class ConeRows:
         settings.max_threads = 1
         settings.presolve_enable = False
         settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
-        nothing = csc_matrix((self.unknowns, self.unknowns))
-        solver = clarabel.DefaultSolver(nothing, cost, lhs, np.concatenate(self._constants), cones, settings)
+        bent = csc_matrix(diags_array(np.zeros(self.unknowns) if squares is None else squares))
+        solver = clarabel.DefaultSolver(bent, cost, lhs, np.concatenate(self._constants), cones, settings)
         solution = solver.solve()
         return _STATUS.get(str(solution.status), Status.FAILED), np.asarray(solution.x)
 

@@ -28,8 +28,6 @@ Array = NDArray[np.float64]
 
 # Rows of a norm that stay below this share of its limit cannot matter and are left out.
 NEGLIGIBLE = 1e-9
-# Price of a second beyond a window, against the mean speed that a windowed profile keeps low.
-OVERTIME = 1e3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,15 +42,6 @@ class NormLimit:
     d3: Array
 
 
-@dataclass(frozen=True, slots=True)
-class Window:
-    """Cells [first, last) are to take ``time`` seconds."""
-
-    first: int
-    last: int
-    time: float
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class RetimingProblem:
     """A path on a grid of N >= 4 cells, from rest to rest.
@@ -60,8 +49,6 @@ class RetimingProblem:
     widths : shape (N,), cell widths
     cap : shape (N + 1,), upper bounds of b at the nodes; cap_middle : shape (N,), in mid-cell
     accelerations, jerks : norms of q'' b + q' a and of its derivative
-    windows : where given, covering all cells in order: the profile is then the evenest that takes
-        no longer, instead of the fastest
     """
 
     widths: Array
@@ -69,7 +56,6 @@ class RetimingProblem:
     cap_middle: Array
     accelerations: tuple[NormLimit, ...]
     jerks: tuple[NormLimit, ...]
-    windows: tuple[Window, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -116,8 +102,7 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
     for limit in problem.jerks:
         model.jerk(limit)
     model.times()
-    cost = model.windowed(problem.windows) if problem.windows else model.total_time()
-    status, x = model.rows.solve(cost, tolerance)
+    status, x = model.rows.solve(model.total_time(), tolerance)
     inside = slice(1, -1)
     b, a = np.zeros_like(around.b), np.zeros_like(around.b)
     if status is Status.SOLVED:
@@ -228,7 +213,7 @@ class _Model:
 
     def acceleration(self, limit: NormLimit) -> None:
         """|q'' b + q' a| <= 1 at nodes and middles."""
-        frame = _triangular(np.stack([limit.d1, limit.d2], axis=-1))
+        frame = triangular(np.stack([limit.d1, limit.d2], axis=-1))
         i = self.inside
         d1, d2 = frame[1:, 0, :, 0], frame[1:, 0, :, 1]
         nodes = [[self.a(i, d1[:, j]), self.b(i, d2[:, j])] for j in range(frame.shape[2])]
@@ -249,7 +234,7 @@ class _Model:
 
     def jerk(self, limit: NormLimit) -> None:
         """v_k |q' (a1 - a0) / h + r (3 q'' a + q''' b)| <= 1.5 - 0.5 v^2 / v_k^2 in three places."""
-        frame = _triangular(np.stack([limit.d1, limit.d2, limit.d3], axis=-1))
+        frame = triangular(np.stack([limit.d1, limit.d2, limit.d3], axis=-1))
         left, right, h = self.cell, self.cell + 1, self.widths
         share = -0.5 / (self.around.b[:-1] + self.around.b[1:])
         bound = [self.b(left, share), self.b(right, share)]
@@ -297,26 +282,8 @@ class _Model:
         cost[3 * self.nodes :] = self.shape.time / self.shape.time.sum()
         return cost
 
-    def windowed(self, windows: tuple[Window, ...]) -> Array:
-        """Bound the time of each window, at a price, and return the cost of the evenest profile.
 
-        The integral of b over s is that of sdot^3 over time: at given times least where sdot is even.
-        """
-        extra = self.rows.extend(len(windows))
-        for i, window in enumerate(windows):
-            over = (np.array([extra + i]), np.ones(1))
-            cells = range(window.first, window.last)
-            spent = [self.e(np.array([k]), -self.shape.time[[k]] / window.time) for k in cells]
-            self.rows.positive(np.ones(1), [*spent, over])
-            self.rows.positive(np.zeros(1), [over])
-        cost = np.zeros(self.rows.unknowns)
-        cost[1 : self.nodes - 1] = (self.widths[:-1] + self.widths[1:]) * self.b_unit[1:-1]
-        cost /= cost.sum()
-        cost[extra:] = OVERTIME
-        return cost
-
-
-def _triangular(columns: Array) -> Array:
+def triangular(columns: Array) -> Array:
     """Return the columns in a basis of their own at each point, without rows that are nothing.
 
     columns : shape (N, 3, dim, k); result (N, 3, rows, k). A rotation keeps norms, so a straight

@@ -49,20 +49,39 @@ class FastestProfile:
 
 
 def fastest(limits: LinearLimits) -> FastestProfile:
-    """Return the fastest profile from rest to rest (Pham and Pham, TOPP-RA, Seidel's LP)."""
+    """Return the fastest profile from rest to rest (Pham and Pham, TOPP-RA, Seidel's LP).
+
+    The linear programs have absolute tolerances, so lengths are counted in path lengths and times so
+    that b is about 1; where rounding still hides a feasible step, other units of time are tried.
+    """
+    length = float(limits.grid[-1] - limits.grid[0])
+    ceiling = np.minimum(limits.cap, 1.0 / np.maximum(limits.on_b.max(axis=1), 1e-12))
+    unit = float(ceiling.max())
+    for share in (1.0, 0.1, 10.0, 0.01):
+        sd = _topp(_in_units(limits, length, share * unit))
+        if sd is not None:
+            sd *= np.sqrt(share * unit)
+            time = float(np.sum(2.0 * np.diff(limits.grid) / np.maximum(sd[:-1] + sd[1:], 1e-12)))
+            return FastestProfile(Status.SOLVED, sd**2, time)
+    return FastestProfile(Status.FAILED, np.zeros_like(limits.grid), float("inf"))
+
+
+def _in_units(limits: LinearLimits, length: float, b: float) -> LinearLimits:
+    """Return the limits with s from 0 to 1, and b counted in units of ``b``."""
+    grid = (limits.grid - limits.grid[0]) / length
+    grid[-1] = 1.0
+    return LinearLimits(grid, limits.on_a * (b / length), limits.on_b * b, limits.cap / b)
+
+
+def _topp(limits: LinearLimits) -> Array | None:
     algorithm = _algorithm_class()(
-        [_constraint_class()(limits)],
-        _Interval(float(limits.grid[0]), float(limits.grid[-1])),
-        gridpoints=limits.grid,
-        solver_wrapper="seidel",
+        [_constraint_class()(limits)], _Interval(0.0, 1.0), gridpoints=limits.grid, solver_wrapper="seidel"
     )
     algorithm.compute_parameterization(0.0, 0.0)
     data = algorithm.problem_data
     if data.return_code.name != "Ok" or data.sd_vec is None or not np.isfinite(data.sd_vec).all():
-        return FastestProfile(Status.FAILED, np.zeros_like(limits.grid), float("inf"))
-    sd = np.asarray(data.sd_vec, dtype=np.float64)
-    time = float(np.sum(2.0 * np.diff(limits.grid) / np.maximum(sd[:-1] + sd[1:], 1e-12)))
-    return FastestProfile(Status.SOLVED, sd**2, time)
+        return None
+    return np.array(data.sd_vec, dtype=np.float64)
 
 
 @dataclass(frozen=True, slots=True)

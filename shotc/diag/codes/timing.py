@@ -1,7 +1,103 @@
-"""The codes of this family; see shotc.diag.registry."""
+"""T: times that the planned path cannot meet. See shotc.diag.registry.
+
+What no path at all could meet is found earlier, without a solver, and has K codes.
+"""
 
 from __future__ import annotations
 
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
-CODES: tuple[CodeInfo, ...] = ()
+_MISSION = """\
+shotc: 1
+mission: mast
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -30, 0], endurance: 2 min}}
+shots:
+  - id: pass
+    kind: keyframes
+    drone: cam
+    target: mast
+    timing: {start: 20 s, duration: 16 s}
+    keyframes:
+      - {at: [-20, -20, 8], look_at: mast}
+      - {at: [0, -24, 9], look_at: mast, time: 8 s}
+      - {at: [20, -20, 10], look_at: mast, hold: 1 s}
+"""
+
+_STILL = """\
+shotc: 1
+mission: mast
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -30, 0]}}
+shots:
+  - id: look
+    kind: keyframes
+    drone: cam
+    target: mast
+    timing: {duration: 5 s}
+    keyframes:
+      - {at: [-20, -20, 8], look_at: mast}
+      - {at: [-20, -20, 8], look_at: mast}
+"""
+
+
+def _code(
+    number: int, slug: str, summary: str, explanation: str, *slips: tuple[str, str], base: str = _MISSION
+) -> CodeInfo:
+    """Return a code whose failing mission is the passing one with slips of the pen: (right, wrong)."""
+    failing = base
+    for slip in slips:
+        failing = failing.replace(*slip)
+    return CodeInfo(f"T{number:03}", slug, Severity.ERROR, summary, explanation, failing, base, "plan")
+
+
+CODES: tuple[CodeInfo, ...] = (
+    _code(
+        1,
+        "duration-too-short",
+        "a shot cannot be flown in the duration it is given",
+        "The path is flown as fast as the limits allow: speed, climb and descent, acceleration and jerk as "
+        "norms in space, the turning of the body and of each gimbal axis, from rest to rest, with its holds. "
+        "If that takes longer than `duration`, the shortest possible duration is named, with the limits that "
+        "hold the drone back and where. Give the shot that duration, raise the limit, or bring its keyframes "
+        "nearer together.",
+        ("duration: 16 s", "duration: 8 s"),
+        (", time: 8 s", ""),
+    ),
+    _code(
+        2,
+        "keyframe-too-early",
+        "a keyframe cannot be reached at its time",
+        "Between two keyframes with a fixed `time` the drone has to cover the path within its limits, with "
+        "the holds on the way. The earliest possible time is named. Fix a later time, free one of the "
+        "keyframes, or raise the limit that binds.",
+        ("time: 8 s", "time: 4.3 s"),
+    ),
+    _code(
+        3,
+        "start-too-early",
+        "a shot starts before its drone can be there",
+        "`start` is when the first frame is filmed. Take-off, the shots before and the way between them take "
+        "longer than that; what they take is listed. Start later, or shorten what comes before.",
+        ("start: 20 s", "start: 7 s"),
+    ),
+    _code(
+        4,
+        "flight-too-long",
+        "the whole flight is longer than the drone's endurance",
+        "From take-off to touch-down the drone flies its shots, the ways between them and home, its holds and "
+        "its waits for a `start`. The phases are listed, the longest first. Shorten shots, start them sooner, "
+        "or split the mission.",
+        ("start: 20 s", "start: 80 s"),
+    ),
+    _code(
+        5,
+        "shot-without-length",
+        "a shot takes no time",
+        "Its keyframes are one and the same view, none is held, and it has no duration: there is nothing to "
+        "film. Give it a `duration` or a `hold`, or a keyframe elsewhere.",
+        ("    timing: {duration: 5 s}\n", ""),
+        base=_STILL,
+    ),
+)

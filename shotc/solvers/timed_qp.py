@@ -1,0 +1,158 @@
+"""A time law s(t) through places at given times: a quadratic program, with the path's limits as cones.
+
+Over time the places are linear: s is a cubic on every cell (constant jerk, C2), rests at both ends,
+never goes back, and has the least integral of squared jerk. The limits of the path are linear in
+sdot, sddot and the jerk of s once the path is taken at the last iterate's s(t) and powers of sdot
+are replaced by their tangents there; what cannot be kept is overdrawn at a price and returned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.solvers.cone_rows import ConeRows, Term
+from shotc.solvers.conic import Status
+
+Array = NDArray[np.float64]
+
+# Price of overdrawing every limit by its own size, against an integral of squared jerk of about 1.
+OVERDRAFT = 1e4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PathLimits:
+    """The limits at the N + 1 knots, with the path taken at the last iterate.
+
+    speed : shape (N + 1,), largest sdot
+    accelerations, jerks : (d1, d2, d3), each (N + 1, dim), derivatives by s over the limit
+    """
+
+    speed: Array
+    accelerations: tuple[tuple[Array, Array, Array], ...]
+    jerks: tuple[tuple[Array, Array, Array], ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimeLaw:
+    """s, sdot and sddot at the knots t, each (N + 1,), and the jerk of s on the N cells.
+
+    overdraft : share by which limits are exceeded for want of a better law, 0 where all hold
+    """
+
+    status: Status
+    t: Array
+    s: Array
+    v: Array
+    a: Array
+    j: Array
+    overdraft: float = 0.0
+
+
+def time_law(
+    t: Array, places: tuple[tuple[int, float], ...], limits: PathLimits | None, last: TimeLaw | None
+) -> TimeLaw:
+    """Return the smoothest law through the places.
+
+    t : knots, seconds; places : (knot, s), the first and the last knot among them
+    limits, last : what binds, and the iterate it was taken at; None for a law without limits
+    """
+    model = _Model(t, places)
+    if limits is not None and last is not None:
+        model.limits(limits, last)
+    squares, cost = np.zeros(model.rows.unknowns), np.zeros(model.rows.unknowns)
+    squares[3 * model.nodes : -1] = model.h / 720.0  # 720: that of the smoothest rest-to-rest law
+    cost[-1] = OVERDRAFT
+    status, x = model.rows.solve(cost, 1e-8, squares)
+    s, v, a = (x[k * model.nodes : (k + 1) * model.nodes] for k in range(3))
+    size, time = model.size, model.time
+    return TimeLaw(
+        status,
+        t,
+        model.start + size * s,
+        size / time * v,
+        size / time**2 * a,
+        size / time**3 * x[3 * model.nodes : -1],
+        float(x[-1]),
+    )
+
+
+class _Model:
+    """Unknowns s, v, a at knots, j on cells and the overdraft, with length and time counted as 1."""
+
+    def __init__(self, t: Array, places: tuple[tuple[int, float], ...]) -> None:
+        self.nodes = len(t)
+        self.start = places[0][1]
+        self.size = places[-1][1] - self.start
+        self.time = float(t[-1] - t[0])
+        self.h = np.diff(t) / self.time
+        self.rows = ConeRows(4 * self.nodes)
+        self._motion()
+        ends = np.array([0, self.nodes - 1])
+        for k in (1, 2):
+            self.rows.zero([(k * self.nodes + ends, np.ones(2))])
+        knots = np.array([knot for knot, _ in places])
+        wanted = (np.array([s for _, s in places]) - self.start) / self.size
+        self.rows.zero([(knots, np.ones(len(knots)))], -wanted)
+        self.rows.positive(np.zeros(1), [self.overdraft(np.ones(1))])
+
+    def overdraft(self, coefficient: Array) -> Term:
+        return np.full(len(coefficient), 4 * self.nodes - 1), coefficient
+
+    def _motion(self) -> None:
+        """Constant jerk on every cell, and sdot >= 0 by its Bernstein coefficients."""
+        i, h, n = np.arange(self.nodes - 1), self.h, self.nodes
+        one = np.ones_like(h)
+        s, v, a, j = i, n + i, 2 * n + i, 3 * n + i
+        self.rows.zero([(a + 1, one), (a, -one), (j, -h)])
+        self.rows.zero([(v + 1, one), (v, -one), (a, -h), (j, -(h**2) / 2)])
+        self.rows.zero([(s + 1, one), (s, -one), (v, -h), (a, -(h**2) / 2), (j, -(h**3) / 6)])
+        self.rows.positive(np.zeros(n - 2), [(v[1:], one[1:])])
+        self.rows.positive(0.0 * h, [(v, one), (a, h / 2)])
+
+    def limits(self, limits: PathLimits, last: TimeLaw) -> None:
+        """Keep the limits, overdrawn by one share: tangents at the last iterate, all in its units."""
+        n = self.nodes
+        speed, acceleration = self.size / self.time, self.size / self.time**2
+        knots = np.arange(n)
+        bound = limits.speed / speed
+        self.rows.positive(np.ones(n), [(n + knots, -1.0 / bound), self.overdraft(np.ones(n))])
+        v = last.v
+        for d1, d2, _ in limits.accelerations:
+            # q' a + q'' v^2, v^2 by its tangent.
+            parts = [
+                ([(2 * n + knots, p1 * acceleration), (n + knots, 2 * p2 * v * speed)], -p2 * v**2)
+                for p1, p2 in zip(d1.T, d2.T, strict=True)
+            ]
+            self.norm(parts)
+        for d1, d2, d3 in limits.jerks:
+            for side in (slice(None, -1), slice(1, None)):
+                self._jerk(side, d1[side], d2[side], d3[side], last)
+
+    def _jerk(self, side: slice, d1: Array, d2: Array, d3: Array, last: TimeLaw) -> None:
+        """Limit q' j + 3 q'' v a + q''' v^3 at one end of each cell, products by their tangents."""
+        n = self.nodes
+        knots, cells = np.arange(n)[side], np.arange(n - 1)
+        speed, acceleration, jerk = (self.size / self.time**k for k in (1, 2, 3))
+        v, a = last.v[side], last.a[side]
+        parts = [
+            (
+                [
+                    (3 * n + cells, p1 * jerk),
+                    (2 * n + knots, 3 * p2 * v * acceleration),
+                    (n + knots, (3 * p2 * a + 3 * p3 * v**2) * speed),
+                ],
+                -3 * p2 * v * a - 2 * p3 * v**3,
+            )
+            for p1, p2, p3 in zip(d1.T, d2.T, d3.T, strict=True)
+        ]
+        self.norm(parts)
+
+    def norm(self, parts: list[tuple[list[Term], Array]]) -> None:
+        """Norm of the parts (terms, constant) <= 1 + overdraft."""
+        one = np.ones(len(parts[0][1]))
+        constants = [constant for _, constant in parts]
+        entries = [[self.overdraft(one)], *(terms for terms, _ in parts)]
+        self.rows.second_order(one, entries, rest=constants)
