@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees
+from math import degrees, inf
 from typing import assert_never
 
 import numpy as np
@@ -101,25 +101,27 @@ def moved(mission: MissionIR, shot: PlacedShot, deviation: Deviation) -> Diagnos
     )
 
 
-def cut_framing(mission: MissionIR, drone: Drone, shot: PlacedShot, cut: Cut) -> Diagnostic:
-    """Return the warning for a composition that the gimbal cannot keep between two keyframes."""
+def cut_framing(mission: MissionIR, drone: Drone, shot: PlacedShot, cuts: tuple[Cut, ...]) -> Diagnostic:
+    """Return the warning for a composition that the gimbal cannot keep between keyframes."""
     low, high = (degrees(a) for a in drone.gimbal.pitch)
-    if cut.excess is None:
-        note = (
-            f"{cut.s:.1f} m along the shot the target is too steeply above or below for its place on screen"
-        )
+    worst = max(cuts, key=lambda cut: inf if cut.excess is None else cut.excess)
+    if worst.excess is None:
+        note = "the target is too steeply above or below for its place on screen"
     else:
-        note = f"{cut.s:.1f} m along the shot it would take {degrees(cut.excess):.1f} deg more pitch"
-    keyframe = shot.keyframes[cut.index]
+        note = f"it would take {degrees(worst.excess):.1f} deg more pitch"
+    notes = [f"{worst.s:.1f} m along the shot {note}"]
+    if len(cuts) > 1:
+        notes.append(f"{len(cuts)} stretches between keyframes are so; this is the worst")
+    keyframe = shot.keyframes[worst.index]
     return Diagnostic(
         "Q007",
-        f"between keyframes {cut.index + 1} and {cut.index + 2} of shot `{shot.shot.id}` "
+        f"between keyframes {worst.index + 1} and {worst.index + 2} of shot `{shot.shot.id}` "
         "the gimbal cannot keep the target in its place",
         (
             mission.origins.key(keyframe.path, "from this keyframe on"),
             mission.origins.value((*drone.path, "gimbal", "pitch"), f"{low:.0f} to {high:.0f} deg"),
         ),
-        (note,),
+        tuple(notes),
         "add a keyframe farther from the target, or widen gimbal.pitch",
     )
 

@@ -12,7 +12,7 @@ from math import pi
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import support
+from shotc.geom.convex import FAR, support
 from shotc.geom.corridor import MARGIN, Breach, Room, blocked, bounds_slack, breaches
 from shotc.geom.route import NODE_MARGIN, find_route
 from shotc.ir.keyframes import PlacedKeyframe
@@ -132,7 +132,8 @@ def _joined(
 
 def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:
     turn = abs((b.yaw - a.yaw + pi) % (2 * pi) - pi)
-    return TURN_LENGTH * max(turn, abs(b.pitch - a.pitch), abs(b.hfov - a.hfov))
+    length = TURN_LENGTH * max(turn, abs(b.pitch - a.pitch), abs(b.hfov - a.hfov))
+    return length if length >= SAME_PLACE else 0.0
 
 
 def _nearest_free(room: Room, p: Array) -> Array | None:
@@ -145,7 +146,8 @@ def _nearest_free(room: Room, p: Array) -> Array | None:
         # The way out along each ray: the support of the solid seen from p, and the clearance.
         out = support(o.part, rays) - rays @ p + reach
         tries += list(p + rays[out > 0] * out[out > 0, None])
-        tries.append(np.array([p[0], p[1], o.part.top + reach]))
+        if o.part.top < FAR:
+            tries.append(np.array([p[0], p[1], o.part.top + reach]))
     for wall in room.walls:
         lack = wall.offset + MARGIN - float(p @ np.array(wall.normal))
         if lack > 0:

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import segment_distances
+from shotc.geom.convex import FAR, segment_distances
 from shotc.geom.corridor import Room, bounds_slack, breaches
 from shotc.ir.mission import Drone
 
@@ -44,7 +44,7 @@ def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
     ceiling = min(((-w.offset, w.owner) for w in pad.walls if w.normal[2] < -0.5), default=None)
     if ceiling is not None and ceiling[0] < lowest:
         return PadBlocked(ceiling[1], "ceiling", lowest, ceiling[0])
-    tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles]
+    tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles if o.part.top < FAR]
     heights = sorted({lowest, *(t for t in tops if t > lowest)})
     points = np.array([[home[0], home[1], z] for z in heights])
     inside = bounds_slack(flight, points) >= 0

@@ -80,7 +80,7 @@ def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext) -> _Planned:
         return _stopped(*faults)
     warnings = [
         *(moved(mission, s.shot, d) for s in shots for d in s.deviations),
-        *(cut_framing(mission, drone, s.shot, c) for s in shots for c in s.cuts),
+        *(cut_framing(mission, drone, s.shot, s.cuts) for s in shots if s.cuts),
     ]
     ctx.progress(f"way of {drone.name}")
     joined = drone_legs(Flight(drone, room, top), shots)

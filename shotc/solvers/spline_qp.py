@@ -7,7 +7,7 @@ quadratic objective, linear equalities and inequalities, norm bounds.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,8 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import DEGREE, IntArray, Rows
 from shotc.solvers.conic import Status, solve
+
+MISS = 1e-6  # metres that a solution may miss an equality by
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,9 +107,14 @@ class Relaxation:
 
 
 def minimise(problem: SplineProblem) -> SplineSolution:
-    """Return the curve of least energy under all constraints."""
+    """Return the curve of least energy under all constraints.
+
+    A solution that misses an equality by more than MISS is none: its status is FAILED.
+    """
     import cvxpy as cp
 
+    centre = problem.equalities.value.mean(axis=0)
+    problem = _moved(problem, -centre)
     x = cp.Variable(3 * problem.size)
     constraints = [_block(problem.equalities.rows, problem.size) @ x == problem.equalities.value.T.ravel()]
     constraints += [_floor_map(f, problem.size) @ x >= f.offset for f in problem.floors]
@@ -124,8 +131,10 @@ def minimise(problem: SplineProblem) -> SplineSolution:
     status = solve(programme)
     if x.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
         return SplineSolution(status, None, float("nan"), float("nan"))
-    objective = float(energy.value)
-    return SplineSolution(status, _coef(x, problem.size), objective, float(programme.value) - objective)
+    coef, objective = _coef(x, problem.size), float(energy.value)
+    if np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value).max() > MISS:
+        return SplineSolution(Status.FAILED, None, float("nan"), float("nan"))
+    return SplineSolution(status, coef + centre, objective, float(programme.value) - objective)
 
 
 def relax(problem: SplineProblem, owners: int) -> Relaxation:
@@ -135,6 +144,8 @@ def relax(problem: SplineProblem, owners: int) -> Relaxation:
     """
     import cvxpy as cp
 
+    centre = problem.equalities.value.mean(axis=0)
+    problem = _moved(problem, -centre)
     x = cp.Variable(3 * problem.size)
     lack = cp.Variable(max(owners, 1), nonneg=True)
     points = len(problem.equalities.value)
@@ -149,7 +160,27 @@ def relax(problem: SplineProblem, owners: int) -> Relaxation:
     status = solve(programme)
     if x.value is None:
         return Relaxation(status, None, np.zeros(owners), np.zeros(points))
-    return Relaxation(status, _coef(x, problem.size), np.asarray(lack.value), np.asarray(shift.value))
+    return Relaxation(
+        status, _coef(x, problem.size) + centre, np.asarray(lack.value), np.asarray(shift.value)
+    )
+
+
+def _moved(problem: SplineProblem, by: Array) -> SplineProblem:
+    """Move a whole problem, so that numbers stay small wherever in the world it lies.
+
+    Coefficients move as the curve does; rows of values weigh them by 1 in sum, derivatives by 0.
+    """
+
+    def shift(rows: Rows) -> Array:
+        return np.asarray(rows.weight.sum(axis=1)[:, None] * by)
+
+    return SplineProblem(
+        problem.size,
+        tuple(Goal(g.rows, g.value + shift(g.rows)) for g in problem.goals),
+        Equalities(problem.equalities.rows, problem.equalities.value + shift(problem.equalities.rows)),
+        tuple(replace(f, offset=f.offset + (shift(f.rows) * f.normal).sum(axis=1)) for f in problem.floors),
+        tuple(replace(c, centre=c.centre + shift(c.rows)[:, list(c.axes)]) for c in problem.cones),
+    )
 
 
 def scalar_map(rows: Rows, size: int) -> Any:

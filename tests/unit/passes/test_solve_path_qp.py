@@ -15,6 +15,10 @@ from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.mission import Gimbal, Target, Timing
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
+from shotc.passes.path_faults import failure
+from shotc.passes.path_position import Stretch, solve_stretch
+from shotc.passes.path_room import flight_room
+from shotc.passes.path_shots import Stuck
 from tests.path_scenes import (
     ASPECT,
     FIELD,
@@ -286,6 +290,33 @@ def test_all_drones_faults_are_told_in_one_run():
     assert sorted(codes(outcome)) == ["Q002", "Q004", "Q004"]
 
 
+def test_a_corridor_that_no_curve_fits_names_the_smallest_conflict():
+    made = mission(out("slab", block((-50, 50), (-1, 1), (0, 70))), targets=())
+    drone = made.drones[0]
+    corners = np.array([[-5.0, -20.0, 8.0], [0.0, 0.0, 8.0], [5.0, 20.0, 8.0]])
+    steps = np.linalg.norm(np.diff(corners, axis=0), axis=1)
+    stretch = Stretch(
+        corners + np.array([[0, 0, 0], [0.1, 0, 0], [0, 0, 0]]), np.concatenate([[0.0], np.cumsum(steps)]),
+        (0, 1, 2), np.zeros((0, 3)), np.zeros(0), 0.75,
+    )  # fmt: skip
+    room = flight_room(made, drone)
+    found = solve_stretch(room, stretch, drone.limits)
+    assert found.curve is None
+    placed = shot([free(i, c) for i, c in enumerate(corners)])
+    fault = failure(made, drone, room, placed, Stuck(found, corners, (0, 1, 2)))
+    assert fault.code == "Q003"
+    assert fault.notes
+
+
+def test_many_cuts_of_one_shot_are_one_warning():
+    made = mission(targets=(replace(TOWER, centre=(0.0, 0.0, 40.0), height=2.0),))
+    high = made.targets[0]
+    ring = [framed(i, (x, 12.0, 10.0), high, placed=True) for i, x in enumerate((-60, -20, 0, 20, 60))]
+    outcome = solve(made, shot(ring))
+    assert codes(outcome) == ["Q007"]
+    assert any("stretches" in note for note in outcome.diagnostics[0].notes)
+
+
 def test_the_same_input_gives_the_same_path():
     made = mission(TREE, HOUSE, inside("field", FIELD), body="forward")
     one, two = (planned(made, shot(circle(TOWER, 7, 40, 20, sweep=pi))) for _ in range(2))
@@ -296,8 +327,8 @@ def test_the_same_input_gives_the_same_path():
 
 @pytest.mark.parametrize("scale", [1e-2, 1.0, 30.0])
 def test_sizes_from_decimetres_to_kilometres_are_planned(scale):
-    points = np.array([(0, 0, 0), (10, 4, 1), (18, -3, 3), (30, 0, 0)]) * scale + (3000, -2000, 20)
-    made = mission(targets=(), home=(3000.0, -2010.0, 0.0))
+    points = np.array([(0, 0, 0), (10, 4, 1), (18, -3, 3), (30, 0, 0)]) * scale + (30000, -20000, 20)
+    made = mission(targets=(), home=(30000.0, -20010.0, 0.0))
     planned(made, shot([free(i, p) for i, p in enumerate(points)]))
 
 
