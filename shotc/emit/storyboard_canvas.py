@@ -1,11 +1,12 @@
 """A page to draw on, in inches from its lower left corner: the one module that speaks to matplotlib.
 
-No figure of pyplot's is touched, and the user's own style settings do not reach the page.
+No figure of pyplot's is touched.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from typing import Any
@@ -71,14 +72,22 @@ class Type:
     halo: Rgb | None = None
 
 
+@contextmanager
+def house_style() -> Iterator[None]:
+    """Keep the user's own style settings off the page; everything is measured and drawn inside this."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        # Without hinting a text is as wide as its measure says at every size.
+        mpl.rcParams["text.hinting"] = "no_hinting"
+        yield
+
+
 class Canvas:
-    """A page of paper; what is drawn later lies on top."""
+    """A page of paper; what is drawn later lies on top. To be used in the house style."""
 
     def __init__(self, width: float, height: float, dpi: float) -> None:
-        with mpl.rc_context():
-            mpl.rcdefaults()
-            self._figure = Figure(figsize=(width, height), dpi=dpi, facecolor=PAPER)
-            self._agg = FigureCanvasAgg(self._figure)
+        self._figure = Figure(figsize=(width, height), dpi=dpi, facecolor=PAPER)
+        self._agg = FigureCanvasAgg(self._figure)
         self._inches = self._figure.dpi_scale_trans
         self._order = 0
 
@@ -169,9 +178,7 @@ class Canvas:
     def png(self) -> bytes:
         """Return the page as PNG bytes, the same for the same drawing."""
         stream = BytesIO()
-        with mpl.rc_context():
-            mpl.rcdefaults()
-            self._agg.print_png(stream, metadata={"Software": None})
+        self._agg.print_png(stream, metadata={"Software": None})
         return stream.getvalue()
 
     def _add(self, artist: Any, clip: Box | None) -> None:

@@ -38,7 +38,8 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
     box = cell.picture
     shown = picture(moment.pose, box.width / box.height, box)
     draw_scene(canvas, shown, mission, moment.target, grid)
-    _composition(canvas, shown, moment.composition)
+    if moment.target is not None:
+        _composition(canvas, shown, moment.composition)
     taken: list[Box] = []
     if moment.target is not None:
         target = mission.target(moment.target)

@@ -23,7 +23,7 @@ from shotc.emit.storyboard_canvas import Box, Canvas, Type
 from shotc.emit.storyboard_content import Moment, ShotBoard
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import CAM_YAW, HFOV
 
 
@@ -46,18 +46,16 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     sheet = _sheet(box, board, mission)
     canvas.polygons([box.outline()], GROUND_FAR)
     _squares(canvas, sheet, grid)
-    taken: list[Box] = [Box(box.right - 0.45, box.top - 0.6, 0.45, 0.6), Box(box.x, box.y, 1.1, 0.4)]
     _zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
     for moment in board.moments:
         _frustum(canvas, sheet, moment)
     _targets(canvas, sheet, mission)
     _path(canvas, sheet, board)
+    taken = [_north(canvas, box), _scale_bar(canvas, sheet)]
     _numbers(canvas, sheet, board, taken)
     _names(canvas, sheet, board, mission, taken)
-    _north(canvas, box)
-    _scale_bar(canvas, sheet)
-    canvas.polygons([box.outline()], "none", shade(INK, 1.1), 0.8)
+    canvas.polygons([box.outline()], "none", INK, 0.8)
 
 
 def round_length(length: float) -> float:
@@ -113,10 +111,15 @@ def _zones(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
 
 
 def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
-    for target in mission.targets:
-        radius = max(target.radius, 0.06 / sheet.inches)
-        solid = Cylinder((target.centre[0], target.centre[1]), radius, 0.0, 1.0)
-        canvas.polygons([sheet.place(footprint(solid))], SUBJECT, shade(SUBJECT, 0.55), 0.9, sheet.box)
+    for target in sorted(mission.targets, key=lambda t: t.centre[2] + t.height / 2):
+        shape = sheet.place(_disc(sheet, target))
+        canvas.polygons([shape], SUBJECT, shade(SUBJECT, 0.55), 0.9, sheet.box)
+
+
+def _disc(sheet: Sheet, target: Target) -> Array:
+    """Return the ground plan of a target, never too small to be seen."""
+    radius = max(target.radius, 0.06 / sheet.inches)
+    return footprint(Cylinder((target.centre[0], target.centre[1]), radius, 0.0, 1.0))
 
 
 def _frustum(canvas: Canvas, sheet: Sheet, moment: Moment) -> None:
@@ -136,7 +139,7 @@ def _path(canvas: Canvas, sheet: Sheet, board: ShotBoard) -> None:
     canvas.lines([strip], INK, 2.6, sheet.box)
     canvas.lines([strip], CAMERA, 1.6, sheet.box)
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(strip, axis=0), axis=1))])
-    if length[-1] < 0.5:
+    if length[-1] < 0.6:
         return
     for share in (0.3, 0.8):
         at = int(np.searchsorted(length, share * length[-1]))
@@ -156,7 +159,9 @@ def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, taken: list[Box]) -
         taken.append(_square(spot, radius))
         spots.append(spot)
     for moment, spot in zip(board.moments, spots, strict=True):
-        canvas.lines([np.array([sheet.place(moment.pose[:2]), spot])], INK, 0.8)
+        x, y = (float(c) for c in sheet.place(moment.pose[:2]))
+        canvas.lines([np.array([(x, y), spot])], INK, 0.8)
+        canvas.disc((x, y), 0.03, CAMERA, INK, 0.7)
     for moment, spot in zip(board.moments, spots, strict=True):
         canvas.disc(spot, radius, INK, WHITE, 0.8)
         canvas.text(*spot, str(moment.number), Type(7, WHITE, True, "center", "center_baseline"))
@@ -177,45 +182,47 @@ def _square(at: tuple[float, float], half: float) -> Box:
 
 
 def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> None:
-    subjects = [t for t in mission.targets if _is_on(sheet, np.array(t.centre))]
-    labels: list[tuple[str, Rgb, Array, float]] = [
-        (t.name, shade(SUBJECT, 0.75), np.array(t.centre[:2]), t.radius) for t in subjects
-    ]
-    for target in subjects:
-        x, y = (float(c) for c in sheet.place(np.array(target.centre)))
-        taken.append(_square((x, y), target.radius * sheet.inches))
-    for zone in (z for z in mission.zones if z.keep == "out"):
-        plan = footprint(zone.solid)
-        if _is_on(sheet, (plan.min(axis=0) + plan.max(axis=0)) / 2):
-            middle = (plan.min(axis=0) + plan.max(axis=0)) / 2
-            labels.append((zone.name, shade(KEEP_OUT, 0.8), middle, float(np.ptp(plan[:, 1])) / 2))
-    if any(drone.name == board.drone.name for drone in mission.drones):
-        home = np.array(board.drone.home[:2])
-        x, y = (float(c) for c in sheet.place(home))
-        if sheet.box.holds(_square((x, y), 0.1)):
-            square = _square((x, y), 0.055)
-            canvas.polygons([square.outline()], WHITE, INK, 1.0)
-            taken.append(square)
-            labels.append(("home", QUIET, home, 0.0))
-    for name, color, centre, radius in labels:
-        _name(canvas, sheet, (name, color), (centre, radius), taken)
+    labels: list[tuple[str, Rgb, Box]] = []
+    for target in mission.targets:
+        seen = _visible(sheet, _disc(sheet, target))
+        if seen is not None:
+            labels.append((target.name, shade(SUBJECT, 0.75), seen))
+    taken += [seen for _, _, seen in labels]
+    for zone in mission.zones:
+        seen = _visible(sheet, footprint(zone.solid))
+        if zone.keep == "out" and seen is not None:
+            labels.append((zone.name, shade(KEEP_OUT, 0.8), seen))
+    x, y = (float(c) for c in sheet.place(np.array(board.drone.home[:2])))
+    pad = _square((x, y), 0.055)
+    if sheet.box.holds(pad):
+        canvas.polygons([pad.outline()], WHITE, INK, 1.0)
+        taken.append(pad)
+        labels.append(("home", QUIET, pad))
+    for name, color, seen in labels:
+        _name(canvas, sheet, (name, color), seen, taken)
 
 
-def _is_on(sheet: Sheet, place: Array) -> bool:
-    x, y = (float(c) for c in sheet.place(place))
-    return sheet.box.holds(Box(x, y, 0.0, 0.0))
+def _visible(sheet: Sheet, plan: Array) -> Box | None:
+    """Return the part of a ground plan's rectangle that is on the map, on the page, or None."""
+    points, box = sheet.place(plan), sheet.box
+    left, bottom = (float(c) for c in np.maximum(points.min(axis=0), (box.x, box.y)))
+    right, top = (float(c) for c in np.minimum(points.max(axis=0), (box.right, box.top)))
+    return Box(left, bottom, right - left, top - bottom) if right > left and top > bottom else None
 
 
-def _name(
-    canvas: Canvas, sheet: Sheet, what: tuple[str, Rgb], where: tuple[Array, float], taken: list[Box]
-) -> None:
-    (name, color), (centre, radius) = what, where
+def _name(canvas: Canvas, sheet: Sheet, what: tuple[str, Rgb], seen: Box, taken: list[Box]) -> None:
+    """Write a name under its thing, or wherever else beside it or on it there is room."""
+    name, color = what
     style = Type(7.5, color, bold=True, across="center", along="bottom", halo=WHITE)
     width, height = canvas.extent(name, style)
-    x, y = (float(c) for c in sheet.place(centre))
-    off = radius * sheet.inches + 0.07
-    side = off + width / 2 + 0.02
-    spots = [(x, y - off - height), (x, y + off), (x + side, y - height / 2), (x - side, y - height / 2)]
+    x, y, gap = seen.x + seen.width / 2, seen.y + seen.height / 2 - height / 2, 0.06
+    spots = [
+        (x, seen.y - gap - height),
+        (x, seen.top + gap),
+        (x, y),
+        (seen.right + gap + width / 2, y),
+        (seen.x - gap - width / 2, y),
+    ]
     for left, base in spots:
         room = Box(left - width / 2, base, width, height)
         if sheet.box.holds(room) and not any(room.meets(other) for other in taken):
@@ -224,18 +231,21 @@ def _name(
             return
 
 
-def _north(canvas: Canvas, box: Box) -> None:
+def _north(canvas: Canvas, box: Box) -> Box:
     x, y = box.right - 0.22, box.top - 0.36
     canvas.polygons([np.array([[x, y + 0.17], [x - 0.07, y - 0.1], [x, y - 0.05]])], INK)
     canvas.polygons([np.array([[x, y + 0.17], [x + 0.07, y - 0.1], [x, y - 0.05]])], WHITE, INK, 0.7)
     canvas.text(x, y + 0.19, "N", Type(8, INK, bold=True, across="center"))
+    return Box(x - 0.12, y - 0.12, 0.24, 0.48)
 
 
-def _scale_bar(canvas: Canvas, sheet: Sheet) -> None:
-    length = round_length(1.1 / sheet.inches)
+def _scale_bar(canvas: Canvas, sheet: Sheet) -> Box:
+    length = round_length(0.26 * sheet.box.width / sheet.inches)
     x, y = sheet.box.x + 0.13, sheet.box.y + 0.14
     width = length * sheet.inches
-    canvas.polygons([Box(x - 0.05, y - 0.06, width + 0.1, 0.3).outline()], (*GROUND_FAR, 0.85))
+    ground = Box(x - 0.05, y - 0.06, width + 0.1, 0.3)
+    canvas.polygons([ground.outline()], (*GROUND_FAR, 0.85))
     for i, face in enumerate((INK, WHITE)):
         canvas.polygons([Box(x + i * width / 2, y, width / 2, 0.055).outline()], face, INK, 0.7)
     canvas.text(x, y + 0.09, f"{length:g} m", Type(7.5, INK))
+    return ground

@@ -21,7 +21,7 @@ from shotc.emit.palette import (
     shade,
 )
 from shotc.emit.screen import ScreenSummary, screen_tracks, summary
-from shotc.emit.storyboard_canvas import Box, Canvas, Type
+from shotc.emit.storyboard_canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard_content import ShotBoard, shot_boards
 from shotc.emit.storyboard_frame import Cell, caption_height, clock, draw_frame, is_moved
 from shotc.emit.storyboard_map import draw_map, round_length
@@ -68,6 +68,11 @@ def layout(aspect: float, shots: int) -> Layout:
 
 def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
     """Return the whole storyboard as PNG bytes."""
+    with house_style():
+        return _page(plan, dpi)
+
+
+def _page(plan: VerifiedIR, dpi: float) -> bytes:
     shots = len(plan.trajectory.keyframes.shots)
     tracks = screen_tracks(plan)
     boards = shot_boards(plan, tracks) if shots <= MANY else shot_boards(plan, tracks, most_generated=4)

@@ -13,9 +13,10 @@ from shotc.emit.storyboard_canvas import Box, Canvas
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
-from shotc.geom.solids import Vec3
+from shotc.geom.solids import Vec3, convex_parts
 from shotc.ir.mission import MissionIR, Target, Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.sampling import cylinder
 
 LIGHT = np.radians(215.0)
 """Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""
@@ -58,19 +59,49 @@ def draw_scene(canvas: Canvas, shown: Picture, mission: MissionIR, subject: str 
     """
     _sky_and_ground(canvas, shown)
     _grid(canvas, shown, grid)
-    things: list[Target | Zone] = [*mission.targets, *(z for z in mission.zones if z.keep == "out")]
-    for thing in sorted(things, key=lambda item: -_distance(shown.eye, item)):
+    for thing in painting_order(shown.eye, _things(mission)):
         if isinstance(thing, Target):
             _target(canvas, shown, thing, SUBJECT if thing.name == subject else shade(SUBJECT, 1.45))
         else:
             _zone(canvas, shown, thing)
 
 
-def _distance(eye: Vec3, thing: Target | Zone) -> float:
+def _things(mission: MissionIR) -> list[Target | Zone]:
+    return [*mission.targets, *(zone for zone in mission.zones if zone.keep == "out")]
+
+
+def painting_order(eye: Vec3, things: list[Target | Zone]) -> list[Target | Zone]:
+    """Return things in an order in which the later ones may cover the earlier ones.
+
+    Of two things one above the other the one on the far side of a level between them comes first;
+    otherwise the farther one does.
+    """
+    left, order = sorted(things, key=lambda thing: -_distance(eye, thing)), []
+    while left:
+        free = (a for a in left if not any(_is_behind(eye, b, a) for b in left if b is not a))
+        thing = next(free, left[0])
+        left.remove(thing)
+        order.append(thing)
+    return order
+
+
+def _is_behind(eye: Vec3, a: Target | Zone, b: Target | Zone) -> bool:
+    (a_low, a_high), (b_low, b_high) = _span(a), _span(b)
+    return (a_high <= b_low and eye[2] >= b_low) or (a_low >= b_high and eye[2] <= a_low)
+
+
+def _span(thing: Target | Zone) -> tuple[float, float]:
     if isinstance(thing, Target):
-        return float(np.hypot(thing.centre[0] - eye[0], thing.centre[1] - eye[1])) - thing.radius
-    near = thing.solid.closest(eye)
-    return float(np.hypot(near[0] - eye[0], near[1] - eye[1]))
+        return thing.centre[2] - thing.height / 2, thing.centre[2] + thing.height / 2
+    return thing.solid.bottom, thing.solid.top
+
+
+def _distance(eye: Vec3, thing: Target | Zone) -> float:
+    solid = cylinder(thing) if isinstance(thing, Target) else thing.solid
+    return min(
+        float(np.hypot(q[0] - eye[0], q[1] - eye[1]))
+        for q in (part.closest(eye) for part in convex_parts(solid))
+    )
 
 
 def _sky_and_ground(canvas: Canvas, shown: Picture) -> None:
@@ -194,9 +225,8 @@ def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
 
 def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]]:
     """Return name, colour and page rectangle of everything that is in the picture, the near first."""
-    things: list[Target | Zone] = [*mission.targets, *(z for z in mission.zones if z.keep == "out")]
     found = []
-    for thing in sorted(things, key=lambda item: _distance(shown.eye, item)):
+    for thing in reversed(painting_order(shown.eye, _things(mission))):
         if isinstance(thing, Target):
             shapes = [cylinder_outline(shown.camera, shown.offset(thing), thing.radius, thing.height)]
             color = shade(SUBJECT, 0.7)

@@ -10,11 +10,12 @@ import pytest
 from shotc.emit import storyboard_frame, storyboard_page
 from shotc.emit.screen import guide_lines, screen_tracks, summary
 from shotc.emit.storyboard import DPI, EMITTER
-from shotc.emit.storyboard_canvas import Box, Canvas, Type
+from shotc.emit.storyboard_canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard_content import shot_boards
 from shotc.emit.storyboard_frame import clock, compass, metres
 from shotc.emit.storyboard_map import round_length
 from shotc.emit.storyboard_page import WIDTH, headline, layout
+from shotc.emit.storyboard_scene import painting_order
 from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Composition
 from shotc.ir.trajectory import KeyframeTime, VerifiedIR
@@ -132,10 +133,11 @@ def test_panels_keep_their_aspect_and_fit_the_page(aspect: float, shots: int) ->
 
 
 def test_text_is_as_wide_as_measured() -> None:
-    canvas = Canvas(4.0, 1.0, 100.0)
-    small, large = canvas.extent("shot", Type(8.0)), canvas.extent("shot", Type(16.0))
-    assert large[0] == pytest.approx(2 * small[0], rel=0.1)
-    assert canvas.extent("$x_1$", Type(9.0))[0] > canvas.extent("x1", Type(9.0))[0]
+    with house_style():
+        canvas = Canvas(4.0, 1.0, 100.0)
+        small, large = canvas.extent("a longer text", Type(8.0)), canvas.extent("a longer text", Type(16.0))
+        assert large[0] == pytest.approx(2 * small[0], rel=0.03)
+        assert canvas.extent("$x_1$", Type(9.0))[0] > canvas.extent("x1", Type(9.0))[0]
 
 
 def test_boxes() -> None:
@@ -163,6 +165,20 @@ def test_guide_lines_of_points(
 def test_guide_lines_of_lines_and_of_keep() -> None:
     assert guide_lines(Composition("l", u_lines=(0.3, -0.3), v_lines=(0.0,))) == ((-0.3, 0.3), (0.0,))
     assert guide_lines(Composition("keep", keep=True)) == ((), ())
+
+
+def test_what_stands_on_a_roof_is_painted_after_it_from_above_and_before_it_from_below() -> None:
+    tower = orbit_plan().trajectory.keyframes.mission.targets[0]
+    roof = replace(tower, name="roof", centre=(0.0, 0.0, 5.0), radius=12.0, height=10.0)
+    mast = replace(tower, name="mast", centre=(0.0, 0.0, 13.0), radius=0.5, height=6.0)
+    near = replace(tower, name="near", centre=(25.0, 0.0, 8.0), radius=1.0, height=16.0)
+
+    def names(height: float) -> list[str]:
+        order = painting_order((40.0, 0.0, height), [mast, near, roof])
+        return [thing.name for thing in order]
+
+    assert names(20.0) == ["roof", "mast", "near"]
+    assert names(2.0) == ["mast", "roof", "near"]
 
 
 def test_words() -> None:
