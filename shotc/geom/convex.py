@@ -15,6 +15,9 @@ from shotc.geom.solids import Cylinder, Prism, Solid
 
 FAR = 1e5  # stands for an unbounded height, metres
 BoolArray = NDArray[np.bool_]
+_TURN = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
+# Normals to try for points inside a solid, which have no closest point to be pushed away from.
+WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)]), [[0.0, 0.0, 1.0]]])
 GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 
@@ -86,11 +89,15 @@ def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]
     hulls : shape (N, m, 3), each the hull of m points
     Returns unit normals (N, 3) that point away from the solid, and the gaps (N,): the least of
     n.p - support(n) over each set, metres. A positive gap proves the distance; it is within a few
-    per cent of the true distance (alternating projections on the sets, best normal kept).
+    per cent of the true distance (alternating projections on the sets, best normal kept). A negative
+    one says how deep the set reaches in.
     """
     at = hulls.mean(axis=1)
     best_gap = np.full(len(hulls), -np.inf)
     best = np.zeros((len(hulls), 3))
+    for direction in WAYS_OUT:
+        n = np.tile(direction, (len(hulls), 1))
+        best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
     starts = [at, *np.moveaxis(hulls, 1, 0)]
     for start in starts:
         n, gap = _plane_at(part, hulls, start)

@@ -2,6 +2,7 @@
 
 The corridor's planes first separate the polyline that was routed, then the curve that came out, until
 the curve stops getting better; every curve handed out has been proved clear by its Bernstein hulls.
+Where the polyline is one straight line, which routing has found to be free, it is the curve.
 """
 
 from __future__ import annotations
