@@ -14,6 +14,7 @@ from shotc.ir.mission import Drone
 
 PAD_MARGIN = 0.1  # metres that the transit altitude keeps beyond what clearances ask
 LIFT = 1.0  # metres above the pad at least
+CUSTOM = 3.0  # metres above the pad where nothing forbids it: below, PX4 refuses a mission's take-off
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +35,10 @@ class PadBlocked:
 
 
 def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
-    """Return the lowest point over the pad where flight's rules hold and that is reached straight up."""
+    """Return the point over the pad where flight's rules hold and that is reached straight up.
+
+    It is the lowest from the customary height on, or failing that the lowest of all.
+    """
     home = np.array(drone.home, dtype=np.float64)
     outside = breaches(Room((), tuple(w for w in pad.walls if w.normal[2] == 0.0), pad.discs), home)
     if outside:
@@ -45,7 +49,8 @@ def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
     if ceiling is not None and ceiling[0] < lowest:
         return PadBlocked(ceiling[1], "ceiling", lowest, ceiling[0])
     tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles if o.part.top < FAR]
-    heights = sorted({lowest, *(t for t in tops if t > lowest)})
+    usual = max(lowest, home[2] + CUSTOM)
+    heights = [*sorted({usual, *(t for t in tops if t > usual)}), lowest]
     points = np.array([[home[0], home[1], z] for z in heights])
     inside = bounds_slack(flight, points) >= 0
     for point in points[inside]:
@@ -54,7 +59,7 @@ def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
             return over
         if not breaches(flight, point):
             return np.asarray(point)
-    near = breaches(flight, points[0])[0]
+    near = breaches(flight, points[-1])[0]
     return PadBlocked(near.owner, "beside", near.clearance, near.clearance - near.lack)
 
 
