@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import degrees, isfinite
 
-from shotc.emit.screen import screen_tracks, summary
+from shotc.emit.screen import percent, screen_tracks, summary
 from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, VerifiedIR
 
-HOW = {"bounded": "at every instant", "exact": "by arithmetic", "sampled": "at every sample"}
+HOW = {"bounded": "every instant", "exact": "arithmetic", "sampled": "samples"}
 BOOKKEEPING = ("jump", "rate at", "distance from", "drift", "depth", "times", "error of", "targets not")
 """How claims begin that no author asked for: they say that the plan is what it says it is."""
 
@@ -38,7 +38,7 @@ def mission_text(plan: VerifiedIR) -> str:
     if framing.error is not None:
         facts.append(f"worst screen error {framing.error:.3f} at {framing.time:.1f} s ({framing.shot})")
     if framing.in_frame is not None:
-        facts.append(f"whole subject in frame {100 * framing.in_frame:.1f} % of filmed samples")
+        facts.append(f"whole subject in frame {percent(framing.in_frame)} of filmed samples")
     return "\n".join(f"- {fact}" for fact in facts)
 
 

@@ -78,6 +78,11 @@ def summary(tracks: tuple[ScreenTrack, ...]) -> ScreenSummary:
     return ScreenSummary(float(worst.error[at]), float(worst.t[at]), worst.shot, share)
 
 
+def percent(share: float) -> str:
+    """Return a share in percent; only the whole is called 100 %."""
+    return "100 %" if share >= 1.0 else f"{min(100 * share, 99.9):.1f} %"
+
+
 def guide_lines(composition: Composition) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return the vertical (u) and horizontal (v) lines that show a composition set on a picture.
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import Any
 
@@ -174,6 +174,11 @@ class Canvas:
         )
         width, height, _ = self._agg.get_renderer().get_text_width_height_descent(text, font, False)
         return width / self._figure.dpi, height / self._figure.dpi
+
+    def fitted(self, text: str, style: Type, room: float) -> Type:
+        """Return the style, set smaller if the text would not fit into ``room`` inches otherwise."""
+        width = self.extent(text, style)[0]
+        return style if width <= room else replace(style, size=style.size * 0.99 * max(room, 0.1) / width)
 
     def png(self) -> bytes:
         """Return the page as PNG bytes, the same for the same drawing."""

@@ -158,8 +158,8 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> 
     rows = [facts] if cell.width > WIDE else [facts[:2], facts[2:]]
     for i, row in enumerate(rows, start=1):
         text = " · ".join(row).replace("-", "−")
-        fit = min(1.0, 0.97 * cell.width / canvas.extent(text, Type(7.8))[0])
-        canvas.text(box.x, base - i * LINE, text, Type(7.8 * fit, QUIET))
+        style = canvas.fitted(text, Type(7.8, QUIET), cell.width)
+        canvas.text(box.x, base - i * LINE, text, style)
 
 
 def metres(length: float) -> str:

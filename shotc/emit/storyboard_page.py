@@ -20,7 +20,7 @@ from shotc.emit.palette import (
     WHITE,
     shade,
 )
-from shotc.emit.screen import ScreenSummary, screen_tracks, summary
+from shotc.emit.screen import ScreenSummary, percent, screen_tracks, summary
 from shotc.emit.storyboard_canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard_content import ShotBoard, shot_boards
 from shotc.emit.storyboard_frame import Cell, caption_height, clock, draw_frame, is_moved
@@ -100,7 +100,9 @@ def _heading(
     canvas: Canvas, height: float, plan: VerifiedIR, boards: tuple[ShotBoard, ...], grid: float
 ) -> None:
     mission = plan.trajectory.keyframes.mission
-    canvas.text(MARGIN, height - 0.76, mission.name, Type(26, INK, bold=True))
+    legend = _legend(canvas, height - 1.08, _entries(plan, boards), grid)
+    title = canvas.fitted(mission.name, Type(26, INK, bold=True), legend - 0.4 - MARGIN)
+    canvas.text(MARGIN, height - 0.76, mission.name, title)
     total = max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
     filmed = sum(board.end - board.start for board in boards)
     drones = ", ".join(f"{d.name} ({d.model})" for d in mission.drones)
@@ -113,8 +115,8 @@ def _heading(
     ]
     if camera is not None:
         facts.append(f"camera {degrees(camera.hfov):.0f}° hfov, {_ratio(camera.aspect)}")
-    canvas.text(MARGIN, height - 1.08, "   ·   ".join(facts), Type(11, QUIET))
-    _legend(canvas, height - 1.08, _entries(plan, boards), grid)
+    text = "   ·   ".join(facts)
+    canvas.text(MARGIN, height - 1.08, text, canvas.fitted(text, Type(11, QUIET), WIDTH - 2 * MARGIN))
 
 
 def _ratio(aspect: float) -> str:
@@ -142,16 +144,18 @@ def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
     return [name for name, there in known if there]
 
 
-def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> None:
+def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> float:
+    """Draw the legend at the right edge and return where it begins."""
     entries = [*entries, f"grid {grid:g} m"]
     style = Type(8.5, QUIET)
     widths = [canvas.extent(text, style)[0] + 0.46 for text in entries]
-    x = WIDTH - MARGIN - sum(widths) + 0.16
+    x = left = WIDTH - MARGIN - sum(widths) + 0.16
     y = base + 0.4
     for text, width in zip(entries, widths, strict=True):
         _sign(canvas, text, x + 0.09, y + 0.045)
         canvas.text(x + 0.26, y, text, style)
         x += width
+    return left
 
 
 def _sign(canvas: Canvas, what: str, x: float, y: float) -> None:
@@ -204,9 +208,23 @@ def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: Veri
 
 def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
     base = top - 0.40
-    title = Type(15, INK, bold=True)
+    right = _framing(board.framing)
+    complete = board.framing.in_frame is None or board.framing.in_frame == 1.0
+    style = Type(9.5, INK if complete else KEEP_OUT, across="right")
+    canvas.text(WIDTH - MARGIN, base, right, style)
+    end = WIDTH - MARGIN - canvas.extent(right, style)[0] - 0.25
+    title = canvas.fitted(board.shot.id, Type(15, INK, bold=True), 4.0)
     canvas.text(MARGIN, base, board.shot.id, title)
     x = MARGIN + canvas.extent(board.shot.id, title)[0] + 0.22
+    text = "  ·  ".join(_facts(board))
+    quiet = canvas.fitted(text, Type(9.5, QUIET), end - x - (2.8 if board.note else 0.0))
+    canvas.text(x, base, text, quiet)
+    if board.note:
+        x += canvas.extent(text, quiet)[0] + 0.25
+        canvas.text(x, base, board.note, canvas.fitted(board.note, Type(9.5, KEEP_OUT), end - x))
+
+
+def _facts(board: ShotBoard) -> list[str]:
     facts = [board.shot.kind]
     facts += [board.shot.subject] if board.shot.subject else []
     facts += [f"{clock(board.start)} to {clock(board.end)} ({board.end - board.start:.1f} s)"]
@@ -214,17 +232,7 @@ def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
     facts += [f"composition {', '.join(sets)}"] if sets else []
     if board.total > len(board.moments):
         facts.append(f"{len(board.moments)} of {board.total} keyframes")
-    text = "  ·  ".join(facts)
-    canvas.text(x, base, text, Type(9.5, QUIET))
-    right = _framing(board.framing)
-    complete = board.framing.in_frame is None or board.framing.in_frame == 1.0
-    canvas.text(WIDTH - MARGIN, base, right, Type(9.5, INK if complete else KEEP_OUT, across="right"))
-    if board.note:
-        room = x + canvas.extent(text, Type(9.5))[0] + 0.25
-        style = Type(9.5, KEEP_OUT)
-        free = WIDTH - MARGIN - canvas.extent(right, style)[0] - 0.25 - room
-        fit = min(1.0, free / canvas.extent(board.note, style)[0])
-        canvas.text(room, base, board.note, Type(9.5 * fit, KEEP_OUT))
+    return facts
 
 
 def _framing(framing: ScreenSummary) -> str:
@@ -232,7 +240,7 @@ def _framing(framing: ScreenSummary) -> str:
     if framing.error is not None:
         parts.append(f"screen error at most {framing.error:.3f}")
     if framing.in_frame is not None:
-        parts.append(f"whole subject in frame {100 * framing.in_frame:.0f} % of the time")
+        parts.append(f"whole subject in frame {percent(framing.in_frame)} of the time")
     return "  ·  ".join(parts)
 
 
@@ -242,9 +250,12 @@ def _footing(canvas: Canvas, plan: VerifiedIR, whole: ScreenSummary) -> None:
     if whole.error is not None and whole.time is not None:
         parts.append(f"Worst screen error {whole.error:.3f} ({whole.shot}, {clock(whole.time)})")
     if whole.in_frame is not None:
-        parts.append(f"whole subject in frame {100 * whole.in_frame:.1f} % of all filmed samples")
-    canvas.text(MARGIN, 0.42, "   ·   ".join(parts), Type(10, INK))
-    canvas.text(WIDTH - MARGIN, 0.42, headline(plan.certificate), Type(10, INK, bold=True, across="right"))
+        parts.append(f"whole subject in frame {percent(whole.in_frame)} of all filmed samples")
+    text, proof = "   ·   ".join(parts), headline(plan.certificate)
+    bold = Type(10, INK, bold=True, across="right")
+    canvas.text(WIDTH - MARGIN, 0.42, proof, bold)
+    room = WIDTH - 2 * MARGIN - canvas.extent(proof, bold)[0] - 0.3
+    canvas.text(MARGIN, 0.42, text, canvas.fitted(text, Type(10, INK), room))
 
 
 def headline(certificate: tuple[Claim, ...]) -> str:

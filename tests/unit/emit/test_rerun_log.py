@@ -232,7 +232,7 @@ def test_words_say_what_happens_and_what_is_proved() -> None:
     assert [time for time, _ in texts] == [0.0, 8.0, 22.0, 52.0, 112.0]
     assert texts[0][1].startswith("## Taking off")
     assert texts[2][1].startswith("## Filming `half`\nkeyframes of tower")
-    assert "| ok | speed | ≤ 8 m/s | 7.9 m/s | 37.0 s | at every instant |" in texts[2][1]
+    assert "| ok | speed | ≤ 8 m/s | 7.9 m/s | 37.0 s | every instant |" in texts[2][1]
     broken = replace(claim, constraint="climb", holds=False)
     open_ended = replace(claim, constraint="size", limit=float("inf"))
     rows = certificate_text((open_ended, claim, broken)).splitlines()[2:]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.emit import storyboard_frame, storyboard_page
-from shotc.emit.screen import guide_lines, screen_tracks, summary
+from shotc.emit.screen import guide_lines, percent, screen_tracks, summary
 from shotc.emit.storyboard import DPI, EMITTER
 from shotc.emit.storyboard_canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard_content import shot_boards
@@ -138,6 +138,10 @@ def test_text_is_as_wide_as_measured() -> None:
         small, large = canvas.extent("a longer text", Type(8.0)), canvas.extent("a longer text", Type(16.0))
         assert large[0] == pytest.approx(2 * small[0], rel=0.03)
         assert canvas.extent("$x_1$", Type(9.0))[0] > canvas.extent("x1", Type(9.0))[0]
+        fitted = canvas.fitted("a longer text", Type(16.0), 0.7)
+        assert canvas.extent("a longer text", fitted)[0] == pytest.approx(0.7, rel=0.05)
+        assert canvas.extent("a longer text", fitted)[0] <= 0.7
+        assert canvas.fitted("short", Type(8.0), 3.0).size == 8.0
 
 
 def test_boxes() -> None:
@@ -190,6 +194,7 @@ def test_words() -> None:
         "338° N",
         "000° N",
     ]
+    assert [percent(x) for x in (1.0, 0.9999, 0.5)] == ["100 %", "99.9 %", "50.0 %"]
     assert [metres(x) for x in (0.0, 9.94, 9.96, 120.4)] == ["0.0 m", "9.9 m", "10 m", "120 m"]
     assert [round_length(x) for x in (0.7, 1.0, 4.9, 5.0, 19.0, 200.0)] == [0.5, 1.0, 2.0, 5.0, 10.0, 200.0]
 
