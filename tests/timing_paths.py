@@ -9,9 +9,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.mission import Gimbal, Limits, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.origin import OriginMap
-from shotc.ir.path import DronePath, FramingSpan, Leg, Mark, PathIR, Stop
+from shotc.ir.path import DronePath, Leg, Mark, PathIR, PhaseName, Stop
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.time_limits import Ceiling
 from shotc.source.file import Span
@@ -146,17 +146,14 @@ def flight(of: MissionIR, leg: Leg) -> PathIR:
     return PathIR(KeyframeIR(of, ()), (DronePath("cam1", legs),), (), ())
 
 
-def _plain(phase: str, curve: Piecewise) -> Leg:
+def _plain(phase: PhaseName, curve: Piecewise) -> Leg:
     stops = (Stop(curve.start, 0.0), Stop(curve.end, 0.0))
     return Leg(
         phase, None, curve, tuple(curve.ctrl[0, 0]), stops, (), (), 1.0, None, None, ("drones", "cam1")
-    )  # type: ignore[arg-type]
+    )
 
 
 def shot_phase(ir: TrajectoryIR) -> tuple[float, float]:
     """Start and end of the filmed phase."""
     phase = next(p for p in ir.drones[0].phases if p.name == "shot")
     return phase.start, phase.end
-
-
-__all__ = ["FramingSpan", "Gimbal", "Limits"]

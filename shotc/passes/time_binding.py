@@ -16,9 +16,13 @@ from shotc.ir.path import Leg, Mark
 from shotc.passes.time_flown import usages
 from shotc.passes.time_limits import Ceiling, ceiling_of
 from shotc.passes.time_move import Move, axes_of
+from shotc.source.file import Span
 
 # A limit holds a piece back where at least this share of it is used.
 BINDING = 0.97
+# The path itself bends a little with the times and limits it is asked for: what is named as enough
+# leaves room for that.
+ROOM = 1.004
 # Raising a limit further than this is no advice; so many halvings find the least within that.
 HIGHEST = 4.0
 HALVINGS = 7
@@ -115,11 +119,17 @@ def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str
 
 def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[Label, ...]:
     """Return labels on the lines of the limits that bind, at most two."""
-    labels = [
-        mission.origins.value((*drone.path, *_SHOWN[name].key), f"{_SHOWN[name].words} binds")
-        for name in holdup.names[:2]
-    ]
-    return tuple({label.span: label for label in labels}.values())
+    found: dict[Span, Label] = {}
+    for name in holdup.names[:2]:
+        label = mission.origins.value((*drone.path, *_SHOWN[name].key), _SHOWN[name].words)
+        before = found.get(label.span)
+        found[label.span] = (
+            label if before is None else replace(before, text=f"{before.text} and {label.text}")
+        )
+    return tuple(
+        replace(label, text=f"{label.text} bind{'' if ' and ' in label.text else 's'}")
+        for label in found.values()
+    )
 
 
 def raises(
@@ -158,5 +168,5 @@ def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0)
     value = degrees(value) if shown.angular else value
     value += mission.wind if name == "speed" else 0.0
     if factor != 1.0:
-        value = np.ceil(value * 100) / 100
+        value = np.ceil(ROOM * value * 100) / 100
     return f"{value:.2f} {shown.unit}"

@@ -11,7 +11,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import Leg
 from shotc.ir.trajectory import Phase
-from shotc.passes.time_binding import Holdup, binding_labels, binding_notes, raises
+from shotc.passes.time_binding import ROOM, Holdup, binding_labels, binding_notes, raises
 from shotc.passes.time_limits import Ceiling
 from shotc.passes.time_marks import TooFast
 
@@ -33,7 +33,7 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
     notes = binding_notes(mission, drone, remedies.holdup)
     raised = raises(mission, drone, remedies.holdup.names[:2], remedies.enough)
     if fault.mark is None:
-        least = up(fault.shortest or 0.0)
+        least = up(ROOM * (fault.shortest or 0.0))
         return Diagnostic(
             "T001",
             f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
@@ -46,9 +46,10 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
     )
     remedy = "give this keyframe or those next to it other times"
     if fault.shortest is not None:
-        notes = (f"{up(fault.shortest)} s is the earliest possible at full limits", *notes)
-        rest = f", and all later times {up(fault.shortest - fault.asked)} s more" if fault.shifts_rest else ""
-        remedy = f"give it `time: {up(fault.shortest)} s`{rest}"
+        earliest = ROOM * fault.shortest
+        notes = (f"{up(earliest)} s is the earliest possible at full limits", *notes)
+        rest = f", and all later times {up(earliest - fault.asked)} s more" if fault.shifts_rest else ""
+        remedy = f"give it `time: {up(earliest)} s`{rest}"
     return Diagnostic(
         "T002",
         message,

@@ -13,9 +13,10 @@ from shotc.passes.time_limits import Axis
 
 Array = NDArray[np.float64]
 
-# Seconds of motion a cell should span, and bounds of the number of cells.
+# Seconds of motion a cell should span; bounds of the number of cells, the upper one growing with the
+# pieces of a path that bends often.
 CELL_TIME = 0.12
-FEWEST, MOST = 36, 100
+FEWEST, MOST, PER_PIECE = 36, 100, 2
 # Shares of the cells that are spread evenly over the length and over changes of speed; the rest is
 # spread over the time.
 OVER_LENGTH, OVER_CHANGE = 0.15, 0.25
@@ -92,7 +93,7 @@ def rough_profile(curve: Piecewise, s0: float, s1: float, limits: tuple[Axis, ..
     breaks = curve.breaks[(curve.breaks > s0) & (curve.breaks < s1)]
     # Cubic towards the ends: at a constant jerk that is even in time.
     ends = (s1 - s0) * 0.5 * np.linspace(0.0, 1.0, 33)[1:-1] ** 3
-    spread = np.linspace(0.0, 1.0, 129)
+    spread = np.linspace(0.0, 1.0, max(129, 4 * len(breaks) + 1))
     s = np.unique(np.concatenate([s0 + spread * (s1 - s0), s0 + ends, s1 - ends, breaks]))
     s = s[np.concatenate([[True], np.diff(s) > 1e-12 * (s1 - s0)])]
     d1, d2 = curve.derivative(1)(s), curve.derivative(2)(s)
@@ -128,7 +129,8 @@ def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
     # In a cell that starts or ends at rest under constant jerk sdot grows as s^(2/3): t = 3 s / sdot.
     step[[0, -1]] *= 1.5
     time = np.concatenate([[0.0], np.cumsum(step)])
-    count = int(np.clip(np.ceil(time[-1] / CELL_TIME), FEWEST, MOST))
+    pieces = int(np.sum((curve.breaks > s[0]) & (curve.breaks < s[-1]))) + 1
+    count = int(np.clip(np.ceil(time[-1] / CELL_TIME), FEWEST, max(MOST, PER_PIECE * pieces)))
     change = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(sd)))])
     mass = (1 - OVER_LENGTH - OVER_CHANGE) * time / time[-1]
     mass += OVER_LENGTH * (s - s[0]) / (s[-1] - s[0]) + OVER_CHANGE * change / change[-1]
@@ -138,12 +140,12 @@ def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
     fixed = fixed[np.concatenate([[True], np.diff(fixed) > gap])] if len(fixed) else fixed
     fixed = np.concatenate([s[:1], fixed, s[-1:]])
     at = np.interp(fixed, s, mass)
-    pieces = []
+    parts = []
     for lo, hi, m0, m1 in zip(fixed[:-1], fixed[1:], at[:-1], at[1:], strict=True):
         cells = max(1, round(count * (m1 - m0)), -(-4 // (len(fixed) - 1)))
         inner = np.interp(np.linspace(m0, m1, cells + 1)[1:-1], mass, s)
-        pieces.append(np.concatenate([[lo], np.clip(inner, lo, hi)]))
-    return np.unique(np.concatenate([*pieces, fixed[-1:]]))
+        parts.append(np.concatenate([[lo], np.clip(inner, lo, hi)]))
+    return np.unique(np.concatenate([*parts, fixed[-1:]]))
 
 
 def split_cells(grid: Array, which: NDArray[np.bool_]) -> Array:

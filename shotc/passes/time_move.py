@@ -36,6 +36,8 @@ Array = NDArray[np.float64]
 # The convex steps stop when one changes the time by less than this share, or after so many.
 CHANGE = 5e-3
 STEPS = 6
+# A guess of sdot^2 that vanishes inside is raised to this share of its maximum.
+SLOWEST = 1e-9
 # Share of the last iterate that stays in the next: how the speed runs inside cells is taken from it,
 # which alone would overshoot to and fro by about 0.4 (measured); the first guess deserves less trust.
 KEEP_FIRST, KEEP = 0.15, 0.3
@@ -104,22 +106,36 @@ def time_move(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> M
     around = np.interp(grid, rough_s, rough_b)
     if quickest.status is Status.SOLVED:
         around = np.minimum(around, quickest.b)
-    steps = 0
+    start = start_from(samples.widths, np.maximum(around, SLOWEST * around.max()))
+    steps, tried, last = 0, None, np.inf
     for _ in range(REFINEMENTS + 1):
-        bounded, used = bounded_profile(samples, limits, around)
+        bounded, used = bounded_profile(samples, limits, start, last)
         steps += used
-        profile = profile_of(samples.grid, bounded.b, bounded.a)
-        flown = fly(path, profile)
-        scale = needed_scale(usages(flown, limits))
-        coarse = (scale > 1 + LOSS) | (path_error(path, profile, flown) > STRAY)
+        if bounded is None:
+            break
+        tried = _Tried(path, samples.grid, bounded, limits)
+        coarse = (tried.scale > 1 + LOSS) | (tried.error > STRAY)
         if not coarse.any():
             break
         grid = split_cells(samples.grid, coarse)
-        around = np.interp(grid, samples.grid, bounded.b)
+        start = Iterate(*(np.interp(grid, samples.grid, part) for part in (bounded.b, bounded.a)))
+        last = tried.profile.duration
         samples = sample(path, grid)
-    factor = max(1.0, float(scale.max()))
-    move = Move(path, profile, flown, quickest.time, factor, steps, len(flown.ctrl))
+    if tried is None:
+        raise RetimingFailed(f"no jerk-bounded profile on {len(samples.grid)} gridpoints")
+    factor = max(1.0, float(tried.scale.max()))
+    move = Move(path, tried.profile, tried.flown, quickest.time, factor, steps, len(tried.flown.ctrl))
     return move.stretched(factor)
+
+
+class _Tried:
+    """A profile flown: its quintics, and per piece the slowdown they need and how far they stray."""
+
+    def __init__(self, path: Piecewise, grid: Array, bounded: Iterate, limits: tuple[Axis, ...]) -> None:
+        self.profile = profile_of(grid, bounded.b, bounded.a)
+        self.flown = fly(path, self.profile)
+        self.scale = needed_scale(usages(self.flown, limits))
+        self.error = path_error(path, self.profile, self.flown)
 
 
 def axes_of(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> tuple[Axis, ...]:
@@ -152,30 +168,33 @@ def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
     )
 
 
-def bounded_profile(samples: Samples, limits: tuple[Axis, ...], around: Array) -> tuple[Iterate, int]:
-    """Return b and a at the gridpoints, and the convex steps they took.
+def bounded_profile(
+    samples: Samples, limits: tuple[Axis, ...], start: Iterate, last: float
+) -> tuple[Iterate | None, int]:
+    """Return b and a at the gridpoints, None where no step was solved, and the convex steps taken.
 
-    around : shape (N + 1,), b to start from, positive inside; the better the fewer steps
+    start : the better the fewer steps; last : seconds it takes where it is a solution, else infinite
     Every step keeps the limits but for small change inside cells, so the last good one is kept if
     a solver gives up.
     """
     problem = retiming_problem(samples, limits)
     best: Iterate | None = None
-    current = start_from(problem.widths, around)
-    last, steps = np.inf, 0
+    current, steps = start, 0
     while steps < STEPS:
         status, found = retime(problem, current)
         steps += 1
-        if status is not Status.SOLVED:
+        if status is not Status.SOLVED and best is not None:
             break
+        if status is not Status.SOLVED:
+            # Slower guesses are safer ones.
+            current = start_from(problem.widths, current.b / 4.0)
+            continue
         best = found
         time = float(cell_times(problem.widths, found.b, found.a).sum())
         if abs(last - time) < CHANGE * time:
             break
-        current = current.blend(found, KEEP_FIRST if steps == 1 else KEEP)
+        current = current.blend(found, KEEP_FIRST if last == np.inf else KEEP)
         last = time
-    if best is None:
-        raise RetimingFailed(f"no jerk-bounded profile on {len(samples.grid)} gridpoints")
     return best, steps
 
 

@@ -201,15 +201,14 @@ class _Model:
         )
 
     def caps(self, nodes: Array, middles: Array) -> None:
-        """Keep b below its caps; it is above zero by the cones of d."""
+        """Keep b below its caps, as shares of them; it is above zero by the cones of d."""
         i = self.inside
-        self.rows.positive(nodes[i] / self.b_unit[i], [self.b(i, -1.0 / self.b_unit[i])])
+        self.rows.positive(np.ones(len(i)), [self.b(i, -1.0 / nodes[i])])
         left, right = self.cell, self.cell + 1
         b0, b1, a0, a1, _, _, _ = self.shape.parts[1]
-        unit = 1.0 / np.maximum(self.b_unit[left], self.b_unit[right])
-        terms = [self.b(left, -b0 * unit), self.b(right, -b1 * unit)]
-        terms += [self.a(left, -a0 * unit), self.a(right, -a1 * unit)]
-        self.rows.positive(middles * unit, terms)
+        terms = [self.b(left, -b0 / middles), self.b(right, -b1 / middles)]
+        terms += [self.a(left, -a0 / middles), self.a(right, -a1 / middles)]
+        self.rows.positive(np.ones(len(left)), terms)
 
     def acceleration(self, limit: NormLimit) -> None:
         """|q'' b + q' a| <= 1 at nodes and middles."""

@@ -62,7 +62,7 @@ CODES: tuple[CodeInfo, ...] = (
         "If that takes longer than `duration`, the shortest possible duration is named, with the limits that "
         "hold the drone back and where. Give the shot that duration, raise the limit, or bring its keyframes "
         "nearer together.",
-        ("duration: 16 s", "duration: 8 s"),
+        ("duration: 16 s", "duration: 9 s"),
         (", time: 8 s", ""),
     ),
     _code(
@@ -72,7 +72,7 @@ CODES: tuple[CodeInfo, ...] = (
         "Between two keyframes with a fixed `time` the drone has to cover the path within its limits, with "
         "the holds on the way. The earliest possible time is named. Fix a later time, free one of the "
         "keyframes, or raise the limit that binds.",
-        ("time: 8 s", "time: 4.3 s"),
+        ("time: 8 s", "time: 3.5 s"),
     ),
     _code(
         3,
@@ -89,7 +89,7 @@ CODES: tuple[CodeInfo, ...] = (
         "From take-off to touch-down the drone flies its shots, the ways between them and home, its holds and "
         "its waits for a `start`. The phases are listed, the longest first. Shorten shots, start them sooner, "
         "or split the mission.",
-        ("start: 20 s", "start: 80 s"),
+        ("start: 20 s", "start: 105 s"),
     ),
     _code(
         5,
