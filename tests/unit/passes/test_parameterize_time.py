@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.mission import Limits, MissionIR
+from shotc.ir.mission import Limits, MissionIR, Timing
 from shotc.ir.path import FramingSpan, Leg, Mark, PathIR, Stop
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import PassContext
@@ -403,3 +403,36 @@ def resting(ir: TrajectoryIR, x: float) -> tuple[float, float]:
     curve = ir.drones[0].curve
     held = [i for i, c in enumerate(curve.ctrl) if np.ptp(c, axis=0).max() == 0 and abs(c[0, 0] - x) < 1e-6]
     return float(curve.breaks[held[0]]), float(curve.breaks[held[-1] + 1])
+
+
+class TestWaiting:
+    def two(self) -> PathIR:
+        """Two drones; the first one's shot waits for the second one's, which holds for 20 s."""
+        base = mission()
+        other = replace(base.drones[0], name="cam2", priority=2)
+        shot = base.shots[0]
+        shots = (replace(shot, timing=Timing(after="late")), replace(shot, id="late", drone="cam2"))
+        of = replace(base, drones=(*base.drones, other), shots=shots)
+        first = flight(of, straight()).drones[0]
+        held = shot_leg(None, FROM, shot="late", duration=20.0)
+        second = flight(of, held).drones[0]
+        return replace(flight(of, straight()), drones=(first, replace(second, drone="cam2")))
+
+    def test_a_shot_begins_once_the_shot_it_waits_for_has_ended(self) -> None:
+        one, two = timed(self.two()).drones
+        late = next(p for p in two.phases if p.shot == "late")
+        half = next(p for p in one.phases if p.shot == "half")
+        assert half.start == pytest.approx(late.end)
+        assert [p.name for p in one.phases] == ["takeoff", "transit", "shot", "land"]
+
+    def test_a_wait_right_after_a_shot_is_a_transit(self) -> None:
+        path = flight(mission(), straight())
+        takeoff, transit, shot, land = path.drones[0].legs
+        again = replace(
+            shot, shot="again", curve=None, pose=TO, stops=(Stop(0.0, 2.0),), marks=(), start=40.0
+        )
+        legs = (takeoff, transit, shot, again, land)
+        drone = timed(replace(path, drones=(replace(path.drones[0], legs=legs),))).drones[0]
+        assert [p.name for p in drone.phases] == ["takeoff", "transit", "shot", "transit", "shot", "land"]
+        assert drone.phases[4].start == 40.0
+        assert drone.phases[4].end == pytest.approx(42.0)
