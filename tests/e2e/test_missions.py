@@ -1,0 +1,90 @@
+"""Every mission of the tree, from text to files: what is said about it, what comes out, and the same bytes twice."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from shotc import api
+from shotc.diag.model import Diagnostic
+from tests.e2e.conftest import MISSIONS, Plan, compiled, each_mission
+
+EMITTERS = ("csv", "mavlink", "storyboard", "rerun")
+SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
+    "courtyard": {"plan": [("V031", 22)], "emit": [("E101", 7)]},
+    "keyframes": {"emit": [("E101", 1)]},
+    "landmark": {},
+    "moves": {"emit": [("E101", 1)]},
+    "orbit": {"emit": [("E101", 1)]},
+    "path": {"emit": [("E101", 1)]},
+    "pisa-campanile": {"emit": [("E102", 13)]},
+    "river-path": {"check": [("G011", 22)], "plan": [("V030", 16)]},
+    "rooftop-survey": {"check": [("G012", 30)], "plan": [("V030", 30)]},
+    "statue-moves": {"emit": [("E101", 1)]},
+    "tower-reveal": {"plan": [("V030", 22), ("V031", 22)], "emit": [("E105", 22)]},
+    "westerhever-lighthouse": {},
+}
+"""Warnings of each mission with their lines: those of `check`, those that planning and emitting add."""
+TWICE = ("keyframes", "path")
+
+every_mission = pytest.mark.parametrize("path", each_mission())
+
+
+def said(diagnostics: tuple[Diagnostic, ...]) -> list[tuple[str, int]]:
+    return [(d.code, d.labels[0].span.line) for d in diagnostics]
+
+
+def test_every_mission_is_listed_here() -> None:
+    assert [path.stem for path in sorted(MISSIONS, key=lambda path: path.stem)] == list(SAID)
+    assert sum("specs" in path.parts for path in MISSIONS) >= 6
+
+
+@every_mission
+def test_check_says_what_is_expected(path: Path) -> None:
+    report = api.check_source(path.read_bytes(), path.name, path.parent)
+    assert said(report.diagnostics) == SAID[path.stem].get("check", [])
+
+
+@every_mission
+def test_all_outputs_are_made(plan: Plan, path: Path) -> None:
+    planned = plan(path)
+    expected = SAID[path.stem]
+    assert said(planned.diagnostics) == [*expected.get("check", []), *expected.get("plan", [])]
+    emitted = api.emit_plan(planned.plan, EMITTERS)
+    assert said(emitted.diagnostics) == expected.get("emit", [])
+    files = {artifact.name: artifact.data for artifact in emitted.artifacts}
+    mavlink = {"cam1.plan"} if planned.mission.origin else set()
+    if mavlink and planned.mission.drones[0].autopilot == "ardupilot":
+        mavlink.add("cam1.waypoints")
+    tables = {"plan.json", "trajectory.csv", "framing.csv"}
+    assert set(files) == tables | mavlink | {"storyboard.png", "mission.rrd"}
+    assert files["storyboard.png"].startswith(b"\x89PNG\r\n\x1a\n")
+    assert files["mission.rrd"].startswith(b"RRF")
+    for name in mavlink & {"cam1.plan"}:
+        assert json.loads(files[name])["fileType"] == "Plan"
+    assert all(len(data) > 60 for data in files.values())
+
+
+@pytest.mark.parametrize("path", [path for path in MISSIONS if path.stem in TWICE], ids=TWICE)
+def test_the_same_mission_gives_the_same_bytes(plan: Plan, path: Path) -> None:
+    again = compiled(path).plan
+    assert again is not None
+    files = {a.name: a.data for a in api.emit_plan(again, ["csv"]).artifacts}
+    assert files == plan(path).files
+
+
+@every_mission
+def test_the_certificate_speaks_of_every_limit_and_every_shot(plan: Plan, path: Path) -> None:
+    planned = plan(path)
+    claims = planned.plan.certificate
+    assert all(claim.holds for claim in claims if claim.hard)
+    spoken = {claim.constraint for claim in claims if claim.hard}
+    wanted = {"speed", "climb", "descent", "acceleration", "jerk", "ground clearance", "endurance"}
+    wanted |= {"body yaw rate", "body yaw acceleration"}
+    wanted |= {f"gimbal {axis} {what}" for axis in ("yaw", "pitch") for what in ("rate", "acceleration")}
+    wanted |= {f"zone {zone.name}" for zone in planned.mission.zones}
+    wanted |= {f"target {target.name}" for target in planned.mission.targets}
+    assert wanted <= spoken
+    assert {shot.id for shot in planned.mission.shots} <= {claim.shot for claim in claims}
