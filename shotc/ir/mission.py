@@ -112,6 +112,8 @@ class Drone:
 class Composition:
     """Screen positions a target may take: points, lines, or wherever the user put it (``keep``).
 
+    Without any of them the camera keeps its own angles and the target is only watched.
+
     points : (u, v) in [-1, 1]^2, u right, v up
     u_lines, v_lines : vertical lines u = c, horizontal lines v = c
     """
@@ -121,6 +123,11 @@ class Composition:
     u_lines: tuple[float, ...] = ()
     v_lines: tuple[float, ...] = ()
     keep: bool = False
+
+    @property
+    def watches(self) -> bool:
+        """Whether nothing is asked of where the target is."""
+        return not (self.points or self.u_lines or self.v_lines or self.keep)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.spec.fields import Length, Name, Velocity
 from shotc.spec.shot import ShotBase
 
-KEEP = Composition("keep", keep=True)
+WATCH = Composition("top-down")
 NORTH = pi / 2
 
 
@@ -41,7 +41,7 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     duration = shot.timing.duration
     fixed = {
         "aim": (atan2(north, east) if hypot(east, north) > 0 else NORTH, -pi / 2),
-        "composition": shot.composition or KEEP,
+        "composition": shot.composition or WATCH,
     }
     above = (x, y, shot.altitude)
     if hypot(east, north, up) == 0:

@@ -27,6 +27,7 @@ SAMPLES = 6  # per piece
 FINER = (1, 2, 4, 8)
 CLOSE = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
 STIFF = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
+LOOSE = 1e-6  # the same where no sample speaks: more, so that the solver sees it beside the samples
 NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
 
 
@@ -168,7 +169,7 @@ def _fitted(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
     samples = _sample(mission, drone, track, breaks, hfov)
     spacing = float(breaks[-1] - breaks[0]) / max(len(np.unique(track.s)) - 1, 1)
     density = (breaks[-1] - breaks[0]) / (len(breaks) - 1) / SAMPLES / spacing
-    stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
+    stiff = _stiffness(samples.s, breaks, spacing)
     # An error in yaw moves the picture by cos(pitch) of it.
     across = np.maximum(np.cos(samples.pitch), 0.03)
     yaw_status, yaw = fit(
@@ -197,6 +198,13 @@ def _fitted(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
     miss = np.hypot(across * (at[:, 0] - samples.yaw), at[:, 1] - samples.pitch)
     status = yaw_status if yaw_status is not Status.SOLVED else pitch_status
     return CameraLine(Piecewise(breaks, ctrl), status, float(miss.max(initial=0.0)), samples.cuts)
+
+
+def _stiffness(at: Array, breaks: Array, spacing: float) -> tuple[Array, Array]:
+    """Return the weights of smoothness, one a piece; without any sample only their ratio counts."""
+    tracked = np.histogram(at, breaks)[0] > 0
+    weight = np.where(tracked, STIFF, LOOSE if len(at) else 1.0)
+    return 1e-3 * weight * spacing, weight * spacing**5
 
 
 def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov: Piecewise) -> _Samples:

@@ -65,7 +65,7 @@ def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
         "G012",
         keyframe,
         over,
-        f"target `{keyframe.target}` is cropped in the framing that `keep` keeps",
+        f"target `{keyframe.target}` is cropped by `{keyframe.composition.name}`",
         (f"it reaches {over:.2f} m out of the frame, {_range(setting)}",),
         "turn the camera towards it, move away, or widen `hfov`",
     )

@@ -67,12 +67,14 @@ def _place(
     aim = own_framing(setting, keyframe, course)
     # A camera that looks at its target holds it in the middle, to the last bit.
     asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
-    if asked is None or keyframe.composition.keep:
-        return _placed(keyframe, aim, asked, asked), keeps(keyframe, setting, aim)
+    composition = keyframe.composition
+    if asked is None or composition.keep or composition.watches:
+        reference = None if composition.watches else asked
+        return _placed(keyframe, aim, asked, reference), keeps(keyframe, setting, aim)
     miss: Miss | None = None
-    place = nearest_candidate(setting, keyframe.composition, asked)
+    place = nearest_candidate(setting, composition, asked)
     if place is None:
-        place = nearest_on_verticals(setting, keyframe.composition, asked)
+        place = nearest_on_verticals(setting, composition, asked)
         miss = (
             does_not_fit(keyframe, setting, asked)
             if place is None

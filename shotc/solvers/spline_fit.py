@@ -23,7 +23,7 @@ class Fit:
 
     at, value, weight : shape (M,), samples and their weights in the sum of squares
     anchor_at, anchor : shape (K,), places where the value binds (no two at one place)
-    stiffness : (rate, third) weights of the integrals of psi'^2 and psi'''^2
+    stiffness : (rate, third) weights of the integrals of psi'^2 and psi'''^2, numbers or one a piece
     low, high : bounds on every Bernstein point, shape (P, 6) each, or None
     """
 
@@ -33,7 +33,7 @@ class Fit:
     weight: Array
     anchor_at: Array
     anchor: Array
-    stiffness: tuple[float, float]
+    stiffness: tuple[float | Array, float | Array]
     low: Array | None = None
     high: Array | None = None
 
@@ -58,8 +58,8 @@ def _least_squares(task: Fit) -> tuple[Any, Array]:
     samples = value_rows(task.breaks, task.at)
     parts = [
         scalar_map(_scaled(samples, root), size),
-        scalar_map(_scaled(energy_rows(task.breaks, 1), np.sqrt(task.stiffness[0])), size),
-        scalar_map(_scaled(energy_rows(task.breaks, 3), np.sqrt(task.stiffness[1])), size),
+        scalar_map(_stiff(task, 1, task.stiffness[0]), size),
+        scalar_map(_stiff(task, 3, task.stiffness[1]), size),
     ]
     wanted = np.concatenate([root * task.value, np.zeros(parts[1].shape[0] + parts[2].shape[0])])
     return vstack(parts, format="csr"), wanted
@@ -95,6 +95,11 @@ def _bounded(task: Fit) -> tuple[Status, Array]:
     if x.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
         return status, np.zeros(size)
     return status, np.asarray(x.value)
+
+
+def _stiff(task: Fit, order: int, weight: float | Array) -> Rows:
+    rows = energy_rows(task.breaks, order)
+    return _scaled(rows, np.sqrt(np.broadcast_to(weight, len(task.breaks) - 1))[rows.piece])
 
 
 def _scaled(rows: Rows, factor: Array | float) -> Rows:

@@ -139,4 +139,4 @@ def test_a_view_from_above_looks_down_along_its_drift() -> None:
     assert last.at == pytest.approx((-24, 13, 41))
     assert first.aim == pytest.approx((atan2(0.8, 0.6), -pi / 2))
     assert first.hold == last.hold == 0
-    assert first.composition.keep
+    assert first.composition.watches
