@@ -168,7 +168,7 @@ def verify_plan(data: bytes, name: str) -> PlanReport:
     missing = _missing_libraries(("numpy",))
     if missing:
         return PlanReport(None, (), missing, {})
-    from shotc.passes.verify_file import verify_file
+    from shotc.passes.verify.file import verify_file
 
     verdict = verify_file(data, name, PassContext())
     sources = {} if verdict.mission is None else _unchanged(*verdict.mission)

@@ -41,11 +41,23 @@ def outputs() -> dict[str, str]:
 
 def codes() -> str:
     """Return the table of all diagnostic codes."""
-    lines = [MARK, "", "# Diagnostic codes", "", "`shotc explain CODE` prints the whole story with examples.", ""]
+    lines = [
+        MARK,
+        "",
+        "# Diagnostic codes",
+        "",
+        "`shotc explain CODE` prints the whole story with examples.",
+        "",
+    ]
     for letter, (_, title) in FAMILIES.items():
         infos = [info for info in registry().values() if info.code.startswith(letter)]
         if infos:
-            lines += [f"## {letter}: {title}", "", "| code | name | severity | what it says |", "|---|---|---|---|"]
+            lines += [
+                f"## {letter}: {title}",
+                "",
+                "| code | name | severity | what it says |",
+                "|---|---|---|---|",
+            ]
             lines += [f"| {i.code} | {i.slug} | {i.severity} | {i.summary} |" for i in infos]
             lines.append("")
     return "\n".join(lines)
@@ -60,7 +72,9 @@ def commands() -> str:
         lines += [f"## shotc {name}", "", *(command.help or "").strip().splitlines(), ""]
         rows = [
             (
-                ", ".join(f"`{o}`" for o in (*p.opts, *p.secondary_opts)) if p.param_type_name == "option" else p.name,
+                ", ".join(f"`{o}`" for o in (*p.opts, *p.secondary_opts))
+                if p.param_type_name == "option"
+                else p.name,
                 p.help or "",
             )
             for p in command.params

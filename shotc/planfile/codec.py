@@ -158,7 +158,7 @@ class Decoder:
         return value
 
     def _curve(self, value: Any, path: str) -> Piecewise | None:
-        parts = self.fields({"breaks": object, "control": object}, value, path) if value is not None else {}
+        parts = self.fields({"breaks": object, "control": object}, value, path)
         arrays = {
             name: self._array(parts[name], depth, at(path, name))
             for name, depth in (("breaks", 1), ("control", 3))

@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.passes.time_flown import path_error, usages
-from shotc.passes.time_grid import sample
-from shotc.passes.time_limits import EASE, Ceiling
-from shotc.passes.time_move import axes_of, time_move, topp_limits
-from shotc.passes.time_profile import fly
+from shotc.passes.parameterize_time.flown import path_error, usages
+from shotc.passes.parameterize_time.grid import sample
+from shotc.passes.parameterize_time.limits import EASE, Ceiling
+from shotc.passes.parameterize_time.move import axes_of, time_move, topp_limits
+from shotc.passes.parameterize_time.profile import fly
 from shotc.solvers.conic import Status
 from shotc.solvers.retiming_socp import cell_times
 from shotc.solvers.topp import fastest

@@ -140,7 +140,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         12,
         "cropped",
-        "a target is cropped in a framing that `keep` keeps",
+        "a target is cropped where nothing may move it",
         "With `keep` the user's framing stands as it is, even where it cuts the target. The note says by "
         "how much. Turn the camera, move away, or widen the field of view if the whole target is wanted.",
         ("heading: 45 deg, pitch: -4 deg", "heading: 75 deg, pitch: -4 deg, frame: keep"),

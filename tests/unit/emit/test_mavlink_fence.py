@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink_clearance import Obstacle, footprint_distance, shortfall
-from shotc.emit.mavlink_fence import fence_of
-from shotc.emit.mavlink_geo import tie
+from shotc.emit.mavlink.clearance import Obstacle, footprint_distance, shortfall
+from shotc.emit.mavlink.fence import fence_of
+from shotc.emit.mavlink.geo import tie
 from shotc.geom.solids import Cylinder, Prism, distance, signed_area
 from shotc.ir.mission import MissionIR, Zone
 from tests.mavlink_flights import plan, straight

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.emit.mavlink_dialect import ArduPilot, Px4
-from shotc.emit.mavlink_geo import tie
-from shotc.emit.mavlink_items import FRAME_MISSION, FRAME_RELATIVE, Place, action, at, compass_deg, signed_deg
-from shotc.emit.mavlink_style import Command, Style
+from shotc.emit.mavlink.dialect import ArduPilot, Px4
+from shotc.emit.mavlink.geo import tie
+from shotc.emit.mavlink.items import FRAME_MISSION, FRAME_RELATIVE, Place, action, at, compass_deg, signed_deg
+from shotc.emit.mavlink.style import Command, Style
 from shotc.ir.mission import GeoOrigin
 
 ORIGIN = GeoOrigin(47.3769, 8.5417, 408.0)

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink_compare import Error, compare
-from shotc.emit.mavlink_geo import Geo
-from shotc.emit.mavlink_items import Item
-from shotc.emit.mavlink_plan_file import read_plan
-from shotc.emit.mavlink_refly import Flown, refly
-from shotc.emit.mavlink_wpl import read_waypoints
+from shotc.emit.mavlink.compare import Error, compare
+from shotc.emit.mavlink.geo import Geo
+from shotc.emit.mavlink.items import Item
+from shotc.emit.mavlink.plan_file import read_plan
+from shotc.emit.mavlink.refly import Flown, refly
+from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.ir.trajectory import VerifiedIR
 from tests.mavlink_flights import flight, plan, retold, straight
 from tests.samples import orbit_plan

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink_plan_file import read_plan
-from shotc.emit.mavlink_speed import DEFAULTS, Speeds, adapted, is_steep, seconds
-from shotc.emit.mavlink_steps import CORNER_ACCELERATION, CORNER_CUT, Step, _radius, whole_seconds
-from shotc.emit.mavlink_style import Command
-from shotc.emit.mavlink_thin import Leg
+from shotc.emit.mavlink.plan_file import read_plan
+from shotc.emit.mavlink.speed import DEFAULTS, Speeds, adapted, is_steep, seconds
+from shotc.emit.mavlink.steps import CORNER_ACCELERATION, CORNER_CUT, Step, _radius, whole_seconds
+from shotc.emit.mavlink.style import Command
+from shotc.emit.mavlink.thin import Leg
 from shotc.ir.mission import Limits
 from shotc.ir.trajectory import VerifiedIR
 from tests.mavlink_flights import Move, flight, plan, straight

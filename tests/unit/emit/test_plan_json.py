@@ -19,7 +19,7 @@ from shotc.ir.origin import OriginMap
 from shotc.ir.trajectory import VerifiedIR
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
-from shotc.passes.verify_file import verify_file
+from shotc.passes.verify.file import verify_file
 from shotc.planfile import layout
 from shotc.planfile.compare import compare
 from shotc.planfile.read import read_plan

@@ -13,10 +13,10 @@ import pytest
 from rerun.chunk import RrdReader
 
 from shotc.emit.rerun_log import EMITTER
-from shotc.emit.rerun_motion import camera_quaternions
-from shotc.emit.rerun_series import clearance_plot, motion_plots, sample_times
-from shotc.emit.rerun_text import certificate_text, phase_texts, quantity
-from shotc.emit.rerun_world import solid_mesh
+from shotc.emit.rerun_log.motion import camera_quaternions
+from shotc.emit.rerun_log.series import clearance_plot, motion_plots, sample_times
+from shotc.emit.rerun_log.text import certificate_text, phase_texts, quantity
+from shotc.emit.rerun_log.world import solid_mesh
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import view
 from shotc.geom.solids import Cylinder, Prism, box, signed_area

@@ -7,15 +7,14 @@ from math import pi
 import numpy as np
 import pytest
 
-from shotc.emit import storyboard_frame, storyboard_page
 from shotc.emit.screen import guide_lines, percent, screen_tracks, summary
-from shotc.emit.storyboard import DPI, EMITTER
-from shotc.emit.storyboard_canvas import Box, Canvas, Type, house_style
-from shotc.emit.storyboard_content import shot_boards
-from shotc.emit.storyboard_frame import clock, compass, metres
-from shotc.emit.storyboard_map import round_length
-from shotc.emit.storyboard_page import WIDTH, headline, layout
-from shotc.emit.storyboard_scene import painting_order
+from shotc.emit.storyboard import DPI, EMITTER, frame, page
+from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.content import shot_boards
+from shotc.emit.storyboard.frame import clock, compass, metres
+from shotc.emit.storyboard.map import round_length
+from shotc.emit.storyboard.page import WIDTH, headline, layout
+from shotc.emit.storyboard.scene import painting_order
 from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Composition
 from shotc.ir.trajectory import KeyframeTime, VerifiedIR
@@ -71,13 +70,13 @@ def test_the_user_s_plot_style_does_not_reach_the_page() -> None:
 )
 def test_one_panel_for_each_moment(plan: VerifiedIR, panels: int, monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[int] = []
-    draw = storyboard_frame.draw_frame
+    draw = frame.draw_frame
 
     def counted(canvas: object, cell: object, moment: object, *rest: object) -> None:
         drawn.append(moment.number)  # type: ignore[attr-defined]
         draw(canvas, cell, moment, *rest)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(storyboard_page, "draw_frame", counted)
+    monkeypatch.setattr(page, "draw_frame", counted)
     EMITTER.emit(plan)
     assert len(drawn) == panels
     assert drawn == sorted(set(drawn))
@@ -128,8 +127,8 @@ def test_panels_keep_their_aspect_and_fit_the_page(aspect: float, shots: int) ->
     assert place.picture[0] / place.picture[1] == pytest.approx(aspect)
     assert place.picture[0] <= place.cell + 1e-9
     assert place.columns >= 3
-    used = place.map_width + 0.35 + place.columns * (place.cell + storyboard_page.GAP) - storyboard_page.GAP
-    assert used <= WIDTH - 2 * storyboard_page.MARGIN + 1e-9
+    used = place.map_width + 0.35 + place.columns * (place.cell + page.GAP) - page.GAP
+    assert used <= WIDTH - 2 * page.MARGIN + 1e-9
 
 
 def test_text_is_as_wide_as_measured() -> None:

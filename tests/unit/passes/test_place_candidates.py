@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shotc.geom.camera import silhouette_bounds, view
 from shotc.ir.mission import Composition, Vec2
-from shotc.passes.place_candidates import (
+from shotc.passes.place_keyframes.candidates import (
     TOUCH,
     Line,
     Setting,

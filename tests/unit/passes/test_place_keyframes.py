@@ -14,8 +14,8 @@ from shotc.geom.camera import silhouette_bounds, view
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
 from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target, Timing
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.flown_order import flown_order
 from shotc.passes.place_keyframes import PlaceKeyframes
+from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
 from tests.front import clean, placed
 from tests.samples import orbit_mission

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from shotc.geom.solids import Cylinder, Prism, depth, distance
 from shotc.ir.mission import Limits, MissionIR, Promise, Timing, Vec3
-from shotc.passes.resolve_motion import least_shot, least_travel
-from shotc.passes.resolve_obstacles import signed_distance
+from shotc.passes.resolve.motion import least_shot, least_travel
+from shotc.passes.resolve.obstacles import signed_distance
 from shotc.spec.presets import PRESETS
 from tests.front import resolved
 

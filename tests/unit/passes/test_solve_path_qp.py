@@ -15,10 +15,10 @@ from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.mission import Gimbal, Target, Timing
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
-from shotc.passes.path_faults import failure
-from shotc.passes.path_position import Stretch, solve_stretch
-from shotc.passes.path_room import flight_room
-from shotc.passes.path_shots import Stuck
+from shotc.passes.solve_path_qp.faults import failure
+from shotc.passes.solve_path_qp.position import Stretch, solve_stretch
+from shotc.passes.solve_path_qp.room import flight_room
+from shotc.passes.solve_path_qp.shots import Stuck
 from tests.path_scenes import (
     ASPECT,
     FIELD,

@@ -19,7 +19,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify, judge
-from shotc.passes.verify_report import enough, measure, rule_of
+from shotc.passes.verify.report import enough, measure, rule_of
 from shotc.source.file import Span
 from tests.samples import orbit_plan
 

@@ -1,0 +1,163 @@
+"""MAVLink mission files: QGroundControl ``.plan`` for PX4 and ArduPilot, ``.waypoints`` for ArduPilot.
+
+The verified trajectory is thinned to straight legs, written, read back from the written bytes and
+re-flown the way the autopilot interpolates it; what the format adds to the picture is reported. The
+planned return is flown by waypoints, since that is what was verified, and the flight ends with a
+landing at home.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.emit.base import Artifact, Emission
+from shotc.emit.mavlink.build import Builder
+from shotc.emit.mavlink.clearance import Obstacle, obstacles_of
+from shotc.emit.mavlink.compare import Error, compare, nearest_miss
+from shotc.emit.mavlink.dialect import DIALECTS, Dialect
+from shotc.emit.mavlink.fence import fence_of
+from shotc.emit.mavlink.geo import Geo, tie
+from shotc.emit.mavlink.items import CHANGE_SPEED, Item
+from shotc.emit.mavlink.plan_file import read_plan, write_plan
+from shotc.emit.mavlink.refly import Flown, refly
+from shotc.emit.mavlink.report import coarsened, cut, left_out, no_origin, note, raised, sidenotes, zooms
+from shotc.emit.mavlink.speed import DEFAULTS
+from shotc.emit.mavlink.steps import Step, steps_of, whole_seconds
+from shotc.emit.mavlink.style import Style, style_of
+from shotc.emit.mavlink.thin import Leg, Tolerance, thinner_of
+from shotc.emit.mavlink.track import SAMPLE_STEP, Track, track_of
+from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+
+COARSER = 16.0  # times the tolerances at most, first those of framing, then that of position
+HALVINGS = 6  # of the search for the least coarseness that fits into the autopilot's memory
+
+
+class MavlinkEmitter:
+    """Writes one or two mission files for each drone."""
+
+    name: ClassVar[str] = "mavlink"
+    summary: ClassVar[str] = "QGroundControl plans, and waypoints for ArduPilot"
+    api: ClassVar[int] = 1
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return the mission files, with warnings and the error that the format adds."""
+        mission = plan.trajectory.keyframes.mission
+        if mission.origin is None:
+            return Emission((), (no_origin(mission),))
+        emissions = [_Job.of(mission, flight).emit() for flight in plan.trajectory.drones]
+        return Emission(
+            tuple(a for e in emissions for a in e.artifacts),
+            tuple(d for e in emissions for d in e.diagnostics),
+            tuple(n for e in emissions for n in e.notes),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Flight:
+    """A flight list, and whether tolerances had to give way for it to fit."""
+
+    items: list[Item]
+    asked: list[Step]
+    steps: list[Step]
+    coarser: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Job:
+    """One drone's part of the emission."""
+
+    mission: MissionIR
+    flight: DroneTrajectory
+    drone: Drone
+    dialect: Dialect
+    geo: Geo
+    track: Track
+    style: Style
+    obstacles: tuple[Obstacle, ...]
+
+    @staticmethod
+    def of(mission: MissionIR, flight: DroneTrajectory) -> _Job:
+        assert mission.origin is not None
+        drone = mission.drone(flight.drone)
+        track = track_of(mission, flight)
+        return _Job(
+            mission,
+            flight,
+            drone,
+            DIALECTS[drone.autopilot],
+            tie(mission.origin, drone.home),
+            track,
+            style_of(mission, flight, track),
+            obstacles_of(mission, drone),
+        )
+
+    def emit(self) -> Emission:
+        flight = self._fit()
+        everywhere = self.flight.curve(
+            np.arange(self.flight.curve.start, self.flight.curve.end + SAMPLE_STEP, SAMPLE_STEP)
+        )
+        fence = fence_of(
+            self.mission, self.geo, everywhere[:, :3], one_inclusion=self.drone.autopilot == "px4"
+        )
+        hover = next((i.params[1] for i in flight.items if i.command == CHANGE_SPEED), None)
+        speed = DEFAULTS[self.drone.autopilot].ground if hover is None else hover
+        name = f"{self.drone.name}.plan"
+        data = write_plan(flight.items, self.geo, fence, self.dialect.firmware, speed)
+        artifacts = [Artifact(name, data)]
+        flown, error = self._check(*read_plan(data))
+        notes = [note(name, self.drone, len(flight.items), error)]
+        if self.drone.autopilot == "ardupilot":
+            name = f"{self.drone.name}.waypoints"
+            data = write_waypoints(flight.items, self.geo)
+            artifacts.append(Artifact(name, data))
+            notes.append(note(name, self.drone, len(flight.items), self._check(*read_waypoints(data))[1]))
+        diagnostics = [left_out(self.mission, self.drone, left) for left in fence.left_out]
+        diagnostics += self._warnings(flight, flown, error)
+        notes += sidenotes(self.drone, flight.asked, flight.steps)
+        return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes))
+
+    def _check(self, items: list[Item], home: tuple[float, float, float]) -> tuple[Flown, Error]:
+        flown = refly(items, Geo(self.geo.origin, *home), self.drone)
+        return flown, compare(self.mission, self.flight, flown)
+
+    def _warnings(self, flight: _Flight, flown: Flown, error: Error) -> list[Diagnostic]:
+        height = float(self.track.poses.position[0, 2]) - self.drone.home[2]
+        found: list[Diagnostic | None] = [
+            coarsened(self.mission, self.drone, error, self.dialect.most_items) if flight.coarser else None,
+            raised(self.mission, self.drone, height, self.dialect.least_takeoff),
+            cut(self.mission, self.drone, *nearest_miss(self.obstacles, flown)),
+        ]
+        return [d for d in found if d is not None] + zooms(self.mission, self.flight)
+
+    def _fit(self) -> _Flight:
+        thinner = thinner_of(self.track, self.drone, self.style, self.obstacles)
+        intended = Tolerance()
+        flight = self._write(thinner.legs(intended), coarser=False)
+        if len(flight.items) <= self.dialect.most_items:
+            return flight
+        low, high = 0.0, 2.0
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            trial = self._write(thinner.legs(_coarse(intended, middle), even=False), coarser=True)
+            low, high = (low, middle) if len(trial.items) <= self.dialect.most_items else (middle, high)
+        return self._write(thinner.legs(_coarse(intended, high), even=False), coarser=True)
+
+    def _write(self, legs: list[Leg], *, coarser: bool) -> _Flight:
+        asked = steps_of(self.track, self.style, legs)
+        steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
+        builder = Builder(self.drone, self.style, self.dialect, self.geo, DEFAULTS[self.drone.autopilot])
+        return _Flight(builder.build(self.track, steps), asked, steps, coarser)
+
+
+def _coarse(intended: Tolerance, degree: float) -> Tolerance:
+    """Return the tolerance at a degree of coarseness: framing gives way up to 1, position beyond, to 2."""
+    return intended.scaled(COARSER ** min(degree, 1.0), COARSER ** max(degree - 1.0, 0.0))
+
+
+EMITTER = MavlinkEmitter()

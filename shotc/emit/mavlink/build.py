@@ -1,0 +1,150 @@
+"""From steps to mission items.
+
+Order between two waypoints: end of recording, end of following, speed, gimbal, start of recording,
+heading last, because on ArduPilot a CONDITION command holds back every command behind it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mavlink.dialect import Dialect
+from shotc.emit.mavlink.geo import Geo
+from shotc.emit.mavlink.items import (
+    CHANGE_SPEED,
+    CONDITION_YAW,
+    ROI_LOCATION,
+    ROI_NONE,
+    SPEED_CLIMB,
+    SPEED_DESCENT,
+    SPEED_GROUND,
+    VIDEO_START,
+    VIDEO_STOP,
+    Item,
+    Place,
+    action,
+    at,
+    compass_deg,
+    degrees_of,
+)
+from shotc.emit.mavlink.speed import Speeds, adapted, seconds
+from shotc.emit.mavlink.steps import SAME, Step
+from shotc.emit.mavlink.style import Command, Style, select, turns_body
+from shotc.emit.mavlink.track import Poses, Track
+from shotc.ir.mission import Drone, Vec3
+
+Array = NDArray[np.float64]
+
+SLEW = 60.0  # deg/s, ArduPilot's ATC_SLEW_YAW; a faster turn is not flown
+SLOW_TURN = 0.01  # deg/s; zero would mean the default rate
+
+
+@dataclass(slots=True)
+class Builder:
+    """The flight list under construction, and what is in force at its end.
+
+    yaw : body yaw commanded last, rad; aimed : gimbal angles commanded last, None after following
+    region : point of W that the gimbal looks at, or None
+    """
+
+    drone: Drone
+    style: Style
+    dialect: Dialect
+    geo: Geo
+    speeds: Speeds
+    items: list[Item] = field(default_factory=list)
+    yaw: float | None = None
+    aimed: Command | None = None
+    region: Vec3 | None = None
+
+    def build(self, track: Track, steps: list[Step]) -> list[Item]:
+        """Return the whole flight: take-off, the steps, landing."""
+        places = self.geo.places(track.poses.position)
+        start = float(track.poses.body_yaw[0])
+        home = Place(self.geo.home_lat, self.geo.home_lon, 0.0)
+        above = replace(home, alt=max(places[0].alt, self.dialect.least_takeoff))
+        self.items.extend(self.dialect.takeoff(above, start))
+        shot: str | None = None
+        for step in steps:
+            entered = step.leg.shot if step.leg.shot != shot else None
+            if step.leg.shot != shot:
+                self._leave(shot, following=step.region is not None)
+            end = select(track.poses, slice(step.leg.last, step.leg.last + 1))
+            self._go(step, entered, places[step.leg.last], end)
+            shot = step.leg.shot
+        self._leave(shot, following=False)
+        self.items.append(self.dialect.land(home, float(track.poses.body_yaw[-1])))
+        return self.items
+
+    def _leave(self, shot: str | None, *, following: bool) -> None:
+        if shot is not None:
+            self.items.append(action(VIDEO_STOP))
+        if self.region is not None and not following:
+            self.items.append(action(ROI_NONE))
+            self.region = self.aimed = self.yaw = None
+
+    def _go(self, step: Step, entered: str | None, place: Place, end: Poses) -> None:
+        self._pace(step)
+        turned = False
+        if step.region is None:
+            turned = self._aim(step.command)
+        else:
+            self._look(step.region, end.position[0])
+        if entered is not None:
+            self.items.append(action(VIDEO_START))
+        if self.dialect.turns_by_item and not (step.region and turns_body(self.drone)):
+            self._turn(step, float(end.body_yaw[0]), force=turned)
+        self.items.append(self.dialect.waypoint(place, step.hold, step.radius, step.command.body_yaw))
+
+    def _pace(self, step: Step) -> None:
+        if step.duration == 0:
+            return
+        limits = self.drone.limits if self.dialect.vertical_speeds else None
+        wanted = adapted(self.speeds, limits, step.across, step.rise, step.duration)
+        for kind, new, old in (
+            (SPEED_GROUND, wanted.ground, self.speeds.ground),
+            (SPEED_CLIMB, wanted.climb, self.speeds.climb),
+            (SPEED_DESCENT, wanted.descent, self.speeds.descent),
+        ):
+            if new != old:
+                self.items.append(action(CHANGE_SPEED, float(kind), new, -1.0))
+        self.speeds = wanted
+
+    def _aim(self, command: Command) -> bool:
+        last = self.aimed
+        if last is not None:
+            turned = command.cam_yaw - last.cam_yaw if self.dialect.earth_pan else command.pan - last.pan
+            if abs(command.cam_pitch - last.cam_pitch) < SAME and (not self.style.pans or abs(turned) < SAME):
+                return False
+        self.items.append(self.dialect.gimbal(command, self.style))
+        self.aimed = command
+        return True
+
+    def _look(self, region: Vec3, position: Array) -> None:
+        if self.region is not None and _parted(region, self.region, position) < SAME:
+            return
+        self.items.append(at(ROI_LOCATION, self.geo.place(region), 0.0, 0.0, 0.0, 0.0))
+        self.region = region
+
+    def _turn(self, step: Step, yaw: float, *, force: bool) -> None:
+        # A mount that cannot pan takes the body over on every mount command, so that the heading has
+        # to be said again (ArduCopter, do_mount_control).
+        if self.yaw is None:
+            rate = SLEW
+        elif abs(yaw - self.yaw) < SAME and not force:
+            return
+        else:
+            moving = seconds(self.speeds, step.across, step.rise)
+            time = max(moving if step.duration > 0 else step.hold, 0.5)
+            rate = min(SLEW, max(SLOW_TURN, round(abs(degrees_of(yaw - self.yaw)) / time, 4)))
+        self.items.append(action(CONDITION_YAW, compass_deg(yaw), rate, 0.0, 0.0))
+        self.yaw = yaw
+
+
+def _parted(a: Vec3, b: Vec3, position: Array) -> float:
+    """Return the angle between two points seen from a third, rad."""
+    ray, other = np.array(a) - position, np.array(b) - position
+    return float(np.arctan2(np.linalg.norm(np.cross(ray, other)), ray @ other))

@@ -1,0 +1,150 @@
+"""Plan against re-flight: what a mission file adds to position, heading and picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, floor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mavlink.clearance import Obstacle, shortfall
+from shotc.emit.mavlink.refly import STAY_PACE, Flown
+from shotc.emit.mavlink.thin import wrapped
+from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.trajectory import DroneTrajectory
+
+Array = NDArray[np.float64]
+
+SEARCH = 3.0  # metres of way before and behind the expected place in which the nearest point is sought
+CHUNK = 256  # planned points compared at once, to bound memory
+ORDER = 1e-3  # how much a metre of wrong progress counts against a metre of distance
+
+
+@dataclass(frozen=True, slots=True)
+class Error:
+    """What a file adds: metres, rad, (u, v) units; where the picture is worst; seconds filmed."""
+
+    position: float
+    heading: float
+    screen: float
+    shot: str
+    time: float
+    filmed: float
+    planned: float
+
+
+def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown) -> Error:
+    """Measure a re-flight against the plan at the output rate, by progress and not by time."""
+    drone = mission.drone(flight.drone)
+    position = heading = screen = filmed = planned = 0.0
+    worst = ("", 0.0)
+    for part, (shot, start, end) in _parts(flight):
+        inside = flown.part == part
+        time = _frames(start, end, mission.rate)
+        if not inside.any() or not len(time):
+            continue
+        plan = poses_at(flight, time)
+        met = _meet(plan, time, flown, inside)
+        position = max(position, float(np.linalg.norm(met.position - plan.position, axis=1).max()))
+        if shot is None:
+            continue
+        heading = max(heading, float(np.abs(wrapped(met.body_yaw - plan.body_yaw)).max()))
+        shift = _shift(mission, flight, time, plan, met, drone)
+        index = int(shift.argmax())
+        if shift[index] >= screen:
+            screen, worst = float(shift[index]), (shot, float(time[index]))
+        filmed += float(np.ptp(flown.elapsed[inside]))
+        planned += end - start
+    return Error(position, heading, screen, *worst, filmed, planned)
+
+
+def nearest_miss(obstacles: tuple[Obstacle, ...], flown: Flown) -> tuple[str, float]:
+    """Return the obstacle whose clearance is cut deepest, and by how much, m; ("", 0) if none is."""
+    cuts = [(float(shortfall(o, flown.position).max()), o.name) for o in obstacles if len(flown.position)]
+    depth, name = max(cuts, default=(0.0, ""))
+    return (name, depth) if depth > 0 else ("", 0.0)
+
+
+def _parts(flight: DroneTrajectory) -> list[tuple[int, tuple[str | None, float, float]]]:
+    """Return the stretches between starts and stops of recording, numbered as the re-flight counts."""
+    parts: list[tuple[int, tuple[str | None, float, float]]] = []
+    number, shot = 0, None
+    for phase in flight.phases:
+        if phase.name in ("takeoff", "land"):
+            continue
+        if phase.shot != shot:
+            number += 1 if shot is None or phase.shot is None else 2
+        elif parts:
+            start = parts.pop()[1][1]
+            parts.append((number, (phase.shot, start, phase.end)))
+            continue
+        shot = phase.shot
+        parts.append((number, (phase.shot, phase.start, phase.end)))
+    return parts
+
+
+def _frames(start: float, end: float, rate: float) -> Array:
+    return np.arange(ceil(start * rate - 1e-6), floor(end * rate + 1e-6) + 1) / rate
+
+
+def _meet(plan: Poses, time: Array, flown: Flown, inside: NDArray[np.bool_]) -> Poses:
+    """Return the re-flown poses nearest to the planned ones, in order of progress."""
+    position = flown.position[inside]
+    progress = flown.progress[inside] - flown.progress[inside][0]
+    done = _progress(plan.position, time)
+    total = done[-1] if done[-1] > 0 else 1.0
+    expected = done * (progress[-1] / total)
+    index, share = _nearest(plan.position, expected, position, progress)
+    yaw = [np.unwrap(a[inside]) for a in (flown.body_yaw, flown.cam_yaw)]
+    after = np.minimum(index + 1, len(position) - 1)
+
+    def mix(values: Array) -> Array:
+        weight = share if values.ndim == 1 else share[:, None]
+        return np.asarray(values[index] + weight * (values[after] - values[index]))
+
+    return Poses(mix(position), mix(yaw[0]), mix(yaw[1]), mix(flown.cam_pitch[inside]), plan.hfov)
+
+
+def _progress(position: Array, time: Array) -> Array:
+    steps = np.linalg.norm(np.diff(position, axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(np.maximum(steps, STAY_PACE * np.diff(time)))])
+
+
+def _nearest(points: Array, expected: Array, position: Array, progress: Array) -> tuple[Array, Array]:
+    """Return segment index and share on it of the nearest point of the flown line near ``expected``."""
+    if len(position) == 1:
+        return np.zeros(len(points), dtype=int), np.zeros(len(points))
+    chunks = [
+        _nearest_of(points[i : i + CHUNK], expected[i : i + CHUNK], position, progress)
+        for i in range(0, len(points), CHUNK)
+    ]
+    return np.concatenate([c[0] for c in chunks]), np.concatenate([c[1] for c in chunks])
+
+
+def _nearest_of(points: Array, expected: Array, position: Array, progress: Array) -> tuple[Array, Array]:
+    low = np.searchsorted(progress, expected - SEARCH)
+    high = np.searchsorted(progress, expected + SEARCH, side="right")
+    width = max(1, int((high - low).max()))
+    window = np.clip(low[:, None] + np.arange(width), 0, len(position) - 2)
+    start = position[window]
+    way = position[window + 1] - start
+    offset = points[:, None, :] - start
+    length2 = np.einsum("nwk,nwk->nw", way, way)
+    along = np.einsum("nwk,nwk->nw", offset, way)
+    share = np.clip(np.where(length2 > 0, along / np.where(length2 > 0, length2, 1.0), 0.0), 0.0, 1.0)
+    miss = offset - share[..., None] * way
+    lag = progress[window] + share * (progress[window + 1] - progress[window]) - expected[:, None]
+    cost = np.einsum("nwk,nwk->nw", miss, miss) + (ORDER * lag) ** 2
+    best = cost.argmin(axis=1)
+    rows = np.arange(len(points))
+    return np.asarray(window[rows, best]), np.asarray(share[rows, best])
+
+
+def _shift(
+    mission: MissionIR, flight: DroneTrajectory, time: Array, plan: Poses, met: Poses, drone: Drone
+) -> Array:
+    subject = subject_at(mission, flight, time, plan)
+    shift = project(met, subject, drone) - project(plan, subject, drone)
+    return np.asarray(np.nan_to_num(np.hypot(*shift.T), nan=0.0))

@@ -1,0 +1,212 @@
+"""Re-flight: a mission file's items flown as its autopilot interpolates them.
+
+The model, without dynamics (accelerations, wind and corner rounding are left out):
+straight legs at the speeds in force; the body turns at the start of a leg to the waypoint's yaw
+(PX4, at MPC_YAWRAUTO_MAX) or to the last CONDITION_YAW (ArduPilot, at its rate); gimbal angles are
+steps taken at the gimbal's rate; a region of interest is followed exactly, within the gimbal's range,
+and by ArduPilot with the whole body where the gimbal has no yaw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from math import ceil, hypot, nan, radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mavlink import items as mav
+from shotc.emit.mavlink.geo import Geo
+from shotc.emit.mavlink.items import Item, Place
+from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
+from shotc.emit.mavlink.style import facing, follow, turns_body
+from shotc.geom.camera import yaw_of
+from shotc.ir.mission import Drone
+
+Array = NDArray[np.float64]
+
+PX4_TURN = radians(45.0)  # rad/s, MPC_YAWRAUTO_MAX
+STEP_TIME, STEP_WAY = 0.05, 0.1  # seconds and metres between samples of the flight
+STEPS_MOST = 2000  # of one leg
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flown:
+    """Samples of the re-flight, between take-off and landing.
+
+    part : (n,), counts starts and stops of recording: odd while the shots are filmed, in order
+    progress : (n,), way flown in m, stays at STAY_PACE
+    elapsed : (n,), s
+    """
+
+    position: Array
+    body_yaw: Array
+    cam_yaw: Array
+    cam_pitch: Array
+    part: NDArray[np.int64]
+    progress: Array
+    elapsed: Array
+
+
+STAY_PACE = 0.1  # m/s at which stays count as progress, as does all slower motion
+
+
+@dataclass(slots=True)
+class _Pilot:
+    """The vehicle's state while items are run; angles in rad, NaN until commanded."""
+
+    drone: Drone
+    geo: Geo
+    speeds: Speeds
+    yaw: float = nan
+    yaw_goal: float = nan
+    turn_rate: float = PX4_TURN
+    pitch: float = nan
+    pitch_goal: float = nan
+    pan: float = nan
+    pan_goal: float = nan
+    earth: bool = False
+    roi: Array | None = None
+    part: int = 0
+    elapsed: float = 0.0
+    progress: float = 0.0
+    position: Array = field(default_factory=lambda: np.zeros(3))
+    rows: list[Array] = field(default_factory=list)
+
+
+def refly(items: list[Item], geo: Geo, drone: Drone) -> Flown:
+    """Fly the items, as read from a file, with this drone's autopilot and gimbal."""
+    pilot = _Pilot(drone, geo, DEFAULTS[drone.autopilot])
+    for item in items:
+        _RUN[item.command](pilot, item.params)
+    table = np.concatenate(pilot.rows) if pilot.rows else np.zeros((0, 9))
+    return Flown(
+        table[:, :3],
+        table[:, 3],
+        table[:, 4],
+        table[:, 5],
+        table[:, 6].astype(np.int64),
+        table[:, 7],
+        table[:, 8],
+    )
+
+
+def _number(value: float | None) -> float:
+    return nan if value is None else value
+
+
+def _take_off(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    pilot.position = _point(pilot, params)
+    if pilot.drone.autopilot == "px4":
+        pilot.yaw = pilot.yaw_goal = yaw_of(radians(_number(params[3])))
+
+
+def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    if pilot.drone.autopilot == "px4":
+        pilot.yaw_goal = yaw_of(radians(_number(params[3])))
+    target = _point(pilot, params)
+    way = target - pilot.position
+    length = float(np.linalg.norm(way))
+    moving = seconds(pilot.speeds, hypot(way[0], way[1]), float(way[2]))
+    hold = _number(params[0])
+    start = pilot.position
+    if moving > 0:
+        count = min(STEPS_MOST, max(1, ceil(moving / STEP_TIME), ceil(length / STEP_WAY)))
+        share = np.linspace(0.0, 1.0, count + 1)
+        _log(pilot, start + share[:, None] * way, share * moving, share * max(length, moving * STAY_PACE))
+    pilot.position = target
+    if hold > 0:
+        share = np.linspace(0.0, 1.0, min(STEPS_MOST, max(2, ceil(hold / STEP_TIME))) + 1)
+        _log(pilot, np.broadcast_to(target, (len(share), 3)), share * hold, share * hold * STAY_PACE)
+
+
+def _log(pilot: _Pilot, position: Array, time: Array, way: Array) -> None:
+    body = _slew(pilot.yaw, pilot.yaw_goal, pilot.turn_rate, time)
+    if pilot.roi is not None:
+        if turns_body(pilot.drone):
+            body = facing(position, pilot.roi)
+        cam_yaw, pitch = follow(pilot.drone, position, body, pilot.roi)
+        pan = cam_yaw - body
+    else:
+        pan = _slew(pilot.pan, pilot.pan_goal, pilot.drone.gimbal.rate, time)
+        pitch = _slew(pilot.pitch, pilot.pitch_goal, pilot.drone.gimbal.rate, time)
+        cam_yaw = pan if pilot.earth else body + pan
+    part = np.full(len(time), float(pilot.part))
+    columns = [body, cam_yaw, pitch, part, pilot.progress + way, pilot.elapsed + time]
+    pilot.rows.append(np.column_stack([position, *columns]))
+    pilot.yaw, pilot.pitch = float(body[-1]), float(pitch[-1])
+    pilot.pan = float(cam_yaw[-1] if pilot.earth else pan[-1])
+    pilot.progress += float(way[-1])
+    pilot.elapsed += float(time[-1])
+
+
+def _slew(now: float, goal: float, rate: float, time: Array) -> Array:
+    if np.isnan(now):
+        return np.full(len(time), goal)
+    turn = (goal - now + np.pi) % (2 * np.pi) - np.pi
+    return np.asarray(now + np.clip(turn, -rate * time, rate * time))
+
+
+def _condition_yaw(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    pilot.yaw_goal = yaw_of(radians(_number(params[0])))
+    pilot.turn_rate = radians(_number(params[1]))
+
+
+def _change_speed(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    kind, value = _number(params[0]), _number(params[1])
+    if kind == mav.SPEED_CLIMB:
+        pilot.speeds = replace(pilot.speeds, climb=value)
+    elif kind == mav.SPEED_DESCENT:
+        pilot.speeds = replace(pilot.speeds, descent=value)
+    else:
+        pilot.speeds = replace(pilot.speeds, ground=value)
+
+
+def _pitch_yaw(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    pilot.pitch_goal = radians(_number(params[0]))
+    pilot.earth = bool(int(_number(params[4])) & mav.YAW_LOCK)
+    yaw = radians(_number(params[1]))
+    pilot.pan_goal = yaw_of(yaw) if pilot.earth else -yaw
+
+
+def _mount(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    pilot.pitch_goal = radians(_number(params[0]))
+    pilot.pan_goal = -radians(_number(params[2]))
+
+
+def _look_at(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    pilot.roi = _point(pilot, params)
+
+
+def _look_away(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    pilot.roi = None
+
+
+def _record(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    pilot.part += 1
+
+
+def _nothing(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    """Run an item that this model has no state for."""
+
+
+def _point(pilot: _Pilot, params: tuple[float | None, ...]) -> Array:
+    lat, lon, alt = (_number(p) for p in params[4:7])
+    return pilot.geo.point(Place(lat, lon, alt))
+
+
+_RUN: dict[int, Callable[[_Pilot, tuple[float | None, ...]], None]] = {
+    mav.TAKEOFF: _take_off,
+    mav.WAYPOINT: _waypoint,
+    mav.LAND: _nothing,
+    mav.CONDITION_YAW: _condition_yaw,
+    mav.CHANGE_SPEED: _change_speed,
+    mav.GIMBAL_CONFIGURE: _nothing,
+    mav.GIMBAL_PITCHYAW: _pitch_yaw,
+    mav.MOUNT_CONTROL: _mount,
+    mav.ROI_LOCATION: _look_at,
+    mav.ROI_NONE: _look_away,
+    mav.VIDEO_START: _record,
+    mav.VIDEO_STOP: _record,
+}

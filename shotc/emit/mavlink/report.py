@@ -1,0 +1,132 @@
+"""What the MAVLink emitter tells: warnings about what the format cannot carry, and notes with numbers."""
+
+from __future__ import annotations
+
+from math import degrees
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.emit.mavlink.compare import Error
+from shotc.emit.mavlink.fence import Left
+from shotc.emit.mavlink.speed import is_steep
+from shotc.emit.mavlink.steps import Step
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import HFOV
+from shotc.ir.trajectory import DroneTrajectory
+
+ZOOM_LEAST = np.radians(0.1)
+CUT_LEAST = 0.05  # metres, of clearance
+
+
+def no_origin(mission: MissionIR) -> Diagnostic:
+    """Say that there is no place on the globe to write down."""
+    return Diagnostic(
+        "E101",
+        "the MAVLink files are skipped: the mission has no world.origin",
+        (mission.origins.key(("world",)),),
+        ("waypoints are latitudes and longitudes",),
+        "add world.origin: {lat: ..., lon: ..., alt: ...}",
+    )
+
+
+def left_out(mission: MissionIR, drone: Drone, left: Left) -> Diagnostic:
+    """Say that a zone is not part of the geofence."""
+    return Diagnostic(
+        "E102",
+        f"the geofence of {drone.name} leaves out zone {left.zone.name}: {left.reason}",
+        (mission.origins.key(left.zone.path),),
+        ("the plan itself keeps the zone: this is about the fence that the autopilot watches",),
+        "watch the zone by eye, or plan a path that does not cross its footprint",
+    )
+
+
+def coarsened(mission: MissionIR, drone: Drone, error: Error, most: int) -> Diagnostic:
+    """Say that the file is coarser than asked, to fit."""
+    return Diagnostic(
+        "E103",
+        f"the mission file of {drone.name} is coarser than intended, to hold no more than {most} items",
+        (mission.origins.key(drone.path),),
+        (
+            f"reached: {error.position:.2f} m, {degrees(error.heading):.1f} deg of heading,"
+            f" {error.screen:.3f} of the screen",
+        ),
+        "fly the shots as separate missions, or stream trajectory.csv instead",
+    )
+
+
+def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Diagnostic | None:
+    """Say that the take-off goes higher than planned, or return None."""
+    if height >= least - 0.005:
+        return None
+    return Diagnostic(
+        "E104",
+        f"the mission file of {drone.name} takes off to {least:.1f} m instead of {height:.1f} m",
+        (mission.origins.key(drone.path),),
+        (f"{drone.autopilot} refuses a lower take-off",),
+        "begin higher above the pad, or see that the air above it is free",
+    )
+
+
+def zooms(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
+    """Say which shots zoom: lenses are too different for a mission file to say it."""
+    out: list[Diagnostic] = []
+    for phase in flight.phases:
+        hfov = flight.curve(np.linspace(phase.start, phase.end, 101))[:, HFOV]
+        if phase.shot is None or np.ptp(hfov) < ZOOM_LEAST:
+            continue
+        shot = next(s for s in mission.shots if s.id == phase.shot)
+        low, high = degrees(hfov.min()), degrees(hfov.max())
+        out.append(
+            Diagnostic(
+                "E105",
+                f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}",
+                (mission.origins.key(shot.path),),
+                (f"the field of view goes from {low:.1f} deg to {high:.1f} deg",),
+                "zoom by hand, or give the shot one hfov",
+            )
+        )
+    return out
+
+
+def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic | None:
+    """Say that straight legs come nearer to something than the plan does, or return None."""
+    if depth < CUT_LEAST:
+        return None
+    return Diagnostic(
+        "E106",
+        f"the straight legs of {drone.name} come {depth:.2f} m nearer to {name} than its clearance allows",
+        (mission.origins.key(drone.path),),
+        ("the plan itself keeps the clearance; waypoints cannot follow it that closely",),
+        "leave more room there, or stream trajectory.csv instead",
+    )
+
+
+def note(file: str, drone: Drone, count: int, error: Error) -> str:
+    """Return the line that says what one file is worth."""
+    text = f"{drone.autopilot} {file}: {count} items, position within {error.position:.2f} m"
+    if not error.shot:
+        return text
+    return (
+        f"{text}, heading within {degrees(error.heading):.1f} deg, adds at most {error.screen:.3f} of the"
+        f" screen (shot {error.shot}, t = {error.time:.1f} s); films for about {error.filmed:.0f} s of"
+        f" {error.planned:.0f} s"
+    )
+
+
+def sidenotes(drone: Drone, asked: list[Step], flown: list[Step]) -> list[str]:
+    """Return what the pilot has to know about how this autopilot flies the file."""
+    if drone.autopilot == "ardupilot":
+        text = (
+            f"ardupilot {drone.name}: set WP_YAW_BEHAVIOR to 0, or every waypoint turns the body to the path"
+        )
+        off = [abs(a.hold - b.hold) for a, b in zip(asked, flown, strict=True)]
+        worst = max(off, default=0.0)
+        rounded = f"ardupilot {drone.name}: holds are whole seconds, off by up to {worst:.1f} s"
+        return [text, rounded] if worst >= 0.05 else [text]
+    if any(s.leg.shot and is_steep(s.across, s.rise) and s.duration > 0 for s in flown):
+        return [
+            f"px4 {drone.name}: upright legs of shots are flown at the vehicle's own climb and descent"
+            " speeds (MPC_Z_V_AUTO_UP, MPC_Z_V_AUTO_DN)"
+        ]
+    return []

@@ -1,0 +1,131 @@
+"""From legs to the steps of a flight list: where to go, how long to stay, what to command on the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import acos, hypot, pi, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mavlink.speed import SLOWEST
+from shotc.emit.mavlink.style import Command, Style, command_of, region_of
+from shotc.emit.mavlink.thin import Leg
+from shotc.emit.mavlink.track import Track
+from shotc.ir.mission import Vec3
+
+Array = NDArray[np.float64]
+
+SETTLE = 1.0  # seconds of standstill before and after a shot that begins or ends at rest
+ALIGN = 3.0  # seconds, in which a body turns half round
+STANDSTILL = 0.05  # m/s
+SAME = float(np.radians(0.1))  # angles closer than this need no command of their own
+RADIUS_LEAST, RADIUS_REST = 0.3, 0.5  # metres, of acceptance
+CORNER_ACCELERATION = 3.0  # m/s^2, MPC_ACC_HOR: what an autopilot spends on rounding a corner
+CORNER_CUT = 0.25  # metres by which a rounded corner may miss its waypoint
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One waypoint and the way to it.
+
+    region : point of W that the gimbal is to look at, or None where it is told angles
+    across, rise : horizontal and vertical way, m; duration : s of motion, 0 for a stay
+    hold : seconds at the waypoint; radius : of acceptance, m
+    """
+
+    leg: Leg
+    command: Command
+    region: Vec3 | None
+    across: float
+    rise: float
+    duration: float
+    hold: float
+    radius: float
+
+
+def steps_of(track: Track, style: Style, legs: list[Leg]) -> list[Step]:
+    """Return the steps that fly ``legs``; a stay that asks for no new angles joins the step before it."""
+    steps: list[Step] = []
+    if legs and legs[0].shot is not None:
+        steps.append(_aligned(track))
+    for index, leg in enumerate(legs):
+        step = _step(track, style, leg, legs[index + 1] if index + 1 < len(legs) else None)
+        if leg.rest and steps and _joins(track, steps[-1], step):
+            steps[-1] = replace(steps[-1], hold=step.hold, radius=RADIUS_REST)
+        else:
+            steps.append(step)
+    return steps
+
+
+def whole_seconds(steps: list[Step]) -> list[Step]:
+    """Round holds to whole seconds, handing what is lost on to the next hold of the same stay or shot."""
+    out: list[Step] = []
+    owed = 0.0
+    for step in steps:
+        hold = float(max(0, round(step.hold + owed))) if step.hold > 0 else 0.0
+        owed = step.hold + owed - hold if step.hold > 0 else 0.0
+        out.append(replace(step, hold=hold))
+    return out
+
+
+def _aligned(track: Track) -> Step:
+    """Return a stay above the pad, for a flight that films from there: no other leg turns the body first."""
+    command = command_of(track.poses, 0, 0, filmed=False)
+    return Step(Leg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, ALIGN, RADIUS_REST)
+
+
+def _step(track: Track, style: Style, leg: Leg, following: Leg | None) -> Step:
+    points, time = track.poses.position, track.time
+    way = points[leg.last] - points[leg.first]
+    command = command_of(track.poses, leg.first, leg.last, filmed=leg.shot is not None)
+    region = region_of(style, track, slice(leg.first, leg.last + 1), leg.shot)
+    elapsed = float(time[leg.last] - time[leg.first])
+    if leg.rest:
+        return Step(leg, command, region, 0.0, 0.0, 0.0, elapsed, RADIUS_REST)
+    stops = _speed(track, leg.last) < STANDSTILL
+    boundary = following is not None and following.shot != leg.shot
+    radius = RADIUS_REST
+    if following is not None and not following.rest and not stops:
+        radius = _radius(points[leg.first], points[leg.last], points[following.last], elapsed)
+    # No autopilot creeps: it is there sooner, and waits.
+    hold = max(0.0, elapsed - float(np.linalg.norm(way)) / SLOWEST)
+    hold = max(hold, SETTLE) if stops and boundary else hold
+    return Step(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
+
+
+def _joins(track: Track, before: Step, stay: Step) -> bool:
+    if before.leg.shot != stay.leg.shot or before.leg.rest:
+        return False
+    part = slice(stay.leg.first, stay.leg.last + 1)
+    poses = track.poses
+    for angles, commanded in (
+        (poses.body_yaw, before.command.body_yaw),
+        (poses.cam_yaw, before.command.cam_yaw),
+        (poses.cam_pitch, before.command.cam_pitch),
+    ):
+        if np.abs(angles[part] - commanded).max() > SAME:
+            return False
+    return True
+
+
+def _speed(track: Track, index: int) -> float:
+    gap = track.poses.position[index] - track.poses.position[index - 1]
+    return float(np.linalg.norm(gap) / (track.time[index] - track.time[index - 1]))
+
+
+def _radius(before: Array, corner: Array, after: Array, elapsed: float) -> float:
+    """Return the radius that lets the corner be rounded at speed without cutting it by too much.
+
+    A circle tangent to both legs at distance r from the corner has radius r / tan(turn / 2); it is
+    flown at v with v^2 tan(turn / 2) / r of acceleration and misses the corner by r tan(turn / 4).
+    """
+    way, onward = corner - before, after - corner
+    lengths = float(np.linalg.norm(way)), float(np.linalg.norm(onward))
+    if min(lengths) < 2 * RADIUS_LEAST:
+        return RADIUS_LEAST
+    turn = acos(float(np.clip(way @ onward / (lengths[0] * lengths[1]), -1.0, 1.0)))
+    speed = lengths[0] / elapsed
+    at_speed = speed**2 * tan(min(turn, 0.9 * pi) / 2) / CORNER_ACCELERATION
+    uncut = CORNER_CUT / max(tan(turn / 4), 1e-6)
+    return max(RADIUS_LEAST, min(max(at_speed, RADIUS_REST), uncut, min(lengths) / 2))

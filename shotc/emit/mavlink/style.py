@@ -1,0 +1,199 @@
+"""How a flight plan points the camera: the part of each autopilot's behaviour that the plan must foresee.
+
+Both stacks fly straight legs. PX4 turns the body to the target waypoint's yaw at the start of a leg
+and holds it; ArduPilot's CONDITION_YAW turns at a given rate, chosen here so that the turn lasts the
+whole leg. Gimbal angles are steps on both; a step is set to the middle of what its leg asks, which
+halves the error. A region of interest is better where the gimbal can turn: the gimbal looks at one
+point all the time. For a target in the middle of the picture that point is the target; for any other
+composition each leg gets the point nearest to the camera axes the plan has along it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mavlink.track import Poses, Track, project
+from shotc.ir.mission import Drone, MissionIR, Vec3
+from shotc.ir.trajectory import DroneTrajectory, Phase
+
+Array = NDArray[np.float64]
+
+CENTRED = 0.02  # (u, v); a target that stays this near to the centre is framed by following it
+SWIVEL_LEAST = 2.0  # degrees of gimbal yaw; less is no freedom
+WINDOW = 20  # samples over which looking at a place is compared with looking in a direction
+GAIN_LEAST = 0.5  # a place has to halve the error to be worth it
+TURN_LEAST = 1e-7  # 1 - cos of the turn in a window that counts as one
+AWAY_MOST = 500.0  # metres to a region of interest where nothing near is framed
+NEAR_PARALLEL = 1e-7  # mean squared angle between camera axes that no longer tells where they meet, rad^2
+PAN_LEAST = np.radians(0.5)  # body and camera that never part further than this count as one
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """What thinning and writing need to know about pointing.
+
+    pans : the camera turns against the body, so the gimbal's yaw is commanded
+    followed : shots whose target is one region of interest all along, with its centre in W
+    aimed : shots in which each leg has a region of interest of its own
+    """
+
+    autopilot: Literal["px4", "ardupilot"]
+    pans: bool
+    followed: dict[str, Vec3]
+    aimed: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """The angles that one leg commands, rad: body yaw, camera yaw less body yaw, and camera pitch.
+
+    cam_yaw : camera yaw in W, for gimbals that are told the earth's direction
+    """
+
+    body_yaw: float
+    pan: float
+    cam_yaw: float
+    cam_pitch: float
+
+
+def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style:
+    """Choose how this drone's camera is pointed."""
+    drone = mission.drone(flight.drone)
+    poses = track.poses
+    parted = np.abs(poses.cam_yaw - poses.body_yaw).max()
+    followed: dict[str, Vec3] = {}
+    aimed: set[str] = set()
+    for phase in flight.phases:
+        if phase.shot is None:
+            continue
+        inside = (track.time >= phase.start) & (track.time <= phase.end)
+        target = _lone_target(flight, phase)
+        if target is not None and _is_centred(select(poses, inside), track.subject[inside], drone):
+            followed[phase.shot] = mission.target(target).centre
+        elif swivels(drone) and _gains(select(poses, inside), track.subject[inside]):
+            aimed.add(phase.shot)
+    return Style(drone.autopilot, bool(parted > PAN_LEAST), followed, frozenset(aimed))
+
+
+def region_of(style: Style, track: Track, part: slice, shot: str | None) -> Vec3 | None:
+    """Return the point of W that the gimbal is to look at on a leg, or None where it is told angles."""
+    if shot in style.followed:
+        return style.followed[shot or ""]
+    if shot not in style.aimed:
+        return None
+    return _meeting(select(track.poses, part), track.subject[part])
+
+
+def command_of(poses: Poses, first: int, last: int, *, filmed: bool) -> Command:
+    """Return what a leg over these samples commands: its middle, or its end where nothing is filmed."""
+    part = slice(first, last + 1) if filmed else slice(last, last + 1)
+    return Command(
+        _middle(poses.body_yaw[part]),
+        _middle((poses.cam_yaw - poses.body_yaw)[part]),
+        _middle(poses.cam_yaw[part]),
+        _middle(poses.cam_pitch[part]),
+    )
+
+
+def follow(drone: Drone, position: Array, body_yaw: Array, target: Vec3 | Array) -> tuple[Array, Array]:
+    """Return camera yaw and pitch, each (n,), of a gimbal that follows a point within its range of angles."""
+    offset = np.asarray(target) - position
+    bearing = np.arctan2(offset[:, 1], offset[:, 0])
+    pan = (bearing - body_yaw + np.pi) % (2 * np.pi) - np.pi
+    pitch = np.arctan2(offset[:, 2], np.hypot(offset[:, 0], offset[:, 1]))
+    return body_yaw + np.clip(pan, *drone.gimbal.yaw), np.clip(pitch, *drone.gimbal.pitch)
+
+
+def turns_body(drone: Drone) -> bool:
+    """Tell whether the autopilot turns the whole body to a region of interest, for want of a gimbal's yaw."""
+    return drone.autopilot == "ardupilot" and not swivels(drone)
+
+
+def swivels(drone: Drone) -> bool:
+    """Tell whether the gimbal can turn in yaw."""
+    low, high = drone.gimbal.yaw
+    return degrees(high - low) > SWIVEL_LEAST
+
+
+def facing(position: Array, point: Vec3 | Array) -> Array:
+    """Return the body yaw, (n,), that looks at a point from each position, without jumps."""
+    offset = np.asarray(point) - position
+    return np.unwrap(np.arctan2(offset[:, 1], offset[:, 0]))
+
+
+def select(poses: Poses, part: NDArray[np.bool_] | slice) -> Poses:
+    """Return some of the poses."""
+    return Poses(
+        poses.position[part],
+        poses.body_yaw[part],
+        poses.cam_yaw[part],
+        poses.cam_pitch[part],
+        poses.hfov[part],
+    )
+
+
+def _meeting(poses: Poses, subject: Array) -> Vec3:
+    """Return the point with the least squared distance to all camera axes, or one straight ahead."""
+    position, axis = poses.position, _axes(poses)
+    middle = len(axis) // 2
+    away = min(float(np.linalg.norm(subject[middle] - position[middle])), AWAY_MOST)
+    ahead = position[middle] + away * axis[middle]
+    # Held near ``ahead`` where the axes are parallel.
+    across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
+    pull = NEAR_PARALLEL * len(axis)
+    meeting = np.linalg.solve(
+        across.sum(axis=0) + pull * np.eye(3),
+        np.einsum("nij,nj->i", across, position) + pull * ahead,
+    )
+    best = min((meeting, ahead), key=lambda point: _off_axis(point, position, axis))
+    return (float(best[0]), float(best[1]), float(best[2]))
+
+
+def _axes(poses: Poses) -> Array:
+    level = np.cos(poses.cam_pitch)
+    return np.stack(
+        [level * np.cos(poses.cam_yaw), level * np.sin(poses.cam_yaw), np.sin(poses.cam_pitch)], axis=1
+    )
+
+
+def _gains(poses: Poses, subject: Array) -> bool:
+    """Tell whether looking at places shows a shot better than looking in directions, window by window."""
+    axis = _axes(poses)
+    by_place = by_direction = 0.0
+    for first in range(0, len(axis) - 1, WINDOW):
+        part = slice(first, first + WINDOW + 1)
+        point = _meeting(select(poses, part), subject[part])
+        by_place += _off_axis(np.array(point), poses.position[part], axis[part])
+        middle = axis[part][len(axis[part]) // 2]
+        by_direction += float(1.0 - (axis[part] @ middle).min())
+    turns = by_direction > TURN_LEAST * len(axis) / WINDOW
+    return turns and by_place < GAIN_LEAST * by_direction
+
+
+def _off_axis(point: Array, position: Array, axis: Array) -> float:
+    offset = point - position
+    cosine = np.einsum("nk,nk->n", offset, axis) / np.maximum(np.linalg.norm(offset, axis=1), 1e-9)
+    return float(1.0 - cosine.min())
+
+
+def _lone_target(flight: DroneTrajectory, phase: Phase) -> str | None:
+    """Return the one target that is framed from the first to the last instant of a shot, or None."""
+    spans = [r for r in flight.framing if r.shot == phase.shot]
+    names = {r.target for r in spans}
+    if len(names) != 1 or min(r.start for r in spans) > phase.start or max(r.end for r in spans) < phase.end:
+        return None
+    return names.pop()
+
+
+def _is_centred(poses: Poses, subject: Array, drone: Drone) -> bool:
+    off = np.hypot(*project(poses, subject, drone).T)
+    return bool((off <= CENTRED).all())
+
+
+def _middle(angles: Array) -> float:
+    return float(angles.max() + angles.min()) / 2

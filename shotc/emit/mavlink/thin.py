@@ -1,0 +1,172 @@
+"""Thinning: the fewest straight legs that keep position, heading and picture within tolerance.
+
+Greedy from the start of each stretch: the longest leg whose flown pose, as the autopilot would
+interpolate it, stays within tolerance of the plan at every sample.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mavlink.clearance import Obstacle, shortfall
+from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, select, turns_body
+from shotc.emit.mavlink.track import SAMPLE_STEP, Poses, Stretch, Track, project
+from shotc.ir.mission import Drone
+
+Array = NDArray[np.float64]
+
+LEG_LEAST = 0.5  # seconds; autopilots pass over waypoints that follow one another faster
+NEARER = 0.02  # metres by which a straight leg may cut a clearance that the curve keeps
+EVENING = 5  # halvings of the tolerance scale when legs are made even
+TURN_MOST = radians(170.0)  # of one leg, so that "the shortest way round" is the planned way
+PRECISE = 1e-3  # metres; shorter chords have no direction
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """How far the flight plan may stray: metres, rad, (u, v) units."""
+
+    position: float = 0.25
+    heading: float = radians(3.0)
+    screen: float = 0.03
+
+    def scaled(self, framing: float, position: float = 1.0) -> Tolerance:
+        """Return the tolerance with heading and screen, and position, multiplied."""
+        return Tolerance(self.position * position, self.heading * framing, self.screen * framing)
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """One straight leg, or a stay where ``rest``: samples first to last."""
+
+    first: int
+    last: int
+    shot: str | None
+    rest: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Thinner:
+    """Cuts one drone's track into legs.
+
+    planned_shortfall : by how much each sample is too near to each obstacle, metres, (n,) each
+    """
+
+    track: Track
+    drone: Drone
+    style: Style
+    obstacles: tuple[Obstacle, ...]
+    planned_shortfall: tuple[Array, ...]
+
+    def legs(self, tolerance: Tolerance, *, even: bool = True) -> list[Leg]:
+        """Return the legs of the whole track; ``even`` ones cost more time and no more legs."""
+        cut = self._even if even else self._greedy
+        return [leg for stretch in self.track.stretches for leg in cut(stretch, tolerance)]
+
+    def _even(self, stretch: Stretch, tolerance: Tolerance) -> list[Leg]:
+        # Greedy cutting leaves a short last leg; a tighter tolerance that needs no more legs evens them.
+        best, low, high = self._greedy(stretch, tolerance), 0.0, 1.0
+        for _ in range(EVENING):
+            share = (low + high) / 2
+            trial = self._greedy(stretch, tolerance.scaled(share, share))
+            if len(trial) <= len(best):
+                best, high = trial, share
+            else:
+                low = share
+        return best
+
+    def _greedy(self, stretch: Stretch, tolerance: Tolerance) -> list[Leg]:
+        out: list[Leg] = []
+        first = stretch.first
+        while first < stretch.last:
+            last = self._longest(stretch, first, tolerance)
+            out.append(Leg(first, last, stretch.shot, stretch.rest))
+            first = last
+        return out
+
+    def _longest(self, stretch: Stretch, first: int, tolerance: Tolerance) -> int:
+        time = self.track.time
+        least = int(np.searchsorted(time, time[first] + LEG_LEAST - SAMPLE_STEP / 2))
+        good, step = min(max(least, first + 1), stretch.last), 4
+        bad = stretch.last + 1
+        while good < stretch.last:
+            trial = min(good + step, stretch.last)
+            if not self._fits(Leg(first, trial, stretch.shot, stretch.rest), tolerance):
+                bad = trial
+                break
+            good, step = trial, step * 2
+        while bad - good > 1:
+            trial = (good + bad) // 2
+            if self._fits(Leg(first, trial, stretch.shot, stretch.rest), tolerance):
+                good = trial
+            else:
+                bad = trial
+        return good
+
+    def _fits(self, leg: Leg, tolerance: Tolerance) -> bool:
+        part = slice(leg.first, leg.last + 1)
+        planned = select(self.track.poses, part)
+        share = along(planned.position, self.track.time[part], rest=leg.rest)
+        a, b = planned.position[0], planned.position[-1]
+        flown = a + share[:, None] * (b - a)
+        if np.linalg.norm(flown - planned.position, axis=1).max() > tolerance.position:
+            return False
+        if not self._clear(part, flown, tolerance.position):
+            return False
+        if leg.shot is None:
+            return True
+        if abs(planned.body_yaw[-1] - planned.body_yaw[0]) > TURN_MOST:
+            return False
+        poses = self._flown(leg, planned, flown, share)
+        if np.abs(wrapped(poses.body_yaw - planned.body_yaw)).max() > tolerance.heading:
+            return False
+        subject = self.track.subject[part]
+        shift = project(poses, subject, self.drone) - project(planned, subject, self.drone)
+        return bool(np.nanmax(np.hypot(*shift.T), initial=0.0) <= tolerance.screen)
+
+    def _clear(self, part: slice, flown: Array, reach: float) -> bool:
+        for obstacle, planned in zip(self.obstacles, self.planned_shortfall, strict=True):
+            worst = float(planned[part].max())
+            if worst > -reach and shortfall(obstacle, flown).max() > max(worst, 0.0) + NEARER:
+                return False
+        return True
+
+    def _flown(self, leg: Leg, planned: Poses, flown: Array, share: Array) -> Poses:
+        command = command_of(self.track.poses, leg.first, leg.last, filmed=True)
+        if self.style.autopilot == "px4":
+            body = np.full(len(share), command.body_yaw)
+            cam_yaw = np.full(len(share), command.cam_yaw)
+        else:
+            body = planned.body_yaw[0] + share * (planned.body_yaw[-1] - planned.body_yaw[0])
+            cam_yaw = body + command.pan
+        pitch = np.full(len(share), command.cam_pitch)
+        region = region_of(self.style, self.track, slice(leg.first, leg.last + 1), leg.shot)
+        if region is not None:
+            if turns_body(self.drone):
+                body = facing(flown, region)
+            cam_yaw, pitch = follow(self.drone, flown, body, region)
+        return Poses(flown, body, cam_yaw, pitch, planned.hfov)
+
+
+def thinner_of(track: Track, drone: Drone, style: Style, obstacles: tuple[Obstacle, ...]) -> Thinner:
+    """Return the thinner of one drone's track."""
+    planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
+    return Thinner(track, drone, style, obstacles, planned)
+
+
+def wrapped(angle: Array) -> Array:
+    """Return angles in [-pi, pi)."""
+    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
+
+
+def along(points: Array, time: Array, *, rest: bool) -> Array:
+    """Return how far along the straight leg each planned point is, 0 to 1, shape (n,)."""
+    chord = points[-1] - points[0]
+    length2 = float(chord @ chord)
+    if rest or length2 < PRECISE**2:
+        return np.asarray((time - time[0]) / max(time[-1] - time[0], 1e-12))
+    return np.asarray(np.clip((points - points[0]) @ chord / length2, 0.0, 1.0))

@@ -1,0 +1,32 @@
+"""mission.rrd: the plan as a rerun recording, laid out so that it explains itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import ClassVar
+
+from shotc.emit.base import Artifact, Emission
+from shotc.ir.trajectory import VerifiedIR
+
+
+@dataclass(frozen=True, slots=True)
+class RerunEmitter:
+    """Writes the recording; needs rerun-sdk, and raises ModuleNotFoundError without it."""
+
+    name: ClassVar[str] = "rerun"
+    summary: ClassVar[str] = "mission.rrd: the world, the camera's view and the plots, for the rerun viewer"
+    api: ClassVar[int] = 1
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return mission.rrd; its contents are the same for the same plan, its bytes are not."""
+        from shotc.emit.rerun_log.recording import record
+
+        with TemporaryDirectory(prefix="shotc-") as folder:
+            path = Path(folder) / "mission.rrd"
+            record(plan, path)
+            return Emission((Artifact("mission.rrd", path.read_bytes()),))
+
+
+EMITTER = RerunEmitter()

@@ -1,0 +1,97 @@
+"""How the recording is laid out: the world, the camera's own view, the facts, the plots underneath."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from shotc.emit.rerun_log.motion import camera_entity, frame_size
+from shotc.emit.rerun_log.series import Plot
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import Drone, MissionIR
+
+BACKGROUND = (24, 27, 32, 255)
+SKY = (96, 118, 140, 255)
+
+
+def blueprint(
+    mission: MissionIR, flown: dict[str, tuple[float, tuple[Plot, ...]]], bounds: tuple[Array, Array]
+) -> Any:
+    """Return the blueprint of a recording.
+
+    flown : for every drone its last instant (s) and its plots; bounds : the corners of the scene
+    """
+    drones = [mission.drone(name) for name in flown]
+    cameras = [_camera_view(drone, mission) for drone in drones]
+    views = [
+        _series(drone, plot, flown[drone.name][0], many=len(drones) > 1)
+        for drone in drones
+        for plot in flown[drone.name][1]
+    ]
+    facts = rrb.TextDocumentView(origin="summary", name="Mission and certificate")
+    right = rrb.Vertical(
+        cameras[0] if len(cameras) == 1 else rrb.Tabs(*cameras), facts, row_shares=[3.0, 2.0]
+    )
+    return rrb.Blueprint(
+        rrb.Vertical(
+            rrb.Horizontal(_world(bounds, drones), right, column_shares=[1.35, 1.0]),
+            rrb.Grid(*views, grid_columns=4),
+            row_shares=[2.3, 1.0],
+        ),
+        rrb.TimePanel(
+            timeline="t", playback_speed=1.0, play_state="playing", loop_mode="all", state="collapsed"
+        ),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.BlueprintPanel(state="collapsed"),
+        auto_layout=False,
+        auto_views=False,
+    )
+
+
+def _world(bounds: tuple[Array, Array], drones: list[Drone]) -> Any:
+    low, high = bounds
+    centre = (low + high) / 2
+    reach = float(np.linalg.norm(high - low)) * 0.66 + 12.0
+    eye = centre + reach * np.array([-0.62, -0.92, 0.72])
+    hidden = [f"- /{camera_entity(drone)}/screen/**" for drone in drones]
+    return rrb.Spatial3DView(
+        origin="world",
+        name="World (East, North, Up)",
+        contents=["$origin/**", *hidden],
+        background=BACKGROUND,
+        line_grid=False,
+        eye_controls=rrb.EyeControls3D(
+            kind=rrb.Eye3DKind.Orbital,
+            position=eye.tolist(),
+            look_target=[float(centre[0]), float(centre[1]), float(low[2] + 0.3 * (high[2] - low[2]))],
+            eye_up=[0.0, 0.0, 1.0],
+        ),
+    )
+
+
+def _camera_view(drone: Drone, mission: MissionIR) -> Any:
+    hidden = [f"- /world/zones/{zone.name}/**" for zone in mission.zones if zone.keep == "in"]
+    shown = ("world/ground", "world/zones", "world/targets", f"{camera_entity(drone)}/screen")
+    width, height = frame_size(drone)
+    return rrb.Spatial2DView(
+        origin=f"{camera_entity(drone)}/lens",
+        name=f"What {drone.name} sees",
+        contents=[*(f"/{path}/**" for path in shown), *hidden],
+        background=SKY,
+        visual_bounds=rrb.VisualBounds2D(x_range=[0, width], y_range=[0, height]),
+    )
+
+
+def _series(drone: Drone, plot: Plot, end: float, *, many: bool) -> Any:
+    span = rr.TimeRange(
+        start=rr.TimeRangeBoundary.absolute(seconds=0.0), end=rr.TimeRangeBoundary.absolute(seconds=end)
+    )
+    return rrb.TimeSeriesView(
+        origin=f"plots/{drone.name}/{plot.name}",
+        name=f"{drone.name}: {plot.title}" if many else plot.title,
+        axis_x=rrb.TimeAxis(view_range=span),
+        plot_legend=rrb.PlotLegend(visible=len(plot.lines) > 2, corner=rrb.Corner2D.RightTop),
+    )

@@ -1,0 +1,29 @@
+"""storyboard.png: what the camera sees at every shot's keyframes, with a map, on one page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from shotc.emit.base import Artifact, Emission
+from shotc.ir.trajectory import VerifiedIR
+
+DPI = 120.0
+
+
+@dataclass(frozen=True, slots=True)
+class StoryboardEmitter:
+    """Draws the storyboard; needs matplotlib, and raises ModuleNotFoundError without it."""
+
+    name: ClassVar[str] = "storyboard"
+    summary: ClassVar[str] = "storyboard.png: the camera's pictures at the keyframes, with maps"
+    api: ClassVar[int] = 1
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return storyboard.png; the same plan gives the same bytes."""
+        from shotc.emit.storyboard.page import draw_page
+
+        return Emission((Artifact("storyboard.png", draw_page(plan, DPI)),))
+
+
+EMITTER = StoryboardEmitter()

@@ -1,0 +1,167 @@
+"""One panel of the storyboard: the camera's picture with its composition, and what is true at that moment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees
+
+import numpy as np
+
+from shotc.emit.palette import CAMERA, INK, KEEP_OUT, QUIET, WHITE
+from shotc.emit.screen import guide_lines
+from shotc.emit.storyboard.canvas import Box, Canvas, Type, chip
+from shotc.emit.storyboard.content import Moment
+from shotc.emit.storyboard.scene import Picture, draw_scene, name_places, picture
+from shotc.geom.camera import heading_of
+from shotc.ir.mission import Composition, MissionIR, Vec2, Vec3
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+
+LINE = 0.165
+"""Height of a line of a caption, inches."""
+
+WIDE = 2.3
+"""Narrower cells than this set the facts of a caption in two lines, inches."""
+
+POINTS_OF_THE_COMPASS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """Where a panel goes: its picture, and the width that its caption may take, inches."""
+
+    picture: Box
+    width: float
+
+
+def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, grid: float) -> None:
+    """Draw a panel: the picture, and its caption under it; grid is the width of a ground square, metres."""
+    box = cell.picture
+    shown = picture(moment.pose, box.width / box.height, box)
+    draw_scene(canvas, shown, mission, moment.target, grid)
+    if moment.target is not None:
+        _composition(canvas, shown, moment.composition)
+    taken: list[Box] = []
+    if moment.target is not None:
+        target = mission.target(moment.target)
+        taken += _marks(canvas, shown, moment, shown.offset(target))
+    if moment.fault:
+        taken.append(chip(canvas, (box.right - 0.07, box.top - 0.07), moment.fault.upper(), KEEP_OUT))
+    _names(canvas, shown, mission, taken)
+    canvas.polygons([box.outline()], "none", INK, 0.8)
+    _caption(canvas, cell, moment, mission)
+
+
+def caption_height(width: float) -> float:
+    """Return the height of the caption under a picture in a cell of some width, inches."""
+    return 0.17 + (2 if width > WIDE else 3) * LINE
+
+
+def is_moved(moment: Moment) -> bool:
+    """Tell whether composition moved the subject visibly away from where the user had it."""
+    if moment.asked is None or moment.reference is None:
+        return False
+    return bool(np.hypot(*np.subtract(moment.asked, moment.reference)) > 0.02)
+
+
+def clock(seconds: float) -> str:
+    """Return a time as minutes, seconds and tenths."""
+    tenths = round(seconds * 10)
+    return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
+
+
+def compass(yaw: float) -> str:
+    """Return a camera yaw as a compass heading in degrees, with its point of the compass."""
+    heading = round(degrees(heading_of(yaw))) % 360
+    return f"{heading:03d}° {POINTS_OF_THE_COMPASS[round(heading / 45) % 8]}"
+
+
+def _composition(canvas: Canvas, shown: Picture, composition: Composition) -> None:
+    us, vs = guide_lines(composition)
+    strips = [np.array([[u, -1.0], [u, 1.0]]) for u in us] + [np.array([[-1.0, v], [1.0, v]]) for v in vs]
+    placed = [shown.place(strip) for strip in strips]
+    if placed:
+        canvas.lines(placed, (*INK, 0.30), 1.7, shown.box)
+        canvas.lines(placed, (*WHITE, 0.95), 0.8, shown.box)
+    for point in composition.points if len(composition.points) > 1 else ():
+        x, y = shown.place(np.array(point))
+        canvas.disc((float(x), float(y)), 0.032, (*WHITE, 0.9), (*INK, 0.55), 0.5)
+
+
+def _marks(canvas: Canvas, shown: Picture, moment: Moment, offset: Vec3) -> list[Box]:
+    """Draw where the subject is wanted and where it is; return the room that takes."""
+    taken: list[Box] = []
+    if moment.reference is not None:
+        if moment.asked is not None and is_moved(moment):
+            _asked(canvas, shown, moment.asked, moment.reference)
+        x, y = _cross(canvas, shown, moment.reference)
+        taken.append(Box(x - 0.13, y - 0.13, 0.26, 0.26))
+    u, v, depth = shown.camera.project(offset)
+    if depth > 0 and max(abs(u), abs(v)) <= 1:
+        x, y = shown.place(np.array([u, v]))
+        canvas.disc((float(x), float(y)), 0.038, WHITE, INK, 0.9)
+    return taken
+
+
+def _cross(canvas: Canvas, shown: Picture, at: Vec2) -> Vec2:
+    x, y = (float(c) for c in shown.place(np.array(at)))
+    arms = [
+        np.array([[x + sx * r, y + sy * r] for r in (0.065, 0.2)])
+        for sx, sy in ((1, 0), (-1, 0), (0, 1), (0, -1))
+    ]
+    turn = np.linspace(0, 2 * np.pi, 41)
+    ring = np.stack([x + 0.115 * np.cos(turn), y + 0.115 * np.sin(turn)], axis=-1)
+    canvas.lines([*arms, ring], (*INK, 0.65), 2.8, shown.box)
+    canvas.lines([*arms, ring], CAMERA, 1.5, shown.box)
+    return x, y
+
+
+def _asked(canvas: Canvas, shown: Picture, asked: Vec2, reference: Vec2) -> None:
+    ends = shown.place(np.array([asked, reference]))
+    canvas.lines([ends], (*WHITE, 0.9), 1.0, shown.box, dash=(2.0, 2.0))
+    x, y = ends[0]
+    diamond = np.array([[x - 0.06, y], [x, y - 0.06], [x + 0.06, y], [x, y + 0.06]])
+    canvas.polygons([diamond], (*WHITE, 0.35), INK, 0.8, shown.box)
+
+
+def _names(canvas: Canvas, shown: Picture, mission: MissionIR, taken: list[Box]) -> None:
+    box = shown.box
+    inner = Box(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
+    for name, color, seen in name_places(shown, mission):
+        style = Type(7.0, color, across="center", along="bottom", halo=WHITE)
+        width, height = canvas.extent(name, style)
+        x = min(max(seen.x + seen.width / 2, inner.x + width / 2), inner.right - width / 2)
+        for base in (seen.top + 0.03, seen.y - 0.03 - height, seen.top + 0.18):
+            y = min(base, inner.top - height)
+            room = Box(x - width / 2, y, width, height)
+            if inner.holds(room) and not any(room.meets(other) for other in taken):
+                canvas.text(x, y, name, style)
+                taken.append(Box(room.x - 0.02, room.y - 0.02, width + 0.04, height + 0.04))
+                break
+
+
+def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> None:
+    pose, box = moment.pose, cell.picture
+    base = box.y - 0.2
+    canvas.disc((box.x + 0.095, base + 0.045), 0.095, INK, "none", 0)
+    canvas.text(
+        box.x + 0.095, base + 0.043, str(moment.number), Type(7, WHITE, True, "center", "center_baseline")
+    )
+    canvas.text(box.x + 0.26, base, clock(moment.time), Type(9.5, INK, bold=True))
+    canvas.text(box.right, base, compass(float(pose[CAM_YAW])), Type(9.5, INK, bold=True, across="right"))
+    facts = [f"pitch {round(degrees(pose[CAM_PITCH])):+d}°", f"hfov {degrees(pose[HFOV]):.0f}°"]
+    if moment.target is not None:
+        away = float(np.linalg.norm(np.subtract(mission.target(moment.target).centre, pose[:3])))
+        facts.append(f"{metres(away)} away")
+    facts.append(f"alt {metres(float(pose[2]))}")
+    if moment.hold > 0:
+        facts.append(f"hold {moment.hold:g} s")
+    rows = [facts] if cell.width > WIDE else [facts[:2], facts[2:]]
+    for i, row in enumerate(rows, start=1):
+        text = " · ".join(row).replace("-", "−")
+        style = canvas.fitted(text, Type(7.8, QUIET), cell.width)
+        canvas.text(box.x, base - i * LINE, text, style)
+
+
+def metres(length: float) -> str:
+    """Return a length with digits that mean something on a set."""
+    return f"{length:.1f} m" if abs(length) < 9.95 else f"{length:.0f} m"

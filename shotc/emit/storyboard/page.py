@@ -1,0 +1,268 @@
+"""The storyboard's page: where each shot's map and pictures go, the heading above and the proof below."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, degrees
+
+import numpy as np
+
+from shotc.emit.palette import (
+    CAMERA,
+    FAINT,
+    FLIGHT,
+    GROUND_FAR,
+    INK,
+    KEEP_IN,
+    KEEP_OUT,
+    QUIET,
+    SUBJECT,
+    WHITE,
+    shade,
+)
+from shotc.emit.screen import ScreenSummary, percent, screen_tracks, summary
+from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.content import ShotBoard, shot_boards
+from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame, is_moved
+from shotc.emit.storyboard.map import draw_map, round_length
+from shotc.ir.trajectory import Claim, VerifiedIR
+
+WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
+HEADING, FOOTING, BAND = 1.40, 0.85, 0.60
+MANY = 4
+"""From more shots than this on, pictures and maps are set smaller."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How one shot is set: width of its map, size of a picture, width of its cell, pictures in a row."""
+
+    map_width: float
+    picture: tuple[float, float]
+    cell: float
+    columns: int
+
+    @property
+    def pitch(self) -> float:
+        """Height of one row of pictures with their captions, inches."""
+        return self.picture[1] + caption_height(self.cell)
+
+    def rows(self, board: ShotBoard) -> int:
+        """Return how many rows of pictures a shot takes."""
+        return max(1, ceil(len(board.moments) / self.columns))
+
+    def height(self, board: ShotBoard) -> float:
+        """Return the height of a shot's part of the page, inches."""
+        return BAND + self.rows(board) * self.pitch + 0.22
+
+
+def layout(aspect: float, shots: int) -> Layout:
+    """Return how shots filmed with one picture format are set on a page of many."""
+    map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY else (3.0, 4, 2.4)
+    room = WIDTH - 2 * MARGIN - map_width - 0.35
+    width = min((room + GAP) / columns - GAP, tallest * aspect)
+    cell = max(width, 1.7)
+    columns = int((room + GAP + 1e-9) / (cell + GAP))
+    return Layout(map_width, (width, width / aspect), cell, columns)
+
+
+def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
+    """Return the whole storyboard as PNG bytes."""
+    with house_style():
+        return _page(plan, dpi)
+
+
+def _page(plan: VerifiedIR, dpi: float) -> bytes:
+    shots = len(plan.trajectory.keyframes.shots)
+    tracks = screen_tracks(plan)
+    boards = shot_boards(plan, tracks) if shots <= MANY else shot_boards(plan, tracks, most_generated=4)
+    layouts = [layout(board.drone.aspect, shots) for board in boards]
+    heights = [place.height(board) for place, board in zip(layouts, boards, strict=True)]
+    height = HEADING + sum(heights) + FOOTING
+    canvas = Canvas(WIDTH, height, dpi)
+    grid = _grid_of(boards)
+    _heading(canvas, height, plan, boards, grid)
+    top = height - HEADING
+    for place, board, used in zip(layouts, boards, heights, strict=True):
+        _shot(canvas, top, (place, board), plan, grid)
+        top -= used
+    _footing(canvas, plan, summary(tracks))
+    return canvas.png()
+
+
+def _grid_of(boards: tuple[ShotBoard, ...]) -> float:
+    """Return one width of ground squares for the whole page: about a third of the usual altitude."""
+    heights = [abs(float(m.pose[2])) for board in boards for m in board.moments]
+    return max(1.0, round_length(float(np.median(heights)) / 1.5)) if heights else 10.0
+
+
+def _heading(
+    canvas: Canvas, height: float, plan: VerifiedIR, boards: tuple[ShotBoard, ...], grid: float
+) -> None:
+    mission = plan.trajectory.keyframes.mission
+    legend = _legend(canvas, height - 1.08, _entries(plan, boards), grid)
+    title = canvas.fitted(mission.name, Type(26, INK, bold=True), legend - 0.4 - MARGIN)
+    canvas.text(MARGIN, height - 0.76, mission.name, title)
+    total = max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
+    filmed = sum(board.end - board.start for board in boards)
+    drones = ", ".join(f"{d.name} ({d.model})" for d in mission.drones)
+    camera = mission.drones[0] if mission.drones else None
+    facts = [
+        drones,
+        f"{len(boards)} shot{'' if len(boards) == 1 else 's'}",
+        f"{clock(total)} in the air",
+        f"{clock(filmed)} filmed",
+    ]
+    if camera is not None:
+        facts.append(f"camera {degrees(camera.hfov):.0f}° hfov, {_ratio(camera.aspect)}")
+    text = "   ·   ".join(facts)
+    canvas.text(MARGIN, height - 1.08, text, canvas.fitted(text, Type(11, QUIET), WIDTH - 2 * MARGIN))
+
+
+def _ratio(aspect: float) -> str:
+    for across, up in ((16, 9), (4, 3), (3, 2), (1, 1), (9, 16), (21, 9), (17, 9), (2, 1)):
+        if abs(aspect - across / up) < 1e-3:
+            return f"{across}:{up}"
+    return f"{aspect:.2f}:1"
+
+
+def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
+    """Return what the legend has to explain on this page."""
+    moments = [moment for board in boards for moment in board.moments]
+    mission = plan.trajectory.keyframes.mission
+    keeps = {zone.keep for zone in mission.zones}
+    known = (
+        ("wanted", any(m.reference is not None for m in moments)),
+        ("actual", any(m.target is not None for m in moments)),
+        ("asked", any(is_moved(m) for m in moments)),
+        ("subject", bool(mission.targets)),
+        ("keep out", "out" in keeps),
+        ("keep in", "in" in keeps),
+        ("shot", True),
+        ("other flight", True),
+    )
+    return [name for name, there in known if there]
+
+
+def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> float:
+    """Draw the legend at the right edge and return where it begins."""
+    entries = [*entries, f"grid {grid:g} m"]
+    style = Type(8.5, QUIET)
+    widths = [canvas.extent(text, style)[0] + 0.46 for text in entries]
+    x = left = WIDTH - MARGIN - sum(widths) + 0.16
+    y = base + 0.4
+    for text, width in zip(entries, widths, strict=True):
+        _sign(canvas, text, x + 0.09, y + 0.045)
+        canvas.text(x + 0.26, y, text, style)
+        x += width
+    return left
+
+
+def _sign(canvas: Canvas, what: str, x: float, y: float) -> None:
+    square = Box(x - 0.075, y - 0.06, 0.15, 0.12).outline()
+    bar = np.array([[x - 0.1, y], [x + 0.1, y]])
+    if what == "wanted":
+        arms = [
+            np.array([[x + sx * 0.03, y + sy * 0.03], [x + sx * 0.11, y + sy * 0.11]])
+            for sx, sy in ((1, 0), (-1, 0), (0, 1), (0, -1))
+        ]
+        canvas.lines(arms, (*INK, 0.65), 2.8)
+        canvas.lines(arms, CAMERA, 1.5)
+    elif what == "actual":
+        canvas.disc((x, y), 0.04, WHITE, INK, 0.9)
+    elif what == "asked":
+        diamond = np.array([[x - 0.07, y], [x, y - 0.07], [x + 0.07, y], [x, y + 0.07]])
+        canvas.polygons([diamond], WHITE, INK, 0.8)
+    elif what == "subject":
+        canvas.polygons([square], SUBJECT, shade(SUBJECT, 0.55), 0.9)
+    elif what == "keep out":
+        canvas.polygons([square], (*KEEP_OUT, 0.25), KEEP_OUT, 1.0)
+    elif what == "keep in":
+        canvas.lines([bar], (*KEEP_IN, 0.25), 3.5)
+        canvas.lines([bar], KEEP_IN, 1.0, dash=(5.0, 2.0))
+    elif what == "other flight":
+        canvas.lines([bar], FLIGHT, 0.9, dash=(4.0, 2.5))
+    elif what == "shot":
+        canvas.lines([bar], INK, 2.8)
+        canvas.lines([bar], CAMERA, 1.7)
+    else:
+        canvas.polygons([square], GROUND_FAR, FLIGHT, 0.6)
+
+
+def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: VerifiedIR, grid: float) -> None:
+    place, board = what
+    mission = plan.trajectory.keyframes.mission
+    canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
+    _band(canvas, top, board)
+    start = top - BAND
+    rows = place.rows(board)
+    tall = rows * place.pitch - 0.17
+    draw_map(canvas, Box(MARGIN, start - tall, place.map_width, tall), board, mission, grid)
+    left = MARGIN + place.map_width + 0.35
+    for i, moment in enumerate(board.moments):
+        row, column = divmod(i, place.columns)
+        x = left + column * (place.cell + GAP)
+        y = start - row * place.pitch - place.picture[1]
+        draw_frame(canvas, Cell(Box(x, y, *place.picture), place.cell), moment, mission, grid)
+
+
+def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
+    base = top - 0.40
+    right = _framing(board.framing)
+    complete = board.framing.in_frame is None or board.framing.in_frame == 1.0
+    style = Type(9.5, INK if complete else KEEP_OUT, across="right")
+    canvas.text(WIDTH - MARGIN, base, right, style)
+    end = WIDTH - MARGIN - canvas.extent(right, style)[0] - 0.25
+    title = canvas.fitted(board.shot.id, Type(15, INK, bold=True), 4.0)
+    canvas.text(MARGIN, base, board.shot.id, title)
+    x = MARGIN + canvas.extent(board.shot.id, title)[0] + 0.22
+    text = "  ·  ".join(_facts(board))
+    quiet = canvas.fitted(text, Type(9.5, QUIET), end - x - (2.8 if board.note else 0.0))
+    canvas.text(x, base, text, quiet)
+    if board.note:
+        x += canvas.extent(text, quiet)[0] + 0.25
+        canvas.text(x, base, board.note, canvas.fitted(board.note, Type(9.5, KEEP_OUT), end - x))
+
+
+def _facts(board: ShotBoard) -> list[str]:
+    facts = [board.shot.kind]
+    facts += [board.shot.subject] if board.shot.subject else []
+    facts += [f"{clock(board.start)} to {clock(board.end)} ({board.end - board.start:.1f} s)"]
+    sets = list(dict.fromkeys(m.composition.name for m in board.moments if m.target is not None))
+    facts += [f"composition {', '.join(sets)}"] if sets else []
+    if board.total > len(board.moments):
+        facts.append(f"{len(board.moments)} of {board.total} keyframes")
+    return facts
+
+
+def _framing(framing: ScreenSummary) -> str:
+    parts = []
+    if framing.error is not None:
+        parts.append(f"screen error at most {framing.error:.3f}")
+    if framing.in_frame is not None:
+        parts.append(f"whole subject in frame {percent(framing.in_frame)} of the time")
+    return "  ·  ".join(parts)
+
+
+def _footing(canvas: Canvas, plan: VerifiedIR, whole: ScreenSummary) -> None:
+    canvas.lines([np.array([[MARGIN, FOOTING - 0.2], [WIDTH - MARGIN, FOOTING - 0.2]])], FAINT, 0.8)
+    parts = []
+    if whole.error is not None and whole.time is not None:
+        parts.append(f"Worst screen error {whole.error:.3f} ({whole.shot}, {clock(whole.time)})")
+    if whole.in_frame is not None:
+        parts.append(f"whole subject in frame {percent(whole.in_frame)} of all filmed samples")
+    text, proof = "   ·   ".join(parts), headline(plan.certificate)
+    bold = Type(10, INK, bold=True, across="right")
+    canvas.text(WIDTH - MARGIN, 0.42, proof, bold)
+    room = WIDTH - 2 * MARGIN - canvas.extent(proof, bold)[0] - 0.3
+    canvas.text(MARGIN, 0.42, text, canvas.fitted(text, Type(10, INK), room))
+
+
+def headline(certificate: tuple[Claim, ...]) -> str:
+    """Return the certificate in one line: how many hard requirements hold, and how they were shown."""
+    hard = [claim for claim in certificate if claim.hard]
+    always = sum(claim.method == "bounded" for claim in hard)
+    lost = sum(not claim.holds for claim in hard)
+    if lost:
+        return f"{lost} of {len(hard)} requirements do not hold"
+    return f"All {len(hard)} requirements hold, {always} of them proved for every instant"

@@ -1,0 +1,170 @@
+"""parameterize-time: PathIR to TrajectoryIR.
+
+Takes q(s) of every leg with its stops, marks and asked times. Gives quintics over mission time, C2,
+at rest at every stop, within every limit at every instant (their own control points prove it), at
+the durations, keyframe times and starts that the mission fixes; what it fixes nothing for is as
+fast as its pace of the limits allows. What cannot be met is an error that says what could.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import ClassVar
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import DronePath, Leg, PathIR
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.passes.base import Outcome, PassContext
+from shotc.passes.parameterize_time.binding import binding
+from shotc.passes.parameterize_time.faults import (
+    Remedies,
+    endurance_exceeded,
+    start_too_early,
+    too_fast,
+    without_length,
+)
+from shotc.passes.parameterize_time.flight import Flight
+from shotc.passes.parameterize_time.leg import TINY, LegMotion, Plan, assemble, fastest_moves, plan_of
+from shotc.passes.parameterize_time.limits import Ceiling, ceiling_of
+from shotc.passes.parameterize_time.marks import TimedLeg, TooFast, has_times
+from shotc.passes.parameterize_time.move import Move
+
+Stats = list[tuple[str, float | str]]
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterizeTime:
+    """The pass; it has no options."""
+
+    name: ClassVar[str] = "parameterize-time"
+
+    def run(self, ir: PathIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
+        """Time every leg of every drone.
+
+        A shot that waits for one of another drone is timed after it, so drones take turns.
+        """
+        pilots = [_Pilot(ir.keyframes.mission, path, ctx) for path in ir.drones]
+        ends: dict[str, float] = {}
+        while any(pilot.advance(ends) for pilot in pilots):
+            pass
+        if any(pilot.done < len(pilot.path.legs) for pilot in pilots):
+            raise ValueError("shots wait for each other in a circle")
+        faults = [d for pilot in pilots for d in pilot.faults]
+        if faults:
+            return Outcome(None, tuple(faults))
+        stats = tuple(entry for pilot in pilots for entry in pilot.stats)
+        drones = tuple(pilot.flight.trajectory() for pilot in pilots if pilot.path.legs)
+        return Outcome(TrajectoryIR(ir.keyframes, drones, ir.deviations, (*ir.stats, *stats)))
+
+
+@dataclass(slots=True)
+class _Pilot:
+    """Times the legs of one drone in order, as far as the shots it waits for are known."""
+
+    mission: MissionIR
+    path: DronePath
+    ctx: PassContext
+    faults: list[Diagnostic] = field(default_factory=list)
+    stats: Stats = field(default_factory=list)
+    done: int = 0
+    flight: Flight = field(init=False)
+    drone: Drone = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.flight = Flight(self.path.drone)
+        self.drone = self.mission.drone(self.path.drone)
+
+    def advance(self, ends: dict[str, float]) -> bool:
+        """Time the next legs; tell whether there were any. ends : of the shots so far, added to."""
+        before = self.done
+        while self.done < len(self.path.legs):
+            leg = self.path.legs[self.done]
+            waits = self._waits(leg)
+            if waits is not None and waits not in ends:
+                break
+            self._fly(leg, ends.get(waits or "", 0.0))
+            if leg.shot is not None:
+                ends[leg.shot] = self.flight.clock
+            self.done += 1
+            if self.done == len(self.path.legs) and not self.faults:
+                self._check_endurance()
+        return self.done > before
+
+    def _waits(self, leg: Leg) -> str | None:
+        return next((s.timing.after for s in self.mission.shots if s.id == leg.shot), None)
+
+    def _fly(self, leg: Leg, ready: float) -> None:
+        name = f"shot {leg.shot}" if leg.shot else f"{self.path.drone} {leg.phase} {self.done}"
+        self.ctx.progress(f"timing {name}")
+        ceiling = ceiling_of(self.drone)
+        motion, fault = time_leg(self.mission, self.drone, leg, ceiling)
+        if fault is not None:
+            self.faults.append(fault)
+        earliest = max(self.flight.clock, ready)
+        if leg.start is not None and leg.start < earliest - TINY and not self.faults:
+            before = tuple(self.flight.phases)
+            self.faults.append(start_too_early(self.mission, leg, leg.start, earliest, before))
+        self.flight.wait(max(earliest, leg.start or 0.0), leg.pose)
+        if motion is not None:
+            self.flight.fly(leg, motion)
+            self.stats += [
+                entry for i, m in enumerate(motion.moves) for entry in _stats(f"{name} move {i}", m)
+            ]
+
+    def _check_endurance(self) -> None:
+        if self.flight.clock > self.drone.endurance:
+            phases = tuple(self.flight.phases)
+            self.faults.append(endurance_exceeded(self.mission, self.drone, phases))
+
+
+def time_leg(
+    mission: MissionIR, drone: Drone, leg: Leg, ceiling: Ceiling
+) -> tuple[LegMotion | None, Diagnostic | None]:
+    """Return one leg over its own time, and what is wrong with the times it asks for.
+
+    With a fault the motion is the fastest, so that what follows can still be judged; there is none
+    where the leg takes no time.
+    """
+    plan = plan_of(leg)
+    duration = leg.duration
+    fault: Diagnostic | None = None
+    if leg.curve is not None and has_times(leg):
+        fast = fastest_moves(leg, plan, ceiling)
+        timed = _timed_leg(leg, plan, fast, ceiling).meet()
+        if isinstance(timed, TooFast):
+            fault = _explain(mission, drone, leg, plan, fast, timed)
+            duration, moves = None, fast
+        else:
+            plan, moves = timed.plan, timed.moves
+    else:
+        moves = fastest_moves(leg, plan, ceiling.scaled(leg.pace) if leg.phase == "shot" else ceiling)
+    motion = assemble(leg, plan, moves, duration)
+    if motion is None and leg.shot is not None:
+        fault = without_length(mission, leg)
+    return motion, fault
+
+
+def _timed_leg(leg: Leg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> TimedLeg:
+    paced = fast if leg.duration is not None else fastest_moves(leg, plan, ceiling.scaled(leg.pace))
+    return TimedLeg(leg, plan, fast, paced, ceiling)
+
+
+def _explain(
+    mission: MissionIR, drone: Drone, leg: Leg, plan: Plan, fast: tuple[Move, ...], fault: TooFast
+) -> Diagnostic:
+    def enough(ceiling: Ceiling) -> bool:
+        return _timed_leg(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
+
+    return too_fast(mission, drone, leg, fault, Remedies(binding(leg, fast, ceiling_of(drone)), enough))
+
+
+def _stats(name: str, move: Move) -> Stats:
+    return [
+        (f"{name} topp_time", move.topp_time if isfinite(move.topp_time) else "none"),
+        (f"{name} time", move.duration),
+        (f"{name} scale", move.scale),
+        (f"{name} steps", float(move.steps)),
+        (f"{name} cells", float(move.cells)),
+    ]

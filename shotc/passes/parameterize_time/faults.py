@@ -1,0 +1,128 @@
+"""The timing faults as diagnostics: what was asked, what is possible, which limit binds, what would do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.path import Leg
+from shotc.ir.trajectory import Phase
+from shotc.passes.parameterize_time.binding import ROOM, Holdup, binding_labels, binding_notes, raises
+from shotc.passes.parameterize_time.limits import Ceiling
+from shotc.passes.parameterize_time.marks import TooFast
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Remedies:
+    """What there is to say about a leg that is too slow.
+
+    holdup : what holds its fastest flight back; enough : whether other limits would do
+    """
+
+    holdup: Holdup
+    enough: Callable[[Ceiling], bool]
+
+
+def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedies: Remedies) -> Diagnostic:
+    """Return T001 for a duration or T002 for a keyframe's time that is too short."""
+    labels = binding_labels(mission, drone, remedies.holdup)
+    notes = binding_notes(mission, drone, remedies.holdup)
+    raised = raises(mission, drone, remedies.holdup.names[:2], remedies.enough)
+    if fault.mark is None:
+        least = up(ROOM * (fault.shortest or 0.0))
+        return Diagnostic(
+            "T001",
+            f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
+            (timing_label(mission, leg.path, "duration"), *labels),
+            (f"{least} s is at full limits, with holds", *notes),
+            _either([f"give it `duration: {least} s`", *raised]),
+        )
+    message = (
+        f"keyframe {fault.mark.index + 1} of shot `{leg.shot}` cannot be reached at {plain(fault.asked)} s"
+    )
+    remedy = "give this keyframe or those next to it other times"
+    if fault.shortest is not None:
+        earliest = ROOM * fault.shortest
+        notes = (f"{up(earliest)} s is the earliest possible at full limits", *notes)
+        rest = f", and all later times {up(earliest - fault.asked)} s more" if fault.shifts_rest else ""
+        remedy = f"give it `time: {up(earliest)} s`{rest}"
+    return Diagnostic(
+        "T002",
+        message,
+        (mission.origins.value((*fault.mark.path, "time")), *labels),
+        notes,
+        _either([remedy, *raised]),
+    )
+
+
+def start_too_early(
+    mission: MissionIR, leg: Leg, asked: float, earliest: float, phases: tuple[Phase, ...]
+) -> Diagnostic:
+    """Return T003: the drone is not yet there at the shot's start.
+
+    phases : what the drone does until then
+    """
+    return Diagnostic(
+        "T003",
+        f"shot `{leg.shot}` starts at {plain(asked)} s, but {up(earliest)} s is the earliest possible",
+        (timing_label(mission, leg.path, "start"),),
+        (f"before it come {_listed(phases)}",),
+        f"give it `start: {up(earliest)} s` or later, or shorten what comes before",
+    )
+
+
+def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ...]) -> Diagnostic:
+    """Return T004: the whole flight is longer than the drone's endurance."""
+    total = phases[-1].end - phases[0].start
+    longest = sorted(phases, key=lambda p: p.start - p.end)
+    shot = next((s for p in longest for s in mission.shots if p.shot == s.id), None)
+    labels = [mission.origins.value((*drone.path, "endurance"), "the endurance")]
+    if shot is not None:
+        labels.append(mission.origins.key(shot.path, "the longest shot"))
+    return Diagnostic(
+        "T004",
+        f"the flight of `{drone.name}` takes {up(total)} s, and its endurance is {plain(drone.endurance)} s",
+        tuple(labels),
+        (f"longest first: {_listed(tuple(longest))}",),
+        f"shorten the mission by {up(total - drone.endurance)} s, or cut it in two",
+    )
+
+
+def without_length(mission: MissionIR, leg: Leg) -> Diagnostic:
+    """Return T005: nothing moves, nothing is held, no duration is given."""
+    return Diagnostic(
+        "T005",
+        f"shot `{leg.shot}` takes no time",
+        (mission.origins.key(leg.path),),
+        ("its keyframes are all the same, and it has neither a hold nor a duration",),
+        "give it `timing: {duration: 5 s}`, or a keyframe elsewhere",
+    )
+
+
+def timing_label(mission: MissionIR, path: KeyPath, key: str) -> Label:
+    """Return a label on a key of a shot's timing."""
+    return mission.origins.value((*path, "timing", key))
+
+
+def up(seconds: float) -> str:
+    """Write seconds rounded up to a hundredth, so that the number given is enough."""
+    return f"{ceil(seconds * 100 - 1e-6) / 100:.2f}"
+
+
+def plain(seconds: float) -> str:
+    """Write seconds as short as they were likely asked."""
+    return f"{seconds:.3f}".rstrip("0").rstrip(".")
+
+
+def _either(remedies: list[str]) -> str:
+    return ", or ".join(remedies)
+
+
+def _listed(phases: tuple[Phase, ...]) -> str:
+    named = [f"{'shot `' + p.shot + '`' if p.shot else p.name} {p.end - p.start:.1f} s" for p in phases[:6]]
+    rest = sum(p.end - p.start for p in phases[6:])
+    return ", ".join(named) + (f" and {len(phases) - 6} more of {rest:.1f} s" if rest > 0 else "")

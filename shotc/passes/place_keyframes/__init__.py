@@ -1,0 +1,157 @@
+"""place-keyframes: MissionIR to KeyframeIR.
+
+Takes keyframes with what the user aims at, and gives camera angles that put each target on the
+nearest place of its composition set (framing Eq. 1 and 2). The camera turns; it never moves. It
+guarantees that every target with a composition is whole in the frame of a camera its gimbal reaches.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import atan2, hypot, pi
+from typing import ClassVar
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.geom.camera import Vec2, Vec3, aim_at
+from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.passes.base import Outcome, PassContext
+from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
+from shotc.passes.place_keyframes.faults import Miss, does_not_fit, keeps, off_composition, report
+from shotc.passes.place_keyframes.flown_order import flown_order
+
+NORTH = pi / 2
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceKeyframes:
+    """The pass; it has no options."""
+
+    name: ClassVar[str] = "place-keyframes"
+
+    def run(self, ir: MissionIR, ctx: PassContext) -> Outcome[KeyframeIR]:
+        """Place every keyframe of every shot; shots come out in the order they are flown."""
+        shots: list[PlacedShot] = []
+        diagnostics: list[Diagnostic] = []
+        for shot in flown_order(ir.shots):
+            ctx.progress(f"placing the keyframes of {shot.id}")
+            placed, misses = place_shot(ir, shot)
+            shots.append(PlacedShot(shot, placed))
+            diagnostics += report(ir, shot, misses)
+        value = None if has_errors(diagnostics) else KeyframeIR(ir, tuple(shots))
+        return Outcome(value, tuple(diagnostics))
+
+
+def place_shot(mission: MissionIR, shot: Shot) -> tuple[tuple[PlacedKeyframe, ...], tuple[Miss, ...]]:
+    """Place one shot's keyframes; the misses are what its composition could not give."""
+    drone = mission.drone(shot.drone)
+    placed: list[PlacedKeyframe] = []
+    misses: list[Miss] = []
+    for index, keyframe in enumerate(shot.keyframes):
+        course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH)
+        done, miss = _place(mission, drone, keyframe, course)
+        placed.append(done)
+        if miss is not None:
+            misses.append(miss)
+    return tuple(placed), tuple(misses)
+
+
+def _place(
+    mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float
+) -> tuple[PlacedKeyframe, Miss | None]:
+    if keyframe.target is None:
+        return _placed(keyframe, _own_aim(keyframe, drone, course), None, None), None
+    setting = setting_of(mission, drone, keyframe, course)
+    aim = own_framing(setting, keyframe, course)
+    # A camera that looks at its target holds it in the middle, to the last bit.
+    asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
+    composition = keyframe.composition
+    if asked is None or composition.keep or composition.watches:
+        reference = None if composition.watches else asked
+        return _placed(keyframe, aim, asked, reference), keeps(keyframe, setting, aim)
+    miss: Miss | None = None
+    place = nearest_candidate(setting, composition, asked)
+    if place is None:
+        place = nearest_on_verticals(setting, composition, asked)
+        miss = (
+            does_not_fit(keyframe, setting, asked)
+            if place is None
+            else off_composition(keyframe, setting, place)
+        )
+    turned = setting.aim(place) if place is not None else None
+    return _placed(keyframe, turned or aim, asked, place), miss
+
+
+def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float) -> Setting:
+    """Return the placement problem of a keyframe that names a target."""
+    assert keyframe.target is not None
+    target = mission.target(keyframe.target)
+    if isinstance(keyframe.aim, tuple) and len(keyframe.aim) == 2:
+        course = keyframe.aim[0]
+    return Setting(
+        offset=_minus(target.centre, keyframe.at),
+        radius=target.radius,
+        height=target.height,
+        hfov=keyframe.hfov,
+        aspect=drone.aspect,
+        pitch=drone.gimbal.pitch,
+        yaw_if_vertical=course,
+    )
+
+
+def own_framing(setting: Setting, keyframe: Keyframe, course: float) -> Vec2:
+    """Return (yaw, pitch) of the camera as the user framed it, before composition."""
+    if keyframe.aim is None:
+        return setting.aim((0.0, 0.0)) or (course, 0.0)
+    return explicit_aim(keyframe.at, keyframe.aim, course)
+
+
+def explicit_aim(at: Vec3, aim: Vec2 | Vec3, course: float) -> Vec2:
+    """Return (yaw, pitch) of angles, or of a camera at ``at`` that looks at a point, rad."""
+    if len(aim) == 2:
+        return aim
+    # The middle of the screen can always be turned to a point, whatever the field of view.
+    return aim_at(_minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
+
+
+def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
+    return (course, 0.0) if keyframe.aim is None else explicit_aim(keyframe.at, keyframe.aim, course)
+
+
+def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 | None) -> PlacedKeyframe:
+    return PlacedKeyframe(
+        at=keyframe.at,
+        yaw=_wrapped(aim[0]),
+        pitch=aim[1],
+        hfov=keyframe.hfov,
+        target=keyframe.target,
+        reference=reference,
+        asked=asked,
+        hold=keyframe.hold,
+        time=keyframe.time,
+        placed=keyframe.placed,
+        path=keyframe.path,
+    )
+
+
+def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> float:
+    """Return the yaw of the motion at a keyframe; where it does not move sideways, the last yaw."""
+    around = keyframes[max(0, index - 1) : index + 2]
+    for a, b in reversed(list(pairwise(around))):
+        dx, dy = b.at[0] - a.at[0], b.at[1] - a.at[1]
+        if hypot(dx, dy) > 1e-6:
+            return atan2(dy, dx)
+    return otherwise
+
+
+def _minus(a: Vec3, b: Vec3) -> Vec3:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _wrapped(angle: float) -> float:
+    if -pi < angle <= pi:
+        return angle  # not by way of the remainder, which would change its last bits
+    wrapped = (angle + pi) % (2 * pi) - pi
+    return pi if wrapped == -pi else wrapped

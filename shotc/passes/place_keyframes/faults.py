@@ -1,0 +1,175 @@
+"""What to say where a composition cannot be had: which place was taken instead, or what would fit.
+
+Keyframes that share a line of the mission, as generated ones do, are reported once, at the worst of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import ceil, degrees, hypot, pi, radians
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.camera import Vec2
+from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot
+from shotc.ir.origin import KeyPath
+from shotc.passes.place_keyframes.candidates import (
+    TOUCH,
+    Setting,
+    nearest_candidate,
+    nearest_on_verticals,
+    roomiest,
+)
+
+FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
+WIDEST = radians(150)
+TILT = 1e-6  # rad past the gimbal's stop that are rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Miss:
+    """One keyframe that misses its composition; of several the heaviest is reported.
+
+    help : or what finds it, where that takes a search
+    """
+
+    code: str
+    keyframe: Keyframe
+    weight: float
+    message: str
+    notes: tuple[str, ...] = ()
+    help: Callable[[], str] | str = ""
+
+
+def off_composition(keyframe: Keyframe, setting: Setting, place: Vec2) -> Miss:
+    """Warn that the target stands off its set, since it would be cropped on it."""
+    return Miss(
+        "G011",
+        keyframe,
+        abs(place[1]),
+        f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
+        (f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}",),
+        "move the keyframe away, widen `hfov`, or set `composition: keep` to allow cropping",
+    )
+
+
+def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
+    """Tell of a kept framing that the gimbal does not reach, or warn that it crops its target."""
+    if not setting.pitch[0] - TILT <= aim[1] <= setting.pitch[1] + TILT:
+        return _beyond_gimbal(keyframe, setting, aim)
+    over = -setting.margin(aim)
+    if over <= TOUCH:
+        return None
+    return Miss(
+        "G012",
+        keyframe,
+        over,
+        f"target `{keyframe.target}` is cropped by `{keyframe.composition.name}`",
+        (f"it reaches {over:.2f} m out of the frame, {_range(setting)}",),
+        "turn the camera towards it, move away, or widen `hfov`",
+    )
+
+
+def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
+    """Explain why no place of the set, nor of its vertical lines, is a candidate."""
+    free = replace(setting, pitch=(-pi / 2, pi / 2))
+    place = nearest_candidate(free, keyframe.composition, asked)
+    place = place or nearest_on_verticals(free, keyframe.composition, asked)
+    aim = None if place is None else free.aim(place)
+    if aim is not None:
+        return _beyond_gimbal(keyframe, setting, aim)
+    over = -roomiest(free, keyframe.composition)
+    return Miss(
+        "G010",
+        keyframe,
+        over,
+        f"target `{keyframe.target}` does not fit into the frame",
+        (
+            f"wherever `{keyframe.composition.name}` puts it, at least {over:.2f} m are cropped, "
+            f"{_range(setting)} and {degrees(setting.hfov):.1f} deg wide",
+        ),
+        partial(_what_fits, keyframe.composition, setting),
+    )
+
+
+def _beyond_gimbal(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
+    low, high = (degrees(p) for p in setting.pitch)
+    pitch = degrees(aim[1])
+    over = max(low - pitch, pitch - high)
+    return Miss(
+        "G013",
+        keyframe,
+        over,
+        f"the gimbal cannot pitch to frame target `{keyframe.target}`",
+        (f"the camera needs a pitch of {pitch:.1f} deg; the gimbal reaches {low:.1f} to {high:.1f} deg",),
+        f"let the gimbal pitch to {pitch:.1f} deg, or bring the keyframe closer to the target's height",
+    )
+
+
+def _what_fits(composition: Composition, setting: Setting) -> str:
+    """Name the least distance and the least field of view at which some place shows it whole."""
+    away = _least(lambda k: _fits(replace(setting, offset=_scaled(setting, k)), composition), 1.0, FARTHEST)
+    wide = (
+        _least(lambda a: _fits(replace(setting, hfov=a), composition), setting.hfov, WIDEST)
+        if setting.hfov < WIDEST
+        else None
+    )
+    options = []
+    if away is not None:
+        options.append(f"move to {ceil(away * hypot(*setting.offset) * 10) / 10:.1f} m from its centre")
+    if wide is not None:
+        options.append(f"widen `hfov` to {ceil(degrees(wide) * 10) / 10:.1f} deg")
+    return ", or ".join(options) or "point the camera from lower or farther away, or make the target smaller"
+
+
+def _fits(setting: Setting, composition: Composition) -> bool:
+    return roomiest(setting, composition) >= -TOUCH
+
+
+def _least(fits: Callable[[float], bool], low: float, high: float) -> float | None:
+    """Bisect for the least value that fits; None where even the highest does not."""
+    if not fits(high):
+        return None
+    while high - low > 1e-3 * low:
+        middle = (low + high) / 2
+        if fits(middle):
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def _scaled(setting: Setting, k: float) -> tuple[float, float, float]:
+    x, y, z = setting.offset
+    return (x * k, y * k, z * k)
+
+
+def _range(setting: Setting) -> str:
+    return f"seen from {hypot(*setting.offset):.1f} m"
+
+
+def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagnostic]:
+    """Turn a shot's misses into diagnostics, one for each code and line of the mission."""
+    groups: dict[tuple[KeyPath, str], list[Miss]] = {}
+    for miss in misses:
+        groups.setdefault((miss.keyframe.path, miss.code), []).append(miss)
+    return [_diagnostic(mission, shot, group) for group in groups.values()]
+
+
+def _diagnostic(mission: MissionIR, shot: Shot, group: list[Miss]) -> Diagnostic:
+    worst = max(group, key=lambda m: m.weight)
+    notes = worst.notes
+    if worst.keyframe.path[-1:] in (("kind",), ("file",)):
+        place = ", ".join(f"{c:.1f}" for c in worst.keyframe.at)
+        count = f"at {len(group)} of the {len(shot.keyframes)} keyframes of this {shot.kind}"
+        notes = (*notes, f"{count}, this one at [{place}]")
+    help_ = worst.help if isinstance(worst.help, str) else worst.help()
+    return Diagnostic(worst.code, worst.message, (framing_label(mission, worst.keyframe),), notes, help_)
+
+
+def framing_label(mission: MissionIR, keyframe: Keyframe) -> Label:
+    """Return a label on a keyframe; on the aim of a shot that is one keyframe itself."""
+    written = mission.origins.values
+    own = [(*keyframe.path, key) for key in ("look_at", "heading") if len(keyframe.path) == 2]
+    return mission.origins.value(next((path for path in own if path in written), keyframe.path))

@@ -1,0 +1,105 @@
+"""resolve: LoadedMission to MissionIR.
+
+Takes a mission whose shape is right. Gives every name, preset, unit, place and kind resolved, and
+reports all that can be told without a solver. A fault silences only what depends on it: geometry and
+timing are judged once all names and places stand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import ClassVar
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.mission import GeoOrigin, MissionIR, Rules
+from shotc.kinds.base import Kind, placed
+from shotc.passes.base import Outcome, PassContext
+from shotc.passes.resolve.deferred import deferred_features
+from shotc.passes.resolve.files import read_file
+from shotc.passes.resolve.framing import check_framing
+from shotc.passes.resolve.geometry import check_geometry
+from shotc.passes.resolve.names import check_names
+from shotc.passes.resolve.shots import Cast, expand_shots
+from shotc.passes.resolve.timing import check_timing
+from shotc.passes.resolve.tracks import check_tracks
+from shotc.passes.resolve.world import drones, geo_origin, resolve_drone, targets, without_origin, zones
+from shotc.spec.drones import DroneSpec
+from shotc.spec.load import LoadedMission
+from shotc.spec.presets import RATE
+
+ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Resolve:
+    """The pass.
+
+    kinds : every shot kind that is installed, by name
+    emitters : names of the emitters that are installed, or None where that is not known
+    """
+
+    name: ClassVar[str] = "resolve"
+
+    kinds: Mapping[str, Kind]
+    emitters: Collection[str] | None = None
+
+    def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[MissionIR]:
+        """Resolve one mission."""
+        spec, origins = ir.spec, ir.origins
+        homeless = without_origin(spec, origins)
+        origin = geo_origin(spec)
+        put = partial(placed, origin or ANYWHERE)
+        found_zones, zone_faults = zones(spec, put, origins)
+        found_drones, drone_faults = drones(spec, put, origins)
+        found_targets = targets(spec, put)
+        rules = Rules(spec.rules.separation, spec.rules.ground_clearance, spec.rules.target_clearance)
+        read = partial(read_file, ir.folder, origins)
+        ctx.progress("expanding the shots")
+        cast = Cast(
+            self.kinds,
+            found_drones,
+            found_targets,
+            rules,
+            origin or (ANYWHERE if homeless else None),
+            origins,
+            read,
+        )
+        shots = expand_shots(spec, cast, resolve_drone("spare", DroneSpec(), put, 0.0))
+        faults = [
+            *homeless,
+            *zone_faults,
+            *drone_faults,
+            *check_tracks(spec, origins, read),
+            *check_names(spec, origins, self.emitters),
+            *shots.diagnostics,
+        ]
+        mission = MissionIR(
+            name=spec.mission,
+            origin=origin,
+            wind=spec.world.wind,
+            zones=found_zones,
+            targets=tuple(t for t in found_targets.values() if t is not None),
+            drones=tuple(found_drones.values()),
+            rules=rules,
+            shots=shots.shots,
+            rate=spec.output.rate or RATE,
+            emit=spec.output.emit,
+            source_sha256=ir.sha256,
+            deferred=deferred_features(spec, shots.deferred),
+            origins=origins,
+        )
+        faults += _static_faults(mission, geometry=not homeless, timing=not drone_faults, order=not faults)
+        return Outcome(None if has_errors(faults) else mission, tuple(faults))
+
+
+def _static_faults(mission: MissionIR, *, geometry: bool, timing: bool, order: bool) -> list[Diagnostic]:
+    """Return what can be told from numbers alone; ``order`` is whether names and waits all stand."""
+    faults: list[Diagnostic] = []
+    if geometry:
+        faults += [*check_geometry(mission), *check_framing(mission)]
+        if timing:
+            faults += check_timing(mission, schedule=order)
+    return faults

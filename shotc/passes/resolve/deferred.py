@@ -1,0 +1,43 @@
+"""What a mission uses that is checked but that this version cannot plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from shotc.ir.mission import Deferred
+from shotc.kinds.base import MOVING
+from shotc.passes.resolve.names import AUTO
+from shotc.spec.mission import MissionSpec
+
+
+def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[Deferred, ...]:
+    """Return each such feature once, at its first place; ``shots`` is what the kinds found."""
+    first: dict[str, Deferred] = {}
+    for deferred in (*_of_mission(spec), *shots, *_of_shots(spec)):
+        first.setdefault(deferred.feature, deferred)
+    return tuple(first.values())
+
+
+def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
+    if spec.world.scene is not None:
+        yield Deferred("a scene file (`world.scene`)", ("world", "scene"))
+    for name, target in spec.targets.items():
+        if target.track is not None:
+            yield Deferred(MOVING, ("targets", name, "track"))
+    for name in spec.fleets:
+        yield Deferred("a fleet", ("fleets", name))
+
+
+def _of_shots(spec: MissionSpec) -> Iterator[Deferred]:
+    filming = [(i, shot.drone) for i, shot in enumerate(spec.shots) if "drone" in shot.model_fields_set]
+    for i, drone in filming:
+        if drone == AUTO:
+            yield Deferred("choosing the drone of a shot (`drone: auto`)", ("shots", i, "drone"))
+        elif drone != filming[0][1]:
+            yield Deferred("a flight of more than one drone", ("shots", i, "drone"))
+    visibility = spec.rules.mutual_visibility
+    if visibility is not None and visibility.strength != "off" and len({d for _, d in filming}) > 1:
+        yield Deferred("keeping drones out of each other's pictures", ("rules", "mutual_visibility"))
+    for i, shot in enumerate(spec.shots):
+        if shot.size is not None:
+            yield Deferred("aiming for a size on screen (`size`)", ("shots", i, "size"))

@@ -1,0 +1,94 @@
+"""Framing that the user wrote down and that no camera can have: told before anything is composed."""
+
+from __future__ import annotations
+
+from math import acos, degrees, dist, hypot, pi
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.camera import Vec2, heading_of, nearest_depth, silhouette_bounds, view
+from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.passes.place_keyframes import explicit_aim, setting_of
+from shotc.passes.place_keyframes.candidates import Setting
+from shotc.passes.place_keyframes.faults import TILT, framing_label
+
+SAME = 1e-3  # metres within which a camera looks at its own place
+
+
+def check_framing(mission: MissionIR) -> list[Diagnostic]:
+    """Return the faults of every keyframe that says where the camera looks; one a keyframe."""
+    faults: list[Diagnostic] = []
+    told: set[tuple[object, ...]] = set()
+    for shot in mission.shots:
+        for keyframe in shot.keyframes:
+            fault = _fault(mission, shot, keyframe)
+            # The keyframes of a file or of a generated path share a line, and one report will do.
+            if fault is not None and (keyframe.path, fault.code) not in told:
+                told.add((keyframe.path, fault.code))
+                faults.append(fault)
+    return faults
+
+
+def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | None:
+    if keyframe.aim is None:
+        return None
+    if len(keyframe.aim) == 3 and dist(keyframe.at, keyframe.aim) < SAME:
+        label = mission.origins.value((*keyframe.path, "look_at"))
+        return Diagnostic("G014", "the camera looks at its own place", (label,), help="look at another point")
+    aim = explicit_aim(keyframe.at, keyframe.aim, pi / 2)
+    drone = mission.drone(shot.drone)
+    if len(keyframe.aim) == 2 or keyframe.target is None:
+        low, high = drone.gimbal.pitch
+        if not low - TILT <= aim[1] <= high + TILT:
+            return _beyond_gimbal(mission, drone, keyframe, aim[1])
+    return None if keyframe.target is None else _unseen(mission, drone, keyframe, aim)
+
+
+def _beyond_gimbal(mission: MissionIR, drone: Drone, keyframe: Keyframe, pitch: float) -> Diagnostic:
+    low, high = (degrees(p) for p in drone.gimbal.pitch)
+    asked = degrees(pitch)
+    key = "pitch" if len(keyframe.aim or ()) == 2 else "look_at"
+    labels = (
+        mission.origins.value((*keyframe.path, key)),
+        mission.origins.value((*drone.path, "gimbal", "pitch"), "the gimbal's range"),
+    )
+    return Diagnostic(
+        "G013",
+        f"the gimbal cannot pitch to {asked:.1f} deg",
+        labels,
+        (f"the gimbal of `{drone.name}` reaches {low:.1f} to {high:.1f} deg",),
+        f"pitch the camera to {max(low, min(high, asked)):.1f} deg at most",
+    )
+
+
+def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> Diagnostic | None:
+    """Tell a target that the user's framing does not show at all."""
+    setting = setting_of(mission, drone, keyframe, aim[0])
+    off = degrees(_angle_off(setting, aim))
+    straight = setting.aim((0.0, 0.0)) or aim
+    right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
+    remedy = f"write `look_at: {keyframe.target}`, or `{right}`"
+    label = (framing_label(mission, keyframe),)
+    if off >= 90.0:
+        note = f"it is {off:.0f} deg away from where the camera looks"
+        return Diagnostic("G008", f"target `{keyframe.target}` is behind the camera", label, (note,), remedy)
+    if not _shows(setting, aim):
+        note = (
+            f"it is {off:.0f} deg away from the middle of a frame {degrees(setting.hfov):.0f} deg wide; "
+            "no part of it is in the picture"
+        )
+        return Diagnostic("G009", f"target `{keyframe.target}` is out of the frame", label, (note,), remedy)
+    return None
+
+
+def _angle_off(setting: Setting, aim: Vec2) -> float:
+    forward = view(aim[0], aim[1], setting.hfov, setting.aspect).to_camera(setting.offset)[2]
+    return acos(max(-1.0, min(1.0, forward / max(hypot(*setting.offset), 1e-12))))
+
+
+def _shows(setting: Setting, aim: Vec2) -> bool:
+    """Tell whether any of the target's outline box is in the frame."""
+    camera = view(aim[0], aim[1], setting.hfov, setting.aspect)
+    if nearest_depth(camera, setting.offset, setting.radius, setting.height) <= 0:
+        return True  # it reaches past the camera; that it is too near is told by others
+    left, right, low, high = silhouette_bounds(camera, setting.offset, setting.radius, setting.height)
+    return bool(left < 1 and right > -1 and low < 1 and high > -1)

@@ -1,0 +1,108 @@
+"""Where keyframes and homes stand: over the ground, out of zones and targets, inside the keep-in zones.
+
+What the user placed binds, so each fault there is an error. A path that a kind generates is an ideal
+that the plan may leave: a part of it in an obstacle is a warning, all of it is an error; its altitude
+is the user's number, so the ground binds it too.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import replace
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.origin import KeyPath
+from shotc.passes.resolve.home import check_homes
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move, obstacles_of
+
+_CODES = {"out": "G002", "in": "G003", "target": "G004"}
+
+
+def check_geometry(mission: MissionIR) -> list[Diagnostic]:
+    """Return the faults of all homes and keyframes, one for each keyframe line and obstacle."""
+    faults = check_homes(mission)
+    for shot in mission.shots:
+        drone = mission.drone(shot.drone)
+        for path, keyframes in _by_line(shot).items():
+            faults += _too_low(mission, shot, drone, path, keyframes)
+            raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
+            for obstacle in obstacles_of(mission, drone):
+                faults += _blocked(mission, shot, drone, raised, obstacle)
+    return faults
+
+
+def _by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:
+    """Group keyframes by the line they come from: generated ones and those of a file share one."""
+    groups: dict[KeyPath, list[Keyframe]] = defaultdict(list)
+    for keyframe in shot.keyframes:
+        groups[keyframe.path].append(keyframe)
+    return groups
+
+
+def _raised(keyframe: Keyframe, floor: float) -> Keyframe:
+    """Return a keyframe that is too low as it is once that is mended, so that one fault is told once."""
+    x, y, z = keyframe.at
+    return keyframe if z >= floor else replace(keyframe, at=(x, y, floor))
+
+
+def _too_low(
+    mission: MissionIR, shot: Shot, drone: Drone, path: KeyPath, keyframes: list[Keyframe]
+) -> Iterator[Diagnostic]:
+    lowest = min(keyframes, key=lambda k: k.at[2])
+    floor = mission.rules.ground_clearance + drone.radius
+    z = lowest.at[2]
+    if z >= floor - ROUNDING:
+        return
+    where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
+    note = (
+        f"the ground clearance of {mission.rules.ground_clearance:.2f} m and the body radius of "
+        f"{drone.radius:.2f} m need {floor:.2f} m"
+    )
+    label = _label(mission, shot, lowest)
+    if not lowest.placed and (*shot.path, "altitude") in mission.origins.values:
+        label = mission.origins.value((*shot.path, "altitude"))
+    message = f"{_what(shot, lowest)} is too low: {where}"
+    yield Diagnostic(
+        "G001", message, (label,), (note,), f"raise it by {_up(floor - z)} m, to z = {_up(floor)}"
+    )
+
+
+def _blocked(
+    mission: MissionIR, shot: Shot, drone: Drone, keyframes: list[Keyframe], obstacle: Obstacle
+) -> Iterator[Diagnostic]:
+    lacking = [k for k in keyframes if obstacle.lack(k.at) > ROUNDING]
+    if not lacking:
+        return
+    worst = max(lacking, key=lambda k: obstacle.lack(k.at))
+    ideal = not worst.placed
+    labels = (_label(mission, shot, worst), mission.origins.key(obstacle.path, "the obstacle"))
+    place = ", ".join(f"{c:.1f}" for c in worst.at)
+    notes: tuple[str, ...] = (obstacle.measure(worst.at, drone.radius),)
+    if len(keyframes) > 1:
+        notes = (*notes, f"{len(lacking)} of {len(keyframes)} points are so; the worst is [{place}]")
+    if ideal and len(lacking) < len(keyframes):
+        message = f"the ideal path of this {shot.kind} {obstacle.relation(worst.at)}"
+        help_ = "the plan will leave the ideal here; choose another altitude or distance to keep it"
+        yield Diagnostic("G016", message, labels, notes, help_)
+        return
+    code = _CODES[obstacle.role]
+    move = "" if ideal else free_move(mission, drone, worst.at, obstacle)
+    help_ = move or ("choose another altitude or distance" if ideal else "move it to a free place")
+    yield Diagnostic(code, f"{_what(shot, worst)} {obstacle.relation(worst.at)}", labels, notes, help_)
+
+
+def _what(shot: Shot, keyframe: Keyframe) -> str:
+    if not keyframe.placed:
+        return f"the path of this {shot.kind}"
+    return "the keyframe" if shot.kind == "keyframes" else "the camera"
+
+
+def _label(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Label:
+    return mission.origins.value((*keyframe.path, "at"))
+
+
+def _up(metres: float) -> str:
+    """Write metres rounded up to a centimetre, so that the number given is enough."""
+    return f"{-(-metres * 100 // 1) / 100 if metres * 100 % 1 > 1e-6 else metres:.2f}"

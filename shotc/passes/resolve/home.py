@@ -1,0 +1,67 @@
+"""Homes: on the ground, clear of zones and targets, with a way straight up."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Drone, MissionIR, Vec3
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, signed_distance
+
+
+def check_homes(mission: MissionIR) -> list[Diagnostic]:
+    """Return what is wrong with each drone's home.
+
+    Take-off and landing are vertical there, up to the height from which clearances hold; only the
+    clearances and the floors of keep-in zones do not apply on the way.
+    """
+    faults: list[Diagnostic] = []
+    for drone in mission.drones:
+        label = mission.origins.value((*drone.path, "home"))
+        if drone.home[2] < -ROUNDING:
+            note = f"it is {-drone.home[2]:.2f} m under z = 0, the ground"
+            faults.append(
+                Diagnostic(
+                    "G006", f"the home of `{drone.name}` is underground", (label,), (note,), "raise it"
+                )
+            )
+            continue
+        for obstacle in obstacles_of(mission, drone):
+            said = _obstructed(mission, drone, obstacle)
+            if said is not None:
+                labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
+                help_ = "move the home, or the obstacle"
+                faults.append(Diagnostic("G005", said[0], labels, (said[1],), help_))
+    return faults
+
+
+def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[str, str] | None:
+    """Return what stands against a home, and the numbers; None where nothing does."""
+    top = max(drone.home[2], mission.rules.ground_clearance + drone.radius)
+    if obstacle.role == "in":
+        walls = replace(obstacle.solid, bottom=-inf)
+        room = min(-signed_distance(walls, p) for p in (drone.home, (drone.home[0], drone.home[1], top)))
+        if room >= drone.radius - ROUNDING:
+            return None
+        where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
+        note = f"the take-off is {where}; the body radius of {drone.radius:.2f} m must be free"
+        return f"the home of `{drone.name}` is outside keep-in zone `{obstacle.name}`", note
+    near = signed_distance(obstacle.solid, _nearest_level(drone.home, top, obstacle))
+    if near >= drone.radius - ROUNDING:
+        return None
+    what = "target" if obstacle.role == "target" else "zone"
+    where = "in" if signed_distance(obstacle.solid, drone.home) < drone.radius else "under"
+    reach = f"comes within {near:.2f} m" if near > 0 else f"reaches {-near:.2f} m into it"
+    note = (
+        f"between the ground and {top:.2f} m it {reach}; the body radius of {drone.radius:.2f} m must be free"
+    )
+    return f"the home of `{drone.name}` is {where} {what} `{obstacle.name}`", note
+
+
+def _nearest_level(home: Vec3, top: float, obstacle: Obstacle) -> Vec3:
+    """Return the place of the vertical take-off that is closest to an obstacle, or deepest in it."""
+    low, high = max(home[2], obstacle.solid.bottom), min(top, obstacle.solid.top)
+    if low > high:  # it is all above the take-off, or all below
+        return (home[0], home[1], top if obstacle.solid.bottom > top else home[2])
+    return (home[0], home[1], (low + high) / 2)

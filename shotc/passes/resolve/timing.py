@@ -1,0 +1,198 @@
+"""Timings that no drone can meet, told without a solver: from lower bounds on flying time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.mission import Drone, MissionIR, Shot, Vec3
+from shotc.passes.place_keyframes.flown_order import flown_order
+from shotc.passes.resolve.motion import least_shot, least_travel, length
+
+SLACK = 1e-6  # seconds of rounding
+
+
+def check_timing(mission: MissionIR, *, schedule: bool = True) -> list[Diagnostic]:
+    """Return every fault of the shots' own timings; where there is none, of their order in time.
+
+    schedule : whether to judge the order at all; it needs shots whose names and waits stand
+    """
+    faults: list[Diagnostic] = []
+    for shot in mission.shots:
+        faults += _own_times(mission, shot) or _own_duration(mission, shot)
+    return _schedule(mission) if schedule and not faults else faults
+
+
+def _own_times(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
+    """Check that keyframe times rise, stay within the duration and leave time to fly."""
+    faults: list[Diagnostic] = []
+    limits = mission.drone(shot.drone).limits
+    timed = [(i, k, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None]
+    for (i, a, start), (j, b, end) in pairwise(timed):
+        label = mission.origins.value((*b.path, "time"))
+        if end <= start:
+            note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s"
+            faults.append(
+                Diagnostic(
+                    "K001",
+                    "keyframe times do not rise",
+                    (label, mission.origins.value((*a.path, "time"), "the earlier keyframe")),
+                    (note,),
+                    f"set it later than {start:.1f} s",
+                )
+            )
+            continue
+        stretch = shot.keyframes[i : j + 1]
+        holds = sum(k.hold for k in stretch[:-1])
+        least = holds + least_travel([k.at for k in stretch], limits, rests=False)
+        if end - start < least - SLACK:
+            note = f"the {length(stretch):.1f} m between them need at least {_up(least)} s"
+            message = f"nobody gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
+            faults.append(
+                Diagnostic("K004", message, (label,), (note,), f"set it to {_up(start + least)} s or later")
+            )
+    duration = shot.timing.duration
+    late = [(k, t) for _, k, t in timed if duration is not None and t + k.hold > duration + SLACK]
+    for keyframe, time in late:
+        held = f" and is held for {keyframe.hold:.1f} s" if keyframe.hold else ""
+        faults.append(
+            Diagnostic(
+                "K002",
+                "a keyframe ends after its shot",
+                (mission.origins.value((*keyframe.path, "time")),),
+                (f"it is at {time:.1f} s{held}; the shot lasts {duration:.1f} s",),
+                f"give the shot a duration of {time + keyframe.hold:.1f} s",
+            )
+        )
+    return faults
+
+
+def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
+    """Check a given duration against holds, straight-line flight and endurance."""
+    drone = mission.drone(shot.drone)
+    least = least_shot(shot.keyframes, drone.limits)
+    asked = shot.timing.duration
+    if max(least, asked or 0.0) > drone.endurance:
+        return [_too_long(mission, shot, drone, max(least, asked or 0.0))]
+    if asked is None or asked >= least - SLACK:
+        return []
+    label = timing_label(mission, shot)
+    holds = sum(k.hold for k in shot.keyframes)
+    remedy = f"give it at least {_up(least)} s, or write `timing: auto`"
+    if holds > asked + SLACK:
+        held = [k for k in shot.keyframes if k.hold > 0]
+        labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
+        note = f"its holds alone last {holds:.1f} s; the shot is given {asked:.1f} s"
+        return [Diagnostic("K003", f"shot `{shot.id}` holds longer than it lasts", labels, (note,), remedy)]
+    note = f"the {length(shot.keyframes):.1f} m between its keyframes need {_pace(shot, drone, least)}"
+    message = f"shot `{shot.id}` cannot be flown in {asked:.1f} s"
+    return [Diagnostic("K004", message, (label,), (note,), remedy)]
+
+
+def _pace(shot: Shot, drone: Drone, least: float) -> str:
+    holds = sum(k.hold for k in shot.keyframes)
+    limits = drone.limits
+    held = f", {holds:.1f} s of holds included" if holds else ""
+    return (
+        f"at least {_up(least)} s at {limits.speed:.1f} m/s across, {limits.climb:.1f} m/s up, "
+        f"{limits.descent:.1f} m/s down and {limits.acceleration:.1f} m/s^2{held}"
+    )
+
+
+def _too_long(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> Diagnostic:
+    return Diagnostic(
+        "K005",
+        f"shot `{shot.id}` is longer than drone `{drone.name}` can stay in the air",
+        (timing_label(mission, shot), mission.origins.value((*drone.path, "endurance"), "the endurance")),
+        (f"the shot lasts {seconds:.1f} s, the endurance is {drone.endurance:.1f} s",),
+        "shorten the shot, or cut it in two for two flights",
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Moment:
+    """Where and when a drone is free: after ``shot``, or on its pad; take_off is the latest possible."""
+
+    time: float
+    at: Vec3
+    shot: Shot | None
+    take_off: float
+
+
+def _schedule(mission: MissionIR) -> list[Diagnostic]:
+    """Fold over the shots in flown order with the earliest time at which each can begin and end."""
+    faults: list[Diagnostic] = []
+    free = {d.name: _Moment(0.0, d.home, None, 0.0) for d in mission.drones}
+    ends: dict[str, float] = {}
+    for shot in flown_order(mission.shots):
+        drone, before = mission.drone(shot.drone), free[shot.drone]
+        if not shot.keyframes:
+            continue
+        there = before.time + least_travel([before.at, shot.keyframes[0].at], drone.limits)
+        waits = ends.get(shot.timing.after or "", 0.0)
+        start = shot.timing.start
+        faults += _late(mission, shot, before, there, waits)
+        begin = start if start is not None else max(there, waits)
+        duration = shot.timing.duration
+        lasts = duration if duration is not None else least_shot(shot.keyframes, drone.limits)
+        take_off = begin - there if before.shot is None else before.take_off
+        ends[shot.id] = begin + lasts
+        free[drone.name] = _Moment(begin + lasts, shot.keyframes[-1].at, shot, take_off)
+    return faults or [f for d in mission.drones for f in _endurance(mission, d, free[d.name])]
+
+
+def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: float) -> list[Diagnostic]:
+    """Say why a shot cannot begin at its ``start``."""
+    start = shot.timing.start
+    if start is None or start >= max(there, waits) - SLACK:
+        return []
+    label = timing_label(mission, shot)
+    remedy = f"start it at {_up(max(there, waits))} s or later"
+    if start < waits - SLACK:
+        note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
+        message = f"shot `{shot.id}` starts at {start:.1f} s, before the shot it waits for has ended"
+        return [Diagnostic("K007", message, (label,), (note,), remedy)]
+    if before.shot is not None and start < before.time - SLACK:
+        note = f"`{before.shot.id}` ends at {before.time:.1f} s at the earliest; this starts at {start:.1f} s"
+        message = f"shots `{before.shot.id}` and `{shot.id}` of drone `{shot.drone}` overlap"
+        labels = (label, timing_label(mission, before.shot, "the other shot"))
+        return [Diagnostic("K006", message, labels, (note,), remedy)]
+    origin = "its home" if before.shot is None else f"the end of `{before.shot.id}`"
+    note = f"from {origin} it takes at least {_up(there - before.time)} s to its first keyframe"
+    message = f"drone `{shot.drone}` cannot be in place for shot `{shot.id}` at {start:.1f} s"
+    return [Diagnostic("K008", message, (label,), (note,), remedy)]
+
+
+def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnostic]:
+    flight = last.time + least_travel([last.at, drone.home], drone.limits) - last.take_off
+    if last.shot is None or flight <= drone.endurance:
+        return []
+    message = f"the shots of drone `{drone.name}` take longer than it can stay in the air"
+    note = f"all its shots with the ways between take at least {_up(flight)} s"
+    return [
+        Diagnostic(
+            "K005",
+            message,
+            (
+                mission.origins.value((*drone.path, "endurance")),
+                timing_label(mission, last.shot, "its last shot"),
+            ),
+            (f"{note}, its endurance is {drone.endurance:.1f} s",),
+            "drop or shorten shots, or cut the mission in two",
+        )
+    ]
+
+
+def timing_label(mission: MissionIR, shot: Shot, text: str = "") -> Label:
+    """Return a label on a shot's `timing` key, or on the shot where it has none."""
+    path = (*shot.path, "timing")
+    if path in mission.origins.keys:
+        return mission.origins.key(path, text)
+    return mission.origins.value((*shot.path, "id"), text)
+
+
+def _up(seconds: float) -> str:
+    """Write seconds rounded up to a tenth, so that the number given is enough."""
+    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"

@@ -1,0 +1,187 @@
+"""The unfilmed legs: up from the pad, between shots, back and down; and joining all legs up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import atan2, hypot, pi
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict, subdivide
+from shotc.geom.corridor import Room
+from shotc.ir.mission import Drone
+from shotc.ir.origin import KeyPath
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop
+from shotc.passes.solve_path_qp.body import BodyTask, allowed_body, body_line
+from shotc.passes.solve_path_qp.lines import SAME_PLACE, TURN_LENGTH, Line, straight_line
+from shotc.passes.solve_path_qp.position import Stretch, solve_stretch
+from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, ShotCurve, Stuck, stack
+from shotc.solvers.conic import Status
+
+SAME_ANGLE = 1e-6
+PIECES = 4
+
+Pose = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flight:
+    """What every unfilmed leg of one drone needs to know."""
+
+    drone: Drone
+    room: Room
+    top: Array
+
+
+def drone_legs(flight: Flight, shots: list[ShotCurve]) -> tuple[Leg, ...] | tuple[Failure, ShotCurve | None]:
+    """Join the shots of one drone with take-off, transits, return and landing.
+
+    Returns the legs, or what stands in the way together with the shot that it leads to (None: home).
+    """
+    drone = flight.drone
+    pose = _at_pad(flight, shots[0])
+    legs = [_lift(flight, pose, "takeoff")]
+    pose = (*map(float, flight.top), *pose[3:])
+    for shot in shots:
+        placed = _turned(drone, shot, pose)
+        transit = _transit(flight, pose, placed.pose, "transit", shot.shot.shot.path)
+        if isinstance(transit, Failure):
+            return transit, shot
+        legs += transit
+        legs.append(_shot_leg(placed))
+        pose = _end(legs[-1])
+    level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
+    goal = (*map(float, flight.top), pose[CAM_YAW], level, pose[BODY_YAW], pose[HFOV])
+    back = _transit(flight, pose, goal, "return", drone.path)
+    if isinstance(back, Failure):
+        return back, None
+    legs += back
+    pose = _end(legs[-1])
+    return (*legs, _lift(flight, pose, "land"))
+
+
+def _at_pad(flight: Flight, first: ShotCurve) -> Pose:
+    """Return the pad's pose: heading of the first frame, or, flying nose first, of the way there."""
+    drone = flight.drone
+    level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
+    yaw = first.pose[CAM_YAW]
+    way = (first.pose[0] - flight.top[0], first.pose[1] - flight.top[1])
+    wanted = atan2(way[1], way[0]) if drone.body == "forward" and hypot(*way) > 1.0 else yaw
+    body = yaw if drone.body == "follow-camera" else allowed_body(drone, yaw, wanted)
+    return (*map(float, drone.home), yaw, level, body, first.pose[HFOV])
+
+
+def _turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
+    """Shift a shot's yaws by whole turns, so that its start is nearest to where the last leg ended."""
+    turns = 2 * pi * round((pose[CAM_YAW] - shot.pose[CAM_YAW]) / (2 * pi))
+    start = list(shot.pose)
+    start[CAM_YAW] += turns
+    start[BODY_YAW] += turns
+    if shot.curve is None:
+        if drone.body != "follow-camera":
+            wanted = pose[BODY_YAW]
+            if drone.body == "forward" and hypot(start[0] - pose[0], start[1] - pose[1]) > 1.0:
+                wanted = atan2(start[1] - pose[1], start[0] - pose[0])
+            start[BODY_YAW] = allowed_body(drone, start[CAM_YAW], wanted)
+        return replace(shot, pose=tuple(start))
+    ctrl = shot.curve.ctrl.copy()
+    ctrl[:, :, CAM_YAW] += turns
+    ctrl[:, :, BODY_YAW] += turns
+    return replace(shot, pose=tuple(start), curve=Piecewise(shot.curve.breaks, ctrl))
+
+
+def _shot_leg(shot: ShotCurve) -> Leg:
+    timing = shot.shot.shot.timing
+    return Leg(
+        phase="shot",
+        shot=shot.shot.shot.id,
+        curve=shot.curve,
+        pose=shot.pose,
+        stops=shot.stops,
+        marks=shot.marks,
+        framing=shot.framing,
+        pace=shot.shot.shot.pace,
+        duration=timing.duration,
+        start=timing.start,
+        path=shot.shot.shot.path,
+    )
+
+
+def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> Leg:
+    home, top = np.array(flight.drone.home), flight.top
+    ends = (home, top) if phase == "takeoff" else (top, home)
+    x = np.linspace(0.0, 1.0, 6)[:, None]
+    ctrl = np.concatenate([(1 - x) * ends[0] + x * ends[1], np.tile(np.array(pose[3:]), (6, 1))], axis=1)
+    breaks = np.array([0.0, float(np.linalg.norm(top - home))])
+    return _plain(phase, Piecewise(breaks, ctrl[None]), flight.drone.path)
+
+
+def _transit(flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: KeyPath) -> list[Leg] | Failure:
+    """Return the leg from one pose to another; none where they are the same."""
+    a, b = np.array(start[:3]), np.array(goal[:3])
+    turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
+    if np.linalg.norm(b - a) < SAME_PLACE:
+        if turn < SAME_ANGLE and np.array_equal(a, b):
+            return []
+        breaks = np.array([0.0, TURN_LENGTH * max(turn, SAME_ANGLE)])
+        position = Piecewise(breaks, np.linspace(a, b, 6)[None])
+    else:
+        line = straight_line(flight.room, a, b)
+        if not isinstance(line, Line):
+            return line
+        found = _smooth(flight, line)
+        if isinstance(found, Stuck):
+            return found
+        position = found
+    curve = _with_angles(flight.drone, position, start, goal, free_end=phase == "return")
+    return curve if isinstance(curve, AngleFailure) else [_plain(phase, curve, path)]
+
+
+def _smooth(flight: Flight, line: Line) -> Piecewise | Stuck:
+    none = np.zeros(0)
+    ends = (0, len(line.corners) - 1)
+    stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
+    solved = solve_stretch(flight.room, stretch, flight.drone.limits)
+    return Stuck(solved, line.corners, ()) if solved.curve is None else solved.curve
+
+
+def _with_angles(
+    drone: Drone, position: Piecewise, start: Pose, goal: Pose, *, free_end: bool
+) -> Piecewise | AngleFailure:
+    """Let the camera turn evenly along an unfilmed leg, and the body as its mode says."""
+    straight = len(position.breaks) == 2 and (
+        drone.body == "follow-camera" or start[BODY_YAW] == goal[BODY_YAW]
+    )
+    breaks = position.breaks if straight and drone.body != "forward" else subdivide(position.breaks, PIECES)
+    position = restrict(position, breaks)
+    camera = restrict(_even(position, start, goal), breaks)
+    yaw = camera.channels(0)
+    end = None if free_end else goal[BODY_YAW]
+    task = BodyTask(position, yaw, start[BODY_YAW], end, drone.limits.speed)
+    status, body = body_line(drone, task)
+    if status not in {Status.SOLVED, Status.INACCURATE}:
+        return AngleFailure("body", status)
+    whole = stack(position, camera.channels(0, 1), body, camera.channels(2))
+    ctrl = whole.ctrl.copy()
+    ctrl[0, 0] = start
+    ctrl[-1, -1, : 5 if free_end else 7] = goal[: 5 if free_end else 7]
+    return Piecewise(breaks, ctrl)
+
+
+def _even(position: Piecewise, start: Pose, goal: Pose) -> Piecewise:
+    """Yaw and pitch linear in s, the field of view from rest to rest; one piece."""
+    x = np.linspace(0.0, 1.0, 6)
+    step = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
+    ctrl = [start[k] + (goal[k] - start[k]) * (step if k == HFOV else x) for k in (CAM_YAW, CAM_PITCH, HFOV)]
+    return Piecewise(np.array([position.start, position.end]), np.stack(ctrl, axis=1)[None])
+
+
+def _plain(phase: PhaseName, curve: Piecewise, path: KeyPath) -> Leg:
+    stops = (Stop(curve.start, 0.0), Stop(curve.end, 0.0))
+    pose = tuple(map(float, curve.ctrl[0, 0]))
+    return Leg(phase, None, curve, pose, stops, (), (), 1.0, None, None, path)
+
+
+def _end(leg: Leg) -> Pose:
+    return leg.pose if leg.curve is None else tuple(map(float, leg.curve.ctrl[-1, -1]))

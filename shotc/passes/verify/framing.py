@@ -1,0 +1,142 @@
+"""What the camera sees in every shot: samples at the output rate, closed between them where they can be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.framing import Frames
+from shotc.ir.mission import Shot
+from shotc.ir.sampling import clock, framed, references, seen, subjects
+from shotc.ir.trajectory import Claim, Method, Phase, TrajectoryIR
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+from shotc.passes.verify.close import errors_close, margins_close
+from shotc.passes.verify.reference import wanted_framing
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class View:
+    """The samples of one target in one shot, as far as the shot frames it.
+
+    times : ticks of the output clock and both ends, shape (M,); error : distance to the reference on
+    screen, infinite behind the camera, NaN where nothing is wanted
+    """
+
+    shot: Shot
+    target: str
+    times: Array
+    frames: Frames
+    error: Array
+
+
+def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
+    """Claim what every shot promises of its targets; without a promise the same claims are soft."""
+    for placed in ir.keyframes.shots:
+        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
+        if len(flown) != 1 or placed.shot.drone != flight.drone.name:
+            continue
+        yield from wanted_framing(flight, placed, flown[0])
+        for target in subjects(flight.mission, flight.track, placed.shot.id):
+            view = _view(flight, placed.shot, target, flown[0])
+            if view is not None:
+                yield _in_frame(flight, view)
+                yield from _screen_error(flight, view)
+                yield from _size(flight, view)
+                yield _visible(flight, view)
+
+
+def _view(flight: Flight, shot: Shot, target: str, phase: Phase) -> View | None:
+    ticks = clock(flight.mission.rate, phase.end)
+    spans = [f for f in flight.track.framing if f.shot == shot.id and f.target == target]
+    ends = [t for f in spans for t in (f.start, f.end)]
+    times = np.unique(np.concatenate([ticks, np.array(ends)]))
+    times = times[(times >= phase.start) & (times <= phase.end)]
+    times = times[framed(flight.track, shot.id, target, times)]
+    if not len(times):
+        return None
+    frames = seen(flight.mission, flight.track, target, times)
+    wanted = references(flight.track, shot.id, target, times)
+    error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
+    error = np.where(np.isnan(frames.u) & ~np.isnan(wanted[:, 0]), inf, error)
+    return View(shot, target, times, frames, error)
+
+
+def _in_frame(flight: Flight, view: View) -> Claim:
+    asked = view.shot.promise.in_frame
+    share = float(view.frames.in_frame.mean())
+    k = int(np.argmin(view.frames.margin))
+    path = (*view.shot.path, "require", "in_frame") if asked is not None else view.shot.path
+    limit = Limit(
+        f"{view.target} in frame",
+        1.0 if asked is None else asked,
+        "of samples",
+        path,
+        upper=False,
+        hard=asked is not None,
+        shot=view.shot.id,
+    )
+    method: Method = "sampled"
+    if share == 1.0 and margins_close(flight, view.target, view.times):
+        method = "bounded"
+    return claim(flight, limit, Worst(share, float(view.times[k]), method))
+
+
+def _screen_error(flight: Flight, view: View) -> Iterator[Claim]:
+    asked = view.shot.promise.screen_error
+    known = ~np.isnan(view.error)
+    if not known.any():
+        return
+    error = np.where(known, view.error, -inf)
+    k = int(np.argmax(error))
+    found = _sampled(flight, view, ("screen error", "screen_error", asked), (float(error[k]), k))
+    if asked is not None and found.holds:
+        times = view.times[known]
+        if errors_close(flight, view.shot.id, view.target, times, asked):
+            found = replace(found, method="bounded")
+    yield found
+
+
+def _size(flight: Flight, view: View) -> Iterator[Claim]:
+    asked = view.shot.promise.size
+    size = view.frames.size
+    for name, pick, unseen in (("smallest", np.argmin, -inf), ("largest", np.argmax, inf)):
+        known = np.where(np.isnan(size), unseen, size)
+        k = int(pick(known))
+        bound = None if asked is None else asked[name == "largest"]
+        yield _sampled(flight, view, (f"size {name}", "size", bound), (float(known[k]), k))
+
+
+def _sampled(
+    flight: Flight, view: View, what: tuple[str, str, float | None], worst: tuple[float, int]
+) -> Claim:
+    name, key, asked = what
+    upper = name != "size smallest"
+    limit = Limit(
+        f"{view.target} {name}",
+        (inf if upper else -inf) if asked is None else asked,
+        "of the frame" if key == "size" else "of half a frame",
+        view.shot.path if asked is None else (*view.shot.path, "require", key),
+        upper=upper,
+        hard=asked is not None,
+        shot=view.shot.id,
+    )
+    return claim(flight, limit, Worst(worst[0], float(view.times[worst[1]]), "sampled"))
+
+
+def _visible(flight: Flight, view: View) -> Claim:
+    hidden = view.frames.hidden
+    limit = Limit(
+        f"{view.target} visible",
+        1.0,
+        "of samples",
+        view.shot.path,
+        upper=False,
+        hard=False,
+        shot=view.shot.id,
+    )
+    k = int(np.argmax(hidden))
+    return claim(flight, limit, Worst(float(1.0 - hidden.mean()), float(view.times[k]), "sampled"))

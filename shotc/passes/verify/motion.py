@@ -1,0 +1,92 @@
+"""Speed, acceleration, jerk and angles at every instant, by hulls of the derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from math import pi, radians
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Pieces, pieces
+from shotc.geom.proof import inf_channel, norm, sup_channel, sup_convex
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import Flight, Limit, bounded, gap
+
+HFOV_RANGE = (radians(1.0), radians(170.0))
+"""Fields of view that a pinhole camera can be asked for."""
+
+
+def motion(flight: Flight) -> Iterator[Claim]:
+    """Claim the limits of the drone, its gimbal and its lens over the whole flight."""
+    whole = pieces(flight.track.curve)
+    yield from _translation(flight, whole.channels(0, 1, 2))
+    yield from _body_yaw(flight, whole.channels(BODY_YAW))
+    yield from _gimbal(flight, "pitch", whole.channels(CAM_PITCH))
+    yield from _gimbal(flight, "yaw", _against_body(flight, whole))
+    yield from _range(flight, "field of view", whole.channels(HFOV), HFOV_RANGE)
+
+
+def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
+    limits = flight.drone.limits
+    velocity = position.derivative()
+    acceleration = velocity.derivative()
+    make = partial(_below, flight)
+    yield make("speed", velocity.channels(0, 1), limits.speed, "m/s")
+    climb = Limit("climb", limits.climb, "m/s", _path(flight, "limits", "climb"))
+    yield bounded(flight, climb, sup_channel(velocity, 2, gap(limits.climb)))
+    descent = Limit("descent", limits.descent, "m/s", _path(flight, "limits", "descent"))
+    falling = sup_convex(velocity, lambda c: -c[..., 2], gap(limits.descent))
+    yield bounded(flight, descent, falling)
+    yield make("acceleration", acceleration, limits.acceleration, "m/s^2")
+    yield make("jerk", acceleration.derivative(), limits.jerk, "m/s^3")
+
+
+def _body_yaw(flight: Flight, yaw: Pieces) -> Iterator[Claim]:
+    limits = flight.drone.limits
+    rate = yaw.derivative()
+    yield _below(flight, "yaw_rate", rate, limits.yaw_rate, "rad/s")
+    yield _below(flight, "yaw_acceleration", rate.derivative(), limits.yaw_acceleration, "rad/s^2")
+
+
+def _gimbal(flight: Flight, axis: str, angle: Pieces) -> Iterator[Claim]:
+    gimbal = flight.drone.gimbal
+    reach = gimbal.pitch if axis == "pitch" else gimbal.yaw
+    yield from _range(flight, f"gimbal {axis}", angle, reach, _path(flight, "gimbal", axis))
+    rate = angle.derivative()
+    for name, order, limit, unit in (
+        ("rate", rate, gimbal.rate, "rad/s"),
+        ("acceleration", rate.derivative(), gimbal.acceleration, "rad/s^2"),
+    ):
+        wanted = Limit(f"gimbal {axis} {name}", limit, unit, _path(flight, "gimbal", name))
+        yield bounded(flight, wanted, sup_convex(order, norm, gap(limit)))
+
+
+def _against_body(flight: Flight, whole: Pieces) -> Pieces:
+    # Whole turns mean nothing to where the gimbal begins; from there on it has to stay in its range.
+    relative: Array = whole.ctrl[:, :, [CAM_YAW]] - whole.ctrl[:, :, [BODY_YAW]]
+    low, high = flight.drone.gimbal.yaw
+    turns = np.round((relative[0, 0, 0] - 0.5 * (low + high)) / (2 * pi))
+    return Pieces(whole.low, whole.high, relative - 2 * pi * turns)
+
+
+def _range(
+    flight: Flight, name: str, angle: Pieces, reach: tuple[float, float], path: tuple[str | int, ...] = ()
+) -> Iterator[Claim]:
+    low, high = reach
+    path = path or _path(flight, "camera")
+    least = Limit(f"{name} min", low, "rad", path, upper=False)
+    yield bounded(flight, least, inf_channel(angle, 0, gap(low)))
+    yield bounded(flight, Limit(f"{name} max", high, "rad", path), sup_channel(angle, 0, gap(high)))
+
+
+def _below(flight: Flight, key: str, order: Pieces, limit: float, unit: str) -> Claim:
+    name = f"body {key}".replace("_", " ") if key.startswith("yaw") else key
+    wanted = Limit(name, limit, unit, _path(flight, "limits", key))
+    return bounded(flight, wanted, sup_convex(order, norm, gap(limit)))
+
+
+def _path(flight: Flight, *keys: str) -> tuple[str | int, ...]:
+    return (*flight.drone.path, *keys)

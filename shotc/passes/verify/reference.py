@@ -1,0 +1,94 @@
+"""Whether a plan judges its framing by what the mission asks: targets and references as the keyframes say.
+
+Without this an edited plan could keep every promise by framing nothing, or by wanting what it shows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Promise
+from shotc.ir.sampling import clock, framed, references
+from shotc.ir.trajectory import Claim, Phase
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+
+OFF = 0.01
+"""Screen units that a reference may leave the line between two keyframes' references."""
+
+Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
+
+
+def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
+    """Claim that between keyframes with one target it is framed, with their references at the ends.
+
+    Between two references the wanted one lies on the straight line from one to the other. Both claims
+    are hard where the shot promises something, else soft.
+    """
+    shot, hard = placed.shot, placed.shot.promise != Promise()
+    times = {k.index: k.time for k in flight.track.keyframes if k.shot == shot.id}
+    if len(times) < len(placed.keyframes):
+        limit = Limit("keyframes without a time", 0.0, "", shot.path, hard=hard, shot=shot.id)
+        yield claim(flight, limit, Worst(float(len(placed.keyframes) - len(times)), None, "exact"))
+        return
+    legs = list(_legs(placed, times, phase))
+    if not legs:
+        return
+    gaps = [
+        (float((~framed(flight.track, shot.id, str(a.target), t)).sum()), t)
+        for t, a, _ in _sampled(flight, legs)
+    ]
+    missing, where = max(gaps, key=lambda pair: pair[0])
+    limit = Limit("frames without their target", 0.0, "", shot.path, hard=hard, shot=shot.id)
+    yield claim(flight, limit, Worst(missing, float(where[0]), "sampled"))
+    errors = [
+        _off(flight, shot.id, leg) for leg in _sampled(flight, legs) if leg[1].reference and leg[2].reference
+    ]
+    if errors:
+        worst, time = max(errors)
+        limit = Limit(
+            "reference off its keyframes", OFF, "of half a frame", shot.path, hard=hard, shot=shot.id
+        )
+        yield claim(flight, limit, Worst(worst, time, "sampled"))
+
+
+def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[Leg]:
+    """Yield the stretches between neighbouring keyframes of one target; a hold belongs to the one before."""
+    if len(placed.keyframes) == 1:
+        only = placed.keyframes[0]
+        if only.target is not None:
+            yield phase.start, phase.end, only, only
+        return
+    for (i, a), (j, b) in pairwise(enumerate(placed.keyframes)):
+        if a.target is not None and a.target == b.target:
+            yield times[i] + a.hold, times[j], a, b
+
+
+def _sampled(flight: Flight, legs: list[Leg]) -> Iterator[tuple[Array, PlacedKeyframe, PlacedKeyframe]]:
+    for start, end, a, b in legs:
+        ticks = clock(flight.mission.rate, end)
+        inside = ticks[(ticks > start) & (ticks < end)]
+        yield np.concatenate([[start], inside, [end]]) if end > start else np.array([start]), a, b
+
+
+def _off(flight: Flight, shot: str, leg: tuple[Array, PlacedKeyframe, PlacedKeyframe]) -> tuple[float, float]:
+    t, a, b = leg
+    first, second = np.array(a.reference), np.array(b.reference)
+    wanted = references(flight.track, shot, str(a.target), t)
+    off = _from_line(wanted, first, second)
+    off[0] = np.hypot(*(wanted[0] - first))
+    off[-1] = np.hypot(*(wanted[-1] - second))
+    off = np.where(np.isnan(off), np.inf, off)
+    k = int(np.argmax(off))
+    return float(off[k]), float(t[k])
+
+
+def _from_line(points: Array, first: Array, second: Array) -> Array:
+    along = second - first
+    squared = float(along @ along)
+    share = np.clip((points - first) @ along / squared, 0.0, 1.0) if squared > 0 else np.zeros(len(points))
+    return np.asarray(np.linalg.norm(points - first - share[:, None] * along, axis=1))

@@ -1,0 +1,97 @@
+"""Whether every shot that the mission asks for is flown, when it was asked, through its keyframes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+
+import numpy as np
+
+from shotc.geom.pieces import cut
+from shotc.geom.proof import norm, sup_convex
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Shot
+from shotc.ir.path import HFOV
+from shotc.ir.trajectory import Claim, Phase, TrajectoryIR
+from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
+
+ON_TIME = 1e-3
+"""Seconds within which a duration, a start or a keyframe's time is met."""
+
+ON_PLACE = 1e-3
+"""Metres (radians, for the camera) within which a keyframe is met and a hold stands still."""
+
+
+def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
+    """Claim that this drone's shots are flown, on time, through what was placed, and at rest in holds."""
+    ends = {p.shot: p.end for t in ir.drones for p in t.phases if p.shot is not None}
+    for placed in ir.keyframes.shots:
+        if placed.shot.drone != flight.drone.name:
+            continue
+        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
+        once = Limit("times flown", 1.0, "", placed.shot.path, upper=len(flown) > 0, shot=placed.shot.id)
+        yield claim(flight, once, Worst(float(len(flown)), None, "exact"))
+        if len(flown) == 1:
+            yield from _timing(flight, placed.shot, flown[0], ends)
+            yield from _keyframes(flight, placed, flown[0])
+
+
+def _timing(flight: Flight, shot: Shot, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
+    timing, path = shot.timing, (*shot.path, "timing")
+    if timing.duration is not None:
+        off = abs(phase.end - phase.start - timing.duration)
+        limit = Limit("error of duration", ON_TIME, "s", (*path, "duration"), shot=shot.id)
+        yield claim(flight, limit, Worst(off, phase.end, "exact"))
+    if timing.start is not None:
+        limit = Limit("error of start", ON_TIME, "s", (*path, "start"), shot=shot.id)
+        yield claim(flight, limit, Worst(abs(phase.start - timing.start), phase.start, "exact"))
+    if timing.after is not None and timing.after in ends:
+        limit = Limit("start too early", ON_TIME, "s", (*path, "after"), shot=shot.id)
+        yield claim(flight, limit, Worst(ends[timing.after] - phase.start, phase.start, "exact"))
+
+
+def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
+    times = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
+    met: list[tuple[Worst, PlacedKeyframe]] = []
+    late: list[tuple[Worst, PlacedKeyframe]] = []
+    for index, keyframe in enumerate(placed.keyframes):
+        time = times.get(index)
+        if keyframe.placed:
+            met.append((_miss(flight, keyframe, phase, time), keyframe))
+        if keyframe.time is not None:
+            off = inf if time is None else abs(time - phase.start - keyframe.time)
+            late.append((Worst(off, time, "exact"), keyframe))
+        if keyframe.hold > 0 or len(placed.keyframes) == 1:
+            until = phase.end if len(placed.keyframes) == 1 else (time or 0.0) + keyframe.hold
+            yield _still(flight, keyframe, (time, until), (placed.shot, index, phase))
+    for name, unit, limit, found in (
+        ("distance from keyframes", "m", ON_PLACE, met),
+        ("delay of keyframes", "s", ON_TIME, late),
+    ):
+        if found:
+            worst, keyframe = max(found, key=lambda pair: pair[0].value)
+            yield claim(flight, Limit(name, limit, unit, keyframe.path, shot=placed.shot.id), worst)
+
+
+def _miss(flight: Flight, keyframe: PlacedKeyframe, phase: Phase, time: float | None) -> Worst:
+    if time is None or not phase.start - ON_TIME <= time <= phase.end + ON_TIME:
+        return Worst(inf, None, "exact")
+    away = flight.track.curve(time)[:3] - np.array(keyframe.at)
+    return Worst(float(np.linalg.norm(away)), time, "exact")
+
+
+def _still(
+    flight: Flight,
+    keyframe: PlacedKeyframe,
+    span: tuple[float | None, float],
+    where: tuple[Shot, int, Phase],
+) -> Claim:
+    shot, index, phase = where
+    start, end = span
+    limit = Limit(f"drift at keyframe {index + 1}", ON_PLACE, "m", keyframe.path, shot=shot.id)
+    if start is None or start < phase.start - ON_TIME or end > phase.end + ON_TIME:
+        return claim(flight, limit, Worst(inf, start, "exact"))
+    curve = flight.track.curve.channels(*range(HFOV + 1))
+    pose = curve(start)
+    drift = sup_convex(cut(curve, start, end), lambda c: norm(c - pose), gap(ON_PLACE))
+    return bounded(flight, limit, drift)

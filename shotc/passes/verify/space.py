@@ -1,0 +1,97 @@
+"""Where the drone may be: zones, the ground, targets, and the vertical at home.
+
+Take-off and landing are vertical at home; there neither clearances nor the floors of keep-in zones
+apply, and the body may stand as near to a solid as its pad does, but no nearer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+
+import numpy as np
+
+from shotc.geom.pieces import Pieces, cut, join
+from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_convex, sup_outside
+from shotc.geom.solids import Solid, distance
+from shotc.ir.mission import Zone
+from shotc.ir.sampling import cylinder
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import Flight, Limit, bounded, gap
+
+DRIFT = 1e-6
+"""Metres that take-off and landing may leave the vertical."""
+
+UPRIGHT = ("takeoff", "land")
+
+
+def space(flight: Flight) -> Iterator[Claim]:
+    """Claim zones, ground and target clearance, and vertical motion at home."""
+    free, upright = _split(flight)
+    for zone in flight.mission.zones:
+        if zone.keep == "out":
+            yield from _keep_out(flight, f"zone {zone.name}", zone.solid, (free, upright, 0.0), zone.path)
+        else:
+            yield _keep_in(flight, zone, free, upright)
+    rules = flight.mission.rules
+    ground = Limit(
+        "ground clearance", rules.ground_clearance, "m", ("rules", "ground_clearance"), upper=False
+    )
+    aim = rules.ground_clearance + flight.drone.radius
+    low = inf_channel(free, 2, gap(aim))
+    if len(free):
+        yield bounded(flight, ground, _less(low, flight.drone.radius))
+    for target in flight.mission.targets:
+        parts = (free, upright, rules.target_clearance)
+        path = ("rules", "target_clearance")
+        yield from _keep_out(flight, f"target {target.name}", cylinder(target), parts, path)
+    if len(upright):
+        yield from _vertical(flight, upright)
+
+
+def _split(flight: Flight) -> tuple[Pieces, Pieces]:
+    curve = flight.track.curve.channels(0, 1, 2)
+    empty = [cut(curve, curve.start, curve.start)]
+    phases = flight.track.phases
+    free = [cut(curve, p.start, p.end) for p in phases if p.name not in UPRIGHT]
+    upright = [cut(curve, p.start, p.end) for p in phases if p.name in UPRIGHT]
+    return join(empty + free), join(empty + upright)
+
+
+def _keep_out(
+    flight: Flight, name: str, solid: Solid, parts: tuple[Pieces, Pieces, float], path: tuple[str | int, ...]
+) -> Iterator[Claim]:
+    free, upright, clearance = parts
+    radius = flight.drone.radius
+    if len(free):
+        found = inf_distance(free, solid, gap(radius + clearance))
+        yield bounded(flight, Limit(name, clearance, "m", path, upper=False), _less(found, radius))
+    if len(upright):
+        near = min(radius, distance(solid, flight.drone.home))
+        found = inf_distance(upright, solid, gap(near))
+        limit = Limit(f"{name} at home", near - radius, "m", path, upper=False)
+        yield bounded(flight, limit, _less(found, radius))
+
+
+def _keep_in(flight: Flight, zone: Zone, free: Pieces, upright: Pieces) -> Claim:
+    radius = flight.drone.radius
+    worst = Bound(-inf, -inf, 0.0)
+    for pieces, floor in ((free, True), (upright, False)):
+        found = sup_outside(pieces, zone.solid, gap(-radius), floor=floor)
+        worst = found if found.proven > worst.proven else worst
+    margin = Bound(-worst.proven, -worst.attained, worst.at)
+    return bounded(
+        flight, Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False), _less(margin, radius)
+    )
+
+
+def _less(bound: Bound, radius: float) -> Bound:
+    return Bound(bound.proven - radius, bound.attained - radius, bound.at)
+
+
+def _vertical(flight: Flight, upright: Pieces) -> Iterator[Claim]:
+    home, path = np.array(flight.drone.home), (*flight.drone.path, "home")
+    drift = sup_convex(upright, lambda c: norm(c[..., :2] - home[:2]), gap(DRIFT))
+    yield bounded(flight, Limit("drift from the vertical", DRIFT, "m", path), drift)
+    sunk = sup_convex(upright, lambda c: home[2] - c[..., 2], gap(0.0))
+    yield bounded(flight, Limit("depth below home", 0.0, "m", path), sunk)
