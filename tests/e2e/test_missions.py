@@ -1,4 +1,4 @@
-"""Every mission of the tree, from text to files: what is said about it, what comes out, and the same bytes twice."""
+"""Every mission of the tree, from text to files: what is said about it, what comes out, twice alike."""
 
 from __future__ import annotations
 
