@@ -116,10 +116,10 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
 
     options.refiner must be one of ``plugins.names("refiners")``
     """
-    kinds, refiners = plugins.discover("kinds"), plugins.discover("refiners")
+    kinds = plugins.discover("kinds")
     loaded = load(data, name, folder, _models())
     sources = {name: loaded.file}
-    found = [*kinds.diagnostics, *refiners.diagnostics, *loaded.diagnostics]
+    found = [*kinds.diagnostics, *loaded.diagnostics]
     if loaded.mission is None or has_errors(found):
         return Compilation(None, (), tuple(found), sources)
     ctx = PassContext(options.seed, options.progress)
@@ -132,6 +132,14 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
         return Compilation(None, front.reports, (*found, *refusals), sources)
+    refiners = plugins.discover("refiners")
+    found += refiners.diagnostics
+    if options.refiner in refiners.lacking:
+        found.append(
+            _not_installed("P004", f"refiner `{options.refiner}`", [refiners.lacking[options.refiner]])
+        )
+    if has_errors(found):
+        return Compilation(None, front.reports, tuple(found), sources)
     passes = default_passes(kinds.plugins, refiners.plugins[options.refiner])[len(front.reports) :]
     back = run(passes, _with_autopilot(front.value, options.autopilot), ctx, options.stop_after)
     plan = back.value if back.reports[-1].name == "verify" else None
@@ -142,7 +150,7 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
     """Make the output files of a verified plan; plan.json is always among them.
 
     names : emitters to run; None means those the mission asks for, and then an output whose library
-        is not installed is left out with a warning instead of an error
+        is not installed is left out with a warning (P005) instead of an error (P004)
     """
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
@@ -151,11 +159,17 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
     artifacts: list[Artifact] = []
     diagnostics = list(known.diagnostics)
     notes: list[str] = []
+    code = "P005" if names is None else "P004"
+    diagnostics += [
+        _not_installed(code, f"output `{n}`", [known.lacking[n]]) for n in wanted if n in known.lacking
+    ]
     for emitter in (PLAN_JSON, *(known.plugins[n] for n in wanted if n in known.plugins)):
         try:
             emission = emitter.emit(plan)
         except ModuleNotFoundError as missing:
-            diagnostics.append(_missing(emitter.name, missing))
+            if not plugins.is_optional(missing):
+                raise
+            diagnostics.append(_not_installed(code, f"output `{emitter.name}`", [str(missing.name)]))
             continue
         artifacts.extend(emission.artifacts)
         diagnostics.extend(emission.diagnostics)
@@ -165,7 +179,7 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
 
 def verify_plan(data: bytes, name: str) -> PlanReport:
     """Prove the plan in the bytes of a plan.json, from them alone; ``name`` is how to show the file."""
-    missing = _missing_libraries(("numpy",))
+    missing = _missing_libraries("reading a plan", ("numpy",))
     if missing:
         return PlanReport(None, (), missing, {})
     from shotc.passes.verify.file import verify_file
@@ -214,26 +228,18 @@ def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:
                 help="plan the shots of standing targets by one drone in a mission of their own",
             ),
         )
-    return _missing_libraries(SOLVERS)
+    return _missing_libraries("planning", SOLVERS)
 
 
-def _missing_libraries(libraries: Sequence[str]) -> tuple[Diagnostic, ...]:
+def _missing_libraries(what: str, libraries: Sequence[str]) -> tuple[Diagnostic, ...]:
     missing = [library for library in libraries if find_spec(library) is None]
-    if missing:
-        return (
-            Diagnostic(
-                "P004",
-                "planning needs the solvers, and they are not installed",
-                notes=(f"missing: {', '.join(missing)}",),
-                help="run `pip install 'shotc[plan]'`, or `pip install 'shotc[all]'` for the viewer too",
-            ),
-        )
-    return ()
+    return (_not_installed("P004", what, missing),) if missing else ()
 
 
-def _missing(emitter: str, missing: ModuleNotFoundError) -> Diagnostic:
+def _not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
+    """Say what cannot be had without some libraries; P004 refuses, P005 goes on without."""
     return Diagnostic(
-        "P005",
-        f"output `{emitter}` is left out: {missing.name} is not installed",
-        help="run `pip install 'shotc[all]'`",
+        code,
+        f"{what} needs {', '.join(libraries)}, not installed here",
+        help="run `pip install 'shotc[plan]'`, or `pip install 'shotc[all]'` for the viewer too",
     )

@@ -16,15 +16,21 @@ from typing import Any
 from shotc.diag.model import Diagnostic
 
 API_VERSION = 1
+OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun")
+"""Libraries that the base install does without: a plugin that misses one is not broken."""
 GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}
 
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """The plugins of one group that can be used, by name, and what is wrong with the others."""
+    """The plugins of one group that can be used, by name, and what is wrong with the others.
+
+    lacking : names of plugins whose optional library is not installed, and that library
+    """
 
     plugins: Mapping[str, Any]
     diagnostics: tuple[Diagnostic, ...]
+    lacking: Mapping[str, str]
 
 
 @cache
@@ -32,16 +38,21 @@ def discover(group: str) -> Found:
     """Load every plugin of ``group`` ("kinds", "refiners" or "emitters")."""
     plugins: dict[str, Any] = {}
     diagnostics: list[Diagnostic] = []
+    lacking: dict[str, str] = {}
     for name, entries in _by_name(group).items():
         if len(entries) > 1:
             diagnostics.append(_clash(group, name, entries))
             continue
-        loaded = _load(entries[0])
+        try:
+            loaded = _load(entries[0])
+        except ModuleNotFoundError as missing:
+            lacking[name] = str(missing.name)
+            continue
         if isinstance(loaded, Diagnostic):
             diagnostics.append(loaded)
         else:
             plugins[name] = loaded
-    return Found(plugins, tuple(diagnostics))
+    return Found(plugins, tuple(diagnostics), lacking)
 
 
 def names(group: str) -> list[str]:
@@ -50,13 +61,20 @@ def names(group: str) -> list[str]:
 
 
 def listing(group: str) -> list[tuple[str, str, str]]:
-    """Return (name, summary, package) of every plugin of ``group`` that can be used."""
-    found = discover(group).plugins
+    """Return (name, summary, package) of every plugin of ``group``, those that lack a library too."""
+    found = discover(group)
+    summaries = {name: plugin.summary for name, plugin in found.plugins.items()}
+    summaries |= {name: f"needs {library}, which is not installed" for name, library in found.lacking.items()}
     return [
-        (name, found[name].summary, _owner(entries[0]))
+        (name, summaries[name], _owner(entries[0]))
         for name, entries in _by_name(group).items()
-        if name in found
+        if name in summaries
     ]
+
+
+def is_optional(missing: ModuleNotFoundError) -> bool:
+    """Tell whether what could not be imported is one of the optional libraries."""
+    return (missing.name or "").partition(".")[0] in OPTIONAL
 
 
 def _by_name(group: str) -> dict[str, list[EntryPoint]]:
@@ -70,11 +88,14 @@ def _by_name(group: str) -> dict[str, list[EntryPoint]]:
 
 
 def _load(entry: EntryPoint) -> Any:
+    """Return the plugin, or what is wrong with it; ModuleNotFoundError where it lacks an optional library."""
     where = f"`{entry.value}` of package {_owner(entry)}"
     try:
         plugin = entry.load()
         name, api = plugin.name, plugin.api
-    except Exception as fault:  # noqa: BLE001  a plugin may raise anything; it must not take us down
+    except Exception as fault:
+        if isinstance(fault, ModuleNotFoundError) and is_optional(fault):
+            raise
         return Diagnostic(
             "P002",
             f"plugin `{entry.name}` cannot be loaded",

@@ -80,6 +80,8 @@ def run(arguments: Sequence[str]) -> int:
         return _interrupted()
     except OSError as error:
         return _no_output(error)
+    except ModuleNotFoundError as missing:
+        return _not_installed(missing)
     except Exception as bug:  # noqa: BLE001  the last resort: whatever it is, it is ours
         return _bug(bug)
 
@@ -179,6 +181,22 @@ def _pipe_closed() -> int:
     with suppress(OSError, ValueError):  # a stream that is no file has nothing to flush
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return _BROKEN_PIPE
+
+
+def _not_installed(missing: ModuleNotFoundError) -> int:
+    """Report a command that needs more than the base install."""
+    from shotc.diag.model import Diagnostic
+    from shotc.plugins import is_optional
+
+    if not is_optional(missing):
+        return _bug(missing)
+    fault = Diagnostic(
+        "P004",
+        f"this command needs {missing.name}, not installed here",
+        help="run `pip install 'shotc[plan]'`, or `pip install 'shotc[all]'` for the viewer too",
+    )
+    console.report([fault], {})
+    return console.EXIT_REJECTED
 
 
 def _no_output(error: OSError) -> int:

@@ -77,3 +77,11 @@ def test_another_api_version_or_name_is_refused(install, name, api):
 def test_listing_names_imports_nothing(install):
     install("quiet-maker", "quiet", "raise RuntimeError('imported')")
     assert "quiet" in plugins.names("emitters")
+
+
+def test_a_plugin_that_lacks_an_optional_library_is_not_broken(install):
+    install("viewer-maker", "viewer", "raise ModuleNotFoundError('no rerun', name='rerun')")
+    found = plugins.discover("emitters")
+    assert found.lacking == {"viewer": "rerun"}
+    assert found.diagnostics == ()
+    assert ("viewer", "needs rerun, which is not installed", "viewer-maker") in plugins.listing("emitters")

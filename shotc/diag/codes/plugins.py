@@ -65,18 +65,19 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     CodeInfo(
         "P004",
-        "solvers-not-installed",
+        "library-not-installed",
         Severity.ERROR,
-        "planning needs the solvers, and they are not installed",
-        "The base install checks missions and explains codes. Planning brings numpy, cvxpy, Clarabel and toppra, "
-        "which weigh several hundred megabytes; they come with `pip install 'shotc[plan]'`.",
+        "what was asked for needs a library that is not installed",
+        "The base install checks missions and explains codes. Planning needs numpy, cvxpy, Clarabel and toppra, "
+        "which weigh several hundred megabytes and come with `pip install 'shotc[plan]'`; the rerun recording comes "
+        "with `pip install 'shotc[view]'`, and `shotc[all]` is both.",
         "",
         "",
         "other",
     ),
     CodeInfo(
         "P005",
-        "viewer-not-installed",
+        "output-left-out",
         Severity.WARNING,
         "an output needs a library that is not installed",
         "The rerun recording needs rerun-sdk, which weighs half a gigabyte and comes with "
