@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from shotc import plugins
 from shotc.diag.model import Diagnostic
-from shotc.diag.registry import has_errors
+from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.emit.base import Artifact
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
@@ -23,7 +23,6 @@ from shotc.pipeline import PassReport, default_passes, front_passes, run
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import load
-from shotc.spec.schema import json_schema as _json_schema
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import Claim, VerifiedIR
@@ -93,7 +92,9 @@ class PlanReport:
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON Schema of a mission, with every kind that is installed."""
-    return _json_schema(_models())
+    from shotc.spec.schema import json_schema as schema_of
+
+    return schema_of(_models(plugins.shot_kinds().plugins))
 
 
 def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
@@ -101,13 +102,12 @@ def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
 
     data : any bytes; name : how to show it; folder : where the files that it names are
     """
-    loaded = load(data, name, folder, _models())
-    found = [*plugins.discover("kinds").diagnostics, *loaded.diagnostics]
+    kinds = plugins.shot_kinds()
+    loaded = load(data, name, folder, _models(kinds.plugins))
+    found = [*kinds.diagnostics, *loaded.diagnostics]
     if loaded.mission is not None:
-        kinds = plugins.discover("kinds").plugins
-        found += run(
-            front_passes(kinds, plugins.names("emitters")), loaded.mission, PassContext()
-        ).diagnostics
+        passes = front_passes(kinds.plugins, plugins.names("emitters"))
+        found += run(passes, loaded.mission, PassContext()).diagnostics
     return CheckReport(tuple(found), {name: loaded.file})
 
 
@@ -116,8 +116,8 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
 
     options.refiner must be one of ``plugins.names("refiners")``
     """
-    kinds = plugins.discover("kinds")
-    loaded = load(data, name, folder, _models())
+    kinds = plugins.shot_kinds()
+    loaded = load(data, name, folder, _models(kinds.plugins))
     sources = {name: loaded.file}
     found = [*kinds.diagnostics, *loaded.diagnostics]
     if loaded.mission is None or has_errors(found):
@@ -132,18 +132,25 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
         return Compilation(None, front.reports, (*found, *refusals), sources)
-    refiners = plugins.discover("refiners")
-    found += refiners.diagnostics
-    if options.refiner in refiners.lacking:
-        found.append(
-            _not_installed("P004", f"refiner `{options.refiner}`", [refiners.lacking[options.refiner]])
-        )
-    if has_errors(found):
+    refiner, faults = _refiner(options.refiner)
+    found += faults
+    if refiner is None or stops(found):
         return Compilation(None, front.reports, tuple(found), sources)
-    passes = default_passes(kinds.plugins, refiners.plugins[options.refiner])[len(front.reports) :]
+    passes = default_passes(kinds.plugins, refiner)[len(front.reports) :]
     back = run(passes, _with_autopilot(front.value, options.autopilot), ctx, options.stop_after)
-    plan = back.value if back.reports[-1].name == "verify" else None
-    return Compilation(plan, front.reports + back.reports, (*found, *back.diagnostics), sources)
+    found = [*without_answered(found, back.diagnostics), *back.diagnostics]
+    # What was stopped on purpose is no plan to write, not even after the last pass.
+    plan = None if options.stop_after or has_errors(found) else back.value
+    return Compilation(plan, front.reports + back.reports, tuple(found), sources)
+
+
+def _refiner(name: str) -> tuple[Any, tuple[Diagnostic, ...]]:
+    """Return a refiner, or None where it cannot be used, and what there is to say about refiners."""
+    known = plugins.discover("refiners")
+    if name not in known.lacking:
+        return known.plugins.get(name), known.diagnostics
+    missing = _not_installed("P004", f"refiner `{name}`", [known.lacking[name]])
+    return None, (*known.diagnostics, missing)
 
 
 def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
@@ -203,8 +210,8 @@ def _unchanged(name: str, sha256: str) -> dict[str, SourceFile]:
     return {name: SourceFile(name, data.decode("utf-8-sig", "replace"))}
 
 
-def _models() -> Mapping[str, Any]:
-    return {name: kind.model for name, kind in plugins.discover("kinds").plugins.items()}
+def _models(kinds: Mapping[str, Any]) -> Mapping[str, Any]:
+    return plugins.OnDemand(kinds, lambda name: kinds[name].model)
 
 
 def _with_autopilot(keyframes: KeyframeIR, autopilot: Literal["px4", "ardupilot"] | None) -> KeyframeIR:

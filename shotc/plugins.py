@@ -7,7 +7,7 @@ version is a diagnostic that names the package, never a silent choice.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -33,26 +33,46 @@ class Found:
     lacking: Mapping[str, str]
 
 
+class OnDemand(Mapping[str, Any]):
+    """A mapping of known keys, each of whose values is made when it is first asked for."""
+
+    def __init__(self, keys: Iterable[str], make: Callable[[str], Any]) -> None:
+        self._keys = dict.fromkeys(keys)
+        self._make = cache(make)
+
+    def __getitem__(self, key: str) -> Any:
+        if key not in self._keys:
+            raise KeyError(key)
+        return self._make(key)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._keys)
+
+    def __len__(self) -> int:
+        return len(self._keys)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._keys
+
+
 @cache
 def discover(group: str) -> Found:
     """Load every plugin of ``group`` ("kinds", "refiners" or "emitters")."""
-    plugins: dict[str, Any] = {}
-    diagnostics: list[Diagnostic] = []
-    lacking: dict[str, str] = {}
-    for name, entries in _by_name(group).items():
-        if len(entries) > 1:
-            diagnostics.append(_clash(group, name, entries))
-            continue
-        try:
-            loaded = _load(entries[0])
-        except ModuleNotFoundError as missing:
-            lacking[name] = str(missing.name)
-            continue
-        if isinstance(loaded, Diagnostic):
-            diagnostics.append(loaded)
-        else:
-            plugins[name] = loaded
-    return Found(plugins, tuple(diagnostics), lacking)
+    return _prove(group, _by_name(group))
+
+
+@cache
+def shot_kinds() -> Found:
+    """Return the shot kinds: those of other packages loaded and proved, each of ours loaded when it is used.
+
+    A mission uses a few of our kinds; making the models of all takes longer than checking the mission.
+    """
+    table = _by_name("kinds")
+    ours = {name: entries[0] for name, entries in table.items() if len(entries) == 1 and _is_ours(entries[0])}
+    others = _prove("kinds", {name: entries for name, entries in table.items() if name not in ours})
+    known = sorted([*ours, *others.plugins])
+    plugins = OnDemand(known, lambda name: ours[name].load() if name in ours else others.plugins[name])
+    return Found(plugins, others.diagnostics, others.lacking)
 
 
 def names(group: str) -> list[str]:
@@ -77,9 +97,49 @@ def is_optional(missing: ModuleNotFoundError) -> bool:
     return (missing.name or "").partition(".")[0] in OPTIONAL
 
 
+def forget() -> None:
+    """Forget which packages are installed, and look again when next asked."""
+    for remembered in (discover, shot_kinds, _installed):
+        remembered.cache_clear()
+
+
+def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> Found:
+    """Load every plugin of a table."""
+    plugins: dict[str, Any] = {}
+    diagnostics: list[Diagnostic] = []
+    lacking: dict[str, str] = {}
+    for name, entries in table.items():
+        if len(entries) > 1:
+            diagnostics.append(_clash(group, name, entries))
+            continue
+        try:
+            loaded = _load(entries[0])
+        except ModuleNotFoundError as missing:
+            lacking[name] = str(missing.name)
+            continue
+        if isinstance(loaded, Diagnostic):
+            diagnostics.append(loaded)
+        else:
+            plugins[name] = loaded
+    return Found(plugins, tuple(diagnostics), lacking)
+
+
+@cache
+def _installed() -> Any:
+    """Return the entry points of all packages, which have a ``select``; Python 3.12 gave them another type.
+
+    To read them takes milliseconds, and all are read whichever are wanted.
+    """
+    return entry_points()
+
+
+def _is_ours(entry: EntryPoint) -> bool:
+    return entry.module.startswith(f"{__package__}.")
+
+
 def _by_name(group: str) -> dict[str, list[EntryPoint]]:
     table: dict[str, list[EntryPoint]] = {}
-    for entry in entry_points(group=GROUPS[group]):
+    for entry in _installed().select(group=GROUPS[group]):
         known = table.setdefault(entry.name, [])
         # An editable install beside a wheel shows the same entry twice; that is no clash.
         if all((e.value, _owner(e)) != (entry.value, _owner(entry)) for e in known):
@@ -89,7 +149,6 @@ def _by_name(group: str) -> dict[str, list[EntryPoint]]:
 
 def _load(entry: EntryPoint) -> Any:
     """Return the plugin, or what is wrong with it; ModuleNotFoundError where it lacks an optional library."""
-    where = f"`{entry.value}` of package {_owner(entry)}"
     try:
         plugin = entry.load()
         name, api = plugin.name, plugin.api
@@ -99,7 +158,7 @@ def _load(entry: EntryPoint) -> Any:
         return Diagnostic(
             "P002",
             f"plugin `{entry.name}` cannot be loaded",
-            notes=(where, f"{type(fault).__name__}: {fault}"),
+            notes=(_where(entry), f"{type(fault).__name__}: {fault}"),
             help=f"update or remove {_owner(entry)}",
         )
     if api != API_VERSION or name != entry.name:
@@ -107,7 +166,7 @@ def _load(entry: EntryPoint) -> Any:
             "P003",
             f"plugin `{entry.name}` does not fit this version of shotc",
             notes=(
-                where,
+                _where(entry),
                 f"it says name `{name}`, api {api}; wanted name `{entry.name}`, api {API_VERSION}",
             ),
             help=f"update {_owner(entry)}",
@@ -123,6 +182,10 @@ def _clash(group: str, name: str, entries: list[EntryPoint]) -> Diagnostic:
         notes=(owners,),
         help="remove one of them; neither is used",
     )
+
+
+def _where(entry: EntryPoint) -> str:
+    return f"`{entry.value}` of package {_owner(entry)}"
 
 
 def _owner(entry: EntryPoint) -> str:

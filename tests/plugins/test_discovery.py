@@ -20,21 +20,21 @@ PLUGIN = Sample()
 
 @pytest.fixture
 def install(tmp_path, monkeypatch):
-    """Lay a distribution with one emitter on sys.path."""
+    """Lay a distribution with one emitter, or another plugin, on sys.path."""
 
-    def lay(distribution: str, entry: str, body: str) -> None:
+    def lay(distribution: str, entry: str, body: str, group: str = "emitters") -> None:
         module = distribution.replace("-", "_")
         (tmp_path / f"{module}.py").write_text(body)
         info = tmp_path / f"{module}-1.0.dist-info"
         info.mkdir()
         (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {distribution}\nVersion: 1.0\n")
-        (info / "entry_points.txt").write_text(f"[shotc.emitters]\n{entry} = {module}:PLUGIN\n")
+        (info / "entry_points.txt").write_text(f"[shotc.{group}]\n{entry} = {module}:PLUGIN\n")
         monkeypatch.delitem(sys.modules, module, raising=False)
 
     monkeypatch.syspath_prepend(str(tmp_path))
-    plugins.discover.cache_clear()
+    plugins.forget()
     yield lay
-    plugins.discover.cache_clear()
+    plugins.forget()
 
 
 def test_a_third_party_emitter_is_found_and_named_with_its_package(install):
@@ -85,3 +85,23 @@ def test_a_plugin_that_lacks_an_optional_library_is_not_broken(install):
     assert found.lacking == {"viewer": "rerun"}
     assert found.diagnostics == ()
     assert ("viewer", "needs rerun, which is not installed", "viewer-maker") in plugins.listing("emitters")
+
+
+def test_a_broken_kind_of_another_package_is_told_though_no_shot_uses_it(install):
+    install("broken-maker", "broken", "raise RuntimeError('no such camera')", group="kinds")
+    found = plugins.shot_kinds()
+    assert "broken" not in found.plugins
+    assert [d.code for d in found.diagnostics] == ["P002"]
+
+
+def test_a_kind_may_not_take_the_name_of_ours(install):
+    install("orbit-thief", "orbit", MODULE.format(name="orbit", api=1), group="kinds")
+    found = plugins.shot_kinds()
+    assert "orbit" not in found.plugins
+    assert "spiral" in found.plugins
+    assert [d.code for d in found.diagnostics] == ["P001"]
+
+
+def test_both_ways_to_the_kinds_find_the_same(install):
+    install("kind-maker", "sample", MODULE.format(name="sample", api=1), group="kinds")
+    assert dict(plugins.shot_kinds().plugins) == dict(plugins.discover("kinds").plugins)
