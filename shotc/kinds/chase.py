@@ -1,7 +1,5 @@
 """Chase: behind a moving target, the way it goes. Checked, but not planned yet."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

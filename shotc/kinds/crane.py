@@ -1,7 +1,5 @@
 """Crane: the camera rises or sinks while it moves towards the target or away from it."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

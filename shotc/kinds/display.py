@@ -1,7 +1,5 @@
 """Display: a fleet draws pictures in the air. Checked, but not planned yet."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Dolly: the camera moves straight towards the target or away from it."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Elevator: the camera rises or sinks in front of the target."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Flyby: past a moving target from behind to ahead. Checked, but not planned yet."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

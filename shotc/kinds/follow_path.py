@@ -1,7 +1,5 @@
 """Follow-path: the camera flies along points of the mission, or of a CSV or GPX file."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, dist, hypot

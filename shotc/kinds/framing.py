@@ -1,7 +1,5 @@
 """Framing: the camera goes where its subjects appear as asked. Checked, but not planned yet."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Keyframes: the camera poses that the user framed, in order."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Lateral: beside a moving target. Checked, but not planned yet."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Lead: ahead of a moving target, looking back. Checked, but not planned yet."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Orbit: a turn about the target at one distance and altitude."""
 
-from __future__ import annotations
-
 from math import pi
 from typing import Annotated, Literal
 

@@ -1,7 +1,5 @@
 """Spiral: a turn about the target whose distance and altitude change on the way."""
 
-from __future__ import annotations
-
 from math import pi
 from typing import Literal
 

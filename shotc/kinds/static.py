@@ -1,7 +1,5 @@
 """Static: the camera stands still and films."""
 
-from __future__ import annotations
-
 from typing import ClassVar, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Top-down: the camera looks straight down on the target, at rest or drifting."""
 
-from __future__ import annotations
-
 from math import atan2, hypot, pi
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """Drones and fleets as a mission writes them: a preset, and what overrides it."""
 
-from __future__ import annotations
-
 from math import atan, degrees
 from typing import Annotated, Any, ClassVar, Literal, Self
 

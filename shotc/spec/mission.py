@@ -1,7 +1,5 @@
 """The mission as written: the top of the language's models."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 

@@ -1,4 +1,8 @@
-"""The base of every model of the language: frozen, closed to unknown keys, reporting all its faults."""
+"""The base of every model of the language: frozen, closed to unknown keys, reporting all its faults.
+
+Modules that define models do without ``from __future__ import annotations``: pydantic would have to
+compile every annotation again.
+"""
 
 from __future__ import annotations
 

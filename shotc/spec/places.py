@@ -1,7 +1,5 @@
 """Field types for places in the world: a position, and what a camera looks at."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, Any
 

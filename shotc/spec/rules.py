@@ -1,7 +1,5 @@
 """Mission-wide rules and what is written out; silence means the defaults of ``presets``."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

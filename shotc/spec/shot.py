@@ -3,8 +3,6 @@
 A kind subclasses ``ShotBase`` with its own parameters and ``kind: Literal["its-name"]``.
 """
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from pydantic import Field, GetJsonSchemaHandler

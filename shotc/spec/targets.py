@@ -1,7 +1,5 @@
 """Targets: what is filmed, standing or moving, as an upright cylinder about its centre."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from pydantic import Field

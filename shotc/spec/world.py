@@ -1,7 +1,5 @@
 """The world of a mission: where it is, what stands in it, where drones may fly."""
 
-from __future__ import annotations
-
 from typing import ClassVar, Literal
 
 from pydantic import Field
