@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any, get_args, get_type_hints
 
 from shotc.diag.model import Diagnostic
-from shotc.diag.registry import has_errors
+from shotc.diag.registry import stops
 from shotc.passes.base import Pass, PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.passes.resolve import Resolve
@@ -73,6 +73,7 @@ def run(
 ) -> Run:
     """Run passes in turn until one fails or ``stop_after`` is done.
 
+    An error that knows a bound only does not stop the run: a later pass has the exact number.
     After each pass the IR's own ``check()`` runs, where it has one: a ValueError from it is a bug.
     """
     diagnostics: list[Diagnostic] = []
@@ -82,7 +83,7 @@ def run(
         began = clock()
         outcome = step.run(value, ctx)
         diagnostics.extend(outcome.diagnostics)
-        failed = outcome.value is None or has_errors(outcome.diagnostics)
+        failed = outcome.value is None or stops(outcome.diagnostics)
         value = None if failed else outcome.value
         reports.append(PassReport(step.name, outcome.value, clock() - began))
         if failed:

@@ -34,6 +34,8 @@ class CodeInfo:
     phase    : the command that finds it; ``other`` where a mission alone cannot show it
     failing  : a mission (or its bytes, backslash-escaped, for Y codes) that raises the code
     passing  : the same mission mended
+    exact    : codes under which ``plan`` tells the same fault with exact numbers, where this one knows a
+               bound only; planning goes on past it to find them
     """
 
     code: str
@@ -45,6 +47,7 @@ class CodeInfo:
     passing: str
     phase: Literal["check", "plan", "other"] = "check"
     since: str = "0.1"
+    exact: tuple[str, ...] = ()
 
 
 @cache
@@ -68,3 +71,17 @@ def severity_of(diagnostic: Diagnostic) -> Severity:
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
     """Tell whether any of the diagnostics rejects the mission."""
     return any(severity_of(d) is Severity.ERROR for d in diagnostics)
+
+
+def stops(diagnostics: Iterable[Diagnostic]) -> bool:
+    """Tell whether any of the diagnostics keeps later passes from running.
+
+    Every error does, but for one that knows a bound only: a later pass has the exact number.
+    """
+    return any(severity_of(d) is Severity.ERROR and not registry()[d.code].exact for d in diagnostics)
+
+
+def without_answered(found: Iterable[Diagnostic], later: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """Return what was found, less the bounds to which a later pass has found the exact numbers."""
+    answers = {d.code for d in later}
+    return [d for d in found if answers.isdisjoint(registry()[d.code].exact)]

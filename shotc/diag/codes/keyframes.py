@@ -30,10 +30,16 @@ shots:
 """
 
 
-def _code(number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str]) -> CodeInfo:
-    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
+def _code(
+    number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str], *exact: str
+) -> CodeInfo:
+    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong).
+
+    exact : codes of the time pass that tell the same fault with exact numbers
+    """
     failing = _PASSING.replace(*slip)
-    return CodeInfo(f"K{number:03}", slug, Severity.ERROR, summary, explanation, failing, _PASSING)
+    error = Severity.ERROR
+    return CodeInfo(f"K{number:03}", slug, error, summary, explanation, failing, _PASSING, exact=exact)
 
 
 CODES: tuple[CodeInfo, ...] = (
@@ -60,6 +66,7 @@ CODES: tuple[CodeInfo, ...] = (
         "A given duration includes all holds, and flying takes time too. Lengthen the shot, shorten the "
         "holds, or write `timing: auto`.",
         ("hold: 2, time: 15", "hold: 45"),
+        "T001",
     ),
     _code(
         4,
@@ -69,6 +76,8 @@ CODES: tuple[CodeInfo, ...] = (
         "time does not suffice. The numbers are a lower bound: curves, jerk and turns of the camera take "
         "more. Lengthen the shot, bring the keyframes closer, or raise the limits.",
         ("{start: 20, duration: 40}", "{start: 20, duration: 18}"),
+        "T001",
+        "T002",
     ),
     _code(
         5,
@@ -77,6 +86,7 @@ CODES: tuple[CodeInfo, ...] = (
         "Shots, holds and waits, and the straight ways between them and home, add up to more than "
         "`endurance`. Shorten or drop shots, or cut the mission in two.",
         ("endurance: 10 min", "endurance: 1 min"),
+        "T004",
     ),
     _code(
         6,
@@ -85,6 +95,7 @@ CODES: tuple[CodeInfo, ...] = (
         "A drone films one shot at a time. With the starts and durations given, one shot begins before the "
         "other can have ended. Start it later, or give it to another drone.",
         ("{start: 100, duration: 10}", "{start: 50, duration: 10}"),
+        "T003",
     ),
     _code(
         7,
@@ -92,6 +103,7 @@ CODES: tuple[CodeInfo, ...] = (
         "a shot starts before the one that it waits for has ended",
         "`start` and `after` of the same timing contradict each other. Start it later, or drop one of them.",
         ("{after: above}", "{after: above, start: 105}"),
+        "T003",
     ),
     _code(
         8,
@@ -100,6 +112,7 @@ CODES: tuple[CodeInfo, ...] = (
         "`start` is the time of the first filmed frame, counted from the start of the mission; take-off and "
         "the way there, or the way from the shot before, come first. Start the shot later.",
         ("{start: 20, duration: 40}", "{start: 2, duration: 40}"),
+        "T003",
     ),
     _code(
         9,

@@ -13,7 +13,7 @@ from functools import partial
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
-from shotc.diag.registry import has_errors
+from shotc.diag.registry import stops
 from shotc.ir.mission import GeoOrigin, MissionIR, Rules
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
@@ -92,7 +92,7 @@ class Resolve:
             origins=origins,
         )
         faults += _static_faults(mission, geometry=not homeless, timing=not drone_faults, order=not faults)
-        return Outcome(None if has_errors(faults) else mission, tuple(faults))
+        return Outcome(None if stops(faults) else mission, tuple(faults))
 
 
 def _static_faults(mission: MissionIR, *, geometry: bool, timing: bool, order: bool) -> list[Diagnostic]:

@@ -1,7 +1,11 @@
-"""Timings that no drone can meet, told without a solver: from lower bounds on flying time."""
+"""Timings that no drone can meet, told without a solver: from lower bounds on flying time.
+
+Straight lines at full limits say what no drone can do, not what one can: that number is ``plan``'s.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil
@@ -12,6 +16,8 @@ from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.passes.resolve.motion import least_shot, least_travel, length
 
 SLACK = 1e-6  # seconds of rounding
+SHORTEST = "`shotc plan` finds the shortest possible"
+EARLIEST = "`shotc plan` finds the earliest possible"
 
 
 def check_timing(mission: MissionIR, *, schedule: bool = True) -> list[Diagnostic]:
@@ -27,46 +33,46 @@ def check_timing(mission: MissionIR, *, schedule: bool = True) -> list[Diagnosti
 
 def _own_times(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
     """Check that keyframe times rise, stay within the duration and leave time to fly."""
-    faults: list[Diagnostic] = []
-    limits = mission.drone(shot.drone).limits
-    timed = [(i, k, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None]
-    for (i, a, start), (j, b, end) in pairwise(timed):
-        label = mission.origins.value((*b.path, "time"))
-        if end <= start:
-            note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s"
-            faults.append(
-                Diagnostic(
-                    "K001",
-                    "keyframe times do not rise",
-                    (label, mission.origins.value((*a.path, "time"), "the earlier keyframe")),
-                    (note,),
-                    f"set it later than {start:.1f} s",
-                )
-            )
-            continue
-        stretch = shot.keyframes[i : j + 1]
-        holds = sum(k.hold for k in stretch[:-1])
-        least = holds + least_travel([k.at for k in stretch], limits, rests=False)
-        if end - start < least - SLACK:
-            note = f"the {length(stretch):.1f} m between them need at least {_up(least)} s"
-            message = f"nobody gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
-            faults.append(
-                Diagnostic("K004", message, (label,), (note,), f"set it to {_up(start + least)} s or later")
-            )
+    timed = [(i, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None]
+    pairs = (_pair(mission, shot, i, j) for (i, _), (j, _) in pairwise(timed))
+    return [*(fault for fault in pairs if fault is not None), *_past_end(mission, shot)]
+
+
+def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
+    """Check two keyframes with a time, and none with one between them."""
+    a, b = shot.keyframes[i], shot.keyframes[j]
+    start, end = a.time or 0.0, b.time or 0.0
+    label = mission.origins.value((*b.path, "time"))
+    if end <= start:
+        labels = (label, mission.origins.value((*a.path, "time"), "the earlier keyframe"))
+        note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s"
+        help_ = f"set it later than {start:.1f} s"
+        return Diagnostic("K001", "keyframe times do not rise", labels, (note,), help_)
+    stretch = shot.keyframes[i : j + 1]
+    holds = sum(k.hold for k in stretch[:-1])
+    least = holds + least_travel([k.at for k in stretch], mission.drone(shot.drone).limits, rests=False)
+    if end - start >= least - SLACK:
+        return None
+    note = f"the {length(stretch):.1f} m between them need at least {_up(least)} s"
+    message = f"nobody gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
+    help_ = f"set it later than {_up(start + least)} s; {EARLIEST}"
+    return Diagnostic("K004", message, (label,), (note,), help_)
+
+
+def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Yield keyframes that come, or are held, after the end of a shot with a duration."""
     duration = shot.timing.duration
-    late = [(k, t) for _, k, t in timed if duration is not None and t + k.hold > duration + SLACK]
-    for keyframe, time in late:
+    for keyframe in shot.keyframes:
+        if duration is None or keyframe.time is None or keyframe.time + keyframe.hold <= duration + SLACK:
+            continue
         held = f" and is held for {keyframe.hold:.1f} s" if keyframe.hold else ""
-        faults.append(
-            Diagnostic(
-                "K002",
-                "a keyframe ends after its shot",
-                (mission.origins.value((*keyframe.path, "time")),),
-                (f"it is at {time:.1f} s{held}; the shot lasts {duration:.1f} s",),
-                f"give the shot a duration of {time + keyframe.hold:.1f} s",
-            )
+        yield Diagnostic(
+            "K002",
+            "a keyframe ends after its shot",
+            (mission.origins.value((*keyframe.path, "time")),),
+            (f"it is at {keyframe.time:.1f} s{held}; the shot lasts {duration:.1f} s",),
+            f"give the shot a duration of {keyframe.time + keyframe.hold:.1f} s",
         )
-    return faults
 
 
 def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
@@ -75,12 +81,12 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
     least = least_shot(shot.keyframes, drone.limits)
     asked = shot.timing.duration
     if max(least, asked or 0.0) > drone.endurance:
-        return [_too_long(mission, shot, drone, max(least, asked or 0.0))]
+        return [_too_long(mission, shot, drone, least, asked or 0.0)]
     if asked is None or asked >= least - SLACK:
         return []
     label = timing_label(mission, shot)
     holds = sum(k.hold for k in shot.keyframes)
-    remedy = f"give it at least {_up(least)} s, or write `timing: auto`"
+    remedy = f"give it more than {_up(least)} s, or write `timing: auto`; {SHORTEST}"
     if holds > asked + SLACK:
         held = [k for k in shot.keyframes if k.hold > 0]
         labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
@@ -101,12 +107,13 @@ def _pace(shot: Shot, drone: Drone, least: float) -> str:
     )
 
 
-def _too_long(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> Diagnostic:
+def _too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float, asked: float) -> Diagnostic:
+    lasts = f"lasts {asked:.1f} s" if asked >= least else f"takes at least {_up(least)} s"
     return Diagnostic(
         "K005",
         f"shot `{shot.id}` is longer than drone `{drone.name}` can stay in the air",
         (timing_label(mission, shot), mission.origins.value((*drone.path, "endurance"), "the endurance")),
-        (f"the shot lasts {seconds:.1f} s, the endurance is {drone.endurance:.1f} s",),
+        (f"the shot {lasts}, the endurance is {drone.endurance:.1f} s",),
         "shorten the shot, or cut it in two for two flights",
     )
 
@@ -149,7 +156,7 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
     if start is None or start >= max(there, waits) - SLACK:
         return []
     label = timing_label(mission, shot)
-    remedy = f"start it at {_up(max(there, waits))} s or later"
+    remedy = f"start it later than {_up(max(there, waits))} s; {EARLIEST}"
     if start < waits - SLACK:
         note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
         message = f"shot `{shot.id}` starts at {start:.1f} s, before the shot it waits for has ended"
