@@ -27,7 +27,7 @@ from shotc.spec.load import load
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import Claim, VerifiedIR
 
-SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra")
+SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "matplotlib", "pymap3d")
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,7 +162,7 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
     known = plugins.discover("emitters")
-    wanted = plan.trajectory.keyframes.mission.emit if names is None else names
+    wanted = dict.fromkeys(plan.trajectory.keyframes.mission.emit if names is None else names)
     artifacts: list[Artifact] = []
     diagnostics = list(known.diagnostics)
     notes: list[str] = []

@@ -19,6 +19,9 @@ from shotc.emit.base import Artifact
 
 def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tuple[Diagnostic, ...]]:
     """Write artifacts into ``folder``, which is made if need be; return their paths, or an error."""
+    clash = _clash(artifacts)
+    if clash is not None:
+        return [], (clash,)
     staged: list[tuple[Path, Path]] = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -39,6 +42,19 @@ def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tupl
             with suppress(OSError):
                 temporary.unlink(missing_ok=True)
     return [place for _, place in staged], ()
+
+
+def _clash(artifacts: Sequence[Artifact]) -> Diagnostic | None:
+    names = [artifact.name for artifact in artifacts]
+    twice = [name for name in dict.fromkeys(names) if names.count(name) > 1]
+    if not twice:
+        return None
+    return Diagnostic(
+        "E902",
+        f"two emitters make {', '.join(twice)}",
+        notes=("nothing is written",),
+        help="leave one of them out with --emit",
+    )
 
 
 def _write_through(path: Path, data: bytes) -> None:

@@ -60,7 +60,11 @@ def plan(
         done = compile_source(source.data, source.name, source.folder, options)
         if dump_ir is not None:
             _dump(done, dump_ir)
-        code = _finish(done, emitters, output, progress)
+        if options.stop_after is None:
+            code = _finish(done, emitters, output, progress)
+        else:
+            console.report(done.diagnostics, done.sources)
+            code = console.exit_code(done.diagnostics)
     if time_passes:
         _print_times(done)
     raise typer.Exit(code)
@@ -101,7 +105,9 @@ def _print_times(done: Compilation) -> None:
 
 
 def _names(listed: str | None) -> list[str] | None:
-    return None if listed is None else [name.strip() for name in listed.split(",") if name.strip()]
+    if listed is None:
+        return None
+    return list(dict.fromkeys(name.strip() for name in listed.split(",") if name.strip()))
 
 
 def _known(option: str, name: str | None, known: list[str]) -> None:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from math import degrees, isfinite
 from pathlib import Path
+from textwrap import wrap
 
 from shotc.ir.trajectory import Claim, Phase, VerifiedIR
 
+WIDTH = 100
+GLUE = "\N{NO-BREAK SPACE}"
 LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
 
 
@@ -22,7 +25,7 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
             "",
             *_indent(table(shot_rows(plan))),
             "",
-            *_indent([f"{name:<9} {text}" for name, text in _facts(plan, notes)]),
+            *_indent(line for name, text in _facts(plan, notes) for line in _paragraph(name, text)),
             "",
             *_indent(_files(paths)),
         ]
@@ -75,7 +78,7 @@ def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
 
 
 def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
-    facts = [("limits", ", ".join(_used(plan.certificate)))]
+    facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
@@ -119,9 +122,15 @@ def _closest(certificate: Iterable[Claim]) -> list[str]:
 def _files(paths: Sequence[Path]) -> list[str]:
     folder = paths[0].parent
     return [
-        f"wrote     {folder}/: {', '.join(path.name for path in paths)}",
+        *_paragraph("wrote", f"{folder}/: {', '.join(path.name for path in paths)}"),
         f"next      shotc view {folder / 'plan.json'}",
     ]
+
+
+def _paragraph(name: str, text: str) -> list[str]:
+    """Wrap a fact behind its name; glued words stay on one line."""
+    lines = wrap(text, WIDTH - 12, break_long_words=False, break_on_hyphens=False)
+    return [f"{name if i == 0 else '':<9} {line.replace(GLUE, ' ')}" for i, line in enumerate(lines)]
 
 
 def _indent(lines: Iterable[str]) -> list[str]:

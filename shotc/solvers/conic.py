@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from enum import StrEnum
 from typing import Any
 
@@ -38,13 +39,15 @@ def solve(problem: Any, tolerance: float = 1e-8) -> Status:
     import cvxpy as cp
 
     try:
-        problem.solve(
-            solver=cp.CLARABEL,
-            tol_feas=tolerance,
-            tol_gap_rel=tolerance,
-            tol_gap_abs=tolerance,
-            max_threads=1,
-        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what cvxpy warns of is in the status, and is judged there
+            problem.solve(
+                solver=cp.CLARABEL,
+                tol_feas=tolerance,
+                tol_gap_rel=tolerance,
+                tol_gap_abs=tolerance,
+                max_threads=1,
+            )
     except cp.error.SolverError:
         return Status.FAILED
     return STATUSES.get(problem.status, Status.FAILED)

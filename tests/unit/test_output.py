@@ -85,3 +85,10 @@ def test_a_folder_in_the_place_of_a_file_is_a_diagnostic_and_nothing_is_written(
     assert paths == []
     assert [d.code for d in faults] == ["E901"]
     assert [p.name for p in (tmp_path / "out").iterdir()] == ["trajectory.csv"]
+
+
+def test_two_files_of_one_name_are_refused_and_nothing_is_written(folder):
+    paths, faults = write([*NEW, NEW[0]], folder)
+    assert paths == []
+    assert [d.code for d in faults] == ["E902"]
+    assert content(folder) == {a.name: a.data for a in OLD}

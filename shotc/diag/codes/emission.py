@@ -194,4 +194,15 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "E902",
+        "output-made-twice",
+        Severity.ERROR,
+        "two emitters make a file of one name",
+        "Every output file has one maker. Where two installed emitters would write files of the same name, nothing "
+        "is written, since one would be lost. Choose the emitters with `--emit` or `output.emit`.",
+        "",
+        "",
+        "other",
+    ),
 )
