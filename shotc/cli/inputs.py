@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 import typer
 
@@ -25,8 +25,7 @@ _SUFFIXES = (".yaml", ".yml")
 _MISSION = re.compile(rb"""^(?:\xef\xbb\xbf)?(?:\s*\{\s*)?["']?shotc["']?[ \t]*:""", re.MULTILINE)
 
 
-@dataclass(frozen=True, slots=True)
-class MissionText:
+class MissionText(NamedTuple):
     """The bytes of one mission, the name to show it under, and the folder of the files it names."""
 
     data: bytes

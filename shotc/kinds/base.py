@@ -7,8 +7,7 @@ kinds by an entry point in the group ``shotc.kinds`` that names a ``Kind``; ours
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
@@ -47,8 +46,7 @@ Part = Keyframe | Diagnostic | Deferred
 Aim = tuple[Vec2 | Vec3 | None, str | None]
 
 
-@dataclass(frozen=True, slots=True)
-class Expansion:
+class Expansion(NamedTuple):
     """What a shot expands to: keyframes in the order they are flown, or what stands against it."""
 
     keyframes: tuple[Keyframe, ...] = ()
@@ -65,8 +63,7 @@ class Expansion:
         return cls(() if diagnostics or deferred else keyframes, diagnostics, deferred)
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(NamedTuple):
     """What the expansion of one shot may read.
 
     drone : that films it; rules : of the mission
@@ -151,8 +148,7 @@ class Scene:
         return bad_file(self.origins, (*self.path, *path), name, wrong)
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class Kind(NamedTuple):
     """A shot kind.
 
     name : as `kind:` says it; summary : one line for listings
@@ -165,7 +161,7 @@ class Kind:
     summary: str
     model: type[ShotBase]
     expand: Callable[[Any, Scene], Expansion]
-    api: int = field(default=API_VERSION)
+    api: int = API_VERSION
 
 
 def placed(origin: GeoOrigin | None, position: Place) -> Vec3:

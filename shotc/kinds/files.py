@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import isfinite
-from typing import Any
+from typing import Any, NamedTuple
 from xml.parsers import expat
 
 LARGEST = 4_000_000  # bytes
@@ -14,8 +13,7 @@ FARTHEST = 1e7  # metres or seconds; beyond it no mission is meant
 BOUNDS = {"lat": 90.0, "lon": 180.0}
 
 
-@dataclass(frozen=True, slots=True)
-class FileFault:
+class FileFault(NamedTuple):
     """What is wrong with a file; line from 1, or None where no single line is to blame."""
 
     message: str
@@ -23,8 +21,7 @@ class FileFault:
     help: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(NamedTuple):
     """Rows of finite numbers under the names of their columns."""
 
     columns: tuple[str, ...]

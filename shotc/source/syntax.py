@@ -6,7 +6,7 @@ The parser says what it expected; a rule looks at the text round that place and 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from shotc.source.fault import Fault, shorten
 from shotc.source.file import SourceFile, Span
@@ -15,8 +15,7 @@ _QUOTE = "put the value in quotes"
 _INDENT = "indent the keys of one mapping, and the items of one list, by the same number of spaces"
 
 
-@dataclass(frozen=True, slots=True)
-class Complaint:
+class Complaint(NamedTuple):
     """A parser error: its words and offsets into the text.
 
     start  : where the construct in question began, or None

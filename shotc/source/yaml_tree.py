@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from shotc.source.compose import compose
 from shotc.source.decode import decode
@@ -16,8 +16,7 @@ from shotc.source.nodes import Alias, Collection, Node, Scalar
 KeyPath = tuple[str | int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
+class Document(NamedTuple):
     """A mission as text and as plain values.
 
     file   : the text, as shown in diagnostics
@@ -32,8 +31,8 @@ class Document:
 
     file: SourceFile
     root: Any
-    keys: Mapping[KeyPath, Span] = field(default_factory=dict)
-    values: Mapping[KeyPath, Span] = field(default_factory=dict)
+    keys: Mapping[KeyPath, Span] = MappingProxyType({})
+    values: Mapping[KeyPath, Span] = MappingProxyType({})
     faults: tuple[Fault, ...] = ()
     whole: bool = True
 
@@ -82,7 +81,7 @@ def _capped(faults: list[Fault]) -> tuple[Fault, ...]:
         return tuple(ordered)
     last = ordered[MAX_FAULTS - 1]
     notes = (*last.notes, f"{more} more faults of the text are not shown")
-    return (*ordered[: MAX_FAULTS - 1], replace(last, notes=notes))
+    return (*ordered[: MAX_FAULTS - 1], last._replace(notes=notes))
 
 
 class _Flat:

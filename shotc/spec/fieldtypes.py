@@ -9,7 +9,7 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -106,11 +106,10 @@ class Text(FieldType):
         return {"type": "string", "pattern": self.pattern, "description": self.rule}
 
 
-@dataclass(frozen=True, eq=False)
 class Flag(FieldType):
     """True or false."""
 
-    label: Literal["Flag"] = "Flag"
+    label = "Flag"
 
     def read(self, value: Any) -> bool:
         """Return the truth value."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
@@ -26,8 +26,7 @@ MAX_DIAGNOSTICS = 100
 _CODES = {info.slug: info.code for info in (*schema.CODES, *units.CODES)}
 
 
-@dataclass(frozen=True, slots=True)
-class LoadedMission:
+class LoadedMission(NamedTuple):
     """A mission whose shape is right; names are not resolved yet.
 
     folder : where the files that it names are, or None for text without a place
@@ -40,8 +39,7 @@ class LoadedMission:
     sha256: str
 
 
-@dataclass(frozen=True, slots=True)
-class Loaded:
+class Loaded(NamedTuple):
     """What loading gives: a mission, or None where a diagnostic is an error."""
 
     mission: LoadedMission | None

@@ -7,9 +7,8 @@ compile every annotation again.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any, ClassVar, Self, get_args
+from typing import Any, ClassVar, NamedTuple, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, ValidationError, model_validator
 from pydantic.fields import FieldInfo
@@ -25,8 +24,7 @@ _ADVISED = 100
 _LONGEST_WORD = 80
 
 
-@dataclass(frozen=True, slots=True)
-class OneOf:
+class OneOf(NamedTuple):
     """Keys of one mapping that exclude each other: exactly one of ``forms`` may be given.
 
     forms : each a tuple of keys that belong together, such as ``(("look_at",), ("heading", "pitch"))``

@@ -70,11 +70,10 @@ class Geodetic(Model):
     )
 
 
-@dataclass(frozen=True, eq=False)
 class PositionType(FieldType):
     """A point of the world: ``[x, y, z]`` or ``{lat, lon, height}``."""
 
-    label: str = "Position"
+    label = "Position"
 
     def read(self, value: Any) -> Vec3 | Geodetic:
         """Return a point of W in metres, or a geodetic place."""
@@ -94,11 +93,10 @@ POSITION = PositionType()
 Position = Annotated[Vec3 | Geodetic, POSITION]
 
 
-@dataclass(frozen=True, eq=False)
 class LookAtType(FieldType):
     """What to look at: the name of a target, or a position."""
 
-    label: str = "LookAt"
+    label = "LookAt"
 
     def read(self, value: Any) -> str | Vec3 | Geodetic:
         """Return a target's name or a position."""

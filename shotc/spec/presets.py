@@ -7,9 +7,8 @@ accelerations of gimbals, and jerks, are hardly ever published; they are what sm
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import radians
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from shotc.ir.mission import Gimbal, Limits
 
@@ -26,8 +25,7 @@ EMIT = ("csv", "mavlink", "storyboard", "rerun")
 DEFAULT_MODEL = "x500"
 
 
-@dataclass(frozen=True, slots=True)
-class Preset:
+class Preset(NamedTuple):
     """A drone model.
 
     summary : what it is, in a line; source : where the figures come from

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from math import inf
 from typing import Annotated, Any
@@ -22,11 +21,10 @@ _PAIR = Tuple("ScreenPair", (_SCREEN, _SCREEN), "[u, v]")
 ScreenPoint = Annotated[Vec2, NamedOr("ScreenPoint", NAMED_POINTS, "screen point", _PAIR)]
 
 
-@dataclass(frozen=True, eq=False)
 class OwnPointType(FieldType):
     """A screen point as a composition set of its own."""
 
-    label: str = "ScreenPair"
+    label = "ScreenPair"
 
     def read(self, value: Any) -> Composition:
         """Return the set of this one point."""
@@ -37,11 +35,10 @@ class OwnPointType(FieldType):
         return _PAIR.schema()
 
 
-@dataclass(frozen=True, eq=False)
 class OwnPointsType(FieldType):
     """A list of screen points as a composition set."""
 
-    label: str = "ScreenPoints"
+    label = "ScreenPoints"
 
     def read(self, value: Any) -> Composition:
         """Return the set of these points."""
@@ -65,11 +62,10 @@ CompositionSet = Annotated[
 ]
 
 
-@dataclass(frozen=True, eq=False)
 class AspectType(FieldType):
     """Frame width over height: a number, or text such as ``16:9``."""
 
-    label: str = "Aspect"
+    label = "Aspect"
 
     def read(self, value: Any) -> float:
         """Return width / height, from 0.2 to 5."""

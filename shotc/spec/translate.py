@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from pydantic import ValidationError
 
@@ -17,8 +16,7 @@ from shotc.units import clip, describe
 _ON_KEY = frozenset({"unknown-field", "missing-field", "conflicting-fields", "empty-value"})
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(NamedTuple):
     """A fault before it has a place in the text.
 
     path : key path from the top of the mission; slug : of its code; blame : what to underline there
