@@ -8,9 +8,23 @@ import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 SHOTC = (sys.executable, "-m", "shotc")
+SMALL = """\
+shotc: 1
+mission: small
+targets:
+  tower: {at: [0, 0, 12], radius: 4, height: 24}
+drones:
+  cam1: {model: x500, home: [0, -60, 0]}
+shots:
+  - {id: wide, kind: static, drone: cam1, target: tower, timing: {duration: 2},
+     at: [0, -50, 15], look_at: tower}
+output: {rate: 20, emit: [csv]}
+"""
+"""A mission that is planned in no time."""
 _HEAD = re.compile(r"^(error|warning)\[([A-Z]\d{3})\]: (.*)$")
 _PLACE = re.compile(r"^ *--> (.*):(\d+):(\d+)$")
 _SOURCE = re.compile(r"^ *(\d+) \| ")
@@ -28,9 +42,9 @@ class Result:
     @property
     def reports(self) -> list[Report]:
         """The diagnostics on the error stream."""
-        heads = [i for i, line in enumerate(self.err.splitlines()) if _HEAD.match(line)]
         lines = self.err.splitlines()
-        return [_report(lines[a:b]) for a, b in zip(heads, [*heads[1:], len(lines)], strict=True)]
+        heads = [i for i, line in enumerate(lines) if _HEAD.match(line)]
+        return [_report(lines[a:b]) for a, b in pairwise([*heads, len(lines)])]
 
     @property
     def errors(self) -> list[Report]:
