@@ -1,8 +1,24 @@
-"""``python -m shotc`` is the command ``shotc``."""
+"""Where the process of a command starts: ``shotc``, or ``python -m shotc``."""
 
 from __future__ import annotations
 
-from shotc.cli.app import main
+import gc
+import os
+import sys
+
+
+def main() -> None:
+    """Run the command line of this process, and end the process."""
+    # Most of a short run is imports, and they make no garbage: there is nothing
+    # to collect on the way nor at the end. Pydantic need not look for plugins either.
+    gc.set_threshold(100_000, 50, 100)
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    from shotc.cli.app import run  # noqa: PLC0415  after the above, for it imports the most
+
+    code = run(sys.argv[1:])
+    gc.freeze()
+    sys.exit(code)
+
 
 if __name__ == "__main__":
     main()

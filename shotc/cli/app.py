@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import gc
 import os
 import sys
 from collections.abc import Sequence
@@ -49,17 +48,6 @@ In three steps:
 _EPILOG = "Exit status: 0 clean, 1 mission rejected, 2 usage, 70 a bug of ours, 130 interrupted."
 _BROKEN_PIPE = 128 + 13
 """What a shell reports of a command that a closed pipe ended."""
-
-
-def main() -> None:
-    """Run the command line of this process, and end the process."""
-    # Most of a short run is imports: they make no garbage, neither on the way nor at the end, and
-    # pydantic need not look for plugins.
-    gc.set_threshold(100_000, 50, 100)
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    code = run(sys.argv[1:])
-    gc.freeze()
-    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
