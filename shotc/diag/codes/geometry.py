@@ -127,10 +127,10 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         11,
         "off-composition",
-        "a target stands beside its composition set, because it would be cropped on it",
-        "Every place of the set crops the target, so the nearest place on the set's vertical lines that "
-        "shows it whole is taken. The note says which. Move away or widen the field of view to compose it "
-        "as asked.",
+        "a target stands beside its composition set, where it would be cropped or the gimbal does not reach",
+        "At every place of the set the target would be cropped, or the gimbal does not pitch far enough; so "
+        "the nearest place on the set's vertical lines that shows it whole is taken. The notes say which, "
+        "and why. Move away, widen the field of view or the gimbal's range to compose it as asked.",
         (
             "at: [0, -45, 18], look_at: tower",
             "at: [0, -40, 18], look_at: tower, frame: upper-left",

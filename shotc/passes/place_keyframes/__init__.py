@@ -78,7 +78,7 @@ def _place(
         miss = (
             does_not_fit(keyframe, setting, asked)
             if place is None
-            else off_composition(keyframe, setting, place)
+            else off_composition(keyframe, setting, asked, place)
         )
     turned = setting.aim(place) if place is not None else None
     return _placed(keyframe, turned or aim, asked, place), miss

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial
-from math import ceil, degrees, hypot, pi, radians
+from math import ceil, degrees, floor, hypot, pi, radians
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.camera import Vec2
@@ -42,14 +42,27 @@ class Miss:
     help: Callable[[], str] | str = ""
 
 
-def off_composition(keyframe: Keyframe, setting: Setting, place: Vec2) -> Miss:
-    """Warn that the target stands off its set, since it would be cropped on it."""
+def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Vec2) -> Miss:
+    """Warn that the target stands off its set: it would be cropped on it, or the gimbal stops short."""
+    instead = f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}"
+    free = replace(setting, pitch=(-pi / 2, pi / 2))
+    wanted = nearest_candidate(free, keyframe.composition, asked)
+    aim = None if wanted is None else free.aim(wanted)
+    if aim is not None:
+        return Miss(
+            "G011",
+            keyframe,
+            _excess(setting, aim[1]),
+            f"the gimbal cannot pitch to put target `{keyframe.target}` on `{keyframe.composition.name}`",
+            (_reach(setting, aim[1]), instead),
+            _within_reach(setting, aim[1]),
+        )
     return Miss(
         "G011",
         keyframe,
         abs(place[1]),
         f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
-        (f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}",),
+        (instead,),
         "move the keyframe away, widen `hfov`, or set `composition: keep` to allow cropping",
     )
 
@@ -94,17 +107,33 @@ def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
 
 
 def _beyond_gimbal(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
-    low, high = (degrees(p) for p in setting.pitch)
-    pitch = degrees(aim[1])
-    over = max(low - pitch, pitch - high)
     return Miss(
         "G013",
         keyframe,
-        over,
+        _excess(setting, aim[1]),
         f"the gimbal cannot pitch to frame target `{keyframe.target}`",
-        (f"the camera needs a pitch of {pitch:.1f} deg; the gimbal reaches {low:.1f} to {high:.1f} deg",),
-        f"let the gimbal pitch to {pitch:.1f} deg, or bring the keyframe closer to the target's height",
+        (_reach(setting, aim[1]),),
+        _within_reach(setting, aim[1]),
     )
+
+
+def _excess(setting: Setting, pitch: float) -> float:
+    return max(setting.pitch[0] - pitch, pitch - setting.pitch[1])
+
+
+def _reach(setting: Setting, pitch: float) -> str:
+    low, high = (degrees(p) for p in setting.pitch)
+    needed = degrees(pitch)
+    return f"the camera needs a pitch of {needed:.1f} deg; the gimbal reaches {low:.1f} to {high:.1f} deg"
+
+
+def _within_reach(setting: Setting, pitch: float) -> str:
+    """Say how to bring a pitch into the gimbal's range; the number is rounded away from the horizon."""
+    up = pitch > setting.pitch[1]
+    tenths = degrees(pitch) * 10
+    enough = (ceil(tenths - 1e-6) if up else floor(tenths + 1e-6)) / 10
+    level = "higher" if up else "lower"
+    return f"let the gimbal pitch to {enough:.1f} deg, or fly {level} or farther away"
 
 
 def _what_fits(composition: Composition, setting: Setting) -> str:
@@ -150,10 +179,10 @@ def _range(setting: Setting) -> str:
 
 
 def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagnostic]:
-    """Turn a shot's misses into diagnostics, one for each code and line of the mission."""
-    groups: dict[tuple[KeyPath, str], list[Miss]] = {}
+    """Turn a shot's misses into diagnostics, one for each cause and line of the mission."""
+    groups: dict[tuple[KeyPath, str, str], list[Miss]] = {}
     for miss in misses:
-        groups.setdefault((miss.keyframe.path, miss.code), []).append(miss)
+        groups.setdefault((miss.keyframe.path, miss.code, miss.message), []).append(miss)
     return [_diagnostic(mission, shot, group) for group in groups.values()]
 
 

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from shotc.diag.model import Diagnostic
 from shotc.geom.camera import silhouette_bounds, view
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
 from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target, Timing
@@ -169,6 +170,26 @@ def test_a_target_above_the_gimbals_reach_is_an_error_that_names_the_pitch() -> 
     (error,) = PlaceKeyframes().run(mission, PassContext()).diagnostics
     assert error.code == "G013"
     assert "60.9 deg" in error.notes[0]
+
+
+def test_a_gimbal_that_stops_short_of_the_set_is_told_as_the_cause_and_its_help_works() -> None:
+    kite = replace(TOWER, centre=(0.0, 0.0, 30.0), radius=1.0, height=2.0)
+    view = keyframe(at=(0.0, -30.0, 10.0), composition=COMPOSITIONS["center"])
+
+    def place_with(highest_deg: float) -> tuple[Diagnostic, ...]:
+        mission = replace(mission_of((view,)), targets=(kite,))
+        drone = mission.drones[0]
+        gimbal = replace(drone.gimbal, pitch=(-pi / 2, radians(highest_deg)))
+        mission = replace(mission, drones=(replace(drone, gimbal=gimbal),))
+        return PlaceKeyframes().run(mission, PassContext()).diagnostics
+
+    (warning,) = place_with(20.0)
+    assert warning.code == "G011"
+    assert "gimbal" in warning.message
+    assert "needs a pitch of 33.7 deg; the gimbal reaches -90.0 to 20.0 deg" in warning.notes[0]
+    enough = float(warning.help.split("pitch to ")[1].split(" deg")[0])
+    assert place_with(enough) == ()
+    assert place_with(enough - 0.1)
 
 
 def test_generated_keyframes_are_reported_once_a_shot() -> None:
