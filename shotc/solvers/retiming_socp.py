@@ -93,7 +93,7 @@ def start_from(widths: Array, b: Array) -> Iterate:
 
 
 def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -> tuple[Status, Iterate]:
-    """Return the best profile near ``around``; meaningless unless the status is SOLVED."""
+    """Return the best profile near ``around``; meaningless unless the status is SOLVED or INACCURATE."""
     model = _Model(problem.widths, around)
     model.motion()
     model.caps(problem.cap, problem.cap_middle)
@@ -105,10 +105,10 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
     status, x = model.rows.solve(model.total_time(), tolerance)
     inside = slice(1, -1)
     b, a = np.zeros_like(around.b), np.zeros_like(around.b)
-    if status is Status.SOLVED:
+    if status in {Status.SOLVED, Status.INACCURATE}:
         b[inside] = (x[: model.nodes] * model.b_unit)[inside]
         a[inside] = (x[model.nodes : 2 * model.nodes] * model.a_unit)[inside]
-        if not (b[inside] > 0).all():
+        if not (np.isfinite(a).all() and (b[inside] > 0).all()):
             status = Status.FAILED
     return status, Iterate(b, a)
 

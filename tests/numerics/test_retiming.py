@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.passes.parameterize_time.flown import path_error, usages
+from shotc.passes.parameterize_time import move as move_module
+from shotc.passes.parameterize_time.flown import straying, usages
 from shotc.passes.parameterize_time.grid import sample
 from shotc.passes.parameterize_time.limits import EASE, Ceiling
 from shotc.passes.parameterize_time.move import axes_of, time_move, topp_limits
@@ -116,7 +117,7 @@ def test_no_limit_is_broken_at_any_instant_of_a_random_path(
     seed: int, size: float, shares: tuple[float, ...]
 ):
     ceiling = Ceiling(
-        *(share * getattr(CEILING, name) for share, name in zip(shares, CEILING.__slots__, strict=True))
+        *(share * getattr(CEILING, name) for share, name in zip(shares, CEILING.__slots__, strict=False))
     )
     path = smooth(seed, size=size)
     move = time_move(path, (0.0, path.end), ceiling)
@@ -133,10 +134,39 @@ def test_no_limit_is_broken_at_any_instant_of_a_random_path(
 
 
 @pytest.mark.parametrize("seed", range(4))
+def test_without_any_answer_of_the_solver_a_rough_profile_keeps_every_limit(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+):
+    path = smooth(seed)
+    best = time_move(path, (0.0, path.end), CEILING)
+    monkeypatch.setattr(move_module, "retime", lambda _problem, around: (Status.FAILED, around))
+    move = time_move(path, (0.0, path.end), CEILING)
+    assert best.held is None
+    assert move.held in CEILING.__slots__
+    assert max(uses(move.curve, CEILING).values()) <= 1.0
+    assert best.duration < move.duration < 2.0 * best.duration
+    assert all(jump < 1e-6 for jump in jumps(move.curve))
+
+
+def test_a_path_along_the_end_of_the_gimbal_s_range_is_flown_within_it():
+    # Pitch rises to 0.3 rad and stays: what is flown must not swing over by the least bit.
+    s = np.linspace(0.0, 30.0, 4)
+    pitch = np.array([0.0, 0.3, 0.3, 0.3])
+    value = np.column_stack([s, 0 * s, 0 * s + 10, 0 * s, pitch, 0 * s, 0 * s + HFOV])
+    slope = np.zeros_like(value)
+    slope[:, 0] = 1.0
+    path = quintic_hermite(s, value, slope, np.zeros_like(value))
+    narrow = replace(CEILING, pitch=(-0.5, 0.3))
+    move = time_move(path, (0.0, 30.0), narrow)
+    t = np.linspace(0.0, move.duration, 20_001)
+    assert move.curve(t)[:, 4].max() <= 0.3 + 2e-7
+
+
+@pytest.mark.parametrize("seed", range(4))
 def test_the_flown_quintics_stay_on_the_path(seed: int):
     path = smooth(seed)
     move = time_move(path, (0.0, path.end), CEILING)
-    assert path_error(path, move.profile, move.curve).max() < 1e-3
+    assert not straying(path, move.profile, move.curve, CEILING).any()
     # And of themselves: the nearest point of the path to any flown position is a millimetre away.
     t = np.linspace(0.0, move.duration, 400)
     near = path(np.linspace(0.0, path.end, 200_001))[:, :3]

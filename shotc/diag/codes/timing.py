@@ -100,4 +100,17 @@ CODES: tuple[CodeInfo, ...] = (
         ("    timing: {duration: 5 s}\n", ""),
         base=_STILL,
     ),
+    CodeInfo(
+        "T006",
+        "timed-roughly",
+        Severity.WARNING,
+        "the solver gave no fastest timing, so a slower one is flown",
+        "A shot's timing is the fastest that keeps every limit, found by a convex solver. Where that gives up, "
+        "which sensible missions should not bring about, a rough timing is slowed down until every limit is "
+        "kept; it takes about a third longer. Leave more room between keyframes that lie very near together, "
+        "or report it together with the mission file.",
+        _MISSION,
+        _MISSION,
+        "other",
+    ),
 )

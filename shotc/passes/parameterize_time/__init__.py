@@ -21,6 +21,7 @@ from shotc.passes.parameterize_time.binding import binding
 from shotc.passes.parameterize_time.faults import (
     Remedies,
     endurance_exceeded,
+    roughly_timed,
     start_too_early,
     too_fast,
     without_length,
@@ -56,7 +57,8 @@ class ParameterizeTime:
             return Outcome(None, tuple(faults))
         stats = tuple(entry for pilot in pilots for entry in pilot.stats)
         drones = tuple(pilot.flight.trajectory() for pilot in pilots if pilot.path.legs)
-        return Outcome(TrajectoryIR(ir.keyframes, drones, ir.deviations, (*ir.stats, *stats)))
+        warnings = tuple(d for pilot in pilots for d in pilot.warnings)
+        return Outcome(TrajectoryIR(ir.keyframes, drones, ir.deviations, (*ir.stats, *stats)), warnings)
 
 
 @dataclass(slots=True)
@@ -67,6 +69,7 @@ class _Pilot:
     path: DronePath
     ctx: PassContext
     faults: list[Diagnostic] = field(default_factory=list)
+    warnings: list[Diagnostic] = field(default_factory=list)
     stats: Stats = field(default_factory=list)
     done: int = 0
     flight: Flight = field(init=False)
@@ -109,6 +112,9 @@ class _Pilot:
         self.flight.wait(max(earliest, leg.start or 0.0), leg.pose)
         if motion is not None:
             self.flight.fly(leg, motion)
+            rough = next((move.held for move in motion.moves if move.held), None)
+            if rough is not None:
+                self.warnings.append(roughly_timed(self.mission, self.drone, leg, rough))
             self.stats += [
                 entry for i, m in enumerate(motion.moves) for entry in _stats(f"{name} move {i}", m)
             ]

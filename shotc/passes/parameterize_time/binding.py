@@ -109,8 +109,7 @@ def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str
     for stretch in holdup.stretches[:3]:
         longest = sorted(stretch.held, key=lambda name: -stretch.held[name])[:2]
         binds = " and ".join(
-            f"{_SHOWN[name].words} {limit_text(mission, drone, name)} for {stretch.held[name]:.1f} s"
-            for name in longest
+            f"{shown_limit(mission, drone, name)} for {stretch.held[name]:.1f} s" for name in longest
         )
         where = f"from keyframe {stretch.first.index + 1} to {stretch.second.index + 1}"
         notes.append(f"{where} it takes {stretch.seconds:.1f} s, held back by {binds}")
@@ -159,6 +158,11 @@ def _least_factor(enough: Callable[[float], bool]) -> float | None:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if enough(middle) else (middle, high)
     return high
+
+
+def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
+    """Return a limit with its name in words."""
+    return f"{_SHOWN[name].words} {limit_text(mission, drone, name)}"
 
 
 def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:

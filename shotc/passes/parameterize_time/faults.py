@@ -11,7 +11,14 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import Leg
 from shotc.ir.trajectory import Phase
-from shotc.passes.parameterize_time.binding import ROOM, Holdup, binding_labels, binding_notes, raises
+from shotc.passes.parameterize_time.binding import (
+    ROOM,
+    Holdup,
+    binding_labels,
+    binding_notes,
+    raises,
+    shown_limit,
+)
 from shotc.passes.parameterize_time.limits import Ceiling
 from shotc.passes.parameterize_time.marks import TooFast
 
@@ -100,6 +107,18 @@ def without_length(mission: MissionIR, leg: Leg) -> Diagnostic:
         (mission.origins.key(leg.path),),
         ("its keyframes are all the same, and it has neither a hold nor a duration",),
         "give it `timing: {duration: 5 s}`, or a keyframe elsewhere",
+    )
+
+
+def roughly_timed(mission: MissionIR, drone: Drone, leg: Leg, held: str) -> Diagnostic:
+    """Return T006: the solver gave no profile, so a rough one is flown, held back by one limit."""
+    what = f"shot `{leg.shot}`" if leg.shot else f"{leg.phase} of `{drone.name}`"
+    return Diagnostic(
+        "T006",
+        f"{what} is flown slower than it could be: the solver that times it gave up",
+        (mission.origins.key(leg.path, "timed roughly"),),
+        (f"{shown_limit(mission, drone, held)} slows it down most; every limit is kept",),
+        "leave more room between its keyframes, or report it together with the mission file",
     )
 
 

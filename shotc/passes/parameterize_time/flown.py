@@ -8,13 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, split_half
-from shotc.passes.parameterize_time.limits import SHARE, Axis
-from shotc.passes.parameterize_time.profile import Profile
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
+from shotc.passes.parameterize_time.limits import SHARE, Axis, Ceiling
+from shotc.passes.parameterize_time.profile import Profile, fly
 
 Array = NDArray[np.float64]
 
 # Each piece is halved this often before its hull is taken: the bound is then tight to about 1e-4.
 HALVINGS = 3
+# Quintics that stray further than this from the path (metres or rad) get more knots, as do those that
+# leave a gimbal's range by more than the second; so many times at most.
+STRAY, AT_END = 5e-4, 1e-7
+SPLITS = 5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,12 +58,37 @@ def needed_scale(found: tuple[Usage, ...]) -> Array:
     return np.asarray(np.max([u.slowdown for u in found], axis=0) / SHARE)
 
 
-def path_error(path: Piecewise, profile: Profile, flown: Piecewise) -> Array:
-    """Return how far each flown piece strays from the path at the same s: metres or rad, shape (N,)."""
+def on_path(path: Piecewise, profile: Profile, ceiling: Ceiling) -> tuple[Profile, Piecewise]:
+    """Fly the profile, with more knots where the quintics would stray from the path or from a range."""
+    flown = fly(path, profile)
+    for _ in range(SPLITS):
+        strays = straying(path, profile, flown, ceiling)
+        if not strays.any():
+            break
+        profile = profile.split(strays)
+        flown = fly(path, profile)
+    return profile, flown
+
+
+def straying(path: Piecewise, profile: Profile, flown: Piecewise, ceiling: Ceiling) -> NDArray[np.bool_]:
+    """Tell which flown pieces are too far from the path at the same s; shape (N,).
+
+    The gimbal's ranges end sharply and the path may run along their ends, so there a piece has to be
+    nearly on the path.
+    """
     inside = np.array([0.25, 0.5, 0.75])
     t = profile.t[:-1, None] + inside * np.diff(profile.t)[:, None]
     s = profile.curve()(t)[..., 0]
-    return np.asarray(np.abs(flown(t) - path(s)).max(axis=(1, 2)))
+    away = flown(t) - path(s)
+    found = np.abs(away).max(axis=(1, 2)) > STRAY
+    gimbal_yaw = flown.ctrl[:, :, CAM_YAW] - flown.ctrl[:, :, BODY_YAW]
+    for angle, error, (low, high) in (
+        (flown.ctrl[:, :, CAM_PITCH], away[:, :, CAM_PITCH], ceiling.pitch),
+        (gimbal_yaw, away[:, :, CAM_YAW] - away[:, :, BODY_YAW], ceiling.yaw),
+    ):
+        beyond = (angle.min(axis=1) < low - AT_END) | (angle.max(axis=1) > high + AT_END)
+        found |= beyond & (np.abs(error).max(axis=1) > AT_END)
+    return np.asarray(found)
 
 
 def _peak(ctrl: Array, sign: int) -> Array:

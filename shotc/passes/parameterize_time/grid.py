@@ -22,6 +22,8 @@ FEWEST, MOST, PER_PIECE = 36, 100, 2
 OVER_LENGTH, OVER_CHANGE = 0.15, 0.25
 # Breaks where the third derivative jumps by less than this share of its maximum count as smooth.
 KINK = 1e-2
+# Rounds that take the edges off a rough profile: with them it loses a third to the best, without 70 %.
+EVENINGS = 8
 # sdot^2 where nothing else binds: paths are parametrised by metres, and nothing flies at 1000 m/s.
 FASTEST = 1e6
 
@@ -117,6 +119,13 @@ def rough_profile(curve: Piecewise, s0: float, s1: float, limits: tuple[Axis, ..
     for i in range(len(s) - 2, -1, -1):
         b[i] = min(b[i], b[i + 1] + gain[i])
     return s, b
+
+
+def evened(b: Array) -> Array:
+    """Return the guess without sharp tops, where the acceleration would change over at once; never higher."""
+    for _ in range(EVENINGS):
+        b = np.concatenate([b[:1], np.minimum(b[1:-1], (b[:-2] + 2 * b[1:-1] + b[2:]) / 4), b[-1:]])
+    return b
 
 
 def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:

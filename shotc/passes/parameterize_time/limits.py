@@ -6,7 +6,8 @@ jerk sqrt(b) (q''' b + 3 q'' a + q' a'): for a fixed place all are linear in (b,
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,10 +38,15 @@ class Ceiling:
     yaw_acceleration: float
     gimbal_rate: float
     gimbal_acceleration: float
+    pitch: tuple[float, float] = (-inf, inf)
+    """The range of the camera's pitch, rad."""
+    yaw: tuple[float, float] = (-inf, inf)
+    """The range of the camera's yaw against the body's, rad."""
 
     def scaled(self, share: float) -> Ceiling:
-        """Return the ceiling with every limit multiplied by ``share`` (a pace)."""
-        return Ceiling(*(share * getattr(self, f.name) for f in fields(self)))
+        """Return the ceiling with every limit but the ranges multiplied by ``share`` (a pace)."""
+        rates = (f.name for f in fields(self) if f.name not in {"pitch", "yaw"})
+        return replace(self, **{name: share * getattr(self, name) for name in rates})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,6 +80,8 @@ def ceiling_of(drone: Drone) -> Ceiling:
         limits.yaw_acceleration,
         gimbal.rate,
         gimbal.acceleration,
+        gimbal.pitch,
+        gimbal.yaw,
     )
 
 

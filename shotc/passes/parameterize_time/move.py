@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.path import HFOV
-from shotc.passes.parameterize_time.flown import needed_scale, path_error, usages
+from shotc.passes.parameterize_time.flown import needed_scale, on_path, usages
 from shotc.passes.parameterize_time.grid import (
     Samples,
+    evened,
     lay_grid,
     rate_cap,
     rough_profile,
@@ -19,7 +20,7 @@ from shotc.passes.parameterize_time.grid import (
     split_cells,
 )
 from shotc.passes.parameterize_time.limits import Axis, Ceiling, axes
-from shotc.passes.parameterize_time.profile import Profile, fly, profile_of
+from shotc.passes.parameterize_time.profile import Profile, profile_of
 from shotc.solvers.conic import Status
 from shotc.solvers.retiming_socp import (
     Iterate,
@@ -41,11 +42,13 @@ SLOWEST = 1e-9
 # Share of the last iterate that stays in the next: how the speed runs inside cells is taken from it,
 # which alone would overshoot to and fro by about 0.4 (measured); the first guess deserves less trust.
 KEEP_FIRST, KEEP = 0.15, 0.3
-# A grid is refined where the flown quintics lose more than this share of time to scaling, or stray
-# further than this from the path (metres or rad); so often at most.
+# A grid is refined where the flown quintics lose more than this share of time to scaling, or all over
+# where the solver gave nothing; so often at most, and not beyond so many cells.
 LOSS = 0.015
-STRAY = 5e-4
 REFINEMENTS = 4
+MOST_CELLS = 20000
+# An inaccurate profile is good enough to be flown and checked.
+USABLE = (Status.SOLVED, Status.INACCURATE)
 # Corners of the polygon that stands for the disc of accelerations in TOPP-RA: 0.1 % of time lost.
 CORNERS = 32
 
@@ -58,7 +61,8 @@ class Move:
     topp_time : the fastest time without a jerk limit, by TOPP-RA; infinite where it gave none, which
         costs convex steps but no safety
     scale : final slowdown, at least 1
-    steps, cells : convex steps solved, and cells of the last grid
+    steps, cells : convex steps solved, and pieces of the curve
+    held : None, or the limit that slows a rough profile down most, where the solver gave no better one
     """
 
     path: Piecewise
@@ -68,6 +72,7 @@ class Move:
     scale: float
     steps: int
     cells: int
+    held: str | None = None
 
     @property
     def duration(self) -> float:
@@ -77,28 +82,51 @@ class Move:
     def stretched(self, factor: float) -> Move:
         """Return the same move, slower by ``factor``."""
         curve = Piecewise(self.curve.breaks * factor, self.curve.ctrl)
-        return Move(
-            self.path,
-            self.profile.stretched(factor),
-            curve,
-            self.topp_time,
-            self.scale,
-            self.steps,
-            self.cells,
-        )
-
-
-class RetimingFailed(RuntimeError):
-    """A solver gave no profile although slow enough ones exist: our bug, not the mission's."""
+        return replace(self, profile=self.profile.stretched(factor), curve=curve)
 
 
 def time_move(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> Move:
     """Return the fastest jerk-bounded move along path(s) over a span of s, from rest to rest.
 
     path : channels ir.path.CHANNELS, at least C2
-    Raises RetimingFailed where no profile was found.
+    Where the solver gives no profile on any grid, a rough one is slowed until it keeps every limit.
     """
     limits = axes_of(path, span, ceiling)
+    samples, start, topp_time = _opening(path, span, limits)
+    first = samples, start
+    steps, best, last = 0, None, np.inf
+    for _ in range(REFINEMENTS + 1):
+        bounded, used = bounded_profile(samples, limits, start, last)
+        steps += used
+        if bounded is None and best is not None:
+            break
+        found = start if bounded is None else bounded
+        coarse = np.ones(len(samples.widths), dtype=np.bool_)
+        if bounded is not None:
+            tried = _Tried(path, samples.grid, bounded, limits, ceiling)
+            best = tried if best is None or tried.seconds < best.seconds else best
+            last = tried.profile.duration
+            coarse = tried.coarse
+        if not coarse.any() or len(coarse) > MOST_CELLS:
+            break
+        grid = split_cells(samples.grid, coarse)
+        start = Iterate(*(np.interp(grid, samples.grid, part) for part in (found.b, found.a)))
+        samples = sample(path, grid)
+    held = None
+    if best is None:
+        samples, start = first
+        calm = start_from(samples.widths, evened(start.b))
+        best = _Tried(path, samples.grid, calm, limits, ceiling)
+        held = best.held
+    cells = len(best.flown.ctrl)
+    move = Move(path, best.profile, best.flown, topp_time, best.slowdown, steps, cells, held)
+    return move.stretched(best.slowdown)
+
+
+def _opening(
+    path: Piecewise, span: tuple[float, float], limits: tuple[Axis, ...]
+) -> tuple[Samples, Iterate, float]:
+    """Return the first grid, what to start from on it, and the fastest time without a jerk limit."""
     rough_s, rough_b = rough_profile(path, *span, limits)
     grid = lay_grid(path, rough_s, rough_b, np.empty(0))
     samples = sample(path, grid)
@@ -107,35 +135,32 @@ def time_move(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> M
     if quickest.status is Status.SOLVED:
         around = np.minimum(around, quickest.b)
     start = start_from(samples.widths, np.maximum(around, SLOWEST * around.max()))
-    steps, tried, last = 0, None, np.inf
-    for _ in range(REFINEMENTS + 1):
-        bounded, used = bounded_profile(samples, limits, start, last)
-        steps += used
-        if bounded is None:
-            break
-        tried = _Tried(path, samples.grid, bounded, limits)
-        coarse = (tried.scale > 1 + LOSS) | (tried.error > STRAY)
-        if not coarse.any():
-            break
-        grid = split_cells(samples.grid, coarse)
-        start = Iterate(*(np.interp(grid, samples.grid, part) for part in (bounded.b, bounded.a)))
-        last = tried.profile.duration
-        samples = sample(path, grid)
-    if tried is None:
-        raise RetimingFailed(f"no jerk-bounded profile on {len(samples.grid)} gridpoints")
-    factor = max(1.0, float(tried.scale.max()))
-    move = Move(path, tried.profile, tried.flown, quickest.time, factor, steps, len(tried.flown.ctrl))
-    return move.stretched(factor)
+    return samples, start, quickest.time
 
 
 class _Tried:
-    """A profile flown: its quintics, and per piece the slowdown they need and how far they stray."""
+    """A profile flown.
 
-    def __init__(self, path: Piecewise, grid: Array, bounded: Iterate, limits: tuple[Axis, ...]) -> None:
-        self.profile = profile_of(grid, bounded.b, bounded.a)
-        self.flown = fly(path, self.profile)
-        self.scale = needed_scale(usages(self.flown, limits))
-        self.error = path_error(path, self.profile, self.flown)
+    slowdown : what keeps every limit, at least 1; held : the limit that asks for it
+    coarse : shape (N,), the cells of the grid that need too much of it
+    """
+
+    def __init__(
+        self, path: Piecewise, grid: Array, bounded: Iterate, limits: tuple[Axis, ...], ceiling: Ceiling
+    ) -> None:
+        self.profile, self.flown = on_path(path, profile_of(grid, bounded.b, bounded.a), ceiling)
+        used = usages(self.flown, limits)
+        scale = needed_scale(used)
+        self.slowdown = max(1.0, float(scale.max()))
+        self.held = max(used, key=lambda u: float(u.slowdown.max())).name
+        self.coarse: NDArray[np.bool_] = np.zeros(len(grid) - 1, dtype=np.bool_)
+        cell = np.searchsorted(grid, self.profile.s[:-1], side="right") - 1
+        self.coarse[np.clip(cell[scale > 1 + LOSS], 0, len(grid) - 2)] = True
+
+    @property
+    def seconds(self) -> float:
+        """How long it takes within every limit."""
+        return self.profile.duration * self.slowdown
 
 
 def axes_of(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> tuple[Axis, ...]:
@@ -183,9 +208,9 @@ def bounded_profile(
     while steps < STEPS:
         status, found = retime(problem, current)
         steps += 1
-        if status is not Status.SOLVED and best is not None:
+        if status not in USABLE and best is not None:
             break
-        if status is not Status.SOLVED:
+        if status not in USABLE:
             # Slower guesses are safer ones.
             current = start_from(problem.widths, current.b / 4.0)
             continue

@@ -38,6 +38,17 @@ class Profile:
         """Return the same motion, slower by ``factor``."""
         return Profile(self.t * factor, self.s, self.sd / factor, self.sdd / factor**2)
 
+    def split(self, which: NDArray[np.bool_]) -> Profile:
+        """Return the same motion with knots in the middle of the chosen stretches, shape (N,)."""
+        middle = 0.5 * (self.t[1:] + self.t[:-1])[which]
+        curve = self.curve()
+        s = np.clip(curve(middle)[:, 0], self.s[:-1][which], self.s[1:][which])
+        sd = np.maximum(curve.derivative(1)(middle)[:, 0], 0.0)
+        sdd = curve.derivative(2)(middle)[:, 0]
+        order = np.argsort(np.concatenate([self.t, middle]), kind="stable")
+        pairs = ((self.t, middle), (self.s, s), (self.sd, sd), (self.sdd, sdd))
+        return Profile(*(np.concatenate(pair)[order] for pair in pairs))
+
     def curve(self) -> Piecewise:
         """Return s(t), one channel."""
         return quintic_hermite(self.t, self.s[:, None], self.sd[:, None], self.sdd[:, None])

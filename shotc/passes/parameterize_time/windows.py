@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise
-from shotc.passes.parameterize_time.flown import needed_scale, path_error, usages
+from shotc.passes.parameterize_time.flown import needed_scale, on_path, usages
 from shotc.passes.parameterize_time.grid import rate_cap
 from shotc.passes.parameterize_time.limits import Axis, Ceiling
-from shotc.passes.parameterize_time.move import STRAY, Move, axes_of
-from shotc.passes.parameterize_time.profile import Profile, fly
+from shotc.passes.parameterize_time.move import Move, axes_of
+from shotc.passes.parameterize_time.profile import Profile
 from shotc.solvers.conic import Status
 from shotc.solvers.timed_qp import PathLimits, TimeLaw, time_law
 
@@ -26,8 +26,6 @@ MARGIN = 0.985
 SETTLED, LEFT = 3, 1e-3
 # An inaccurate law is good enough to be checked.
 USABLE = (Status.SOLVED, Status.INACCURATE)
-# Halvings of the law's cells until the flown quintics are on the path.
-HALVINGS = 4
 
 
 def windowed_move(
@@ -45,7 +43,7 @@ def windowed_move(
     for steps in range(1, ROUNDS + 1):
         if law.status not in USABLE:
             return None
-        profile, flown = _flown(path, law)
+        profile, flown = on_path(path, _profile(law), ceiling)
         needed = float(needed_scale(usages(flown, limits)).max())
         if needed <= 1.0:
             return Move(path, profile, flown, np.inf, 1.0, steps, len(flown.ctrl))
@@ -84,27 +82,8 @@ def _path_limits(path: Piecewise, limits: tuple[Axis, ...], s: Array) -> PathLim
     return PathLimits(speed, tuple(accelerations), tuple(jerks))
 
 
-def _flown(path: Piecewise, law: TimeLaw) -> tuple[Profile, Piecewise]:
-    """Return the law as a profile, on halved cells until the flown quintics are on the path."""
-    for halvings in range(HALVINGS + 1):
-        profile = _halved(law, 2**halvings)
-        flown = fly(path, profile)
-        if path_error(path, profile, flown).max() <= STRAY:
-            break
-    return profile, flown
-
-
-def _halved(law: TimeLaw, parts: int) -> Profile:
-    """Return the law at the ends of every cell's parts: exact, since it is a cubic there."""
-    x = np.arange(parts) / parts
-    h = np.diff(law.t)[:, None] * x
-    v0, a0, j = law.v[:-1, None], law.a[:-1, None], law.j[:, None]
-    columns = (
-        (law.t[:-1, None] + h, law.t[-1]),
-        (law.s[:-1, None] + h * v0 + h**2 / 2 * a0 + h**3 / 6 * j, law.s[-1]),
-        (np.maximum(v0 + h * a0 + h**2 / 2 * j, 0.0), 0.0),
-        (a0 + h * j, 0.0),
-    )
-    t, s, v, a = (np.append(column.ravel(), end) for column, end in columns)
-    v[0] = a[0] = 0.0
-    return Profile(t, np.maximum.accumulate(s), v, a)
+def _profile(law: TimeLaw) -> Profile:
+    """Return the law as a profile: a cubic between its knots, as s(t) is in both."""
+    v, a = np.maximum(law.v, 0.0), law.a.copy()
+    v[[0, -1]] = a[[0, -1]] = 0.0
+    return Profile(law.t, np.maximum.accumulate(law.s), v, a)

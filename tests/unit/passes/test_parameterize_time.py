@@ -18,6 +18,8 @@ from shotc.ir.path import FramingSpan, Leg, Mark, PathIR, Stop
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
+from shotc.passes.parameterize_time import move as move_module
+from shotc.solvers.conic import Status
 from tests.timing_paths import (
     CEILING,
     HFOV,
@@ -102,6 +104,22 @@ class TestFlight:
         a, b = (timed(flight(mission(), straight(duration=11.0))).drones[0].curve for _ in range(2))
         assert a.ctrl.tobytes() == b.ctrl.tobytes()
         assert a.breaks.tobytes() == b.breaks.tobytes()
+
+
+class TestRough:
+    def test_where_the_solver_gives_up_the_flight_is_slower_and_says_so(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr(move_module, "retime", lambda _problem, around: (Status.FAILED, around))
+        outcome = ParameterizeTime().run(flight(mission(), straight()), PassContext())
+        assert outcome.value is not None
+        assert {d.code for d in outcome.diagnostics} == {"T006"}
+        shot = next(d for d in outcome.diagnostics if "shot `half`" in d.message)
+        assert shot.labels[0].span == mission().origins.keys["shots", 0]
+        assert "jerk 8.00 m/s^3" in shot.notes[0]
+        assert max(uses(outcome.value.drones[0].curve, CEILING).values()) <= 1.0
+        start, end = shot_phase(outcome.value)
+        assert FORTY < end - start < 1.5 * FORTY
 
 
 class TestPace:
