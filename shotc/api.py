@@ -7,15 +7,14 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops, without_answered
-from shotc.emit.base import Artifact
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.passes.base import PassContext, silent
@@ -25,21 +24,20 @@ from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import load
 
 if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.emit.base import Artifact
     from shotc.ir.trajectory import Claim, VerifiedIR
 
 SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "matplotlib", "pymap3d")
 
 
-@dataclass(frozen=True, slots=True)
-class CheckReport:
+class CheckReport(NamedTuple):
     """What is wrong with one mission text, and the texts that the diagnostics point into."""
 
     diagnostics: tuple[Diagnostic, ...]
     sources: dict[str, SourceFile]
 
 
-@dataclass(frozen=True, slots=True)
-class PlanOptions:
+class PlanOptions(NamedTuple):
     """How to compile.
 
     autopilot : "px4" or "ardupilot" instead of what the drone's model says
@@ -53,8 +51,7 @@ class PlanOptions:
     progress: Callable[[str], None] = silent
 
 
-@dataclass(frozen=True, slots=True)
-class Compilation:
+class Compilation(NamedTuple):
     """A compiled mission.
 
     plan : the verified plan, or None after an error or where the passes were stopped early
@@ -66,8 +63,7 @@ class Compilation:
     sources: dict[str, SourceFile]
 
 
-@dataclass(frozen=True, slots=True)
-class Emitted:
+class Emitted(NamedTuple):
     """Output files of a plan, and what the formats could not carry."""
 
     artifacts: tuple[Artifact, ...]
@@ -75,8 +71,7 @@ class Emitted:
     notes: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class PlanReport:
+class PlanReport(NamedTuple):
     """A plan file, proved again.
 
     plan : None where it breaks a hard claim, differs from its own certificate, or is no plan

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, get_args, get_type_hints
+from typing import Any, NamedTuple, get_args, get_type_hints
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import stops
@@ -21,8 +20,7 @@ from shotc.passes.resolve import Resolve
 AnyPass = Pass[Any, Any]
 
 
-@dataclass(frozen=True, slots=True)
-class PassReport:
+class PassReport(NamedTuple):
     """What one pass did: its name, its output (None where it failed), and wall seconds."""
 
     name: str
@@ -30,8 +28,7 @@ class PassReport:
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
+class Run(NamedTuple):
     """A finished run: the last IR that was reached, or None after an error, and all reports."""
 
     value: Any

@@ -8,10 +8,9 @@ version is a diagnostic that names the package, never a silent choice.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any
+from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 
@@ -21,8 +20,7 @@ OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplot
 GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(NamedTuple):
     """The plugins of one group that can be used, by name, and what is wrong with the others.
 
     lacking : names of plugins whose optional library is not installed, and that library

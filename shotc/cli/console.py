@@ -89,11 +89,11 @@ def report(
 
     A quiet run still shows errors, and keeps warnings to itself.
     """
-    from shotc.diag.render.text import render
-
     stream = stream or sys.stderr
     shown = [d for d in diagnostics if not _settings.quiet or severity_of(d) is Severity.ERROR]
     if shown:
+        from shotc.diag.render.text import render
+
         _write(stream, render(shown, sources, color=colored(stream)))
 
 

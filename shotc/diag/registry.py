@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from shotc.diag.model import Diagnostic, Severity
 
@@ -27,8 +26,7 @@ FAMILIES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class CodeInfo:
+class CodeInfo(NamedTuple):
     """What ``shotc explain`` prints about one code.
 
     phase    : the command that finds it; ``other`` where a mission alone cannot show it

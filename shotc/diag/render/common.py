@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.registry import CodeInfo, registry, severity_of
@@ -13,8 +13,7 @@ from shotc.diag.registry import CodeInfo, registry, severity_of
 _HIDDEN = frozenset({"Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp"})
 
 
-@dataclass(frozen=True, slots=True)
-class Counts:
+class Counts(NamedTuple):
     """How many errors and warnings a report holds."""
 
     errors: int
