@@ -10,9 +10,9 @@ import pytest
 from pymavlink import mavwp
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink_items import Item
-from shotc.emit.mavlink_plan_file import read_plan
-from shotc.emit.mavlink_wpl import read_waypoints
+from shotc.emit.mavlink.items import Item
+from shotc.emit.mavlink.plan_file import read_plan
+from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.ir.trajectory import VerifiedIR
 from tests.mavlink_flights import plan, retold, straight
 from tests.qgc_rules import check_plan
