@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -24,7 +25,8 @@ from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import load
 
 if TYPE_CHECKING:  # the base install has no numpy
-    from shotc.emit.base import Artifact
+    from shotc.emission import Crew
+    from shotc.emit.base import Artifact, Emitter
     from shotc.ir.trajectory import Claim, VerifiedIR
 
 SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "matplotlib", "pymap3d")
@@ -37,11 +39,16 @@ class CheckReport(NamedTuple):
     sources: dict[str, SourceFile]
 
 
+def _ignore(_mission: MissionIR) -> None:
+    pass
+
+
 class PlanOptions(NamedTuple):
     """How to compile.
 
     autopilot : "px4" or "ardupilot" instead of what the drone's model says
     stop_after : the name of the last pass to run; progress : called with each pass's name
+    on_mission : called with the mission once it can be planned, before the solvers load
     """
 
     refiner: str = "none"
@@ -49,6 +56,7 @@ class PlanOptions(NamedTuple):
     stop_after: str | None = None
     seed: int = 0
     progress: Callable[[str], None] = silent
+    on_mission: Callable[[MissionIR], None] = _ignore
 
 
 class Compilation(NamedTuple):
@@ -131,6 +139,7 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     found += faults
     if refiner is None or stops(found):
         return Compilation(None, front.reports, tuple(found), sources)
+    options.on_mission(front.value.mission)
     passes = default_passes(kinds.plugins, refiner)[len(front.reports) :]
     back = run(passes, _with_autopilot(front.value, options.autopilot), ctx, options.stop_after)
     found = [*without_answered(found, back.diagnostics), *back.diagnostics]
@@ -148,12 +157,29 @@ def _refiner(name: str) -> tuple[Any, tuple[Diagnostic, ...]]:
     return None, (*known.diagnostics, missing)
 
 
-def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
+def crew(jobs: int | None = None) -> AbstractContextManager[Crew]:
+    """Return processes that emit side by side, this one among them; enter it before threads are started.
+
+    jobs : how many; None means the cores, up to a few
+    ``prepare`` tells them early what they will emit, then ``emit_plan`` uses them.
+    """
+    from shotc import emission
+
+    return emission.crew(emission.usual_jobs() if jobs is None else jobs, _emitter)
+
+
+def _emitter(name: str) -> Emitter | None:
+    return plugins.discover("emitters").plugins.get(name)
+
+
+def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None, crew: Crew | None = None) -> Emitted:
     """Make the output files of a verified plan; plan.json is always among them.
 
     names : emitters to run; None means those the mission asks for, and then an output whose library
         is not installed is left out with a warning (P005) instead of an error (P004)
+    crew : the processes to use; what is made does not depend on them
     """
+    from shotc.emission import ALONE
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
     known = plugins.discover("emitters")
@@ -165,17 +191,16 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None) -> Emitted:
     diagnostics += [
         _not_installed(code, f"output `{n}`", [known.lacking[n]]) for n in wanted if n in known.lacking
     ]
-    for emitter in (PLAN_JSON, *(known.plugins[n] for n in wanted if n in known.plugins)):
-        try:
-            emission = emitter.emit(plan)
-        except ModuleNotFoundError as missing:
-            if not plugins.is_optional(missing):
-                raise
-            diagnostics.append(_not_installed(code, f"output `{emitter.name}`", [str(missing.name)]))
+    emitters = (PLAN_JSON, *(known.plugins[n] for n in wanted if n in known.plugins))
+    for emitter, made in zip(emitters, (crew or ALONE).emit(plan, emitters), strict=True):
+        if isinstance(made, ModuleNotFoundError):
+            if not plugins.is_optional(made):
+                raise made
+            diagnostics.append(_not_installed(code, f"output `{emitter.name}`", [str(made.name)]))
             continue
-        artifacts.extend(emission.artifacts)
-        diagnostics.extend(emission.diagnostics)
-        notes.extend(emission.notes)
+        artifacts.extend(made.artifacts)
+        diagnostics.extend(made.diagnostics)
+        notes.extend(made.notes)
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Protocol
+from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
 
 from shotc.diag.model import Diagnostic
 
@@ -43,4 +43,16 @@ class Emitter(Protocol):
 
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the artifacts of a verified plan."""
+        ...
+
+
+@runtime_checkable
+class Prepares(Protocol):
+    """What an emitter may do beside: load what ``emit`` needs, in a process that has no plan yet.
+
+    Such emitters run beside the others, in worker processes.
+    """
+
+    def prepare(self) -> None:
+        """Import what is slow to import; ModuleNotFoundError is as good as in ``emit``."""
         ...

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import ClassVar
 
 from shotc.emit.base import Artifact, Emission
@@ -19,14 +17,15 @@ class RerunEmitter:
     summary: ClassVar[str] = "mission.rrd: the world, the camera's view and the plots, for the rerun viewer"
     api: ClassVar[int] = 1
 
+    def prepare(self) -> None:
+        """Load rerun."""
+        import shotc.emit.rerun_log.recording  # noqa: F401
+
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return mission.rrd; its contents are the same for the same plan, its bytes are not."""
         from shotc.emit.rerun_log.recording import record
 
-        with TemporaryDirectory(prefix="shotc-") as folder:
-            path = Path(folder) / "mission.rrd"
-            record(plan, path)
-            return Emission((Artifact("mission.rrd", path.read_bytes()),))
+        return Emission((Artifact("mission.rrd", record(plan)),))
 
 
 EMITTER = RerunEmitter()

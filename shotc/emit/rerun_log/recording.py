@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from uuid import NAMESPACE_URL, uuid5
 
 import numpy as np
@@ -15,10 +14,10 @@ from shotc.emit.rerun_log.world import log_world, scene_bounds
 from shotc.ir.trajectory import VerifiedIR
 
 
-def record(plan: VerifiedIR, path: Path) -> None:
-    """Write the recording of a plan to a new file.
+def record(plan: VerifiedIR) -> bytes:
+    """Return the recording of a plan, as a file with its footer.
 
-    The file is closed when this returns. Bad data raises instead of being dropped (strict mode).
+    Bad data raises instead of being dropped (strict mode).
     """
     mission = plan.trajectory.keyframes.mission
     identity = uuid5(NAMESPACE_URL, f"shotc:{mission.name}:{mission.source_sha256}")
@@ -29,10 +28,9 @@ def record(plan: VerifiedIR, path: Path) -> None:
         stream = rr.RecordingStream(f"shotc {mission.name}", recording_id=identity, send_properties=False)
         stream.set_log_time_enabled(False)
         stream.set_log_tick_enabled(False)
-        stream.save(path)
+        memory = stream.memory_recording()
         _fill(stream, plan)
-        stream.flush()
-        stream.disconnect()
+        return bytes(memory.drain_as_bytes())
     finally:
         rr.set_strict_mode(strict)
 

@@ -19,6 +19,10 @@ class StoryboardEmitter:
     summary: ClassVar[str] = "storyboard.png: the camera's pictures at the keyframes, with maps"
     api: ClassVar[int] = 1
 
+    def prepare(self) -> None:
+        """Load matplotlib."""
+        import shotc.emit.storyboard.page  # noqa: F401
+
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return storyboard.png; the same plan gives the same bytes."""
         from shotc.emit.storyboard.page import draw_page
