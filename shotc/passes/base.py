@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, Generic, Protocol, TypeVar
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from shotc.diag.model import Diagnostic
 
@@ -17,8 +17,7 @@ def silent(_message: str) -> None:
     """Report progress to nobody."""
 
 
-@dataclass(frozen=True, slots=True)
-class PassContext:
+class PassContext(NamedTuple):
     """What every pass may read besides its input.
 
     seed : for anything random; progress : call with a short text on long work

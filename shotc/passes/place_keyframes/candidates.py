@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import hypot, inf, sqrt, tan
+from typing import NamedTuple
 
 from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, view
 from shotc.ir.mission import Composition, Range
@@ -72,8 +73,7 @@ class Setting:
         return hypot(*(p - q for p, q in zip(self.direction(a), self.direction(b), strict=True)))
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(NamedTuple):
     """A line of the screen, u = c (upright) or v = c, run through by t in [-1, 1]."""
 
     c: float

@@ -6,9 +6,10 @@ Keyframes that share a line of the mission, as generated ones do, are reported o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import ceil, degrees, floor, hypot, pi, radians
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.camera import Vec2
@@ -27,8 +28,7 @@ WIDEST = radians(150)
 TILT = 1e-6  # rad past the gimbal's stop that are rounding
 
 
-@dataclass(frozen=True, slots=True)
-class Miss:
+class Miss(NamedTuple):
     """One keyframe that misses its composition; of several the heaviest is reported.
 
     help : or what finds it, where that takes a search

@@ -13,14 +13,15 @@ from functools import partial
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
-from shotc.diag.registry import stops
+from shotc.diag.registry import has_errors, stops
 from shotc.ir.mission import GeoOrigin, MissionIR, Rules
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.deferred import deferred_features
 from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.framing import check_framing
-from shotc.passes.resolve.geometry import check_geometry
+from shotc.passes.resolve.geometry import check_places
+from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.names import check_names
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
@@ -96,10 +97,19 @@ class Resolve:
 
 
 def _static_faults(mission: MissionIR, *, geometry: bool, timing: bool, order: bool) -> list[Diagnostic]:
-    """Return what can be told from numbers alone; ``order`` is whether names and waits all stand."""
-    faults: list[Diagnostic] = []
-    if geometry:
-        faults += [*check_geometry(mission), *check_framing(mission)]
-        if timing:
-            faults += check_timing(mission, schedule=order)
+    """Return what can be told from numbers alone; ``order`` is whether names and waits all stand.
+
+    What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
+    the order of the shots where all shots and homes do.
+    """
+    if not geometry:
+        return []
+    homes = check_homes(mission)
+    places = [(shot, path, d) for shot in mission.shots for path, d in check_places(mission, shot)]
+    wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
+    faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]
+    if timing:
+        misplaced = {shot.path for shot, _ in wrong}
+        sound = [shot for shot in mission.shots if shot.path not in misplaced]
+        faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
     return faults

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from math import acos, degrees, dist, hypot, pi
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import Vec2, heading_of, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import Vec2, frustum_margins, heading_of, nearest_depth, silhouette_bounds, view
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes import explicit_aim, setting_of
 from shotc.passes.place_keyframes.candidates import Setting
 from shotc.passes.place_keyframes.faults import TILT, framing_label
@@ -14,13 +16,16 @@ from shotc.passes.place_keyframes.faults import TILT, framing_label
 SAME = 1e-3  # metres within which a camera looks at its own place
 
 
-def check_framing(mission: MissionIR) -> list[Diagnostic]:
-    """Return the faults of every keyframe that says where the camera looks; one a keyframe."""
+def check_framing(mission: MissionIR, misplaced: Collection[KeyPath] = ()) -> list[Diagnostic]:
+    """Return the faults of every keyframe that says where the camera looks; one a keyframe.
+
+    misplaced : lines whose keyframes cannot stand where they are, and are not judged
+    """
     faults: list[Diagnostic] = []
     told: set[tuple[object, ...]] = set()
     for shot in mission.shots:
         for keyframe in shot.keyframes:
-            fault = _fault(mission, shot, keyframe)
+            fault = None if keyframe.path in misplaced else _fault(mission, shot, keyframe)
             # The keyframes of a file or of a generated path share a line, and one report will do.
             if fault is not None and (keyframe.path, fault.code) not in told:
                 told.add((keyframe.path, fault.code))
@@ -56,7 +61,7 @@ def _beyond_gimbal(mission: MissionIR, drone: Drone, keyframe: Keyframe, pitch: 
         f"the gimbal cannot pitch to {asked:.1f} deg",
         labels,
         (f"the gimbal of `{drone.name}` reaches {low:.1f} to {high:.1f} deg",),
-        f"pitch the camera to {max(low, min(high, asked)):.1f} deg at most",
+        f"pitch the camera to {max(low, min(high, asked)):.1f} deg, or take a gimbal that reaches farther",
     )
 
 
@@ -89,6 +94,9 @@ def _shows(setting: Setting, aim: Vec2) -> bool:
     """Tell whether any of the target's outline box is in the frame."""
     camera = view(aim[0], aim[1], setting.hfov, setting.aspect)
     if nearest_depth(camera, setting.offset, setting.radius, setting.height) <= 0:
-        return True  # it reaches past the camera; that it is too near is told by others
+        # It reaches past the image plane and has no outline; mirrored at the camera, what lies wholly
+        # outside one side of the frame lies wholly inside of it.
+        x, y, z = setting.offset
+        return max(frustum_margins(camera, (-x, -y, -z), setting.radius, setting.height)) <= 0
     left, right, low, high = silhouette_bounds(camera, setting.offset, setting.radius, setting.height)
     return bool(left < 1 and right > -1 and low < 1 and high > -1)

@@ -14,23 +14,21 @@ from dataclasses import replace
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move, obstacles_of
 
 _CODES = {"out": "G002", "in": "G003", "target": "G004"}
 
 
-def check_geometry(mission: MissionIR) -> list[Diagnostic]:
-    """Return the faults of all homes and keyframes, one for each keyframe line and obstacle."""
-    faults = check_homes(mission)
-    for shot in mission.shots:
-        drone = mission.drone(shot.drone)
-        for path, keyframes in _by_line(shot).items():
-            faults += _too_low(mission, shot, drone, path, keyframes)
-            raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
-            for obstacle in obstacles_of(mission, drone):
-                faults += _blocked(mission, shot, drone, raised, obstacle)
-    return faults
+def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
+    """Yield the faults of a shot's keyframes, one for each keyframe line and obstacle, with that line."""
+    drone = mission.drone(shot.drone)
+    for path, keyframes in _by_line(shot).items():
+        for fault in _too_low(mission, shot, drone, path, keyframes):
+            yield path, fault
+        raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
+        for obstacle in obstacles_of(mission, drone):
+            for fault in _blocked(mission, shot, drone, raised, obstacle):
+                yield path, fault
 
 
 def _by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:

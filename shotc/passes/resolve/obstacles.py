@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import atan2, ceil, degrees, dist, floor, hypot, isfinite, pi
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from shotc.geom.solids import (
     Cylinder,
@@ -23,8 +22,7 @@ NUDGE = 0.01  # metres that a proposed place lies farther off than it must
 WINDS = ("east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east")
 
 
-@dataclass(frozen=True, slots=True)
-class Obstacle:
+class Obstacle(NamedTuple):
     """Something to keep a distance from, or to stay inside of by a distance.
 
     room : metres from the body's centre that must be free

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target, Timing
@@ -13,8 +13,7 @@ from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
 
 
-@dataclass(frozen=True, slots=True)
-class Cast:
+class Cast(NamedTuple):
     """What the shots of a mission are made with: everything a scene shows, without the shot.
 
     drones : by name; targets : by name, None where one moves
@@ -29,8 +28,7 @@ class Cast:
     read: Callable[[str, KeyPath], bytes | Diagnostic]
 
 
-@dataclass(frozen=True, slots=True)
-class Shots:
+class Shots(NamedTuple):
     """Shots that have keyframes, and what stands against the others."""
 
     shots: tuple[Shot, ...]

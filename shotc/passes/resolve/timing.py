@@ -5,10 +5,10 @@ Straight lines at full limits say what no drone can do, not what one can: that n
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from math import ceil
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, MissionIR, Shot, Vec3
@@ -20,13 +20,13 @@ SHORTEST = "`shotc plan` finds the shortest possible"
 EARLIEST = "`shotc plan` finds the earliest possible"
 
 
-def check_timing(mission: MissionIR, *, schedule: bool = True) -> list[Diagnostic]:
-    """Return every fault of the shots' own timings; where there is none, of their order in time.
+def check_timing(mission: MissionIR, shots: Iterable[Shot], *, schedule: bool) -> list[Diagnostic]:
+    """Return every fault of the own timings of ``shots``; where there is none, of the order of all.
 
-    schedule : whether to judge the order at all; it needs shots whose names and waits stand
+    schedule : whether to judge the order at all; it needs shots whose names, waits and places stand
     """
     faults: list[Diagnostic] = []
-    for shot in mission.shots:
+    for shot in shots:
         faults += _own_times(mission, shot) or _own_duration(mission, shot)
     return _schedule(mission) if schedule and not faults else faults
 
@@ -92,17 +92,20 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
         labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
         note = f"its holds alone last {holds:.1f} s; the shot is given {asked:.1f} s"
         return [Diagnostic("K003", f"shot `{shot.id}` holds longer than it lasts", labels, (note,), remedy)]
-    note = f"the {length(shot.keyframes):.1f} m between its keyframes need {_pace(shot, drone, least)}"
+    note = (
+        f"the {length(shot.keyframes):.1f} m between its keyframes need {_pace(mission, shot, drone, least)}"
+    )
     message = f"shot `{shot.id}` cannot be flown in {asked:.1f} s"
     return [Diagnostic("K004", message, (label,), (note,), remedy)]
 
 
-def _pace(shot: Shot, drone: Drone, least: float) -> str:
+def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
     holds = sum(k.hold for k in shot.keyframes)
     limits = drone.limits
     held = f", {holds:.1f} s of holds included" if holds else ""
+    wind = f" ({limits.speed + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     return (
-        f"at least {_up(least)} s at {limits.speed:.1f} m/s across, {limits.climb:.1f} m/s up, "
+        f"at least {_up(least)} s at {limits.speed:.1f} m/s across{wind}, {limits.climb:.1f} m/s up, "
         f"{limits.descent:.1f} m/s down and {limits.acceleration:.1f} m/s^2{held}"
     )
 
@@ -118,8 +121,7 @@ def _too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float, asked:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Moment:
+class _Moment(NamedTuple):
     """Where and when a drone is free: after ``shot``, or on its pad; take_off is the latest possible."""
 
     time: float
