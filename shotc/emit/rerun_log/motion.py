@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
+from rerun.components import LineStrip3DBatch
+from rerun.encodings import Vec3DBatch
 
 from shotc.emit.palette import CAMERA, KEEP_OUT, SUBJECT, WHITE, rgba8, shade
 from shotc.emit.rerun_log.series import Line, Plot, clearance_plot, motion_plots, sample_times
@@ -164,9 +166,9 @@ def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Refer
     _style(stream, f"{entity}/outline", rgba8(shade(SUBJECT, 1.75)), 1.2)
     _centre(stream, f"{entity}/centre", ticks, frames(cameras, cylinder(target)))
     if span.reference is not None:
-        crosses = [_cross(point, drone.aspect) for point in span.reference(ticks)]
-        strips = [strip for cross in crosses for strip in cross]
-        _strips(stream, f"{entity}/wanted", ticks, strips, [len(cross) for cross in crosses])
+        cross = _cross(drone.aspect)
+        wanted = [part + point for point in span.reference(ticks) for part in cross]
+        _strips(stream, f"{entity}/wanted", ticks, wanted, [len(cross)] * len(ticks))
         _style(stream, f"{entity}/wanted", rgba8(CAMERA), 1.4)
 
 
@@ -184,24 +186,37 @@ def _centre(stream: Any, entity: str, ticks: Array, shown: Frames) -> None:
     stream.log(entity, dot, static=True)
 
 
-def _cross(at: Array, aspect: float) -> list[Array]:
+def _cross(aspect: float) -> list[Array]:
+    """Return the lines of a cross hair round the origin of the screen, each of shape (k, 2)."""
     size = np.array([1.0, aspect])
     arms = ((1, 0), (-1, 0), (0, 1), (0, -1))
     turn = np.linspace(0, 2 * np.pi, 33)
-    ring = at + 0.035 * size * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    return [at + size * np.array([[sx * r, sy * r] for r in (0.02, 0.06)]) for sx, sy in arms] + [ring]
+    ring = 0.035 * size * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    return [size * np.array([[sx * r, sy * r] for r in (0.02, 0.06)]) for sx, sy in arms] + [ring]
 
 
 def _strips(stream: Any, entity: str, ticks: Array, strips: list[Array], lengths: list[int]) -> None:
     """Log (u, v) lines for every tick, and none any more just after the last one."""
     if not strips:
         return
-    lifted = [np.column_stack([strip, np.zeros(len(strip))]) for strip in strips]
+    points = np.concatenate(strips)
+    lifted = strip_batch(np.column_stack([points, np.zeros(len(points))]), [len(strip) for strip in strips])
     stream.send_columns(
         entity,
         indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER])],
         columns=rr.LineStrips3D.columns(strips=lifted).partition([*lengths, 0]),
     )
+
+
+def strip_batch(points: Array, lengths: list[int]) -> Any:
+    """Return lines for rerun: all their points, shape (n, 3), and how many each has.
+
+    rerun's own conversion makes an object of every line, which takes most of the time.
+    """
+    offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
+    inner = Vec3DBatch(points.astype(np.float32)).as_arrow_array()
+    pattern = LineStrip3DBatch([points[:1]]).as_arrow_array()
+    return type(pattern).from_arrays(offsets, inner, type=pattern.type)
 
 
 def _style(stream: Any, entity: str, color: tuple[int, int, int, int], width: float) -> None:
