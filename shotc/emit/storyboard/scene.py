@@ -21,8 +21,8 @@ from shotc.ir.sampling import cylinder
 LIGHT = np.radians(215.0)
 """Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""
 
-REACH = 30
-"""How many squares the ground grid goes out from under the camera before it has faded."""
+REACH, FADES = 30, 12
+"""How many squares the ground grid goes out from under the camera, and in how many steps it fades."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -155,9 +155,11 @@ def _grid(canvas: Canvas, shown: Picture, grid: float) -> None:
     inside = (uv.min(axis=1) < 1).all(axis=1) & (uv.max(axis=1) > -1).all(axis=1) & (far < 1)
     if not inside.any():
         return
-    alpha = 0.5 * (1 - far[inside]) ** 2
-    colors = np.column_stack([np.tile(shade(GROUND, 0.66), (len(alpha), 1)), alpha])
-    canvas.lines(list(shown.place(uv[inside])), colors, 0.6, shown.box)
+    ends = shown.place(uv[inside])
+    strength = np.ceil(FADES * (1 - far[inside]) ** 2)
+    for level in np.unique(strength):
+        color = (*shade(GROUND, 0.66), 0.5 * float(level) / FADES)
+        canvas.pieces(ends[strength == level], color, 0.6, shown.box)
 
 
 def _target(canvas: Canvas, shown: Picture, target: Target, color: Rgb) -> None:
