@@ -2,7 +2,7 @@
 
 Where two neighbouring keyframes frame a target, its screen place moves from one reference to the next
 (C2 in path parameter), and the angles that put it there follow in closed form; a spline is fitted to
-them, exact at the keyframes. Elsewhere the angles are as smooth as their keyframes let them be.
+them, exact at the keyframes. Elsewhere the camera turns steadily from one keyframe to the next.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from shotc.geom.camera import aim_at
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import FramingSpan
+from shotc.passes.solve_path_qp.turns import steady
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 
@@ -27,7 +28,7 @@ SAMPLES = 6  # per piece
 FINER = (1, 2, 4, 8)
 CLOSE = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
 STIFF = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
-LOOSE = 1e-6  # the same where no sample speaks: more, so that the solver sees it beside the samples
+FAINT = 1e-2  # weight of samples where nothing is framed against those where something is
 NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
 
 
@@ -62,17 +63,20 @@ class Cut:
 class CameraLine:
     """Camera yaw, pitch and field of view over s: ``angles`` has those three channels.
 
-    error : rad by which the fit misses the wanted direction at worst
+    error : rad by which the fit misses the wanted direction at worst, at path parameter ``worst``
     """
 
     angles: Piecewise
     status: Status
     error: float
+    worst: float
     cuts: tuple[Cut, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Samples:
+    """Wanted angles in tracked stretches, s, yaw, pitch of shape (M,); binding ones at keyframes, (A,)."""
+
     s: Array
     yaw: Array
     pitch: Array
@@ -81,19 +85,51 @@ class _Samples:
     anchor_pitch: Array
     cuts: tuple[Cut, ...]
 
+    def steady(self, limits: tuple[float, float]) -> Piecewise:
+        """Return the turn through the binding angles alone: yaw and pitch."""
+        pitch = np.clip(self.anchor_pitch, *limits)
+        yaw, pitch = (steady(self.anchor_s, v).ctrl for v in (self.anchor_yaw, pitch))
+        return Piecewise(self.anchor_s, np.concatenate([yaw, pitch], axis=2))
+
 
 def camera_line(mission: MissionIR, drone: Drone, track: Track) -> CameraLine:
-    """Return the camera's angles along a shot, on breaks that hold those of the position curve."""
+    """Return the camera's angles along a shot, on breaks that hold those of the position curve.
+
+    A fit that no grid makes possible gives way to the steady turn from keyframe to keyframe.
+    """
     base = _grid(track)
     hfov = _hfov(track)
-    best: CameraLine | None = None
+    samples = _sample(mission, drone, track, base, hfov)
+    turn = samples.steady(drone.gimbal.pitch)
+    best = _line(restrict(turn, base), samples, hfov, Status.SOLVED)
+    if not len(samples.s):
+        return best
+    fitted: CameraLine | None = None
     for finer in FINER:
         breaks = subdivide(base, finer)
-        best = _fitted(mission, drone, track, breaks, hfov)
-        if best.error < CLOSE:
+        samples = _sample(mission, drone, track, breaks, hfov)
+        status, curve = _fitted(drone, samples, breaks, turn)
+        if status not in {Status.SOLVED, Status.INACCURATE}:
+            continue
+        fitted = _line(curve, samples, hfov, status)
+        if fitted.error < CLOSE:
             break
-    assert best is not None
-    return best
+    return fitted or best
+
+
+def _line(curve: Piecewise, samples: _Samples, hfov: Piecewise, status: Status) -> CameraLine:
+    ctrl = np.concatenate([curve.ctrl, restrict(hfov, curve.breaks).ctrl], axis=2)
+    error, worst = 0.0, curve.start
+    if len(samples.s):
+        at = curve(samples.s)
+        miss = np.hypot(_across(samples.pitch) * (at[:, 0] - samples.yaw), at[:, 1] - samples.pitch)
+        error, worst = float(miss.max()), float(samples.s[int(miss.argmax())])
+    return CameraLine(Piecewise(curve.breaks, ctrl), status, error, worst, samples.cuts)
+
+
+def _across(pitch: Array) -> Array:
+    """Return by how much of itself an error in yaw moves the picture: cos(pitch), never quite nothing."""
+    return np.asarray(np.maximum(np.cos(pitch), 0.03))
 
 
 def framing_spans(track: Track) -> tuple[FramingSpan, ...]:
@@ -165,46 +201,34 @@ def _hfov(track: Track) -> Piecewise:
     return Piecewise(track.s[keys], ctrl)
 
 
-def _fitted(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov: Piecewise) -> CameraLine:
-    samples = _sample(mission, drone, track, breaks, hfov)
-    spacing = float(breaks[-1] - breaks[0]) / max(len(np.unique(track.s)) - 1, 1)
+def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> tuple[Status, Piecewise]:
+    """Return yaw and pitch near the samples, and where there are none near the steady turn."""
+    spacing = float(breaks[-1] - breaks[0]) / max(len(turn.breaks) - 1, 1)
     density = (breaks[-1] - breaks[0]) / (len(breaks) - 1) / SAMPLES / spacing
-    stiff = _stiffness(samples.s, breaks, spacing)
-    # An error in yaw moves the picture by cos(pitch) of it.
-    across = np.maximum(np.cos(samples.pitch), 0.03)
-    yaw_status, yaw = fit(
-        Fit(breaks, samples.s, samples.yaw, density * across**2, samples.anchor_s, samples.anchor_yaw, stiff)
-    )
+    stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
+    loose = _untracked(samples.s, breaks)
+    at = np.concatenate([samples.s, loose])
+    yaw, pitch = (np.concatenate(p) for p in zip((samples.yaw, samples.pitch), turn(loose).T, strict=True))
+    weight = density * np.where(np.arange(len(at)) < len(samples.s), 1.0, FAINT)
     low, high = drone.gimbal.pitch
     shape = (len(breaks) - 1, 6)
-    weight = np.full(len(samples.s), density)
-    pitch_status, pitch = fit(
-        Fit(
-            breaks,
-            samples.s,
-            samples.pitch,
-            weight,
-            samples.anchor_s,
-            np.clip(samples.anchor_pitch, low, high),
-            stiff,
-            np.full(shape, low),
-            np.full(shape, high),
-        )
-    )
-    curve = spline(breaks, np.column_stack([yaw, pitch]))
-    ctrl = np.concatenate([curve.ctrl, restrict(hfov, breaks).ctrl], axis=2)
+    bounds = np.full(shape, low), np.full(shape, high)
+    ends = samples.anchor_s, np.clip(samples.anchor_pitch, low, high)
+    yaw_fit = Fit(breaks, at, yaw, weight * _across(pitch) ** 2, samples.anchor_s, samples.anchor_yaw, stiff)
+    yaw_status, yaw_coef = fit(yaw_fit)
+    pitch_status, pitch_coef = fit(Fit(breaks, at, pitch, weight, *ends, stiff, *bounds))
+    curve = spline(breaks, np.column_stack([yaw_coef, pitch_coef]))
+    ctrl = curve.ctrl.copy()
     ctrl[:, :, 1] = np.clip(ctrl[:, :, 1], low, high)
-    at = curve(samples.s) if len(samples.s) else np.zeros((0, 2))
-    miss = np.hypot(across * (at[:, 0] - samples.yaw), at[:, 1] - samples.pitch)
-    status = yaw_status if yaw_status is not Status.SOLVED else pitch_status
-    return CameraLine(Piecewise(breaks, ctrl), status, float(miss.max(initial=0.0)), samples.cuts)
+    return yaw_status if yaw_status is not Status.SOLVED else pitch_status, Piecewise(breaks, ctrl)
 
 
-def _stiffness(at: Array, breaks: Array, spacing: float) -> tuple[Array, Array]:
-    """Return the weights of smoothness, one a piece; without any sample only their ratio counts."""
-    tracked = np.histogram(at, breaks)[0] > 0
-    weight = np.where(tracked, STIFF, LOOSE if len(at) else 1.0)
-    return 1e-3 * weight * spacing, weight * spacing**5
+def _untracked(tracked: Array, breaks: Array) -> Array:
+    """Return sample parameters on the pieces where no sample speaks."""
+    silent = np.histogram(tracked, breaks)[0] == 0
+    every = subdivide(breaks, SAMPLES)[:-1].reshape(-1, SAMPLES)
+    half = 0.5 * np.diff(breaks)[:, None] / SAMPLES
+    return np.asarray((every + half)[silent].ravel())
 
 
 def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov: Piecewise) -> _Samples:

@@ -1,0 +1,43 @@
+"""A turn through given angles that never swings beyond them: for cameras that follow nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+
+STEEPEST = 1.25  # times the chord's slope, with which a quintic without curvature at its ends still rises
+
+
+def steady(at: Array, value: Array) -> Piecewise:
+    """Return the C2 quintics through values at parameters, monotone between neighbours, one channel.
+
+    at : shape (K,), increasing, K >= 2; value : shape (K,)
+    Slopes are weighted harmonic means of the neighbouring chords' (Fritsch and Butland, A method for
+    constructing local monotone piecewise cubic interpolants), held to what keeps quintics with no
+    second derivative at their ends monotone; so even turns stay even.
+    """
+    h = np.diff(at)
+    slope = _slopes(h, np.diff(value) / h)
+    step = (h / 5.0)[:, None] * np.array([0.0, 1.0, 2.0])
+    left = value[:-1, None] + step * slope[:-1, None]
+    right = value[1:, None] - step[:, ::-1] * slope[1:, None]
+    return Piecewise(at, np.concatenate([left, right], axis=1)[:, :, None])
+
+
+def _slopes(h: Array, chord: Array) -> Array:
+    if len(h) == 1:
+        return np.repeat(chord, 2)
+    h0, h1, d0, d1 = h[:-1], h[1:], chord[:-1], chord[1:]
+    least = np.minimum(np.abs(d0), np.abs(d1))
+    agree = d0 * d1 > 0
+    safe0, safe1 = np.where(agree, np.abs(d0), 1.0), np.where(agree, np.abs(d1), 1.0)
+    mean = 3 * (h0 + h1) / ((2 * h1 + h0) / safe0 + (h1 + 2 * h0) / safe1)
+    inner = np.where(agree, np.sign(d0) * np.minimum(mean, STEEPEST * least), 0.0)
+    ends = (_end(chord[0], inner[0]), _end(chord[-1], inner[-1]))
+    return np.concatenate([ends[:1], inner, ends[1:]])
+
+
+def _end(chord: float, inner: float) -> float:
+    """Return the slope at an outer end: that of a turn which changes its rate evenly, if it may be."""
+    return float(np.sign(chord) * np.clip((3 * abs(chord) - abs(inner)) / 2, 0.0, STEEPEST * abs(chord)))
