@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.solvers.conic import Status
+from shotc.solvers.late_pyplot import late_pyplot
 
 Array = NDArray[np.float64]
 
@@ -98,7 +99,8 @@ class _Interval:
 
 @cache
 def _algorithm_class() -> Any:
-    from toppra.algorithm import TOPPRA
+    with late_pyplot():
+        from toppra.algorithm import TOPPRA
 
     # Without a handler of its own toppra's remarks on a failure would reach the user's terminal.
     logging.getLogger("toppra").setLevel(logging.CRITICAL)
@@ -107,8 +109,9 @@ def _algorithm_class() -> Any:
 
 @cache
 def _constraint_class() -> Any:
-    from toppra.constraint import DiscretizationType, LinearConstraint
-    from toppra.constraint.linear_constraint import canlinear_colloc_to_interpolate
+    with late_pyplot():
+        from toppra.constraint import DiscretizationType, LinearConstraint
+        from toppra.constraint.linear_constraint import canlinear_colloc_to_interpolate
 
     class Limits(LinearConstraint):  # type: ignore[misc]
         def __init__(self, limits: LinearLimits) -> None:

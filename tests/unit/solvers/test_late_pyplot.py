@@ -1,0 +1,31 @@
+"""toppra without pyplot: nothing of matplotlib is loaded for it, and it is there when it is used."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+SEEN = """
+import sys{before}
+from shotc.solvers.topp import _algorithm_class
+_algorithm_class()
+print("matplotlib.pyplot" in sys.modules)
+from toppra.algorithm import algorithm
+print(algorithm.plt.Figure.__module__)
+import matplotlib.pyplot as plt
+print(plt.Figure is algorithm.plt.Figure, plt.__spec__ is not None)
+"""
+
+
+@pytest.mark.parametrize("before", ["", ", matplotlib"])
+def test_pyplot_loads_when_it_is_used(before: str) -> None:
+    run = subprocess.run([sys.executable, "-c", SEEN.format(before=before)], capture_output=True, text=True)
+    assert run.stdout.split() == ["False", "matplotlib.figure", "True", "True"], run.stderr
+
+
+def test_a_pyplot_that_is_there_is_left_alone() -> None:
+    code = SEEN.format(before=", matplotlib.pyplot")
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert run.stdout.split() == ["True", "matplotlib.figure", "True", "True"], run.stderr
