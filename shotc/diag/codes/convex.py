@@ -141,4 +141,15 @@ CODES: tuple[CodeInfo, ...] = (
         "keyframes, or keyframes a few millimetres apart, make the numbers hard: scale the mission, or "
         "report it together with the mission file.",
     ),
+    _code(
+        9,
+        "picture-turns",
+        "following its target, the camera swings round between two keyframes",
+        "A camera that passes straight over what it films has to turn by half a circle there, since it can "
+        "only pitch down to the vertical: seen on screen, the picture turns. The warning says where, and by "
+        "how much; it also says where the camera cannot follow exactly. Pass beside the target, or give the "
+        "keyframes a `heading` and a `pitch` of their own.",
+        ("lamp: {at: [20, 30, 14]", "lamp: {at: [25.5, 7.5, 1]"),
+        Severity.WARNING,
+    ),
 )

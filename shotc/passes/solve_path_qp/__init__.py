@@ -23,6 +23,7 @@ from shotc.passes.solve_path_qp.faults import (
     follow_camera_impossible,
     moved,
     pad_blocked,
+    swings,
 )
 from shotc.passes.solve_path_qp.legs import Flight, drone_legs
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
@@ -87,6 +88,7 @@ def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext) -> _Planned:
     warnings = [
         *(moved(mission, s.shot, d) for s in shots for d in s.deviations),
         *(cut_framing(mission, drone, s.shot, s.cuts) for s in shots if s.cuts),
+        *(swings(mission, s.shot, s.swing) for s in shots if s.swing is not None),
     ]
     ctx.progress(f"way of {drone.name}")
     joined = drone_legs(Flight(drone, room, top), shots)

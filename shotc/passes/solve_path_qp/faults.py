@@ -13,14 +13,16 @@ from shotc.geom.corridor import Room
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation
-from shotc.passes.solve_path_qp.angles import Cut
+from shotc.passes.solve_path_qp.angles import NOTICE, Cut
 from shotc.passes.solve_path_qp.gap import narrow_gap, opening
 from shotc.passes.solve_path_qp.lines import NoWay, TooNear
 from shotc.passes.solve_path_qp.pad import PadBlocked
 from shotc.passes.solve_path_qp.room import GROUND, named, owner_path
 from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, Stuck
+from shotc.passes.solve_path_qp.swings import Swing
 from shotc.solvers.conic import Status
 
+_WAY = {"over": "down", "under": "up"}
 LEAST = 1e-3  # metres of give-way that count as part of a conflict
 
 
@@ -124,6 +126,28 @@ def cut_framing(mission: MissionIR, drone: Drone, shot: PlacedShot, cuts: tuple[
         tuple(notes),
         "add a keyframe farther from the target, or widen gimbal.pitch",
     )
+
+
+def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
+    """Return the warning for a camera that swings round, or is not always where it should be."""
+    first, second = (shot.keyframes[k] for k in (swing.index, swing.index + 1))
+    where = f"{swing.s:.1f} m along the shot, between keyframes {swing.index + 1} and {swing.index + 2}"
+    off = f"the target is up to {degrees(swing.miss):.1f} deg off its place"
+    if swing.turn > 0:
+        over = "over" if swing.pitch < 0 else "under"
+        message = (
+            f"shot `{shot.shot.id}` passes straight {over} target `{swing.target}`, "
+            f"and the picture turns by {degrees(swing.turn):.0f} deg there"
+        )
+        notes = [f"{where}, the camera looks {degrees(abs(swing.pitch)):.0f} deg {_WAY[over]}"]
+        notes += [f"meanwhile {off}"] if swing.miss > NOTICE else []
+        help_ = f"pass at least {swing.aside:.1f} m to one side of it, or give `heading` and `pitch`"
+    else:
+        message = f"the camera of shot `{shot.shot.id}` cannot keep target `{swing.target}` in its place"
+        notes = [f"{where}, {off}"]
+        help_ = "move these keyframes apart, or ask for more alike places on screen"
+    labels = (mission.origins.key(first.path, "from here"), mission.origins.key(second.path, "to here"))
+    return Diagnostic("Q009", message, labels[: 1 + (first.path != second.path)], tuple(notes), help_)
 
 
 def _no_way(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: NoWay) -> Diagnostic:

@@ -16,6 +16,7 @@ from shotc.passes.solve_path_qp.angles import CameraLine, Cut, Track, camera_lin
 from shotc.passes.solve_path_qp.body import BodyTask, body_line
 from shotc.passes.solve_path_qp.lines import SAME_PLACE, Line, NoWay, TooNear, shot_line
 from shotc.passes.solve_path_qp.position import Solved, Stretch, solve_stretch
+from shotc.passes.solve_path_qp.swings import Swing, worst_swing
 from shotc.solvers.conic import Status
 
 NOTICE = 0.1  # metres off a generated keyframe that are worth telling
@@ -37,6 +38,7 @@ class ShotCurve:
     framing: tuple[FramingSpan, ...]
     deviations: tuple[Deviation, ...]
     cuts: tuple[Cut, ...]
+    swing: Swing | None
     stats: tuple[tuple[str, float | str], ...]
 
 
@@ -91,6 +93,7 @@ def shot_curve(mission: MissionIR, drone: Drone, room: Room, placed: PlacedShot)
         framing=framing_spans(track),
         deviations=_deviations(room, placed, track),
         cuts=camera.cuts,
+        swing=worst_swing(mission, track, camera),
         stats=_stats(placed, solved, camera, whole),
     )
 
@@ -113,7 +116,7 @@ def _still(placed: PlacedShot, line: Line) -> ShotCurve:
             reference = Piecewise(np.array([0.0, 1.0]), np.tile(np.array(first.reference), (1, 6, 1)))
         spans = (FramingSpan(first.target, 0.0, 0.0, reference),)
     marks = tuple(Mark(0.0, k.time, i, k.path) for i, k in enumerate(placed.keyframes))
-    return ShotCurve(placed, None, pose, (Stop(0.0, hold),), marks, spans, (), (), ())
+    return ShotCurve(placed, None, pose, (Stop(0.0, hold),), marks, spans, (), (), None, ())
 
 
 def _position(
