@@ -29,13 +29,20 @@ shots:
 """
 
 
+_ON_EARTH = _PASSING.replace("world:\n", "world:\n  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n").replace(
+    "at: [0, -45, 18]", "at: {lat: 47.3765, lon: 8.5417, height: 18}"
+)
+
+
+_WARNINGS = {11, 12, 16, 18}
+
+
 def _code(
-    number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str], *, warns: bool = False
+    number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str], base: str = _PASSING
 ) -> CodeInfo:
     """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
-    severity = Severity.WARNING if warns else Severity.ERROR
-    failing = _PASSING.replace(*slip)
-    return CodeInfo(f"G{number:03}", slug, severity, summary, explanation, failing, _PASSING)
+    severity = Severity.WARNING if number in _WARNINGS else Severity.ERROR
+    return CodeInfo(f"G{number:03}", slug, severity, summary, explanation, base.replace(*slip), base)
 
 
 CODES: tuple[CodeInfo, ...] = (
@@ -135,7 +142,6 @@ CODES: tuple[CodeInfo, ...] = (
             "at: [0, -45, 18], look_at: tower",
             "at: [0, -40, 18], look_at: tower, frame: upper-left",
         ),
-        warns=True,
     ),
     _code(
         12,
@@ -144,7 +150,6 @@ CODES: tuple[CodeInfo, ...] = (
         "With `keep` the user's framing stands as it is, even where it cuts the target. The note says by "
         "how much. Turn the camera, move away, or widen the field of view if the whole target is wanted.",
         ("heading: 45 deg, pitch: -4 deg", "heading: 75 deg, pitch: -4 deg, frame: keep"),
-        warns=True,
     ),
     _code(
         13,
@@ -166,9 +171,11 @@ CODES: tuple[CodeInfo, ...] = (
         15,
         "no-origin",
         "a position is given in latitude and longitude, but the mission has no origin",
-        "`world.origin` ties the world's metres to the earth; without it a geodetic position is nowhere. Add "
+        "`world.origin` ties the world's metres to the earth; without it a geodetic position is nowhere, and "
+        "without its `alt` a GPX file's elevations are, which count from sea level. Add "
         "`origin: {lat: ..., lon: ..., alt: ...}` under `world`, or give positions as [x, y, z].",
-        ("at: [0, -45, 18]", "at: {lat: 47.3769, lon: 8.5417, height: 18}"),
+        ("  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n", ""),
+        base=_ON_EARTH,
     ),
     _code(
         16,
@@ -177,6 +184,24 @@ CODES: tuple[CodeInfo, ...] = (
         "The path that a kind generates is an ideal. Where a zone or a target stands in it the plan goes "
         "round, and says how far and when. Choose another altitude or distance to keep the ideal.",
         ("radius: 50, altitude: 20", "radius: 36, altitude: 11"),
-        warns=True,
+    ),
+    _code(
+        17,
+        "far-from-origin",
+        "a position in latitude and longitude is not near the world's origin",
+        "Missions are flown round `world.origin`, at most 10 km from it. A place farther away is a slip: "
+        "latitude and longitude swapped, a minus forgotten (west and south are negative), or an origin of "
+        "another mission. The help says which of them it looks like.",
+        ("lat: 47.3765, lon: 8.5417", "lat: 8.5417, lon: 47.3765"),
+        base=_ON_EARTH,
+    ),
+    _code(
+        18,
+        "target-underground",
+        "a target reaches into the ground",
+        "`at` is the middle of a target, not its foot: a tower 24 m high that stands on the ground has its "
+        "middle at z = 12. A target that lies a good deal under the ground is framed where nobody sees it. "
+        "Give its middle.",
+        ("tower: {at: [0, 0, 12]", "tower: {at: [0, 0, 0]"),
     ),
 )

@@ -18,6 +18,7 @@ from shotc.ir.mission import GeoOrigin, MissionIR, Rules
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.deferred import deferred_features
+from shotc.passes.resolve.earth import check_earth, geo_origin
 from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.geometry import check_places
@@ -26,7 +27,7 @@ from shotc.passes.resolve.names import check_names
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.tracks import check_tracks
-from shotc.passes.resolve.world import drones, geo_origin, resolve_drone, targets, without_origin, zones
+from shotc.passes.resolve.world import check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE
@@ -50,7 +51,7 @@ class Resolve:
     def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[MissionIR]:
         """Resolve one mission."""
         spec, origins = ir.spec, ir.origins
-        homeless = without_origin(spec, origins)
+        astray = check_earth(spec, origins)
         origin = geo_origin(spec)
         put = partial(placed, origin or ANYWHERE)
         found_zones, zone_faults = zones(spec, put, origins)
@@ -64,15 +65,16 @@ class Resolve:
             found_drones,
             found_targets,
             rules,
-            origin or (ANYWHERE if homeless else None),
+            origin or (ANYWHERE if astray else None),
             origins,
             read,
         )
         shots = expand_shots(spec, cast, resolve_drone("spare", DroneSpec(), put, 0.0))
         faults = [
-            *homeless,
+            *astray,
             *zone_faults,
             *drone_faults,
+            *([] if astray else check_targets(found_targets, origins)),
             *check_tracks(spec, origins, read),
             *check_names(spec, origins, self.emitters),
             *shots.diagnostics,
@@ -92,7 +94,7 @@ class Resolve:
             deferred=deferred_features(spec, shots.deferred),
             origins=origins,
         )
-        faults += _static_faults(mission, geometry=not homeless, timing=not drone_faults, order=not faults)
+        faults += _static_faults(mission, geometry=not astray, timing=not drone_faults, order=not faults)
         return Outcome(None if stops(faults) else mission, tuple(faults))
 
 

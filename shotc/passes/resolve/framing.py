@@ -97,6 +97,6 @@ def _shows(setting: Setting, aim: Vec2) -> bool:
         # It reaches past the image plane and has no outline; mirrored at the camera, what lies wholly
         # outside one side of the frame lies wholly inside of it.
         x, y, z = setting.offset
-        return max(frustum_margins(camera, (-x, -y, -z), setting.radius, setting.height)) <= 0
+        return bool(max(frustum_margins(camera, (-x, -y, -z), setting.radius, setting.height)) <= 0)
     left, right, low, high = silhouette_bounds(camera, setting.offset, setting.radius, setting.height)
     return bool(left < 1 and right > -1 and low < 1 and high > -1)

@@ -62,9 +62,35 @@ def _too_low(
     if not lowest.placed and (*shot.path, "altitude") in mission.origins.values:
         label = mission.origins.value((*shot.path, "altitude"))
     message = f"{_what(shot, lowest)} is too low: {where}"
-    yield Diagnostic(
-        "G001", message, (label,), (note,), f"raise it by {_up(floor - z)} m, to z = {_up(floor)}"
+    notes = (note, *_over_ground(mission, lowest, floor))
+    yield Diagnostic("G001", message, (label,), notes, f"raise it by {_up(floor - z)} m, to z = {_up(floor)}")
+
+
+def _over_ground(mission: MissionIR, keyframe: Keyframe, floor: float) -> tuple[str, ...]:
+    """Note a file's elevation that would do if it was meant to count from the ground."""
+    alt, z = _altitude(mission), keyframe.at[2]
+    if keyframe.path[-1] != "file" or z >= 0 or z + alt < floor:
+        return ()
+    return (
+        f"a GPX file's elevations count from sea level, as the origin's {alt:.0f} m do; "
+        f"{z + alt:.1f} m looks like a height over the ground, which a CSV file of lat,lon,height gives",
     )
+
+
+def _from_sea(mission: MissionIR, z: float, obstacle: Obstacle) -> tuple[str, ...]:
+    """Note a height that would do if it was meant to count from sea level."""
+    alt = _altitude(mission)
+    if obstacle.role != "in" or z <= obstacle.solid.top or z - alt < obstacle.solid.bottom:
+        return ()
+    if z - alt > obstacle.solid.top:
+        return ()
+    return (
+        f"heights count from the ground at the origin; {z:.1f} m above sea level would be z = {z - alt:.1f}",
+    )
+
+
+def _altitude(mission: MissionIR) -> float:
+    return 0.0 if mission.origin is None else mission.origin.alt
 
 
 def _blocked(
@@ -82,13 +108,16 @@ def _blocked(
         notes = (*notes, f"{len(lacking)} of {len(keyframes)} points are so; the worst is [{place}]")
     if ideal and len(lacking) < len(keyframes):
         message = f"the ideal path of this {shot.kind} {obstacle.relation(worst.at)}"
-        help_ = "the plan will leave the ideal here; choose another altitude or distance to keep it"
+        help_ = f"the plan will leave the ideal here; to keep it, {obstacle.free_of()}"
         yield Diagnostic("G016", message, labels, notes, help_)
         return
-    code = _CODES[obstacle.role]
-    move = "" if ideal else free_move(mission, drone, worst.at, obstacle)
-    help_ = move or ("choose another altitude or distance" if ideal else "move it to a free place")
-    yield Diagnostic(code, f"{_what(shot, worst)} {obstacle.relation(worst.at)}", labels, notes, help_)
+    notes = (*notes, *_from_sea(mission, worst.at[2], obstacle))
+    if ideal:
+        help_ = obstacle.free_of()
+    else:
+        help_ = free_move(mission, drone, worst.at, obstacle) or "move it to a free place"
+    message = f"{_what(shot, worst)} {obstacle.relation(worst.at)}"
+    yield Diagnostic(_CODES[obstacle.role], message, labels, notes, help_)
 
 
 def _what(shot: Shot, keyframe: Keyframe) -> str:

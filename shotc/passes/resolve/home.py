@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf
+from math import dist, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Drone, MissionIR, Vec3
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, signed_distance
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, move, obstacles_of, outward, signed_distance
 
 
 def check_homes(mission: MissionIR) -> list[Diagnostic]:
@@ -31,8 +31,9 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
             said = _obstructed(mission, drone, obstacle)
             if said is not None:
                 labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
-                help_ = "move the home, or the obstacle"
-                faults.append(Diagnostic("G005", said[0], labels, (said[1],), help_))
+                faults.append(
+                    Diagnostic("G005", said[0], labels, (said[1],), _remedy(mission, drone, obstacle))
+                )
     return faults
 
 
@@ -44,7 +45,7 @@ def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[s
         room = min(-signed_distance(walls, p) for p in (drone.home, (drone.home[0], drone.home[1], top)))
         if room >= drone.radius - ROUNDING:
             return None
-        where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
+        where = f"{room:.2f} m from its border" if room > 0 else f"{abs(room):.2f} m outside"
         note = f"the take-off is {where}; the body radius of {drone.radius:.2f} m must be free"
         return f"the home of `{drone.name}` is outside keep-in zone `{obstacle.name}`", note
     near = signed_distance(obstacle.solid, _nearest_level(drone.home, top, obstacle))
@@ -57,6 +58,18 @@ def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[s
         f"between the ground and {top:.2f} m it {reach}; the body radius of {drone.radius:.2f} m must be free"
     )
     return f"the home of `{drone.name}` is {where} {what} `{obstacle.name}`", note
+
+
+def _remedy(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> str:
+    """Propose the nearest level place from which the drone can take off, if there is one close by."""
+    home = drone.home
+    ways = obstacle._replace(room=drone.radius).ways_out(home)
+    places = [outward(home, (x, y, home[2])) for x, y, _ in ways if (x, y) != home[:2]]
+    around = obstacles_of(mission, drone)
+    free = [q for q in places if all(_obstructed(mission, replace(drone, home=q), o) is None for o in around)]
+    if not free:
+        return "move the home, or the obstacle"
+    return move(home, min(free, key=lambda q: dist(home, q)))
 
 
 def _nearest_level(home: Vec3, top: float, obstacle: Obstacle) -> Vec3:

@@ -66,6 +66,18 @@ class Obstacle(NamedTuple):
             need = f"the target clearance of {clearance:.2f} m and {need}"
         return f"it is {where}; {need} must be free"
 
+    def free_of(self) -> str:
+        """Say where a whole path would be free of it."""
+        low, high = self.solid.bottom + self.room, self.solid.top - self.room
+        if self.role == "in":
+            return f"stay {self.room:.2f} m inside of it, from z = {_up(low)} to {_down(high)}"
+        above = f"fly at z = {_up(self.solid.top + self.room)} or higher" if isfinite(self.solid.top) else ""
+        if isinstance(self.solid, Cylinder):
+            aside = f"keep {_up(self.solid.radius + self.room)} m or more from its axis"
+        else:
+            aside = f"keep {_up(self.room)} m or more from its sides"
+        return f"{aside}, or {above}" if above else aside
+
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:
         """Yield places near ``p`` that may have the room: up, down and sideways."""
         room = self.room + NUDGE
@@ -122,20 +134,33 @@ def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Obstacle) -> 
     """Return in words the shortest move out of an obstacle to a place that is free of all, or nothing."""
     others = obstacles_of(mission, drone)
     lowest = mission.rules.ground_clearance + drone.radius
-    places = [_outward(p, q) for q in obstacle.ways_out(p)]
+    places = [outward(p, q) for q in obstacle.ways_out(p)]
     free = [q for q in places if q[2] >= lowest - ROUNDING and all(o.lack(q) <= ROUNDING for o in others)]
     if not free:
         return ""
-    q = min(free, key=lambda place: dist(p, place))
-    return f"move it {dist(p, q):.2f} m {_direction(p, q)}, to [{q[0]:.2f}, {q[1]:.2f}, {q[2]:.2f}]"
+    return move(p, min(free, key=lambda place: dist(p, place)))
 
 
-def _outward(p: Vec3, q: Vec3) -> Vec3:
+def move(p: Vec3, q: Vec3) -> str:
+    """Return in words the move from one place to another."""
+    place = ", ".join(f"{round(c, 2) + 0.0:.2f}" for c in q)  # adding zero takes the sign off -0.00
+    return f"move it {dist(p, q):.2f} m {_direction(p, q)}, to [{place}]"
+
+
+def outward(p: Vec3, q: Vec3) -> Vec3:
     """Round ``q`` to centimetres away from ``p``, so that the numbers given are enough."""
     return tuple(  # type: ignore[return-value]
         (ceil(b * 100 - 1e-6) if b > a else floor(b * 100 + 1e-6)) / 100 if abs(b - a) > 1e-9 else b
         for a, b in zip(p, q, strict=True)
     )
+
+
+def _up(metres: float) -> str:
+    return f"{ceil(metres * 100 - 1e-6) / 100:.2f}"
+
+
+def _down(metres: float) -> str:
+    return f"{floor(metres * 100 + 1e-6) / 100:.2f}"
 
 
 def _sideways(solid: Solid, p: Vec2, room: float) -> Iterator[Vec2]:

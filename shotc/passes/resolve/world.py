@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from math import isclose
 from typing import Any
 
@@ -10,8 +10,8 @@ from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
-from shotc.ir.mission import Drone, GeoOrigin, Gimbal, Limits, Target, Vec2, Vec3, Zone
-from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.mission import Drone, Gimbal, Limits, Target, Vec2, Vec3, Zone
+from shotc.ir.origin import OriginMap
 from shotc.spec.drones import DroneSpec
 from shotc.spec.fields import Geodetic
 from shotc.spec.mission import MissionSpec
@@ -20,45 +20,8 @@ from shotc.spec.world import ZoneSpec
 
 Put = Callable[[Vec3 | Geodetic], Vec3]
 LEAST_AREA = 1e-4  # m^2
+BURIED = 0.25  # share of a target's height under the ground that is no rounding of its place
 LEAST_SPEED = 0.1  # m/s that the wind has to leave
-
-
-def geo_origin(spec: MissionSpec) -> GeoOrigin | None:
-    """Return where W is on the earth, if the mission says so."""
-    origin = spec.world.origin
-    return None if origin is None else GeoOrigin(origin.lat, origin.lon, origin.alt)
-
-
-def without_origin(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
-    """Return one fault at the first of the geodetic positions of a mission that has no origin."""
-    places = [] if spec.world.origin is not None else list(_geodetic(spec, ()))
-    if not places:
-        return []
-    more = f"; {len(places)} positions of this mission are so" if len(places) > 1 else ""
-    first = min((origins.value(path) for path in places), key=lambda label: label.span)
-    return [
-        Diagnostic(
-            "G015",
-            "a position in latitude and longitude, but the mission has no origin",
-            (first,),
-            (f"without `world.origin` it cannot be put into the world{more}",),
-            "add `world: {origin: {lat: ..., lon: ..., alt: ...}}`",
-        )
-    ]
-
-
-def _geodetic(value: Any, path: KeyPath) -> Iterator[KeyPath]:
-    if isinstance(value, Geodetic):
-        yield path
-    elif isinstance(value, BaseModel):
-        for name in type(value).model_fields:
-            yield from _geodetic(getattr(value, name), (*path, name))
-    elif isinstance(value, dict):
-        for key, item in value.items():
-            yield from _geodetic(item, (*path, key))
-    elif isinstance(value, list | tuple):
-        for i, item in enumerate(value):
-            yield from _geodetic(item, (*path, i))
 
 
 def zones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[tuple[Zone, ...], list[Diagnostic]]:
@@ -113,6 +76,21 @@ def targets(spec: MissionSpec, put: Put) -> dict[str, Target | None]:
         else Target(name, put(target.at), target.radius, target.height, ("targets", name))
         for name, target in spec.targets.items()
     }
+
+
+def check_targets(found: Mapping[str, Target | None], origins: OriginMap) -> list[Diagnostic]:
+    """Warn of standing targets a good part of which is under the ground."""
+    return [
+        Diagnostic(
+            "G018",
+            f"target `{target.name}` reaches {target.height / 2 - target.centre[2]:.2f} m into the ground",
+            (origins.value((*target.path, "at")),),
+            (f"`at` is the middle of its {target.height:.2f} m, and the ground is z = 0",),
+            f"if it stands on the ground, put its middle at z = {target.height / 2:g}",
+        )
+        for target in found.values()
+        if target is not None and target.centre[2] < target.height * (0.5 - BURIED)
+    ]
 
 
 def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, Drone], list[Diagnostic]]:

@@ -1,0 +1,50 @@
+"""Places on the earth that cannot be meant: so far from the origin that something else is wrong with them."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import NamedTuple
+
+from shotc.geom.geodetic import to_world
+from shotc.ir.mission import GeoOrigin
+
+FARTHEST = 10_000.0  # metres; no camera drone flies so far, and there z = 0 is 8 m above the sea's curve
+
+
+class Stray(NamedTuple):
+    """What to say of a place that is too far away, and the slip of the pen that it looks like."""
+
+    message: str
+    note: str
+    help: str
+
+
+def stray(origin: GeoOrigin, lat: float, lon: float) -> Stray | None:
+    """Return what is wrong with a place that is too far from the origin; degrees."""
+    away = _away((origin.lat_deg, origin.lon_deg), (lat, lon))
+    if away <= FARTHEST:
+        return None
+    return Stray(
+        f"the place is {away / 1000:.1f} km away from the world's origin",
+        f"the origin is at {origin.lat_deg:g}, {origin.lon_deg:g}; the place is at {lat:g}, {lon:g} "
+        f"(latitude, longitude), and no more than {FARTHEST / 1000:.0f} km apart can be flown",
+        _remedy((origin.lat_deg, origin.lon_deg), (lat, lon)),
+    )
+
+
+def _remedy(origin: tuple[float, float], place: tuple[float, float]) -> str:
+    lat, lon = place
+    meant = {"swapped": (lon, lat), "longitude": (lat, -lon), "latitude": (-lat, lon)}
+    near = [slip for slip, p in meant.items() if abs(p[0]) <= 90 and _away(origin, p) <= FARTHEST]
+    if "swapped" in near:
+        return f"latitude and longitude look swapped; write `lat: {lon:g}, lon: {lat:g}`"
+    if near:
+        right = f"`lat: {meant[near[0]][0]:g}, lon: {meant[near[0]][1]:g}`"
+        return f"the {near[0]} looks as if it had the wrong sign (west and south are negative); write {right}"
+    if abs(origin[1]) <= 90 and _away((origin[1], origin[0]), place) <= FARTHEST:
+        return "latitude and longitude of `world.origin` look swapped"
+    return "mend the place, or move `world.origin` to where the mission is flown"
+
+
+def _away(origin: tuple[float, float], place: tuple[float, float]) -> float:
+    return hypot(*to_world((*place, 0.0), (*origin, 0.0)))

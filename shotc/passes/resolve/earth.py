@@ -1,0 +1,65 @@
+"""Positions in latitude and longitude: there is an origin that ties W to the earth, and they are near it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import GeoOrigin
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.earth import stray
+from shotc.spec.fields import Geodetic
+from shotc.spec.mission import MissionSpec
+
+
+def geo_origin(spec: MissionSpec) -> GeoOrigin | None:
+    """Return where W is on the earth, if the mission says so."""
+    origin = spec.world.origin
+    return None if origin is None else GeoOrigin(origin.lat, origin.lon, origin.alt)
+
+
+def check_earth(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
+    """Return one fault for all geodetic positions that have no place in W, at the first of them."""
+    places = sorted(_geodetic(spec, ()), key=lambda found: origins.value(found[0]).span)
+    origin = geo_origin(spec)
+    if origin is None:
+        return [_without_origin(places, origins)] if places else []
+    far = [(path, stray(origin, place.lat, place.lon)) for path, place in places]
+    strays = [(path, found) for path, found in far if found is not None]
+    if not strays:
+        return []
+    path, found = strays[0]
+    labels = (origins.value(path), origins.key(("world", "origin"), "the origin"))
+    notes = (found.note, *_count(len(strays)))
+    return [Diagnostic("G017", found.message, labels, notes, found.help)]
+
+
+def _without_origin(places: list[tuple[KeyPath, Geodetic]], origins: OriginMap) -> Diagnostic:
+    return Diagnostic(
+        "G015",
+        "a position in latitude and longitude, but the mission has no origin",
+        (origins.value(places[0][0]),),
+        ("without `world.origin` it cannot be put into the world", *_count(len(places))),
+        "add `world: {origin: {lat: ..., lon: ..., alt: ...}}`",
+    )
+
+
+def _count(number: int) -> tuple[str, ...]:
+    return (f"{number} positions of this mission are so",) if number > 1 else ()
+
+
+def _geodetic(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Geodetic]]:
+    if isinstance(value, Geodetic):
+        yield path, value
+    elif isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield from _geodetic(getattr(value, name), (*path, name))
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            yield from _geodetic(item, (*path, key))
+    elif isinstance(value, list | tuple):
+        for i, item in enumerate(value):
+            yield from _geodetic(item, (*path, i))
