@@ -51,6 +51,8 @@ def test_keyframes_are_met_where_and_when_they_were_placed(plan: Plan, path: Pat
                 assert time - flown[shot.id].start == pytest.approx(keyframe.time, abs=1e-6)
             if keyframe.placed:
                 assert position(planned, time) == pytest.approx(keyframe.at, abs=1e-3)
+            hfov = np.interp(time, planned.motion["t_s"], planned.motion["hfov_rad"])
+            assert hfov == pytest.approx(keyframe.hfov, abs=1e-3)
 
 
 def position(planned: Planned, time: float) -> list[float]:

@@ -21,7 +21,7 @@ SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
     "path": {"emit": [("E101", 1)]},
     "pisa-campanile": {"emit": [("E102", 13)]},
     "river-path": {"check": [("G011", 22)], "plan": [("V030", 16)]},
-    "rooftop-survey": {"check": [("G012", 30)], "plan": [("V030", 30)]},
+    "rooftop-survey": {},
     "statue-moves": {"emit": [("E101", 1)]},
     "tower-reveal": {"plan": [("V030", 22), ("V031", 22)], "emit": [("E105", 22)]},
     "westerhever-lighthouse": {},
@@ -73,18 +73,3 @@ def test_the_same_mission_gives_the_same_bytes(plan: Plan, path: Path) -> None:
     assert again is not None
     files = {a.name: a.data for a in api.emit_plan(again, ["csv"]).artifacts}
     assert files == plan(path).files
-
-
-@every_mission
-def test_the_certificate_speaks_of_every_limit_and_every_shot(plan: Plan, path: Path) -> None:
-    planned = plan(path)
-    claims = planned.plan.certificate
-    assert all(claim.holds for claim in claims if claim.hard)
-    spoken = {claim.constraint for claim in claims if claim.hard}
-    wanted = {"speed", "climb", "descent", "acceleration", "jerk", "ground clearance", "endurance"}
-    wanted |= {"body yaw rate", "body yaw acceleration"}
-    wanted |= {f"gimbal {axis} {what}" for axis in ("yaw", "pitch") for what in ("rate", "acceleration")}
-    wanted |= {f"zone {zone.name}" for zone in planned.mission.zones}
-    wanted |= {f"target {target.name}" for target in planned.mission.targets}
-    assert wanted <= spoken
-    assert {shot.id for shot in planned.mission.shots} <= {claim.shot for claim in claims}

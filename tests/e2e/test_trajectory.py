@@ -157,11 +157,6 @@ def test_zones_ground_and_targets_are_kept_clear(plan: Plan, path: Path) -> None
         assert away.min() >= radius + mission.rules.target_clearance - 1e-5, target.name
 
 
-def test_endurance(plan: Plan, path: Path) -> None:
-    planned, table, _ = flown(plan, path)
-    assert table["t_s"][-1] <= planned.mission.drones[0].endurance
-
-
 def test_latitude_longitude_and_altitude(plan: Plan, path: Path) -> None:
     planned, table, _ = flown(plan, path)
     origin = planned.mission.origin
