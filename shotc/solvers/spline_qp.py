@@ -109,12 +109,61 @@ class Relaxation:
 def minimise(problem: SplineProblem) -> SplineSolution:
     """Return the curve of least energy under all constraints.
 
-    A solution that misses an equality by more than MISS is none: its status is FAILED.
+    Where no bound bites, that is one linear solve, and no programme. A solution that misses an
+    equality by more than MISS is none: its status is FAILED.
     """
-    import cvxpy as cp
-
     centre = problem.equalities.value.mean(axis=0)
     problem = _moved(problem, -centre)
+    coef = _unbounded(problem)
+    found = (
+        _programme(problem)
+        if coef is None
+        else SplineSolution(Status.SOLVED, coef, _energy(problem, coef), 0.0)
+    )
+    return found if found.coef is None else replace(found, coef=found.coef + centre)
+
+
+def _unbounded(problem: SplineProblem) -> Array | None:
+    """Return the curve of least energy through the equalities, or None where it breaks a bound.
+
+    One that breaks none, soft ones included, is the optimum of the whole problem.
+    """
+    from scipy.sparse import bmat, vstack
+    from scipy.sparse.linalg import splu
+
+    maps = vstack([scalar_map(goal.rows, problem.size) for goal in problem.goals], format="csr")
+    through = scalar_map(problem.equalities.rows, problem.size)
+    system = bmat([[maps.T @ maps, through.T], [through, None]], format="csc")
+    wanted = maps.T @ np.concatenate([goal.value for goal in problem.goals])
+    try:
+        solved = splu(system).solve(np.concatenate([wanted, problem.equalities.value]))
+    except RuntimeError:  # singular: goals and equalities leave a direction free
+        return None
+    coef = np.asarray(solved[: problem.size])
+    return coef if _keeps(problem, coef) else None
+
+
+def _keeps(problem: SplineProblem, coef: Array) -> bool:
+    """Tell whether coefficients keep every equality and bound; NaN keeps none."""
+
+    def lengths(cone: Cones) -> Array:
+        return np.asarray(np.linalg.norm(cone.rows.apply(coef)[:, list(cone.axes)] - cone.centre, axis=1))
+
+    miss = np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value)
+    return (
+        bool((miss <= MISS).all())
+        and all(((f.rows.apply(coef) * f.normal).sum(axis=1) >= f.offset).all() for f in problem.floors)
+        and all((lengths(cone) <= cone.bound).all() for cone in problem.cones)
+    )
+
+
+def _energy(problem: SplineProblem, coef: Array) -> float:
+    return float(sum(((goal.rows.apply(coef) - goal.value) ** 2).sum() for goal in problem.goals))
+
+
+def _programme(problem: SplineProblem) -> SplineSolution:
+    import cvxpy as cp
+
     x = cp.Variable(3 * problem.size)
     constraints = [_block(problem.equalities.rows, problem.size) @ x == problem.equalities.value.T.ravel()]
     constraints += [_floor_map(f, problem.size) @ x >= f.offset for f in problem.floors]
@@ -134,7 +183,7 @@ def minimise(problem: SplineProblem) -> SplineSolution:
     coef, objective = _coef(x, problem.size), float(energy.value)
     if np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value).max() > MISS:
         return SplineSolution(Status.FAILED, None, float("nan"), float("nan"))
-    return SplineSolution(status, coef + centre, objective, float(programme.value) - objective)
+    return SplineSolution(status, coef, objective, float(programme.value) - objective)
 
 
 def relax(problem: SplineProblem, owners: int) -> Relaxation:

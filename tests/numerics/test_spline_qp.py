@@ -7,6 +7,7 @@ import pytest
 from scipy.interpolate import make_interp_spline
 
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, subdivide, value_rows
+from shotc.solvers import spline_qp
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 from shotc.solvers.spline_qp import (
@@ -81,6 +82,38 @@ def test_stationarity_on_the_waypoints_null_space():
     multipliers = np.linalg.lstsq(fixed.T, gradient, rcond=None)[0]
     residual = gradient - fixed.T @ multipliers
     assert np.abs(residual).max() <= 1e-6 * np.abs(jerk.T @ jerk).max()
+
+
+def test_bounds_that_do_not_bite_need_no_programme(monkeypatch):
+    p, s = waypoints(8, seed=4)
+    breaks, loose = least_jerk(p, s)
+    low = float(control_rows(breaks).apply(minimise(loose).coef)[:, 2].min())
+    rows = control_rows(breaks, 1)
+    fast = np.linalg.norm(rows.apply(minimise(loose).coef), axis=1).max()
+
+    def bounded(speed, floor):
+        size = len(rows.piece)
+        zero, owner = np.zeros((size, 3)), np.zeros(size, dtype=int)
+        cone = Cones(rows, (0, 1, 2), zero, np.full(size, speed), np.ones(size), owner)
+        return least_jerk(p, s, floors=[floor_on(breaks, (0.0, 0.0, 1.0), floor)], cones=[cone])[1]
+
+    wide, slow, high = (
+        bounded(1.01 * fast, low - 0.1),
+        bounded(0.95 * fast, low - 0.1),
+        bounded(fast, low + 0.1),
+    )
+    programme, asked = spline_qp._programme, []
+    monkeypatch.setattr(spline_qp, "_programme", lambda q: asked.append(q) or programme(q))
+    found, reference = minimise(wide), programme(wide)
+    assert not asked
+    assert found.objective == pytest.approx(reference.objective, rel=1e-7)
+    assert found.excess == 0.0
+    centre = wide.equalities.value.mean(axis=0)
+    assert np.abs(found.coef - centre - programme(spline_qp._moved(wide, -centre)).coef).max() < 1e-5
+    for tight in (slow, high):
+        asked.clear()
+        minimise(tight)
+        assert len(asked) == 1
 
 
 def test_floors_hold_and_cost_what_they_must():
