@@ -34,11 +34,15 @@ class Obstacle:
 
 @dataclass(frozen=True, slots=True)
 class Wall:
-    """A half-space the drone's centre stays in: n.p >= offset, n a unit vector of W."""
+    """A half-space the drone's centre stays in: n.p >= offset, n a unit vector of W.
+
+    clearance : the part of the offset that is not the border itself but the room to keep from it
+    """
 
     owner: str
     normal: tuple[float, float, float]
     offset: float
+    clearance: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +80,7 @@ class Room:
         """Return the room with every clearance that much smaller (never below zero for obstacles)."""
         return Room(
             tuple(Obstacle(o.owner, o.part, max(0.0, o.clearance - metres)) for o in self.obstacles),
-            tuple(Wall(w.owner, w.normal, w.offset - metres) for w in self.walls),
+            tuple(Wall(w.owner, w.normal, w.offset - metres, w.clearance - metres) for w in self.walls),
             tuple(Disc(d.owner, d.centre, d.radius + metres) for d in self.discs),
         )
 

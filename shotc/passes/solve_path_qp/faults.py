@@ -14,7 +14,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation
 from shotc.passes.solve_path_qp.angles import NOTICE, Cut
-from shotc.passes.solve_path_qp.gap import narrow_gap, opening
+from shotc.passes.solve_path_qp.gap import lower_clearance, narrow_gap, opening
 from shotc.passes.solve_path_qp.lines import NoWay, TooNear
 from shotc.passes.solve_path_qp.pad import PadBlocked
 from shotc.passes.solve_path_qp.room import GROUND, named, owner_path
@@ -153,6 +153,7 @@ def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
 def _no_way(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: NoWay) -> Diagnostic:
     openers = opening(room, what.start, what.end)
     gap = narrow_gap(room, what.start, what.end, openers)
+    lower = lower_clearance(mission, drone, what.start, what.end)
     labels = _ends(mission, drone, shot, what.keyframes)
     labels += [_owner_label(mission, name, "without it there is a way") for name in openers]
     notes = [f"from {_point(what.start)} to {_point(what.end)}"]
@@ -165,6 +166,9 @@ def _no_way(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | Non
         help_ = f"move or shrink {_either(tuple(map(named, openers)))}, or move the end points"
     else:
         help_ = "move the end points to one side, or remove zones between them"
+    if lower is not None:
+        labels.append(_owner_label(mission, GROUND, f"{lower:.2f} m would leave a way"))
+        help_ += f", or lower rules.ground_clearance to {lower:.2f} m"
     return Diagnostic(
         "Q001",
         f"there is no way for `{drone.name}` {_leading(shot, what.keyframes)}",
@@ -270,4 +274,6 @@ def _point(p: Array) -> str:
 
 
 def _either(names: tuple[str, ...]) -> str:
-    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + f" or {names[-1]}"
+    if len(names) < 3:
+        return " or ".join(names)
+    return f"any one of {', '.join(names[:-1])} and {names[-1]}"

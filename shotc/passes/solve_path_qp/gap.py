@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
+from math import floor
 
 import numpy as np
 
@@ -11,7 +12,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.convex import closest_points, support
 from shotc.geom.corridor import MARGIN, Obstacle, Room, Wall
 from shotc.geom.route import find_route
-from shotc.passes.solve_path_qp.room import named
+from shotc.ir.mission import Drone, MissionIR
+from shotc.passes.solve_path_qp.room import GROUND, flight_room, named
 
 HALVINGS = 7
 MOST = 0.8  # of the body's radius that a smaller drone may lack
@@ -26,8 +28,25 @@ class Gap:
 
 
 def opening(room: Room, start: Array, end: Array) -> tuple[str, ...]:
-    """Return the owners each of which, taken away alone, leaves a way."""
-    return tuple(name for name in room.owners if find_route(room.without(name), start, end) is not None)
+    """Return the owners each of which, taken away alone, leaves a way; the ground cannot be taken away."""
+    names = (name for name in room.owners if name != GROUND)
+    return tuple(name for name in names if find_route(room.without(name), start, end) is not None)
+
+
+def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) -> float | None:
+    """Return the ground clearance, metres, rounded down, that leaves a way; None if none does."""
+
+    def opens(clearance: float) -> bool:
+        rules = replace(mission.rules, ground_clearance=clearance)
+        return find_route(flight_room(replace(mission, rules=rules), drone), start, end) is not None
+
+    low, high = 0.0, mission.rules.ground_clearance
+    if high <= 0.0 or not opens(low):
+        return None
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if opens(middle) else (low, middle)
+    return floor(low * 100) / 100
 
 
 def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -> Gap | None:
@@ -77,7 +96,7 @@ def _closing_pair(
         for w in room.walls:
             gap = _to_wall(o, w)
             if o.owner != w.owner and (not openers or {o.owner, w.owner} & set(openers)):
-                best = _closer(best, lent, (o.owner, w.owner), gap, o.clearance)
+                best = _closer(best, lent, (o.owner, w.owner), gap, o.clearance + w.clearance)
     return None if best is None else (best[1], best[2], best[3])
 
 
@@ -109,7 +128,7 @@ def _between(a: Obstacle, b: Obstacle) -> float:
 
 
 def _to_wall(o: Obstacle, w: Wall) -> float:
-    """Return how much of the room between a wall and an obstacle is left for the drone's centre."""
+    """Return the distance of an obstacle from a wall's border, metres."""
     n = np.array(w.normal)
     nearest = -float(support(o.part, -n[None])[0])
-    return nearest - w.offset
+    return nearest - (w.offset - w.clearance)

@@ -22,7 +22,8 @@ def flight_room(mission: MissionIR, drone: Drone) -> Room:
         part = Cylinder((x, y), target.radius, z - half, z + half)
         clearance = drone.radius + mission.rules.target_clearance
         obstacles.append(Obstacle(f"target {target.name}", part, clearance))
-    walls = [Wall(GROUND, (0.0, 0.0, 1.0), mission.rules.ground_clearance + drone.radius)]
+    over_ground = mission.rules.ground_clearance + drone.radius
+    walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
     return _with_keep_ins(mission, drone, (obstacles, walls), floors=True)
 
 
@@ -88,9 +89,9 @@ def _with_keep_ins(
 def _lids(owner: str, solid: Solid, radius: float, *, floors: bool) -> list[Wall]:
     lids = []
     if floors and solid.bottom > -inf:
-        lids.append(Wall(owner, (0.0, 0.0, 1.0), solid.bottom + radius))
+        lids.append(Wall(owner, (0.0, 0.0, 1.0), solid.bottom + radius, radius))
     if solid.top < inf:
-        lids.append(Wall(owner, (0.0, 0.0, -1.0), radius - solid.top))
+        lids.append(Wall(owner, (0.0, 0.0, -1.0), radius - solid.top, radius))
     return lids
 
 
@@ -99,5 +100,5 @@ def _sides(owner: str, hull: Prism, radius: float) -> list[Wall]:
     for (ax, ay), (bx, by) in edges(hull.points):
         length = hypot(bx - ax, by - ay)
         n = ((ay - by) / length, (bx - ax) / length)
-        sides.append(Wall(owner, (n[0], n[1], 0.0), n[0] * ax + n[1] * ay + radius))
+        sides.append(Wall(owner, (n[0], n[1], 0.0), n[0] * ax + n[1] * ay + radius, radius))
     return sides

@@ -13,7 +13,7 @@ from shotc.diag.codes.convex import CODES
 from shotc.geom.camera import view
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism
-from shotc.ir.mission import Gimbal, Target, Timing
+from shotc.ir.mission import Gimbal, Target, Timing, Zone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.passes.solve_path_qp.faults import failure
 from shotc.passes.solve_path_qp.position import Stretch, solve_stretch
@@ -260,6 +260,42 @@ def test_a_gap_too_narrow_is_named_with_its_width():
     assert fault.code == "Q001"
     assert "the gap between zone `south` and zone `north` is 0.80 m; the drone needs 1.20 m" in fault.notes
     assert "0.2" in fault.help
+
+
+def across(*zones: Zone, clearance: float = 2.0):
+    made = mission(*zones, targets=(), home=(-10.0, -60.0, 0.0))
+    made = replace(made, rules=replace(made.rules, ground_clearance=clearance))
+    return solve(made, shot([free(0, (-20, 0, 8)), free(1, (20, 0, 8))]))
+
+
+def test_a_gap_under_a_ceiling_is_measured_from_the_ceiling():
+    wall = out("wall", block((-1, 1), (-90, 90), (0, 59.2)))
+    (fault,) = across(inside("field", FIELD), wall).diagnostics
+    assert "the gap between zone `wall` and zone `field` is 0.80 m; the drone needs 1.20 m" in fault.notes
+    lower = out("wall", block((-1, 1), (-90, 90), (0, 59.2 - told(fault.help, "widen the gap by"))))
+    assert across(inside("field", FIELD), lower).value is not None
+
+
+def test_the_ground_is_nothing_to_move_but_its_clearance_is():
+    wall = out("wall", block((-1, 1), (-90, 90), (2.4, 70)))
+    field = inside("field", replace(FIELD, bottom=-5.0))
+    (fault,) = across(field, wall).diagnostics
+    assert "the ground is 2.40 m" not in fault.help
+    assert "or the ground" not in fault.help
+    lower = told(fault.help, "lower rules.ground_clearance to")
+    assert 0.9 < lower <= 1.2
+    assert across(field, wall, clearance=lower).value is not None
+
+
+def test_of_many_zones_that_close_a_way_any_one_is_enough():
+    sides = [((10, 30), (8, 12)), ((10, 30), (-12, -8)), ((8, 12), (-12, 12)), ((28, 32), (-12, 12))]
+    walls = [out(f"w{i}", block(x, y, (-20, 60))) for i, (x, y) in enumerate(sides)]
+    (fault,) = across(*walls, out("lid", block((8, 32), (-12, 12), (20, 22)))).diagnostics
+    assert "any one of zone `w0`, zone `w1`, zone `w2`, zone `w3` and zone `lid`" in fault.help
+
+
+def told(text: str, before: str) -> float:
+    return float(text.split(f"{before} ")[1].split(" m", maxsplit=1)[0])
 
 
 @pytest.mark.parametrize(
