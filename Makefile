@@ -29,6 +29,7 @@ endif
 
 demo: $(STAMP) ## Plan a real mission and say where to look at it
 	$(BIN)/shotc plan specs/westerhever-lighthouse.yaml
+	@echo "  look      out/westerhever-lighthouse/storyboard.png, or play it: $(BIN)/shotc view out/westerhever-lighthouse/plan.json"
 
 test: $(STAMP) ## Run every test
 	$(BIN)/pytest -n 2
