@@ -16,8 +16,8 @@ from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Keyframe, 
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.files import FileFault
 from shotc.spec.fields import Geodetic
-from shotc.spec.model import nearest
 from shotc.spec.shot import ShotBase
+from shotc.spec.words import nearest
 
 API_VERSION = 1
 MOVING = "a moving target"

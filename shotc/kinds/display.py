@@ -8,9 +8,10 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Deferred
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.spec.fields import Duration, Name, Position, RelativePath
-from shotc.spec.model import Model, OneOf, nearest
+from shotc.spec.model import Model, OneOf
 from shotc.spec.quantities import Quantity
 from shotc.spec.shot import ShotBase
+from shotc.spec.words import nearest
 
 
 class FramesSpec(Model):

@@ -43,6 +43,9 @@ def read_table(data: bytes, layouts: Sequence[tuple[str, ...]]) -> Table | FileF
     if len(lines) > MOST_ROWS:
         return FileFault(f"the file has {len(lines)} rows; at most {MOST_ROWS} are read")
     cells = [(n, tuple(c.strip() for c in line.split(","))) for n, line in lines]
+    foreign = _no_table(*lines[0])
+    if foreign is not None:
+        return foreign
     columns = _columns(*cells[0], layouts)
     if isinstance(columns, FileFault):
         return columns
@@ -146,6 +149,17 @@ def _text(data: bytes) -> str | FileFault:
     if "\0" in text:
         return FileFault("the file holds a NUL byte", text[: text.index("\0")].count("\n") + 1)
     return text
+
+
+def _no_table(line: int, first: str) -> FileFault | None:
+    """Tell a file of another format by its first line."""
+    if first.lstrip().startswith("<"):
+        return FileFault("the file is XML, no table", line, "export it as GPX, with `.gpx` as its ending")
+    for mark, name in ((";", "semicolons"), ("\t", "tabs")):
+        if mark in first:
+            message = f"its columns are separated by {name}"
+            return FileFault(message, line, "separate them with commas; decimals have a point")
+    return None
 
 
 def _too_large(data: bytes) -> FileFault:

@@ -35,7 +35,8 @@ def expand(shot: OrbitShot, scene: Scene) -> Expansion:
     if not isinstance(target, Target):
         return Expansion.of([target])
     radius, altitude = (shot.radius, shot.radius), (shot.altitude, shot.altitude)
-    return filmed(shot, scene, ring(target.centre, shot.start_azimuth, shot.sweep, radius, altitude))
+    points = ring(target.centre, shot.start_azimuth, shot.sweep, radius, altitude)
+    return filmed(shot, scene, points, turn="sweep")
 
 
 KIND = Kind("orbit", "turn about the target at one distance and altitude", OrbitShot, expand)

@@ -51,20 +51,16 @@ def line(axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: flo
     ]
 
 
-def filmed(shot: ShotBase, scene: Scene, points: list[Vec3]) -> Expansion:
-    """Return ideal keyframes along ``points`` that frame the shot's target."""
-    if max(hypot(*(a - b for a, b in zip(p, points[0], strict=True))) for p in points) < 1e-3:
-        return Expansion.of(
-            [
-                scene.fault(
-                    "K010",
-                    f"nothing moves in this {shot.kind}",
-                    "give what is to move as [from, to], or use `kind: static`",
-                    "kind",
-                )
-            ]
-        )
-    return Expansion.of(scene.keyframe(p, shot.target) for p in points)
+def filmed(shot: ShotBase, scene: Scene, points: list[Vec3], turn: str = "") -> Expansion:
+    """Return ideal keyframes along ``points`` that frame the shot's target.
+
+    turn : the parameter that makes it move, where that is an angle and no pair [from, to]
+    """
+    if max(hypot(*(a - b for a, b in zip(p, points[0], strict=True))) for p in points) >= 1e-3:
+        return Expansion.of(scene.keyframe(p, shot.target) for p in points)
+    how = f"give `{turn}` an angle such as `180 deg`" if turn else "give what is to move as [from, to]"
+    message = f"nothing moves in this {shot.kind}"
+    return Expansion.of([scene.fault("K010", message, f"{how}, or use `kind: static`", turn or "kind")])
 
 
 def _between(span: Span, t: float) -> float:

@@ -32,7 +32,7 @@ def expand(shot: SpiralShot, scene: Scene) -> Expansion:
     if not isinstance(target, Target):
         return Expansion.of([target])
     points = ring(target.centre, shot.start_azimuth, shot.sweep, shot.radius, shot.altitude)
-    return filmed(shot, scene, points)
+    return filmed(shot, scene, points, turn="sweep")
 
 
 KIND = Kind("spiral", "turn about the target while distance and altitude change", SpiralShot, expand)

@@ -8,7 +8,7 @@ from typing import Annotated
 from shotc.ir.mission import Vec2, Vec3
 from shotc.spec.fieldtypes import Flag, Integer, NamedOr, Text
 from shotc.spec.places import NAME, Geodetic, LookAt, Position
-from shotc.spec.quantities import Quantity, Range, Span, Tuple
+from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
 from shotc.units import SMALLEST
 
@@ -61,8 +61,8 @@ _POSITIVE_LENGTH = Quantity("PositiveLength", "length", SMALLEST["length"])
 _ANGLE = Quantity("Angle", "angle")
 _PITCH = Quantity("Pitch", "angle", -pi / 2, pi / 2, noun="pitch")
 _VELOCITY = Quantity("SignedSpeed", "speed")
-_SHARE = Quantity("Share", "ratio", 0.0, 1.0)
-_POSITIVE_SHARE = Quantity("PositiveShare", "ratio", SMALLEST["ratio"], 1.0)
+_SHARE = Percentage("Share", "ratio", 0.0, 1.0, noun="share")
+_POSITIVE_SHARE = Percentage("PositiveShare", "ratio", SMALLEST["ratio"], 1.0, noun="share")
 
 Length = Annotated[float, _LENGTH]
 PositiveLength = Annotated[float, _POSITIVE_LENGTH]
@@ -87,7 +87,7 @@ Duration = Annotated[float, Quantity("Duration", "duration", SMALLEST["duration"
 NonNegativeDuration = Annotated[float, Quantity("NonNegativeDuration", "duration", 0.0)]
 Share = Annotated[float, _SHARE]
 PositiveShare = Annotated[float, _POSITIVE_SHARE]
-ScreenDistance = Annotated[float, Quantity("ScreenDistance", "ratio", 0.0, 3.0)]
+ScreenDistance = Annotated[float, Quantity("ScreenDistance", "ratio", 0.0, 3.0, noun="distance on screen")]
 Frequency = Annotated[float, Quantity("Frequency", "frequency", 1.0, 1000.0)]
 
 LengthRange = Annotated[tuple[float, float], Range("LengthRange", _LENGTH, thick=True)]

@@ -16,7 +16,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
 from shotc.spec.faults import fault
-from shotc.spec.model import nearest
+from shotc.spec.words import nearest
 from shotc.units import a, clip, describe
 
 

@@ -17,9 +17,9 @@ from shotc.ir.origin import KeyPath, OriginMap
 from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.source.yaml_tree import Document, parse
 from shotc.spec.mission import VERSION, MissionSpec
-from shotc.spec.model import nearest
 from shotc.spec.shot import ShotBase
 from shotc.spec.translate import Finding, findings
+from shotc.spec.words import nearest
 from shotc.units import clip
 
 MAX_DIAGNOSTICS = 100

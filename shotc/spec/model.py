@@ -6,8 +6,7 @@ compile every annotation again.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
+from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, ValidationError, model_validator
@@ -17,11 +16,11 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from shotc.spec.faults import details_of, fault, together
+from shotc.spec.words import closest, key_help
 from shotc.units import clip, describe
 
 # Looking for the nearest word takes time; nobody reads a thousand proposals.
 _ADVISED = 100
-_LONGEST_WORD = 80
 
 
 class OneOf(NamedTuple):
@@ -135,7 +134,7 @@ class Model(BaseModel):
         others = [
             d for d in details if not (_is(d, "missing") or _is(d, "extra_forbidden") or _echo(d, details))
         ]
-        return [*others, *absent, *strange]
+        return [*(_few(d, cls.model_fields) for d in others), *absent, *strange]
 
 
 def section(description: str) -> Any:
@@ -144,20 +143,6 @@ def section(description: str) -> Any:
     An empty mapping is validated in its place: an instance as default would build its model on import.
     """
     return Field(default={}, validate_default=True, description=description)
-
-
-def closest(word: str, known: Iterable[str]) -> str | None:
-    """Return the known word that ``word`` is most likely meant to be, if there is one."""
-    if len(word) > _LONGEST_WORD:
-        return None
-    return next(iter(get_close_matches(word, list(known), n=1, cutoff=0.6)), None)
-
-
-def nearest(word: str, known: Iterable[str]) -> str:
-    """Return a help that proposes the nearest known word, or lists them all."""
-    words = list(known)
-    close = closest(word, words)
-    return f"did you mean `{close}`?" if close else f"known are {', '.join(words)}"
 
 
 def _exactly(given: tuple[str, ...], absent: set[str]) -> JsonSchemaValue:
@@ -188,6 +173,17 @@ def _echo(detail: InitErrorDetails, details: list[InitErrorDetails]) -> bool:
     return any(len(d["loc"]) > len(loc) and d["loc"][: len(loc)] == loc for d in details)
 
 
+def _few(detail: InitErrorDetails, known: Mapping[str, FieldInfo]) -> InitErrorDetails:
+    """Say of a list of this mapping that is too short what it holds; return any other fault as it is."""
+    if not _is(detail, "too_short"):
+        return detail
+    error, key = detail["type"], str(detail["loc"][0])
+    assert isinstance(error, PydanticCustomError)
+    context = error.context or {}
+    message = f"`{key}` has {context['actual_length']}, and {context['min_length']} or more are needed"
+    return _detail((key,), "wrong-length", message, f"give {known[key].description}")
+
+
 def _empty(key: str) -> InitErrorDetails:
     return _detail((key,), "empty-value", f"`{key}` has no value", f"write its value, or remove `{key}`")
 
@@ -200,7 +196,7 @@ def _missing(key: str, field: FieldInfo) -> InitErrorDetails:
 def _unknown(key: str, missing: list[str], known: Mapping[str, FieldInfo]) -> InitErrorDetails:
     below = [name for name, field in known.items() if key in _keys_below(field)]
     close = closest(key, missing)
-    help_ = f"did you mean `{close}`?" if close else nearest(key, known)
+    help_ = f"did you mean `{close}`?" if close else key_help(key, known)
     if below:
         help_ = f"`{key}` belongs under `{below[0]}`"
     return _detail((key,), "unknown-field", f"unknown key `{clip(key)}`", help_)

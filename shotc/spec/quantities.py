@@ -85,6 +85,14 @@ class Quantity(FieldType):
         return f"{degrees(number) if self.dimension in ANGULAR else number:g} {unit}"
 
 
+class Percentage(Quantity):
+    """A share of a whole, which people write in percent."""
+
+    def show(self, number: float) -> str:
+        """Return a share as people write it."""
+        return f"{100 * number:g} %"
+
+
 @dataclass(frozen=True, eq=False)
 class Tuple(FieldType):
     """A list of fixed length, kept as a tuple; ``shape`` is how it is written, such as ``[x, y, z]``."""

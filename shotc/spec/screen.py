@@ -15,7 +15,7 @@ from shotc.spec.fieldtypes import FieldType, NamedOr
 from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import clip, describe
 
-_SCREEN = Quantity("ScreenCoordinate", "ratio", -1.0, 1.0)
+_SCREEN = Quantity("ScreenCoordinate", "ratio", -1.0, 1.0, noun="place on screen")
 _PAIR = Tuple("ScreenPair", (_SCREEN, _SCREEN), "[u, v]")
 
 ScreenPoint = Annotated[Vec2, NamedOr("ScreenPoint", NAMED_POINTS, "screen point", _PAIR)]
@@ -86,7 +86,9 @@ class AspectType(FieldType):
         return {"anyOf": [_RATIO.reference(), {"type": "string", "pattern": f"^{side}:{side}$"}]}
 
 
-_RATIO = Quantity("AspectRatio", "ratio", 0.2, 5.0, fault="impossible-camera")
+_RATIO = Quantity(
+    "AspectRatio", "ratio", 0.2, 5.0, fault="impossible-camera", noun="frame's width over its height"
+)
 Aspect = Annotated[float, AspectType()]
 
 

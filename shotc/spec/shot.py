@@ -29,7 +29,7 @@ from shotc.spec.fields import (
     Switch,
 )
 from shotc.spec.model import Model, OneOf, section
-from shotc.units import clip
+from shotc.units import clip, describe
 
 # The two ways to aim a camera: at something, or by compass heading and pitch.
 AIM = OneOf((("look_at",), ("heading", "pitch")))
@@ -50,11 +50,14 @@ class TimingSpec(Model):
         """Return an empty mapping for ``auto``."""
         if data == "auto":
             return {}
-        if isinstance(data, str):
+        if isinstance(data, str | int | float) and not isinstance(data, bool):
+            number = isinstance(data, int | float) or data[:1].isdigit()
             raise fault(
                 "wrong-type",
-                f"expected a timing, got the text `{clip(data)}`",
-                "write `auto`, or a mapping with start, after, duration",
+                f"expected a timing, got {describe(data)}",
+                f"write `auto`, or `{{duration: {clip(str(data))}}}`"
+                if number
+                else "write `auto`, or a mapping with start, after, duration",
             )
         return data
 

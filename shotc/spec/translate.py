@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple
 from pydantic import ValidationError
 
 from shotc.ir.origin import KeyPath
-from shotc.spec.model import nearest
+from shotc.spec.words import nearest
 from shotc.units import clip, describe
 
 # Faults of a key, or of what should have been there, are blamed on the key.

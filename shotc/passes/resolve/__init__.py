@@ -23,7 +23,7 @@ from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.home import check_homes
-from shotc.passes.resolve.names import check_names
+from shotc.passes.resolve.names import check_names, once
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.tracks import check_tracks
@@ -70,15 +70,17 @@ class Resolve:
             read,
         )
         shots = expand_shots(spec, cast, resolve_drone("spare", DroneSpec(), put, 0.0))
-        faults = [
-            *astray,
-            *zone_faults,
-            *drone_faults,
-            *([] if astray else check_targets(found_targets, origins)),
-            *check_tracks(spec, origins, read),
-            *check_names(spec, origins, self.emitters),
-            *shots.diagnostics,
-        ]
+        faults = once(
+            [
+                *astray,
+                *zone_faults,
+                *drone_faults,
+                *([] if astray else check_targets(found_targets, origins)),
+                *check_tracks(spec, origins, read),
+                *check_names(spec, origins, self.emitters),
+                *shots.diagnostics,
+            ]
+        )
         mission = MissionIR(
             name=spec.mission,
             origin=origin,

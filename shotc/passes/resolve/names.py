@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from dataclasses import replace
 from typing import Any
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.mission import MissionSpec
-from shotc.spec.model import nearest
+from shotc.spec.words import nearest
 
 AUTO = "auto"
+_UNKNOWN = ("N001", "N002", "N003")
+_SHOWN = 4  # places of one unknown name that are shown
 
 
 def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str] | None) -> list[Diagnostic]:
@@ -24,6 +27,24 @@ def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str]
             path = ("output", "emit", i)
             faults.append(_unknown("N005", "emitter", name, dict.fromkeys(emitters), origins, path))
     return faults
+
+
+def once(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """Report a name that is unknown in several places once, with the first few of them."""
+    groups: dict[tuple[str, str], list[Diagnostic]] = {}
+    for i, found in enumerate(dict.fromkeys(diagnostics)):
+        key = found.message if found.code in _UNKNOWN else str(i)
+        groups.setdefault((found.code, key), []).append(found)
+    return [_merged(group) if len(group) > 1 else group[0] for group in groups.values()]
+
+
+def _merged(group: list[Diagnostic]) -> Diagnostic:
+    """Return one diagnostic for the same unknown name in different places."""
+    ordered = sorted(group, key=lambda found: found.sort_key)
+    first, *others = dict.fromkeys(found.labels[0] for found in ordered)
+    labels = (first, *(replace(label, text="here, too") for label in others[: _SHOWN - 1]))
+    notes = (f"it stands in {1 + len(others)} places",) if len(others) >= _SHOWN else ()
+    return replace(group[0], labels=labels, notes=(*group[0].notes, *notes))
 
 
 def _drones(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:

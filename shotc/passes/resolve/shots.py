@@ -51,8 +51,7 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Drone) -> Shots:
         deferred += expansion.deferred
         if expansion.keyframes and written.drone in cast.drones:
             shots.append(_shot(spec, written, expansion, path))
-    # A name that several keyframes use is reported once.
-    return Shots(tuple(shots), tuple(dict.fromkeys(diagnostics)), tuple(deferred))
+    return Shots(tuple(shots), tuple(diagnostics), tuple(deferred))
 
 
 def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: KeyPath) -> Expansion:

@@ -65,6 +65,13 @@ def test_a_negative_sweep_runs_clockwise() -> None:
     assert [azimuth(k) for k in found] == pytest.approx([0, 15, 30, 45, 60, 75, 90])
 
 
+def test_a_turn_by_nothing_is_blamed_on_the_sweep() -> None:
+    shot = "kind: orbit, drone: cam1, target: tower, radius: 50, altitude: 20, sweep: 0 deg"
+    (fault,) = resolved(HEAD + f"  - {{id: a, {shot}}}\n")[1]
+    assert fault.code == "K010"
+    assert "give `sweep` an angle" in fault.help
+
+
 def test_a_spiral_changes_radius_and_altitude_evenly() -> None:
     found = keyframes("kind: spiral, target: tower, radius: [45, 65], altitude: [10, 40], sweep: 300 deg")
     assert len(found) == 21

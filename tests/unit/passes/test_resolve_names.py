@@ -87,3 +87,15 @@ def test_targets_are_known_though_no_keyframe_uses_them() -> None:
         "  - {id: a, kind: static, drone: cam1, target: towr, at: [0, -50, 12], look_at: tower}\n"
     )
     assert [d.code for d in placed(text)[1]] == ["N001"]
+
+
+def test_a_name_unknown_in_many_places_is_told_once() -> None:
+    text = HEAD.replace("EMIT", "csv") + "".join(
+        f"  - {{id: s{i}, kind: static, drone: cam9, at: [0, -50, 12], look_at: towr}}\n" for i in range(6)
+    )
+    found = placed(text)[1]
+    assert [(d.code, [label.span.line for label in d.labels]) for d in found] == [
+        ("N002", [7, 8, 9, 10]),
+        ("N001", [7, 8, 9, 10]),
+    ]
+    assert all("6 places" in d.notes[0] for d in found)

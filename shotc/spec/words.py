@@ -1,0 +1,62 @@
+"""The word that was meant: the nearest known one, or the one that people use elsewhere for the same thing."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from difflib import get_close_matches
+
+_LONGEST_WORD = 80
+_SHORTEST_PART = 3  # letters; shorter words are parts of too many others
+# What a key is called elsewhere, where no likeness of letters would tell.
+_MEANT = {
+    "alt": "height",
+    "altitude": "height",
+    "ele": "height",
+    "elevation": "pitch",
+    "tilt": "pitch",
+    "yaw": "heading",
+    "pan": "heading",
+    "position": "at",
+    "pos": "at",
+    "location": "at",
+    "name": "id",
+    "type": "kind",
+    "subject": "target",
+    "angle": "sweep",
+}
+# Keys that people look for in a place where the language does not have them.
+_ELSEWHERE = {
+    "hfov": "the field of view is the `camera`'s of a drone, or one of `kind: keyframes` at each of them",
+    "speed": "how fast is a matter of `pace`, of `timing: {duration: ...}`, or of the drone's `limits`",
+    "gimbal": "the gimbal is the drone's",
+    "camera": "the camera is the drone's",
+}
+
+
+def closest(word: str, known: Iterable[str]) -> str | None:
+    """Return the known word that ``word`` is most likely meant to be, if there is one."""
+    if len(word) > _LONGEST_WORD:
+        return None
+    words = list(known)
+    if _MEANT.get(word) in words:
+        return _MEANT[word]
+    close = get_close_matches(word, words, n=1, cutoff=0.6)
+    return close[0] if close else next((w for w in words if _alike(word.lower(), w.lower())), None)
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return a help that proposes the nearest known word, or lists them all."""
+    words = list(known)
+    close = closest(word, words)
+    return f"did you mean `{close}`?" if close else f"known are {', '.join(words)}"
+
+
+def key_help(key: str, known: Collection[str]) -> str:
+    """Return the help for an unknown key: where it belongs, the nearest known key, or all of them."""
+    return _ELSEWHERE[key] if key in _ELSEWHERE and key not in known else nearest(key, known)
+
+
+def _alike(word: str, other: str) -> bool:
+    """Tell whether two words are one but for their case, or one a part of the other."""
+    short, long = sorted((word, other), key=len)
+    return short == long or (len(short) >= _SHORTEST_PART and short in long)
