@@ -99,6 +99,7 @@ def run(
         capture_output=True,
         check=False,
         timeout=120,
+        start_new_session=True,
     )
     return Result(done.returncode, done.stdout.decode(), done.stderr.decode())
 

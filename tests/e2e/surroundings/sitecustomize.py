@@ -1,7 +1,8 @@
 """Surroundings for a command under test: Python loads this at its start where the folder is on PYTHONPATH.
 
 TEST_HIDE : libraries that are not installed, separated by commas
-TEST_INTERRUPT : press Ctrl-C when this module is first looked for, or at this call of fsync
+TEST_INTERRUPT : press Ctrl-C, which reaches all processes of the command, when this module is first looked
+    for, or at this call of fsync
 """
 
 import os
@@ -19,7 +20,7 @@ class Finder(PathFinder):
     @classmethod
     def find_spec(cls, fullname, path=None, target=None):
         if fullname == INTERRUPT:
-            os.kill(os.getpid(), signal.SIGINT)
+            os.killpg(0, signal.SIGINT)
         return None if fullname.partition(".")[0] in HIDDEN else super().find_spec(fullname, path, target)
 
 
@@ -30,7 +31,7 @@ def interrupting(call, count):
         nonlocal count
         count -= 1
         if count == 0:
-            os.kill(os.getpid(), signal.SIGINT)
+            os.killpg(0, signal.SIGINT)
         return call(*arguments)
 
     return counted
