@@ -7,7 +7,7 @@ from math import isfinite
 
 from shotc.cli.summary import clock, table
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.report import measure
+from shotc.passes.verify.numbers import measure
 
 WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}
 HEADING = ("", "claim", "asked", "worst", "at", "known by")

@@ -13,7 +13,7 @@ from shotc.cli import console
 from shotc.cli.plans import proved
 from shotc.cli.summary import table
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.report import measure
+from shotc.passes.verify.numbers import measure
 from shotc.planfile.compare import Comparison, ShotChange, compare
 
 Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the folder that holds it.")]

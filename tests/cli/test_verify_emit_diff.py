@@ -1,6 +1,7 @@
 """verify, emit and diff: what they print where, what they write, and how they end."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -47,6 +48,46 @@ def test_verify_marks_what_an_edit_breaks(run: Run, plan: Path) -> None:
     assert "error[V001]" in done.err
     assert "error[V040]" in done.err
     assert "7.854 m/s" in done.err
+
+
+def rewritten(plan: Path, document: dict) -> Path:
+    path = plan.with_name("rewritten.json")
+    path.write_text(json.dumps(document))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("field", "said"),
+    [
+        (
+            "worst",
+            r"cam1: speed: the worst value is 7\.85402 m/s in the certificate, 7\.85399 m/s",
+        ),
+        ("holds", r"cam1: speed: it is broken by the certificate, and holds by the plan"),
+        ("hard", r"cam1: speed: it is not required by the certificate, and is required by the plan"),
+    ],
+)
+def test_verify_names_the_field_that_differs(run: Run, plan: Path, field: str, said: str) -> None:
+    document = json.loads(plan.read_text())
+    speed = next(c for c in document["certificate"] if c["constraint"] == "speed")
+    speed[field] = speed[field] + 3e-5 if field == "worst" else not speed[field]
+    done = run("verify", str(rewritten(plan, document)))
+    assert done.code == 1
+    assert done.err.count("error[V040]") == 1
+    assert re.search(said, " ".join(done.err.split()))
+
+
+def test_a_certificate_of_another_version_is_one_fault(run: Run, plan: Path) -> None:
+    document = json.loads(plan.read_text())
+    document["tool"]["version"] = "0.0.1"
+    assert run("verify", str(rewritten(plan, document))).code == 0
+    for claim in document["certificate"]:
+        claim["worst"] = None if claim["worst"] is None else claim["worst"] + 1.0
+    done = run("verify", str(rewritten(plan, document)))
+    assert done.code == 1
+    assert done.err.count("error[V040]") == 1
+    assert "claims of the certificate differ" in done.err
+    assert "the file was written by shotc 0.0.1" in done.err
 
 
 def test_verify_as_json(run: Run, plan: Path) -> None:

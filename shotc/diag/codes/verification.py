@@ -299,7 +299,8 @@ _FILE = (
             "the certificate in the plan is not what the plan proves",
             "`shotc verify` proves every claim again from the trajectory and the limits in the file. Where a value, "
             "a limit or a claim in its certificate differs, something in the file was edited: the certificate, the "
-            "trajectory or a limit. The proof that counts is the new one; plan the mission again.",
+            "trajectory or a limit. A file that another version of shotc wrote may differ in many claims, which is told "
+            "at once. The proof that counts is the new one; plan the mission again.",
         ),
     ),
 )

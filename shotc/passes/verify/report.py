@@ -3,28 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from math import ceil, degrees, floor, inf, isfinite, log10
+from math import isfinite
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, TrajectoryIR
-
-
-@dataclass(frozen=True, slots=True)
-class Rule:
-    """How a kind of claim is reported.
-
-    power : a duration grows with (worst / limit) ** power to bring the value down to its limit; 0: not so
-    """
-
-    code: str
-    power: float = 0.0
-    help: str = ""
-
-
-REPLAN = "plan the mission again"
+from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
+from shotc.passes.verify.numbers import measure, told_apart
+from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
 
 RULES = {
     "speed": Rule("V001", 1.0),
@@ -79,8 +66,6 @@ ENDING = {
 UNKNOWN = {
     "V024": "cannot be told, there is none",
     "V016": "cannot be told, the keyframe is not reached in its shot",
-    "V020": "cannot be told, the target is behind the camera",
-    "V021": "cannot be told, the target is not all before the camera",
 }
 """What is said where a claim has no finite worst value."""
 
@@ -93,7 +78,7 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
         if claim.holds:
             continue
         if claim.hard:
-            yield _broken(ir, claim)
+            yield _broken(ir, claim, claims)
         else:
             code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)
             if code is not None:
@@ -115,24 +100,33 @@ def rule_of(constraint: str, mission: MissionIR) -> Rule:
     return STARTING[start]
 
 
-def _broken(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
+def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> Diagnostic:
     mission = ir.keyframes.mission
     rule = rule_of(claim.constraint, mission)
     phase = _phase_of(ir, claim)
-    limit = f"{'at most' if claim.upper else 'at least'} {measure(claim.limit, claim.unit)}"
-    state = (
-        f"is {measure(claim.worst, claim.unit)}"
-        if isfinite(claim.worst)
-        else UNKNOWN.get(rule.code, "has no bound")
-    )
-    wanted = "allowed" if claim.upper else "needed"
-    return Diagnostic(
-        rule.code,
-        f"{claim.subject}: {_name(claim, rule.code)} {state}, {limit} is {wanted}",
-        labels=_labels(mission, claim, phase, limit),
-        notes=tuple(_notes(claim, phase)),
-        help=rule.help or _help(claim, rule, phase),
-    )
+    notes = list(_notes(claim, phase))
+    shot = _shot(mission, claim.shot)
+    if rule.code in PROMISES and shot is not None:
+        message = broken_promise(claim, rule.code)
+        notes += bends(ir, shot.id)
+        help_ = promise_help(claim, rule.code, shot, certificate)
+    else:
+        message = f"{claim.subject}: {_state(claim, rule.code)}"
+        notes += filter(None, [wind_note(mission, claim)])
+        help_ = advice(mission, claim, rule, phase)
+    limit = f"{_side(claim)} {measure(claim.limit, claim.unit)}"
+    return Diagnostic(rule.code, message, _labels(mission, claim, phase, limit), tuple(notes), help_)
+
+
+def _state(claim: Claim, code: str) -> str:
+    """Return the worst value beside its limit, with the digits that tell them apart."""
+    found, limit = told_apart(claim.worst, claim.limit, claim.unit)
+    state = f"is {found}" if isfinite(claim.worst) else UNKNOWN.get(code, "has no bound")
+    return f"{_name(claim, code)} {state}, {_side(claim)} {limit} is {'allowed' if claim.upper else 'needed'}"
+
+
+def _side(claim: Claim) -> str:
+    return "at most" if claim.upper else "at least"
 
 
 def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
@@ -185,68 +179,12 @@ def _notes(claim: Claim, phase: Phase | None) -> Iterator[str]:
         yield "found at the output rate"
 
 
-def _help(claim: Claim, rule: Rule, phase: Phase | None) -> str:
-    if not isfinite(claim.worst):
-        return REPLAN
-    worst = enough(claim)
-    if rule.power and phase is not None and phase.shot is not None:
-        stretch = max(1.0, claim.worst / claim.limit) ** rule.power if claim.limit > 0 else inf
-        longer = (phase.end - phase.start) * stretch
-        return (
-            f"give shot `{phase.shot}` {longer:.1f} s or more, or raise the limit to {worst}; then plan again"
-        )
-    advice = {
-        "V007": f"move the path or shrink the zone by {_lack(claim)}",
-        "V008": f"move the path or widen the zone by {_lack(claim)}",
-        "V009": f"fly {_lack(claim)} higher, or lower `ground_clearance` to {worst}",
-        "V010": f"keep {_lack(claim)} more distance, or lower `target_clearance` to {worst}",
-        "V013": f"shorten the mission by {_lack(claim)}, or raise `endurance` to {worst}",
-        "V019": f"promise {worst}, or move or widen the shot where the target is cropped",
-        "V020": f"promise {worst}, or turn the camera slower there",
-        "V021": f"promise {worst}, or change the distance or the field of view there",
-    }
-    return advice.get(rule.code, f"set the limit to {worst}, or plan the mission again")
-
-
-def _lack(claim: Claim) -> str:
-    return measure(abs(claim.worst - claim.limit), claim.unit)
-
-
 def _name(claim: Claim, code: str) -> str:
     if code in ("V007", "V010"):
         return f"the distance of the body from {claim.constraint}"
     if code == "V008":
         return f"the margin of the body inside {claim.constraint}"
-    if code == "V019":
-        target = claim.constraint.removesuffix(" in frame")
-        return f"the share of frames of shot `{claim.shot}` with all of {target}"
     return claim.constraint if claim.shot is None else f"{claim.constraint} of shot `{claim.shot}`"
-
-
-def measure(value: float, unit: str) -> str:
-    """Return a value with its unit as people read it: degrees for radians, percent for shares."""
-    if not isfinite(value):
-        return "unlimited"
-    number, sign = _as_read(value, unit)
-    if unit == "m" and abs(number) >= 1e-3:
-        return f"{number:.3f} m"
-    return f"{0.0 if abs(number) < 1e-9 else number:.4g} {sign}".strip()
-
-
-def enough(claim: Claim) -> str:
-    """Return the worst value as a limit that it keeps, rounded away from it to four digits."""
-    number, unit = _as_read(claim.worst, claim.unit)
-    if number == 0:
-        return f"0 {unit}"
-    step = 10.0 ** (floor(log10(abs(number))) - 3)
-    rounded = (ceil if claim.upper else floor)(number / step) * step
-    return f"{rounded:.4g} {unit}".strip()
-
-
-def _as_read(value: float, unit: str) -> tuple[float, str]:
-    if unit.startswith("rad"):
-        return degrees(value), f"deg{unit[3:]}"
-    return (100 * value, "%") if unit == "of samples" else (value, unit)
 
 
 def _phase_of(ir: TrajectoryIR, claim: Claim) -> Phase | None:

@@ -1,5 +1,6 @@
 """Every way to break a sound plan is found, named by its code, and placed on its line and in time."""
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from math import inf, nan, pi, radians
@@ -15,11 +16,12 @@ from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.ir.mission import MissionIR, Promise, Target, Timing, Zone
 from shotc.ir.origin import OriginMap
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, Deviation
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify, judge
-from shotc.passes.verify.report import enough, measure, rule_of
+from shotc.passes.verify.numbers import enough, measure, told_apart
+from shotc.passes.verify.report import rule_of
 from shotc.source.file import Span
 from tests.samples import orbit_plan
 
@@ -406,8 +408,77 @@ def test_a_proposed_limit_is_one_that_holds(worst: float, upper: bool, unit: str
 
 def test_the_help_makes_the_plan_hold() -> None:
     (found,) = judge(with_limits(speed=7.0), CONTEXT).diagnostics
-    assert "raise the limit to 7.855 m/s" in found.help
+    assert "raise `limits.speed` to 7.855 m/s" in found.help
     assert codes(with_limits(speed=7.855)) == []
     assert measure(0.0, "m") == "0 m"
     assert measure(radians(90), "rad/s") == "90 deg/s"
     assert measure(inf, "m") == "unlimited"
+
+
+def test_help_against_wind_speaks_of_the_written_limit() -> None:
+    ir = with_mission(with_limits(speed=7.0), wind=2.25)
+    (found,) = judge(ir, CONTEXT).diagnostics
+    assert "raise `limits.speed` to 10.11 m/s (2.25 m/s of wind are taken off)" in found.help
+    assert "the limit is the drone's 9.25 m/s less 2.25 m/s of wind" in found.notes
+    assert codes(with_mission(with_limits(speed=10.11 - 2.25), wind=2.25)) == []
+
+
+def test_a_gimbal_range_is_widened_at_its_end() -> None:
+    lowest = float(PLAN.drones[0].curve.ctrl[..., CAM_PITCH].min())
+    (found,) = judge(with_gimbal(pitch=(lowest + 0.01, radians(30))), CONTEXT).diagnostics
+    assert found.help.startswith("lower the first value of `gimbal.pitch` to -")
+
+
+def promising(promise: Promise, ir: TrajectoryIR = PLAN) -> list[Diagnostic]:
+    shot = replace(MISSION.shots[0], promise=promise)
+    return list(judge(with_mission(ir, shots=(shot,)), CONTEXT).diagnostics)
+
+
+def test_a_broken_size_is_told_by_what_is_seen_and_a_range_to_paste() -> None:
+    (found,) = promising(Promise(size=(0.01, 0.7)))
+    assert found.message == "tower fills 0.8101 of the frame's height in shot `half`, 0.7 is promised at most"
+    assert found.help.startswith("promise `size: [0.01, 0.811]`, or change the distance")
+    assert promising(Promise(size=(0.01, 0.811))) == []
+    (found,) = promising(Promise(size=(0.9, 0.95)))
+    assert "0.9 is promised at least" in found.message
+    assert found.help.startswith("promise `size: [0.81, 0.95]`")
+
+
+def test_a_range_to_paste_holds_for_both_ends() -> None:
+    nearer = with_ctrl(lambda c: c.__setitem__((..., HFOV), c[..., HFOV] * np.linspace(1, 1.1, 6)))
+    both = [d for d in promising(Promise(size=(0.78, 0.79)), nearer) if d.code == "V021"]
+    assert len(both) == 2
+    assert both[0].help == both[1].help
+    low, high = re.findall(r"0\.\d+", both[0].help)
+    kept = promising(Promise(size=(float(low), float(high))), nearer)
+    assert not [d for d in kept if d.code == "V021"]
+
+
+def test_a_broken_screen_error_is_told_with_a_promise_to_paste() -> None:
+    aside = shifted(CAM_YAW, radians(3))
+    (found,) = promising(Promise(screen_error=0.05), aside)
+    assert found.message == (
+        "tower is 0.07339 of half a frame off its place on screen in shot `half`, 0.05 is promised at most"
+    )
+    assert found.help == "promise `screen_error: 0.0734`, or turn the camera slower there"
+    assert promising(Promise(screen_error=0.0734), aside) == []
+
+
+def test_a_cropped_target_is_told_with_a_promise_to_paste() -> None:
+    aside = shifted(CAM_YAW, radians(32))
+    (found,) = promising(Promise(in_frame=1.0), aside)
+    assert found.message == "tower is whole in 0 % of the frames of shot `half`, 100 % is promised"
+    assert found.help.startswith("promise `in_frame: 0 %`, or move or widen the shot")
+
+
+def test_a_broken_promise_names_what_bent_the_path() -> None:
+    bent = (Deviation("half", 1.5, 3.0, "zone tree"), Deviation("other", 9.0, 0.0, "the ground"))
+    (found,) = promising(Promise(size=(0.1, 0.7)), replace(PLAN, deviations=bent))
+    assert "the shot leaves its ideal path by up to 1.50 m, round zone `tree`" in found.notes
+    assert not any("ground" in note for note in found.notes)
+
+
+@given(st.floats(-1e3, 1e3), st.floats(1e-6, 1.0), st.sampled_from(["m", "m/s", "rad", "of samples"]))
+def test_values_that_differ_look_different(value: float, by: float, unit: str) -> None:
+    one, other = told_apart(value, value + by, unit)
+    assert one != other

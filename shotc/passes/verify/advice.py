@@ -1,0 +1,82 @@
+"""What would make a broken claim hold, in the words and numbers of the mission file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, isfinite
+
+from shotc.ir.mission import MissionIR
+from shotc.ir.trajectory import Claim, Phase
+from shotc.passes.verify.numbers import DIGITS, away, enough, measure
+
+REPLAN = "plan the mission again"
+
+_SECTIONS = ("limits", "gimbal", "rules")
+_ENDS = {" min": "the first value of ", " max": "the second value of "}
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """How a kind of claim is reported.
+
+    power : a duration grows with (worst / limit) ** power to bring the value down to its limit; 0: not so
+    """
+
+    code: str
+    power: float = 0.0
+    help: str = ""
+
+
+def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) -> str:
+    """Return the change that makes a claim hold; ``phase`` is the one in which it is broken."""
+    if rule.help or not isfinite(claim.worst):
+        return rule.help or REPLAN
+    special = _in_space(claim, rule.code)
+    if special:
+        return special
+    setting = _setting(mission, claim)
+    if rule.power and phase is not None and phase.shot is not None:
+        stretch = max(1.0, claim.worst / claim.limit) ** rule.power if claim.limit > 0 else inf
+        longer = (phase.end - phase.start) * stretch
+        time = f"give shot `{phase.shot}` {longer:.1f} s or more"
+        return f"{time}, or {setting}; then plan again" if setting else f"{time}; then plan again"
+    return f"{setting}, or {REPLAN}" if setting else REPLAN
+
+
+def wind_note(mission: MissionIR, claim: Claim) -> str:
+    """Return what the wind takes off the limit of a claim; empty if nothing."""
+    if not _is_in_wind(mission, claim):
+        return ""
+    written, wind = measure(claim.limit + mission.wind, claim.unit), measure(mission.wind, claim.unit)
+    return f"the limit is the drone's {written} less {wind} of wind"
+
+
+def _is_in_wind(mission: MissionIR, claim: Claim) -> bool:
+    return claim.constraint == "speed" and mission.wind > 0
+
+
+def _setting(mission: MissionIR, claim: Claim) -> str:
+    """Return which number of the mission to set to what; empty where no number of it is the limit."""
+    keys = [str(key) for key in claim.path[-2:]]
+    if len(keys) < 2 or keys[0] not in _SECTIONS:
+        return ""
+    which = next((text for end, text in _ENDS.items() if claim.constraint.endswith(end)), "")
+    verb = "raise" if claim.upper else "lower"
+    worst, remark = enough(claim), ""
+    if _is_in_wind(mission, claim):
+        total = away(claim.worst + mission.wind, upper=True)
+        worst = f"{total:.{DIGITS}g} {claim.unit}"
+        remark = f" ({measure(mission.wind, claim.unit)} of wind are taken off)"
+    return f"{verb} {which}`{'.'.join(keys)}` to {worst}{remark}"
+
+
+def _in_space(claim: Claim, code: str) -> str:
+    lack, worst = measure(abs(claim.worst - claim.limit), claim.unit), enough(claim)
+    texts = {
+        "V007": f"move the path or shrink the zone by {lack}",
+        "V008": f"move the path or widen the zone by {lack}",
+        "V009": f"fly {lack} higher, or lower `ground_clearance` to {worst}",
+        "V010": f"keep {lack} more distance, or lower `target_clearance` to {worst}",
+        "V013": f"shorten the mission by {lack}, or raise `endurance` to {worst}",
+    }
+    return texts.get(code, "")

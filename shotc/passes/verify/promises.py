@@ -1,0 +1,83 @@
+"""Broken promises of a shot: what is seen of the target, and the promise that this plan would keep."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite
+
+from shotc.ir.mission import Shot
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.numbers import away, enough, told_apart
+
+PROMISES = frozenset({"V019", "V020", "V021"})
+"""Codes of broken promises."""
+
+FARTHEST = 3.0
+"""Half frames: the largest error on screen that can be promised."""
+
+_DIGITS = 3
+_INSTEAD = {
+    "V019": "move or widen the shot where the target is cropped",
+    "V020": "turn the camera slower there",
+    "V021": "change the distance or the field of view there",
+}
+_ENDS = {"V019": " in frame", "V020": " screen error", "V021": " size "}
+_UNSEEN = {
+    "V020": "its place on screen cannot be told, the target is behind the camera",
+    "V021": "its size cannot be told, the target is not all before the camera",
+}
+
+
+def broken_promise(claim: Claim, code: str) -> str:
+    """Return what becomes of the target on screen, and what was promised."""
+    target = claim.constraint.rpartition(_ENDS[code])[0]
+    shot = f"shot `{claim.shot}`"
+    if not isfinite(claim.worst):
+        return f"{target} in {shot}: {_UNSEEN[code]}"
+    found, asked = told_apart(claim.worst, claim.limit, claim.unit if code == "V019" else "")
+    if code == "V019":
+        return f"{target} is whole in {found} of the frames of {shot}, {asked} is promised"
+    side = "most" if claim.upper else "least"
+    if code == "V020":
+        return (
+            f"{target} is {found} of half a frame off its place on screen in {shot}, "
+            f"{asked} is promised at {side}"
+        )
+    return f"{target} fills {found} of the frame's height in {shot}, {asked} is promised at {side}"
+
+
+def promise_help(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
+    """Return the promise to write instead, if the language has one, and what else would help."""
+    kept = _kept(claim, code, shot, certificate) if isfinite(claim.worst) else ""
+    return f"promise `{kept}`, or {_INSTEAD[code]}" if kept else _INSTEAD[code]
+
+
+def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
+    """Yield how far and why the path of a shot leaves the one that its kind generates."""
+    for found in ir.deviations:
+        if found.shot == shot:
+            kind, space, name = found.cause.partition(" ")
+            cause = f"{kind} `{name}`" if space and kind in ("zone", "target") else found.cause
+            yield f"the shot leaves its ideal path by up to {found.distance:.2f} m, round {cause}"
+
+
+def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
+    """Return the promise that holds, as YAML; empty where none can be written."""
+    if code == "V019":
+        return f"in_frame: {enough(claim)}"
+    if code == "V021":
+        return _size(shot, certificate)
+    error = away(claim.worst, upper=True, digits=_DIGITS)
+    return f"screen_error: {error:.{_DIGITS}g}" if error <= FARTHEST else ""
+
+
+def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
+    """Return a range of sizes that all targets of the shot keep; empty where there is none."""
+    assert shot.promise.size is not None
+    low, high = shot.promise.size
+    broken = [c for c in certificate if c.shot == shot.id and not c.holds and _ENDS["V021"] in c.constraint]
+    if not all(isfinite(c.worst) for c in broken):
+        return ""
+    low = min([low, *(away(c.worst, upper=False, digits=_DIGITS) for c in broken if not c.upper)])
+    high = max([high, *(away(c.worst, upper=True, digits=_DIGITS) for c in broken if c.upper)])
+    return f"size: [{low:g}, {high:g}]" if high <= 1 else ""
