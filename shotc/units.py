@@ -109,6 +109,14 @@ _LONGEST_TEXT = 60
 # A unit begins with a letter or a sign of its own: `1,5` and `9**9` are no numbers with units.
 _QUANTITY = re.compile(rf"\s*({NUMBER})\s*((?:[^\W\d_]|[°%'])\S*)?\s*")
 
+_WINDS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
+# Compass bearings in words, which people write for a heading: to how many degrees.
+_COMPASS = {
+    name: 45 * i
+    for i, wind in enumerate(_WINDS)
+    for name in (wind, wind.replace("-", ""), "".join(part[0] for part in wind.split("-")))
+}
+
 # Spellings that are near to nothing in the table by letters, or near to the wrong thing.
 _MEANT = {
     "meter": "m",
@@ -205,9 +213,9 @@ def clip(text: str, width: int = 40) -> str:
 def _parse_text(text: str, dimension: Dimension) -> float:
     match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
     if match is None:
-        raise QuantityError(
-            "not-a-quantity", f"expected {a(dimension)}, got {describe(text)}", _such_as(dimension)
-        )
+        bearing = _COMPASS.get(text.strip().lower()) if dimension == "angle" else None
+        help_ = _such_as(dimension) if bearing is None else f"write `{bearing} deg`"
+        raise QuantityError("not-a-quantity", f"expected {a(dimension)}, got {describe(text)}", help_)
     number, unit = float(match[1]), match[2] or ""
     scale = UNITS[dimension].get(unit)
     if scale is not None:

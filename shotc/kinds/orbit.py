@@ -1,13 +1,14 @@
 """Orbit: a turn about the target at one distance and altitude."""
 
 from math import pi
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from shotc.ir.mission import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import filmed, ring
+from shotc.spec.faults import fault
 from shotc.spec.fields import Angle, Length, Name, PositiveLength
 from shotc.spec.quantities import Quantity
 from shotc.spec.shot import ShotBase
@@ -27,6 +28,14 @@ class OrbitShot(ShotBase):
     start_azimuth: Angle = Field(
         default=0.0, description="compass bearing from the target to the first point"
     )
+
+    @field_validator("radius", "altitude", mode="before")
+    @classmethod
+    def _keeps(cls, value: Any) -> Any:
+        if isinstance(value, list):
+            message = "an orbit keeps its radius and its altitude"
+            raise fault("wrong-type", message, "write one length, or `kind: spiral` to go [from, to]")
+        return value
 
 
 def expand(shot: OrbitShot, scene: Scene) -> Expansion:

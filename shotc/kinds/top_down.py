@@ -1,10 +1,11 @@
 """Top-down: the camera looks straight down on the target, at rest or drifting."""
 
-from math import atan2, hypot, pi
+from math import atan2, floor, hypot, pi
 from typing import Literal
 
 from pydantic import Field
 
+from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Composition, Target
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.spec.fields import Length, Name, Velocity
@@ -48,8 +49,45 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
         return Expansion.of(
             [scene.fault("K009", "a drift needs a duration", "add `timing: {duration: ...}`", "drift")]
         )
+    fault = _too_fast(shot, scene, duration)
+    if fault is not None:
+        return Expansion.of([fault])
     end = (x + east * duration, y + north * duration, shot.altitude + up * duration)
     return Expansion.of(scene.keyframe(at, shot.target, **fixed) for at in (above, end))
+
+
+def _too_fast(shot: TopDownShot, scene: Scene, duration: float) -> Diagnostic | None:
+    """Return what is wrong with a drift that no drone averages from rest to rest.
+
+    A longer shot would drift farther, so this is no fault of its timing.
+    """
+    east, north, up = shot.drift or (0.0, 0.0, 0.0)
+    limits = scene.drone.limits
+    for way, drift, speed in (
+        ("across", hypot(east, north), limits.speed),
+        ("up", up, limits.climb),
+        ("down", -up, limits.descent),
+    ):
+        most = _mean_speed(speed, limits.acceleration, duration)
+        if speed > 0 and drift > most:  # wind that leaves no speed is told elsewhere
+            return scene.fault(
+                "K012",
+                f"drone `{shot.drone}` cannot drift {drift:.2f} m/s {way}",
+                f"drift less than {floor(most * 100) / 100:.2f} m/s, or raise the drone's limits",
+                "drift",
+                notes=(
+                    f"from rest to rest in {duration:.1f} s, at up to {speed:.2f} m/s and "
+                    f"{limits.acceleration:.2f} m/s^2, it averages {most:.2f} m/s at most",
+                ),
+            )
+    return None
+
+
+def _mean_speed(speed: float, acceleration: float, duration: float) -> float:
+    """Return the largest mean speed from rest to rest, m/s."""
+    if acceleration * duration <= 2 * speed:
+        return acceleration * duration / 4
+    return speed - speed * speed / (acceleration * duration)
 
 
 KIND = Kind("top-down", "look straight down on the target", TopDownShot, expand)

@@ -69,9 +69,9 @@ class AspectType(FieldType):
 
     def read(self, value: Any) -> float:
         """Return width / height, from 0.2 to 5."""
-        if not isinstance(value, str) or value.count(":") != 1:
+        if not isinstance(value, str) or value.strip()[-1:] == "%":
             return _RATIO.read(value)
-        width, height = (_side(part) for part in value.split(":"))
+        width, height = (_side(part) for part in (value if value.count(":") == 1 else "0:0").split(":"))
         if not (height > 0 and 0.2 <= width / height <= 5.0):
             raise fault(
                 "impossible-camera",

@@ -48,7 +48,9 @@ def nearest(word: str, known: Iterable[str]) -> str:
     """Return a help that proposes the nearest known word, or lists them all."""
     words = list(known)
     close = closest(word, words)
-    return f"did you mean `{close}`?" if close else f"known are {', '.join(words)}"
+    if close:
+        return f"did you mean `{close}`?"
+    return f"known are {', '.join(words)}" if len(words) > 1 else f"the only one known is `{words[0]}`"
 
 
 def key_help(key: str, known: Collection[str]) -> str:

@@ -138,4 +138,13 @@ CODES: tuple[CodeInfo, ...] = (
         "Wait for less wind, or take a faster drone.",
         ("wind: 1 m/s", "wind: 10 m/s"),
     ),
+    _code(
+        12,
+        "drift-too-fast",
+        "a view from above drifts faster than its drone flies",
+        "A drift is the mean velocity over the shot, which begins and ends at rest; so it stays somewhat below "
+        "the drone's speed, the more so the shorter the shot is. More time does not help where the drift is as "
+        "fast as the drone, because the way grows with it. Let it drift more slowly, or take a faster drone.",
+        ("drift: [1, 0, 0]", "drift: [12, 0, 0]"),
+    ),
 )

@@ -25,6 +25,7 @@ from shotc.passes.place_keyframes.candidates import (
 
 FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
 WIDEST = radians(150)
+_WARNINGS = ("G011", "G012")
 TILT = 1e-6  # rad past the gimbal's stop that are rounding
 
 
@@ -179,9 +180,16 @@ def _range(setting: Setting) -> str:
 
 
 def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagnostic]:
-    """Turn a shot's misses into diagnostics, one for each cause and line of the mission."""
+    """Turn a shot's misses into diagnostics, one for each cause and line of the mission.
+
+    A line with an error has no warnings: what is mended for the one changes the other.
+    """
+    misses = list(misses)
+    wrong = {miss.keyframe.path for miss in misses if miss.code not in _WARNINGS}
     groups: dict[tuple[KeyPath, str, str], list[Miss]] = {}
     for miss in misses:
+        if miss.code in _WARNINGS and miss.keyframe.path in wrong:
+            continue
         groups.setdefault((miss.keyframe.path, miss.code, miss.message), []).append(miss)
     return [_diagnostic(mission, shot, group) for group in groups.values()]
 

@@ -72,6 +72,8 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     straight = setting.aim((0.0, 0.0)) or aim
     right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
     remedy = f"write `look_at: {keyframe.target}`, or `{right}`"
+    if not keyframe.placed:
+        remedy = "drift less far, or fly higher"
     label = (framing_label(mission, keyframe),)
     if off >= 90.0:
         note = f"it is {off:.0f} deg away from where the camera looks"

@@ -73,9 +73,9 @@ class Obstacle(NamedTuple):
             return f"stay {self.room:.2f} m inside of it, from z = {_up(low)} to {_down(high)}"
         above = f"fly at z = {_up(self.solid.top + self.room)} or higher" if isfinite(self.solid.top) else ""
         if isinstance(self.solid, Cylinder):
-            aside = f"keep {_up(self.solid.radius + self.room)} m or more from its axis"
+            aside = f"stay {_up(self.solid.radius + self.room)} m or more from its axis"
         else:
-            aside = f"keep {_up(self.room)} m or more from its sides"
+            aside = f"stay {_up(self.room)} m or more from its sides"
         return f"{aside}, or {above}" if above else aside
 
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:

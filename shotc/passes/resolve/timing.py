@@ -62,16 +62,21 @@ def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
 def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield keyframes that come, or are held, after the end of a shot with a duration."""
     duration = shot.timing.duration
-    for keyframe in shot.keyframes:
+    limits = mission.drone(shot.drone).limits
+    for i, keyframe in enumerate(shot.keyframes):
         if duration is None or keyframe.time is None or keyframe.time + keyframe.hold <= duration + SLACK:
             continue
+        following = shot.keyframes[i:]
+        end = keyframe.time + sum(k.hold for k in following)
+        rest = least_travel([k.at for k in following], limits, rests=False)
+        more = f"more than {_up(end + rest)} s; {SHORTEST}" if rest > 0 else f"{_up(end)} s or more"
         held = f" and is held for {keyframe.hold:.1f} s" if keyframe.hold else ""
         yield Diagnostic(
             "K002",
             "a keyframe ends after its shot",
             (mission.origins.value((*keyframe.path, "time")),),
             (f"it is at {keyframe.time:.1f} s{held}; the shot lasts {duration:.1f} s",),
-            f"give the shot a duration of {keyframe.time + keyframe.hold:.1f} s",
+            f"give the shot a duration of {more}",
         )
 
 

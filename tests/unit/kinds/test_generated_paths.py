@@ -72,6 +72,34 @@ def test_a_turn_by_nothing_is_blamed_on_the_sweep() -> None:
     assert "give `sweep` an angle" in fault.help
 
 
+def test_a_pair_for_an_orbit_proposes_a_spiral() -> None:
+    shot = "kind: orbit, drone: cam1, target: tower, radius: 50, altitude: [10, 40]"
+    (fault,) = resolved(HEAD + f"  - {{id: a, {shot}}}\n")[1]
+    assert fault.code == "S007"
+    assert "`kind: spiral`" in fault.help
+
+
+@pytest.mark.parametrize(
+    ("drift", "way"), [("[12, 0, 0]", "across"), ("[0, 0, 5]", "up"), ("[0, 0, -4]", "down")]
+)
+def test_a_drift_that_no_drone_keeps_up_names_one_that_it_does(drift: str, way: str) -> None:
+    shot = (
+        f"kind: top-down, drone: cam1, target: tower, altitude: 60, timing: {{duration: 20}}, drift: {drift}"
+    )
+    (fault,) = resolved(HEAD + f"  - {{id: a, {shot}}}\n")[1]
+    assert fault.code == "K012"
+    assert way in fault.message
+    most = float(fault.help.split("less than ")[1].split(" m/s")[0])
+    slower = (
+        "["
+        + ", ".join(f"{most * (float(c) > 0) - most * (float(c) < 0):.3f}" for c in drift[1:-1].split(","))
+        + "]"
+    )
+    found = resolved(HEAD + f"  - {{id: a, {shot.replace(drift, slower)}}}\n")[1]
+    assert "K012" not in {d.code for d in found}
+    assert "K004" not in {d.code for d in found}
+
+
 def test_a_spiral_changes_radius_and_altitude_evenly() -> None:
     found = keyframes("kind: spiral, target: tower, radius: [45, 65], altitude: [10, 40], sweep: 300 deg")
     assert len(found) == 21

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 from math import atan2, cos, hypot, pi, radians, sin
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -190,6 +191,13 @@ def test_a_gimbal_that_stops_short_of_the_set_is_told_as_the_cause_and_its_help_
     enough = float(warning.help.split("pitch to ")[1].split(" deg")[0])
     assert place_with(enough) == ()
     assert place_with(enough - 0.1)
+
+
+def test_a_line_with_an_error_has_no_warnings_beside_it() -> None:
+    line: dict[str, Any] = {"composition": FRAMES["upper-left"], "path": ("shots", 0, "kind")}
+    near, far = keyframe(at=(0.0, -20.0, 12.0), **line), keyframe(at=(0.0, -40.0, 12.0), **line)
+    assert [[d.code for d in run(k).diagnostics] for k in (near, far)] == [["G010"], ["G011"]]
+    assert [d.code for d in run(far, near).diagnostics] == ["G010"]
 
 
 def test_generated_keyframes_are_reported_once_a_shot() -> None:

@@ -163,6 +163,20 @@ def test_a_flight_shorter_than_a_straight_line_allows() -> None:
     assert faults(mission(shot.replace("duration: 10", "duration: 14.6"))) == []
 
 
+def test_a_keyframe_past_the_end_needs_the_time_of_what_follows_it() -> None:
+    shot = (
+        "id: a, kind: keyframes, timing: {duration: 10}, keyframes: ["
+        "{at: [0, -50, 10], heading: 0 deg, pitch: 0 deg}, "
+        "{at: [0, -40, 10], heading: 0 deg, pitch: 0 deg, time: 12, hold: 2}, LAST]"
+    )
+    last = "{at: [0, -24, 10], heading: 0 deg, pitch: 0 deg}"
+    d = only(mission(shot.replace("LAST", last)))
+    assert (d.code, "more than 16.0 s" in d.help) == ("K002", True)
+    d = only(mission(shot.replace(", LAST", "")))
+    assert (d.code, d.help) == ("K002", "give the shot a duration of 14.0 s or more")
+    assert faults(mission(shot.replace(", LAST", "").replace("duration: 10", "duration: 14"))) == []
+
+
 def test_vertical_limits_bound_the_time_too() -> None:
     shot = "id: a, kind: elevator, target: tower, azimuth: 180 deg, distance: 60, altitude: [45, 5], "
     shot += "timing: {duration: 14}"
@@ -427,7 +441,7 @@ def test_a_height_above_sea_level_is_recognised() -> None:
 def test_a_generated_path_is_told_where_it_would_be_free() -> None:
     d = only(mission("id: a, kind: orbit, target: tower, radius: 3, altitude: 20"))
     assert d.code == "G004"
-    assert d.help == "keep 5.60 m or more from its axis, or fly at z = 25.60 or higher"
+    assert d.help == "stay 5.60 m or more from its axis, or fly at z = 25.60 or higher"
 
 
 def test_one_slip_in_a_place_is_one_report() -> None:

@@ -11,7 +11,7 @@ world: {origin: {lat: 47.3769, lon: 8.5417, alt: 408}}
 targets:
   tower: {at: {lat: 47.3769, lon: 8.5417, height: 12}, radius: 4, height: 24}
 drones:
-  cam1: {home: [0, -60, 0]}
+  cam1: {home: [0, -60, 0], camera: {hfov: 70 deg, aspect: 1.6}}
 shots:
   - id: walk
     kind: keyframes
@@ -40,6 +40,9 @@ shots:
         ("timing: {duration: 30}", "timing: soon", "got the text `soon`", "write `auto`, or a mapping"),
         ("in_frame: 100 %", "in_frame: 120 %", "above what a share may be", "give 0 % to 100 %"),
         ("frame: left-third", "frame: [640, 360]", "above what a place on screen may be", "give -1 to 1"),
+        ("hfov: 70 deg, aspect: 1.6", "hfov: 70 deg, aspect: 16/9", "aspect `16/9`", 'such as "16:9"'),
+        ("sweep: 180 deg", "sweep: south", "got the text `south`", "write `180 deg`"),
+        ("sweep: 180 deg", "sweep: NE", "got the text `NE`", "write `45 deg`"),
         (
             "      - {at: [40, -40, 10], look_at: tower}\n",
             "",
