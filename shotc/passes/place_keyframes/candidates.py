@@ -124,6 +124,14 @@ def roomiest(setting: Setting, composition: Composition) -> float:
     return max(setting.slack(line.point(_best(setting, line))) for line in lines)
 
 
+def has_candidate(setting: Setting, composition: Composition) -> bool:
+    """Tell whether the target can stand somewhere on the set itself."""
+    lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
+    return any(setting.slack(p) >= -TOUCH for p in composition.points) or any(
+        setting.slack(line.point(_best(setting, line))) >= -TOUCH for line in lines
+    )
+
+
 def _nearest(setting: Setting, asked: Vec2, places: Iterable[Vec2 | None]) -> Vec2 | None:
     best: Vec2 | None = None
     for place in places:

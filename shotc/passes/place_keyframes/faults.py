@@ -18,6 +18,7 @@ from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes.candidates import (
     TOUCH,
     Setting,
+    has_candidate,
     nearest_candidate,
     nearest_on_verticals,
     roomiest,
@@ -64,7 +65,7 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
         abs(place[1]),
         f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
         (instead,),
-        "move the keyframe away, widen `hfov`, or set `composition: keep` to allow cropping",
+        lambda: f"{_what_fits(keyframe.composition, setting)}, or set `composition: keep` to allow cropping",
     )
 
 
@@ -138,23 +139,25 @@ def _within_reach(setting: Setting, pitch: float) -> str:
 
 
 def _what_fits(composition: Composition, setting: Setting) -> str:
-    """Name the least distance and the least field of view at which some place shows it whole."""
-    away = _least(lambda k: _fits(replace(setting, offset=_scaled(setting, k)), composition), 1.0, FARTHEST)
-    wide = (
-        _least(lambda a: _fits(replace(setting, hfov=a), composition), setting.hfov, WIDEST)
-        if setting.hfov < WIDEST
-        else None
+    """Name the least distance and field of view that show the target whole on the set, or beside it."""
+    return (
+        _options(setting, lambda s: has_candidate(s, composition))
+        or _options(setting, lambda s: roomiest(s, composition) >= -TOUCH)
+        or "point the camera from lower or farther away, or make the target smaller"
     )
+
+
+def _options(setting: Setting, fits: Callable[[Setting], bool]) -> str:
+    away = _least(lambda k: fits(replace(setting, offset=_scaled(setting, k))), 1.0, FARTHEST)
+    wide = None
+    if setting.hfov < WIDEST:
+        wide = _least(lambda a: fits(replace(setting, hfov=a)), setting.hfov, WIDEST)
     options = []
     if away is not None:
         options.append(f"move to {ceil(away * hypot(*setting.offset) * 10) / 10:.1f} m from its centre")
     if wide is not None:
         options.append(f"widen `hfov` to {ceil(degrees(wide) * 10) / 10:.1f} deg")
-    return ", or ".join(options) or "point the camera from lower or farther away, or make the target smaller"
-
-
-def _fits(setting: Setting, composition: Composition) -> bool:
-    return roomiest(setting, composition) >= -TOUCH
+    return ", or ".join(options)
 
 
 def _least(fits: Callable[[float], bool], low: float, high: float) -> float | None:

@@ -8,6 +8,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import LARGEST, FileFault
+from shotc.spec.words import closest
 
 NO_FOLDER = "a mission read from standard input has no folder; save it to a file"
 
@@ -46,5 +47,8 @@ def _neighbours(place: Path) -> str:
     """Propose the files of the same sort that lie where the missing one was looked for."""
     if not place.parent.is_dir():
         return "check the path; it counts from the folder of the mission"
-    found = sorted(p.name for p in place.parent.iterdir() if p.suffix.lower() == place.suffix.lower())[:3]
-    return f"there are {', '.join(f'`{n}`' for n in found)}" if found else "check the name of the file"
+    found = sorted(p.name for p in place.parent.iterdir() if p.suffix.lower() == place.suffix.lower())
+    close = closest(place.name, found[:1000])
+    if close is not None:
+        return f"did you mean `{close}`?"
+    return f"there are {', '.join(f'`{n}`' for n in found[:3])}" if found else "check the name of the file"

@@ -148,6 +148,15 @@ def test_a_target_that_is_cropped_on_the_set_moves_along_its_vertical_with_a_war
     assert k.reference[0] == -1 / 3
     assert 0 <= k.reference[1] < 1 / 3
     assert max(map(abs, bounds(k))) == pytest.approx(1.0, abs=1e-4)  # as near to the point as it stays whole
+    distance = float(warning.help.split("move to ")[1].split(" m")[0])
+    assert (
+        run(keyframe(at=(0.0, -distance, 12.0), aim=aim, composition=FRAMES["upper-left"])).diagnostics == ()
+    )
+    wide = radians(float(warning.help.split("`hfov` to ")[1].split(" deg")[0]))
+    assert (
+        run(keyframe(at=(0.0, -40.0, 12.0), aim=aim, composition=FRAMES["upper-left"], hfov=wide)).diagnostics
+        == ()
+    )
 
 
 def test_a_target_that_fits_nowhere_is_an_error_whose_help_works() -> None:
@@ -156,10 +165,10 @@ def test_a_target_that_fits_nowhere_is_an_error_whose_help_works() -> None:
     (error,) = outcome.diagnostics
     assert error.code == "G010"
     distance = float(error.help.split("move to ")[1].split(" m")[0])
-    assert run(keyframe(at=(0.0, -distance, 12.0))).value is not None
+    assert run(keyframe(at=(0.0, -distance, 12.0))).diagnostics == ()
     assert run(keyframe(at=(0.0, -distance + 0.3, 12.0))).value is None
     wide = float(error.help.split("`hfov` to ")[1].split(" deg")[0])
-    assert run(keyframe(at=(0.0, -20.0, 12.0), hfov=radians(wide))).value is not None
+    assert run(keyframe(at=(0.0, -20.0, 12.0), hfov=radians(wide))).diagnostics == ()
     assert run(keyframe(at=(0.0, -20.0, 12.0), hfov=radians(wide - 0.5))).value is None
 
 
