@@ -5,6 +5,9 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from contextlib import suppress
+
+INTERRUPTED = 130
 
 
 def main() -> None:
@@ -17,6 +20,13 @@ def main() -> None:
 
     code = run(sys.argv[1:])
     gc.freeze()
+    if code == INTERRUPTED:
+        # `python -m` ends as if killed where the interrupt met code made at run time (a dataclass,
+        # say), caught or not.
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(code)
     sys.exit(code)
 
 

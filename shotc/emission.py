@@ -112,28 +112,37 @@ def crew(jobs: int, load: Load) -> Iterator[Crew]:
     safe = sys.platform == "linux" and threading.active_count() == 1
     workers: list[_Worker] = []
     try:
-        for _ in range(jobs - 1 if safe else 0):
-            workers.append(_hire(load, workers))
+        with _uninterrupted():
+            for _ in range(jobs - 1 if safe else 0):
+                workers.append(_hire(load, workers))
         yield Crew(workers, load)
     finally:
-        for worker in workers:
-            worker.end()
+        with _uninterrupted():
+            for worker in workers:
+                worker.end()
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Hold interrupts back: no worker is to be forgotten, and none is to meet one before it ignores them."""
+    if sys.platform == "win32":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _hire(load: Load, others: Sequence[_Worker]) -> _Worker:
     """Fork a worker; others : those that are there already."""
     inward, orders = _pipe()
     results, outward = _pipe()
-    # The child must not meet an interrupt before it ignores them: this process ends it.
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        pid = os.fork()
-        if pid == 0:
-            # A worker sees the end of its orders only if nobody but this process can write any.
-            ours = [orders, results, *(o.orders for o in others), *(o.results for o in others)]
-            _live(inward, outward, load, ours)
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    pid = os.fork()
+    if pid == 0:
+        # A worker sees the end of its orders only if nobody but this process can write any.
+        _live(inward, outward, load, [orders, results, *(s for o in others for s in (o.orders, o.results))])
     inward.close()
     outward.close()
     return _Worker(pid, orders, results)
