@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.mission import Composition
 from shotc.ir.sampling import clock, framed, references, seen
-from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,13 +34,15 @@ class ScreenTrack:
 class ScreenSummary:
     """The framing of a whole plan, or of one shot: the worst error, where it is, and the share in frame.
 
-    error, time, shot : None where nothing has a reference; in_frame : share of samples, 0 to 1
+    error, time, shot : None where nothing has a reference
+    in_frame, visible : share of samples, 0 to 1, or None where nothing is framed, or nothing said
     """
 
     error: float | None
     time: float | None
     shot: str | None
     in_frame: float | None
+    visible: float | None = None
 
 
 def screen_tracks(plan: VerifiedIR) -> tuple[ScreenTrack, ...]:
@@ -78,9 +81,26 @@ def summary(tracks: tuple[ScreenTrack, ...]) -> ScreenSummary:
     return ScreenSummary(float(worst.error[at]), float(worst.t[at]), worst.shot, share)
 
 
+def certified(certificate: tuple[Claim, ...], shot: str | None = None) -> ScreenSummary:
+    """Return what a certificate says of a plan's framing, or of one shot's: the worst of all subjects."""
+    claims = [c for c in certificate if c.shot is not None and shot in (None, c.shot)]
+
+    def said(ending: str) -> list[Claim]:
+        return [c for c in claims if c.constraint.endswith(ending) and isfinite(c.worst)]
+
+    worst = max(said(" screen error"), key=lambda c: c.worst, default=None)
+    return ScreenSummary(
+        None if worst is None else worst.worst,
+        None if worst is None else worst.time,
+        None if worst is None else worst.shot,
+        min((c.worst for c in said(" in frame")), default=None),
+        min((c.worst for c in said(" visible")), default=None),
+    )
+
+
 def percent(share: float) -> str:
-    """Return a share in percent; only the whole is called 100 %."""
-    return "100 %" if share >= 1.0 else f"{min(100 * share, 99.9):.1f} %"
+    """Return a share in percent, as everywhere with four digits; only the whole is called 100 %."""
+    return "100 %" if share >= 1.0 else f"{min(100 * share, 99.99):.4g} %"
 
 
 def guide_lines(composition: Composition) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -58,6 +58,11 @@ class Box:
         """Tell whether another rectangle lies inside this one."""
         return self.x <= other.x and self.y <= other.y and other.right <= self.right and other.top <= self.top
 
+    def with_box(self, other: Box) -> Box:
+        """Return the smallest rectangle that holds both."""
+        x, y = min(self.x, other.x), min(self.y, other.y)
+        return Box(x, y, max(self.right, other.right) - x, max(self.top, other.top) - y)
+
     def outline(self) -> Array:
         """Return its corners, shape (4, 2)."""
         return np.array([[self.x, self.y], [self.right, self.y], [self.right, self.top], [self.x, self.top]])

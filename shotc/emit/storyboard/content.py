@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.emit.screen import ScreenSummary, ScreenTrack, summary
+from shotc.emit.screen import ScreenSummary, certified
 from shotc.geom.bernstein import Array
-from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Composition, Drone, Shot, Vec2
-from shotc.ir.sampling import seen
+from shotc.ir.sampling import SAME_TIME, references, seen
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
 
 MOST_PLACED, MOST_GENERATED = 12, 6
@@ -18,11 +18,12 @@ MOST_PLACED, MOST_GENERATED = 12, 6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moment:
-    """One keyframe as it is flown.
+    """One keyframe as it is flown, or a moment of a shot whose keyframes a kind generated.
 
-    number : from 1, in the shot, or among those shown where a kind generated them
-    time : seconds; pose : channels, shape (7,)
-    reference, asked : (u, v) wanted of the subject, and what the user's own framing gave
+    number : from 1, of the keyframe in the shot, or of the moment among those shown
+    time, hold : seconds; pose : channels, shape (7,)
+    reference : (u, v) wanted of the subject, or None
+    asked : (u, v) where the user's own heading and pitch had put it, or None
     fault : "cropped" or "hidden" where the subject is not seen as it should be, or ""
     """
 
@@ -42,7 +43,8 @@ class ShotBoard:
     """Everything one shot's part of the storyboard needs.
 
     start, end : seconds; path : shape (n, 3), W; flight : the whole flight, shape (m, 3)
-    total : how many keyframes the shot has; note : where the path left its ideal, or ""
+    total : how many keyframes the user wrote, or None where a kind generated them
+    framing : what the certificate says of it; note : where the path left its ideal, or ""
     """
 
     shot: Shot
@@ -50,20 +52,17 @@ class ShotBoard:
     start: float
     end: float
     moments: tuple[Moment, ...]
-    total: int
+    total: int | None
     path: Array
     flight: Array
     framing: ScreenSummary
     note: str
 
 
-def shot_boards(
-    plan: VerifiedIR, tracks: tuple[ScreenTrack, ...], most_generated: int = MOST_GENERATED
-) -> tuple[ShotBoard, ...]:
+def shot_boards(plan: VerifiedIR, most_generated: int = MOST_GENERATED) -> tuple[ShotBoard, ...]:
     """Return the boards of all shots in the order they are filmed.
 
-    tracks : the framing of the whole plan
-    most_generated : how many frames of a shot to show whose keyframes a kind generated
+    most_generated : how many moments of a shot to show whose keyframes a kind generated
     """
     found = []
     for placed in plan.trajectory.keyframes.shots:
@@ -73,26 +72,23 @@ def shot_boards(
                 found.append((phases[0].start, phases[-1].end, placed, flight))
     found.sort(key=lambda item: (item[0], item[2].shot.id))
     return tuple(
-        _board(plan, (start, end), (placed, flight), tracks, most_generated)
-        for start, end, placed, flight in found
+        _board(plan, (start, end), (placed, flight), most_generated) for start, end, placed, flight in found
     )
 
 
 def _board(
-    plan: VerifiedIR,
-    interval: Vec2,
-    pair: tuple[PlacedShot, DroneTrajectory],
-    tracks: tuple[ScreenTrack, ...],
-    most_generated: int,
+    plan: VerifiedIR, interval: Vec2, pair: tuple[PlacedShot, DroneTrajectory], most_generated: int
 ) -> ShotBoard:
     placed, flight = pair
     shot, (start, end) = placed.shot, interval
-    own = tuple(track for track in tracks if track.shot == shot.id and track.drone == flight.drone)
-    by_hand = all(keyframe.placed for keyframe in placed.keyframes)
     times = [k for k in flight.keyframes if k.shot == shot.id]
-    chosen = _spread(times, MOST_PLACED if by_hand else most_generated)
-    numbers = [k.index + 1 if by_hand else i for i, k in enumerate(chosen, start=1)]
-    moments = tuple(_moment(plan, (placed, flight), k, n) for k, n in zip(chosen, numbers, strict=True))
+    by_hand = all(keyframe.placed for keyframe in placed.keyframes)
+    # One or two generated keyframes are the whole shot; more only sample a curve.
+    if by_hand or len(times) <= 2:
+        moments = tuple(_keyframe(plan, pair, k) for k in _spread(times, MOST_PLACED))
+    else:
+        even = np.linspace(start, end, most_generated)
+        moments = tuple(_passing(plan, pair, float(t), n) for n, t in enumerate(even, start=1))
     deviations = [d for d in plan.trajectory.deviations if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(
@@ -101,10 +97,10 @@ def _board(
         start=start,
         end=end,
         moments=moments,
-        total=len(times),
+        total=len(times) if by_hand else None,
         path=flight.curve(np.linspace(start, end, 200))[:, :3],
         flight=flight.curve(np.linspace(flight.curve.start, flight.curve.end, 600))[:, :3],
-        framing=summary(own),
+        framing=certified(plan.certificate, shot.id),
         note="" if worst is None else f"leaves its ideal by up to {worst.distance:.1f} m: {worst.cause}",
     )
 
@@ -115,24 +111,50 @@ def _spread(times: list[KeyframeTime], most: int) -> list[KeyframeTime]:
     return [times[i] for i in np.linspace(0, len(times) - 1, most).round().astype(int)]
 
 
-def _moment(
-    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime, number: int
-) -> Moment:
+def _keyframe(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime) -> Moment:
     placed, flight = pair
-    keyframe: PlacedKeyframe = placed.keyframes[at.index]
-    fault = ""
-    if keyframe.target is not None:
-        frames = seen(plan.trajectory.keyframes.mission, flight, keyframe.target, np.array([at.time]))
-        fault = "" if frames.in_frame[0] else "cropped"
-        fault = "hidden" if not fault and frames.hidden[0] else fault
+    keyframe, written = placed.keyframes[at.index], placed.shot.keyframes[at.index]
+    own_angles = keyframe.placed and written.aim is not None and len(written.aim) == 2
     return Moment(
-        number=number,
+        number=at.index + 1,
         time=at.time,
         pose=flight.curve(at.time),
         hold=keyframe.hold,
         target=keyframe.target,
         reference=keyframe.reference,
-        asked=keyframe.asked,
-        composition=placed.shot.keyframes[at.index].composition,
-        fault=fault,
+        asked=keyframe.asked if own_angles else None,
+        composition=written.composition,
+        fault=_fault(plan, flight, keyframe.target, at.time),
     )
+
+
+def _passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int) -> Moment:
+    placed, flight = pair
+    shot = placed.shot
+    spans = [f for f in flight.framing if f.shot == shot.id and f.start - SAME_TIME <= time]
+    target = spans[-1].target if spans and time <= spans[-1].end + SAME_TIME else None
+    wanted = None
+    if target is not None:
+        u, v = (float(c) for c in references(flight, shot.id, target, np.array([time]))[0])
+        wanted = None if np.isnan(u) else (u, v)
+    passed = [k.index for k in flight.keyframes if k.shot == shot.id and k.time <= time + SAME_TIME]
+    return Moment(
+        number=number,
+        time=time,
+        pose=flight.curve(time),
+        hold=0.0,
+        target=target,
+        reference=wanted,
+        asked=None,
+        composition=shot.keyframes[passed[-1] if passed else 0].composition,
+        fault=_fault(plan, flight, target, time),
+    )
+
+
+def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str | None, time: float) -> str:
+    if target is None:
+        return ""
+    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]))
+    if not frames.in_frame[0]:
+        return "cropped"
+    return "hidden" if frames.hidden[0] else ""

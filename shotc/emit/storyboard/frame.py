@@ -11,6 +11,7 @@ from shotc.emit.palette import CAMERA, INK, KEEP_OUT, QUIET, WHITE
 from shotc.emit.screen import guide_lines
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, chip
 from shotc.emit.storyboard.content import Moment
+from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.scene import Picture, draw_scene, name_places, picture
 from shotc.geom.camera import heading_of
 from shotc.ir.mission import Composition, MissionIR, Vec2, Vec3
@@ -21,6 +22,9 @@ LINE = 0.165
 
 WIDE = 2.3
 """Narrower cells than this set the facts of a caption in two lines, inches."""
+
+PICTURE_SIDES = ("over", "over from", "over to", "right top", "left top", "under", "right", "left", "on")
+"""Where the name of a thing in a picture may stand, best first."""
 
 POINTS_OF_THE_COMPASS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
 
@@ -46,7 +50,7 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
         taken += _marks(canvas, shown, moment, shown.offset(target))
     if moment.fault:
         taken.append(chip(canvas, (box.right - 0.07, box.top - 0.07), moment.fault.upper(), KEEP_OUT))
-    _names(canvas, shown, mission, taken)
+    _names(canvas, shown, mission, moment.target, taken)
     canvas.polygons([box.outline()], "none", INK, 0.8)
     _caption(canvas, cell, moment, mission)
 
@@ -93,6 +97,8 @@ def _marks(canvas: Canvas, shown: Picture, moment: Moment, offset: Vec3) -> list
     if moment.reference is not None:
         if moment.asked is not None and is_moved(moment):
             _asked(canvas, shown, moment.asked, moment.reference)
+            x, y = (float(c) for c in shown.place(np.array(moment.asked)))
+            taken.append(Box(x - 0.07, y - 0.07, 0.14, 0.14))
         x, y = _cross(canvas, shown, moment.reference)
         taken.append(Box(x - 0.13, y - 0.13, 0.26, 0.26))
     u, v, depth = shown.camera.project(offset)
@@ -123,20 +129,20 @@ def _asked(canvas: Canvas, shown: Picture, asked: Vec2, reference: Vec2) -> None
     canvas.polygons([diamond], (*WHITE, 0.35), INK, 0.8, shown.box)
 
 
-def _names(canvas: Canvas, shown: Picture, mission: MissionIR, taken: list[Box]) -> None:
+def _names(canvas: Canvas, shown: Picture, mission: MissionIR, subject: str | None, taken: list[Box]) -> None:
+    """Write the names of what is seen, the subject's first, none across the subject."""
     box = shown.box
     inner = Box(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
-    for name, color, seen in name_places(shown, mission):
-        style = Type(7.0, color, across="center", along="bottom", halo=WHITE)
-        width, height = canvas.extent(name, style)
-        x = min(max(seen.x + seen.width / 2, inner.x + width / 2), inner.right - width / 2)
-        for base in (seen.top + 0.03, seen.y - 0.03 - height, seen.top + 0.18):
-            y = min(base, inner.top - height)
-            room = Box(x - width / 2, y, width, height)
-            if inner.holds(room) and not any(room.meets(other) for other in taken):
-                canvas.text(x, y, name, style)
-                taken.append(Box(room.x - 0.02, room.y - 0.02, width + 0.04, height + 0.04))
-                break
+    things = sorted(name_places(shown, mission), key=lambda thing: thing[0] != subject)
+    labels, bodies = [], []
+    for name, color, seen in things:
+        place = seen
+        if name == subject:
+            for mark in (mark for mark in taken if mark.meets(seen)):
+                place = place.with_box(mark)
+            bodies.append(seen)
+        labels.append(Label(name, color, place, PICTURE_SIDES, 7.0, bold=False))
+    write_labels(canvas, inner, labels, [*taken, *bodies])
 
 
 def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> None:

@@ -20,11 +20,12 @@ from shotc.emit.palette import (
     WHITE,
     shade,
 )
-from shotc.emit.screen import ScreenSummary, percent, screen_tracks, summary
+from shotc.emit.screen import ScreenSummary, certified, percent
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame, is_moved
-from shotc.emit.storyboard.map import draw_map, round_length
+from shotc.emit.storyboard.furniture import round_length
+from shotc.emit.storyboard.map import draw_map
 from shotc.ir.trajectory import Claim, VerifiedIR
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
@@ -74,8 +75,7 @@ def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
 
 def _page(plan: VerifiedIR, dpi: float) -> bytes:
     shots = len(plan.trajectory.keyframes.shots)
-    tracks = screen_tracks(plan)
-    boards = shot_boards(plan, tracks) if shots <= MANY else shot_boards(plan, tracks, most_generated=4)
+    boards = shot_boards(plan) if shots <= MANY else shot_boards(plan, most_generated=4)
     layouts = [layout(board.drone.aspect, shots) for board in boards]
     heights = [place.height(board) for place, board in zip(layouts, boards, strict=True)]
     height = HEADING + sum(heights) + FOOTING
@@ -86,7 +86,7 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
     for place, board, used in zip(layouts, boards, heights, strict=True):
         _shot(canvas, top, (place, board), plan, grid)
         top -= used
-    _footing(canvas, plan, summary(tracks))
+    _footing(canvas, plan.certificate)
     return canvas.png()
 
 
@@ -134,7 +134,7 @@ def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
     known = (
         ("wanted", any(m.reference is not None for m in moments)),
         ("actual", any(m.target is not None for m in moments)),
-        ("asked", any(is_moved(m) for m in moments)),
+        ("your framing", any(is_moved(m) for m in moments)),
         ("subject", bool(mission.targets)),
         ("keep out", "out" in keeps),
         ("keep in", "in" in keeps),
@@ -170,7 +170,7 @@ def _sign(canvas: Canvas, what: str, x: float, y: float) -> None:
         canvas.lines(arms, CAMERA, 1.5)
     elif what == "actual":
         canvas.disc((x, y), 0.04, WHITE, INK, 0.9)
-    elif what == "asked":
+    elif what == "your framing":
         diamond = np.array([[x - 0.07, y], [x, y - 0.07], [x + 0.07, y], [x, y + 0.07]])
         canvas.polygons([diamond], WHITE, INK, 0.8)
     elif what == "subject":
@@ -209,7 +209,7 @@ def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: Veri
 def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
     base = top - 0.40
     right = _framing(board.framing)
-    complete = board.framing.in_frame is None or board.framing.in_frame == 1.0
+    complete = all(share in (None, 1.0) for share in (board.framing.in_frame, board.framing.visible))
     style = Type(9.5, INK if complete else KEEP_OUT, across="right")
     canvas.text(WIDTH - MARGIN, base, right, style)
     end = WIDTH - MARGIN - canvas.extent(right, style)[0] - 0.25
@@ -230,7 +230,9 @@ def _facts(board: ShotBoard) -> list[str]:
     facts += [f"{clock(board.start)} to {clock(board.end)} ({board.end - board.start:.1f} s)"]
     sets = list(dict.fromkeys(m.composition.name for m in board.moments if m.target is not None))
     facts += [f"composition {', '.join(sets)}"] if sets else []
-    if board.total > len(board.moments):
+    if board.total is None and len(board.moments) > 1:
+        facts.append(f"{len(board.moments)} moments")
+    elif board.total is not None and board.total > len(board.moments):
         facts.append(f"{len(board.moments)} of {board.total} keyframes")
     return facts
 
@@ -240,18 +242,23 @@ def _framing(framing: ScreenSummary) -> str:
     if framing.error is not None:
         parts.append(f"screen error at most {framing.error:.3f}")
     if framing.in_frame is not None:
-        parts.append(f"whole subject in frame {percent(framing.in_frame)} of the time")
+        parts.append(f"whole subject in frame {percent(framing.in_frame)}")
+    if framing.visible is not None and framing.visible < 1.0:
+        parts.append(f"not hidden {percent(framing.visible)}")
     return "  ·  ".join(parts)
 
 
-def _footing(canvas: Canvas, plan: VerifiedIR, whole: ScreenSummary) -> None:
+def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
     canvas.lines([np.array([[MARGIN, FOOTING - 0.2], [WIDTH - MARGIN, FOOTING - 0.2]])], FAINT, 0.8)
+    whole, lost = certified(certificate), not_promised(certificate)
     parts = []
     if whole.error is not None and whole.time is not None:
         parts.append(f"Worst screen error {whole.error:.3f} ({whole.shot}, {clock(whole.time)})")
-    if whole.in_frame is not None:
-        parts.append(f"whole subject in frame {percent(whole.in_frame)} of all filmed samples")
-    text, proof = "   ·   ".join(parts), headline(plan.certificate)
+    if lost:
+        parts.append(f"not promised: {', '.join(lost)}")
+    elif whole.in_frame is not None:
+        parts.append(f"whole subject in frame {percent(whole.in_frame)}")
+    text, proof = "   ·   ".join(parts), headline(certificate)
     bold = Type(10, INK, bold=True, across="right")
     canvas.text(WIDTH - MARGIN, 0.42, proof, bold)
     room = WIDTH - 2 * MARGIN - canvas.extent(proof, bold)[0] - 0.3
@@ -265,4 +272,17 @@ def headline(certificate: tuple[Claim, ...]) -> str:
     lost = sum(not claim.holds for claim in hard)
     if lost:
         return f"{lost} of {len(hard)} requirements do not hold"
-    return f"All {len(hard)} requirements hold, {always} of them proved for every instant"
+    return f"All {len(hard)} requirements proved, {always} of them for every instant"
+
+
+def not_promised(certificate: tuple[Claim, ...], most: int = 3) -> list[str]:
+    """Return what no shot promises and none keeps either, in words; beyond ``most``, their number."""
+    words = []
+    for claim in certificate:
+        if claim.hard or claim.holds:
+            continue
+        target, _, what = claim.constraint.rpartition(" in frame")
+        value = percent(claim.worst) if claim.unit == "of samples" else f"{claim.worst:.3g} {claim.unit}"
+        name = f"whole {target} in frame" if target and not what else claim.constraint
+        words.append(f"{name} {value.strip()} ({claim.shot})")
+    return words if len(words) <= most else [*words[:most], f"{len(words) - most} more"]

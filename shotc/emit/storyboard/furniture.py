@@ -1,0 +1,87 @@
+"""What every drawing carries for its reader, in corners that its content leaves free."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.emit.palette import GROUND_FAR, INK, PAPER, QUIET, SKY_LOW, WHITE
+from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.emit.storyboard.sheet import Sheet
+from shotc.geom.camera import heading_of
+
+LOWER_FIRST = (("left", "low"), ("right", "low"), ("left", "high"), ("right", "high"))
+UPPER_FIRST = (("right", "high"), ("left", "high"), ("right", "low"), ("left", "low"))
+
+
+def round_length(length: float) -> float:
+    """Return the largest of 1, 2, 5, 10, 20, ... that is no longer than ``length``."""
+    power = 10.0 ** np.floor(np.log10(max(length, 1e-6)))
+    return float(max(step for step in (1.0, 2.0, 5.0) if step * power <= length * (1 + 1e-9)) * power)
+
+
+def corner(
+    box: Box, size: tuple[float, float], corners: Sequence[tuple[str, str]], content: Sequence[Box]
+) -> Box:
+    """Return a rectangle in the corner that meets the least of the content, the first such corner."""
+    rooms = []
+    for across, up in corners:
+        x = box.x + 0.07 if across == "left" else box.right - 0.07 - size[0]
+        y = box.y + 0.07 if up == "low" else box.top - 0.07 - size[1]
+        rooms.append(Box(x, y, *size))
+    return min(rooms, key=lambda room: sum(room.meets(other) for other in content))
+
+
+def scale_bar(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
+    """Draw the scale; return the room it takes."""
+    length = round_length(0.26 * sheet.box.width / sheet.inches)
+    width = length * sheet.inches
+    room = corner(sheet.box, (width + 0.12, 0.31), LOWER_FIRST, content)
+    x, y = room.x + 0.06, room.y + 0.07
+    canvas.polygons([room.outline()], (*GROUND_FAR, 0.85))
+    for i, face in enumerate((INK, WHITE)):
+        canvas.polygons([Box(x + i * width / 2, y, width / 2, 0.055).outline()], face, INK, 0.7)
+    canvas.text(x, y + 0.09, f"{length:g} m", Type(7.5, INK))
+    return room
+
+
+def north_arrow(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
+    """Draw which way is North on a plan; return the room it takes."""
+    room = corner(sheet.box, (0.3, 0.52), UPPER_FIRST, content)
+    x, y = room.x + 0.15, room.y + 0.14
+    canvas.polygons([np.array([[x, y + 0.17], [x - 0.07, y - 0.1], [x, y - 0.05]])], INK)
+    canvas.polygons([np.array([[x, y + 0.17], [x + 0.07, y - 0.1], [x, y - 0.05]])], WHITE, INK, 0.7)
+    canvas.text(x, y + 0.19, "N", Type(8, INK, bold=True, across="center"))
+    return room
+
+
+def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
+    """Write which way one looks in a side view; return the room that takes."""
+    east, north = sheet.axes[0, :2]
+    heading = round(np.degrees(heading_of(float(np.arctan2(east, -north))))) % 360
+    text, style = f"side view, looking {heading:03d}°", Type(7.5, QUIET)
+    width, height = canvas.extent(text, style)
+    room = corner(sheet.box, (width + 0.1, height + 0.06), UPPER_FIRST, content)
+    canvas.polygons([room.outline()], (*PAPER, 0.7))
+    canvas.text(room.x + 0.05, room.y + 0.05, text, style)
+    return room
+
+
+def height_marks(canvas: Canvas, sheet: Sheet) -> list[Box]:
+    """Write heights along the right edge of a side view, away from the camera; return the room they take."""
+    box, style = sheet.box, Type(7.0, QUIET, across="right", along="center_baseline", halo=SKY_LOW)
+    step = max(1.0, round_length(0.75 / sheet.inches))
+    middle = sheet.centre[1]
+    most = box.height / 2 / sheet.inches
+    rooms = []
+    for k in range(int(np.ceil((middle - most) / step)), int(np.floor((middle + most) / step)) + 1):
+        y = float(sheet.at(np.array([0.0, k * step]))[1])
+        text = f"{k * step:g} m".replace("-", "−")
+        width = canvas.extent(text, style)[0]
+        room = Box(box.right - width - 0.18, y - 0.08, width + 0.18, 0.16)
+        if box.holds(room):
+            canvas.lines([np.array([[box.right - 0.08, y], [box.right, y]])], INK, 0.8)
+            canvas.text(box.right - 0.12, y, text, style)
+            rooms.append(room)
+    return rooms

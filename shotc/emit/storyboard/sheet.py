@@ -1,0 +1,135 @@
+"""The scale drawing beside a shot's pictures as geometry: which way it looks, and how much it shows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.emit.storyboard.canvas import Box
+from shotc.emit.storyboard.content import ShotBoard
+from shotc.geom.bernstein import Array
+from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import CAM_YAW
+from shotc.ir.sampling import cylinder
+
+BORDER, SHARE = 0.45, 0.17
+"""Left free round the content: inches, and of a small sheet no more than this share of its height."""
+
+NEAR = 1.3
+"""What stands within the content's extent times this is shown too, whole."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sheet:
+    """A drawing's rectangle and its scale: ``inches`` per metre about the ``centre`` it shows.
+
+    axes : what runs right and what runs up on the sheet, unit vectors of W, shape (2, 3); the
+    drawing is a plan where those are East and North, and a side view where up is up
+    """
+
+    box: Box
+    axes: Array
+    centre: Array
+    inches: float
+
+    @property
+    def is_plan(self) -> bool:
+        """Whether the scene is seen from above."""
+        return bool(self.axes[1, 2] == 0)
+
+    def place(self, points: Array) -> Array:
+        """Return page positions of points of W, shape (..., 3) to (..., 2)."""
+        return self.at(points @ self.axes.T)
+
+    def at(self, flat: Array) -> Array:
+        """Return page positions of points of the drawing's plane, metres."""
+        middle = np.array([self.box.x + self.box.width / 2, self.box.y + self.box.height / 2])
+        return np.asarray(middle + (flat - self.centre) * self.inches)
+
+    def outline(self, solid: Solid) -> Array:
+        """Return a solid's outline on the page, shape (k, 2)."""
+        return self.at(outline(self.axes, solid))
+
+    def visible(self, shape: Array) -> Box | None:
+        """Return the part of a page shape's rectangle that is on the sheet, or None."""
+        left, bottom = (float(c) for c in np.maximum(shape.min(axis=0), (self.box.x, self.box.y)))
+        right, top = (float(c) for c in np.minimum(shape.max(axis=0), (self.box.right, self.box.top)))
+        return Box(left, bottom, right - left, top - bottom) if right > left and top > bottom else None
+
+
+def sheet_of(box: Box, board: ShotBoard, mission: MissionIR) -> Sheet:
+    """Return the drawing that shows a shot: a side view where it rises more than it travels, else a plan."""
+    axes = side_axes(board, mission) if rises(board.path) else np.eye(3)[:2]
+    low, high = _extent(axes, board, mission)
+    # A camera that stands still deserves as much ground as it sees.
+    least = max(10.0, 0.8 * float(np.median(np.abs(board.path[:, 2]))))
+    span = np.maximum(high - low, least)
+    border = min(BORDER, SHARE * box.height)
+    inches = float(min((box.width - 2 * border) / span[0], (box.height - 2 * border) / span[1]))
+    centre = (low + high) / 2
+    if axes[1, 2] != 0:
+        # What is seen from the side stands at the bottom.
+        centre[1] = low[1] + (box.height / 2 - border) / inches
+    return Sheet(box, axes, centre, inches)
+
+
+def rises(path: Array) -> bool:
+    """Tell whether a path, shape (n, 3), goes about as far up or down as it goes along, or farther."""
+    across, height = np.hypot(*np.ptp(path[:, :2], axis=0)), np.ptp(path[:, 2])
+    return bool(height > max(1.0, 0.8 * across))
+
+
+def side_axes(board: ShotBoard, mission: MissionIR) -> Array:
+    """Return the axes of the side view in which the camera is left of its subject, shape (2, 3).
+
+    Without a subject to its side it is the view in which the camera looks to the right.
+    """
+    first = board.moments[0]
+    way = np.array([np.cos(first.pose[CAM_YAW]), np.sin(first.pose[CAM_YAW])])
+    if first.target is not None:
+        toward = np.subtract(mission.target(first.target).centre[:2], board.path[:, :2].mean(axis=0))
+        away = float(np.hypot(*toward))
+        way = toward / away if away > 1.0 else way
+    return np.array([[*way, 0.0], [0.0, 0.0, 1.0]])
+
+
+def outline(axes: Array, solid: Solid) -> Array:
+    """Return a solid's outline seen along the normal of two axes, metres in their plane, shape (k, 2)."""
+    if isinstance(solid, Cylinder):
+        turn = np.linspace(0, 2 * np.pi, 73)[:-1]
+        ring = np.array(solid.centre) + solid.radius * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    else:
+        ring = np.asarray(solid.points, dtype=np.float64)
+    if axes[1, 2] == 0:
+        return np.asarray(ring @ axes[:, :2].T)
+    along = ring @ axes[0, :2]
+    left, right = float(along.min()), float(along.max())
+    return np.array([[left, solid.bottom], [right, solid.bottom], [right, solid.top], [left, solid.top]])
+
+
+def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, Array]:
+    """Return the lower left and upper right corner of what is to be shown, metres."""
+    subjects = [mission.target(name) for name in sorted({m.target for m in board.moments if m.target})]
+    shapes = [board.path @ axes.T, *(outline(axes, cylinder(subject)) for subject in subjects)]
+    low, high = _corners(shapes)
+    if axes[1, 2] != 0 and 0 < low[1] < high[1] - low[1]:
+        low = np.array([low[0], 0.0])
+    reach = np.maximum(high - low, 10.0) * (NEAR - 1) / 2
+    things = [cylinder(t) for t in mission.targets] + [z.solid for z in mission.zones if z.keep == "out"]
+    for shape in (outline(axes, thing) for thing in things):
+        first, last = _corners([shape])
+        near = (first < high + reach).all() and (last > low - reach).all()
+        if near:
+            # What is larger than the shot itself is cut off.
+            most = high - low + 2 * reach
+            shapes.append(np.clip(shape, low - most / 2, high + most / 2))
+    below, above = _corners(shapes)
+    return np.minimum(low, below), np.maximum(high, above)
+
+
+def _corners(shapes: Sequence[Array]) -> tuple[Array, Array]:
+    cloud = np.concatenate(shapes)
+    return cloud.min(axis=0), cloud.max(axis=0)
