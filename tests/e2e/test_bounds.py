@@ -73,6 +73,14 @@ def test_what_check_proposes_says_that_it_is_a_bound(code: str) -> None:
     assert "`shotc plan` finds" in told.help
 
 
+@pytest.mark.parametrize("code", ["K006", "K007"])
+def test_shots_in_each_others_way_are_answered_once(code: str) -> None:
+    text = registry()[code].failing
+    assert [d.code for d in checked(text)] == [code]
+    done, (told,) = planned(text)
+    assert (done, told.code) == (False, "T003")
+
+
 def test_a_bound_stands_where_no_later_pass_answers_it(tmp_path: Path) -> None:
     text = MISSION.replace(*SLIPS["K004"])
     for stop in ("resolve", "place-keyframes", "solve-path-qp"):
