@@ -184,7 +184,7 @@ def parse_quantity(value: object, dimension: Dimension) -> float:
         raise QuantityError(
             "bare-angle",
             f"{a(dimension)} needs a unit",
-            f"write `{_short(value)} {_unit(dimension)}` or `{_short(value)} {_unit(dimension, 'rad')}`",
+            _with_unit(value, dimension),
         )
     return _bounded(_real(value), dimension, _short(value))
 
@@ -230,6 +230,14 @@ def _parse_text(text: str, dimension: Dimension) -> float:
             f"`{clip(text)}` is {a(other)}; {_such_as(dimension)}",
         )
     raise QuantityError("unknown-unit", f"unknown unit `{clip(unit)}`", _nearest(unit, dimension))
+
+
+def _with_unit(value: float, dimension: Dimension) -> str:
+    """Return a bare angle as it may have been meant: in degrees, or also in radians where it is small."""
+    degrees = f"write `{_short(value)} {_unit(dimension)}`"
+    if abs(value) > 2 * pi:
+        return degrees
+    return f"{degrees}, or `{_short(value)} {_unit(dimension, 'rad')}` if radians are meant"
 
 
 def _without_unit(number: str, dimension: Dimension) -> QuantityError:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +23,10 @@ SIZE_CAP = 256 * 2**20
 
 REPORTED = 20
 """Faults that are reported one by one; a file of another kind has thousands."""
+
+
+_MISSION = re.compile(rb"^shotc[ \t]*:", re.MULTILINE)
+"""The key that every mission has, in YAML's block style."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +55,8 @@ def read_plan(data: bytes, name: str) -> ReadPlan:
     try:
         document = _parse(data)
     except _NotJsonError as fault:
+        if _MISSION.search(data):
+            return _refused(_mission_given("E001", name))
         label = Label(name, fault.span)
         return _refused(
             Diagnostic(
@@ -102,8 +109,15 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
+def _mission_given(code: str, name: str) -> Diagnostic:
+    help_ = "run `shotc plan` on it first, then give the plan.json that it writes"
+    return Diagnostic(code, "this is a mission, not a plan", (Label(name, WHOLE_FILE),), help=help_)
+
+
 def _foreign(document: Any, name: str) -> Diagnostic | None:
     label = (Label(name, WHOLE_FILE),)
+    if isinstance(document, dict) and "shotc" in document:
+        return _mission_given("E002", name)
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         found = show(document.get("format")) if isinstance(document, dict) else show(document)
         return Diagnostic(

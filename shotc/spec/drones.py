@@ -5,8 +5,9 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import InitErrorDetails
 
-from shotc.spec.faults import fault_at
+from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,
     AngleRange,
@@ -23,7 +24,7 @@ from shotc.spec.fields import (
     Priority,
     Speed,
 )
-from shotc.spec.fieldtypes import FieldType, NamedOr
+from shotc.spec.fieldtypes import FieldType, Hinted, NamedOr
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.presets import DEFAULT_MODEL, PRESETS
 from shotc.spec.quantities import Quantity, Tuple
@@ -31,12 +32,18 @@ from shotc.units import SMALLEST
 
 ModelName = Annotated[str, NamedOr("DroneModel", {name: name for name in PRESETS}, "drone model")]
 
+SAME_ASPECT = 0.01  # share by which a frame's shape may differ where it is given twice
+
 
 class SensorType(FieldType):
     """The sensor's width, or ``[width, height]``; kept as (width, height or None)."""
 
     label = "Sensor"
-    _side = Quantity("PositiveLength", "length", SMALLEST["length"])
+    _side = Hinted(
+        Quantity("PositiveLength", "length", SMALLEST["length"]),
+        r".*(in|inch|inches|[\"'”])(\W.*)?",
+        "give the sensor's width, such as `13.2 mm`; a size in inches is the name of a class of sensors",
+    )
     _both = Tuple("SensorSize", (_side, _side), "[width, height]")
 
     def read(self, value: Any) -> tuple[float, float | None]:
@@ -79,7 +86,9 @@ class CameraSpec(Model):
 
     hfov: FieldOfView | None = Field(default=None, description="horizontal field of view")
     sensor: Annotated[tuple[float, float | None], SensorType()] | None = Field(
-        default=None, description="width of the sensor, or [width, height]"
+        default=None,
+        description="width of the area that takes the picture, such as 13.2 mm, or [width, height]; "
+        "with focal_length it gives the field of view",
     )
     focal_length: PositiveLength | None = Field(default=None, description="focal length of the lens")
     aspect: Aspect | None = Field(default=None, description='frame width over height, such as "16:9"')
@@ -115,7 +124,24 @@ class CameraSpec(Model):
                 f"the sensor is {aspect:.4g} times as wide as high",
                 "write [width, height]; frames lie between 1:5 and 5:1",
             )
+        self._agree()
         return self
+
+    def _agree(self) -> None:
+        """Raise a fault where the frame's shape is given twice, and not the same."""
+        if self.aspect is None or self.sensor is None or self.sensor[1] is None:
+            return
+        shape = self.sensor[0] / self.sensor[1]
+        if abs(shape / self.aspect - 1) <= SAME_ASPECT:
+            return
+        clash = fault(
+            "conflicting-fields",
+            f"`aspect` says {self.aspect:.4g} times as wide as high, `sensor` says {shape:.4g} times",
+            "remove `aspect`, or give the width of the sensor alone: `sensor: "
+            f"{1000 * self.sensor[0]:.4g} mm`",
+            beside="sensor",
+        )
+        raise together([InitErrorDetails(type=clash, loc=("aspect",), input=None)])
 
 
 class DroneSpec(Model):

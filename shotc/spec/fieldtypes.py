@@ -13,7 +13,7 @@ from typing import Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, core_schema
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from shotc.spec.faults import fault
 from shotc.spec.words import nearest
@@ -120,6 +120,37 @@ class Flag(FieldType):
     def schema(self) -> JsonSchemaValue:
         """Return a boolean schema."""
         return {"type": "boolean"}
+
+
+@dataclass(frozen=True, eq=False)
+class Hinted(FieldType):
+    """Another field type that has a help of its own for a text which people write there by mistake.
+
+    slip : pattern of that text, whatever the case of its letters
+    """
+
+    of: FieldType
+    slip: str
+    help: str
+
+    @property
+    def label(self) -> str:  # type: ignore[override]
+        """Name of the other type's definition."""
+        return self.of.label
+
+    def read(self, value: Any) -> Any:
+        """Return the value as the other type reads it."""
+        try:
+            return self.of.read(value)
+        except PydanticCustomError as error:
+            if not (isinstance(value, str) and re.fullmatch(self.slip, clip(value), re.IGNORECASE)):
+                raise
+            said = error.context or {}
+            raise fault(error.type, said["message"], self.help, said["notes"]) from None
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the other type's schema."""
+        return self.of.schema()
 
 
 @dataclass(frozen=True, eq=False)

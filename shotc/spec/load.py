@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from hashlib import sha256
@@ -23,6 +24,8 @@ from shotc.spec.words import nearest
 from shotc.units import clip
 
 MAX_DIAGNOSTICS = 100
+# How a plan.json begins, which is YAML, too.
+_PLAN = re.compile(rb'\s*\{\s*"format"\s*:\s*"shotc-plan"')
 _CODES = {info.slug: info.code for info in (*schema.CODES, *units.CODES)}
 
 
@@ -52,6 +55,8 @@ def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[S
 
     name : how to show the file; folder : where it is; kinds : the model of every kind of shot
     """
+    if _PLAN.match(data):
+        return _plan_given(name)
     document = parse(data, name)
     if document.faults:
         return Loaded(None, tuple(text_diagnostic(fault, name) for fault in document.faults), document.file)
@@ -65,6 +70,14 @@ def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[S
         return Loaded(None, _diagnostics(found, origins), document.file)
     mission = LoadedMission(spec, origins, folder, sha256(data).hexdigest())
     return Loaded(mission, (), document.file)
+
+
+def _plan_given(name: str) -> Loaded:
+    """Return the one fault of a plan that stands where a mission is wanted."""
+    label = (Label(name, WHOLE_FILE),)
+    help_ = "give the mission's YAML file; `shotc verify`, `emit`, `view` and `diff` take plans"
+    found = Diagnostic(_CODES["not-a-mission"], "this is a plan, not a mission", label, help=help_)
+    return Loaded(None, (found,), SourceFile(name, ""))
 
 
 def _validate(

@@ -16,11 +16,22 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from shotc.spec.faults import details_of, fault, together
-from shotc.spec.words import closest, key_help
+from shotc.spec.words import closest, elsewhere, nearest
 from shotc.units import clip, describe
 
 # Looking for the nearest word takes time; nobody reads a thousand proposals.
 _ADVISED = 100
+
+
+class Lack(NamedTuple):
+    """Something that a mapping has to have and has not.
+
+    keys : any of which it may be; name : how messages call it; detail : the fault
+    """
+
+    keys: tuple[str, ...]
+    name: str
+    detail: InitErrorDetails
 
 
 class OneOf(NamedTuple):
@@ -33,19 +44,34 @@ class OneOf(NamedTuple):
     forms: tuple[tuple[str, ...], ...]
     required: bool = True
 
-    def faults(self, given: Mapping[str, object]) -> list[InitErrorDetails]:
-        """Return what is wrong with the keys that are given."""
-        present = [key for key in given if any(key in form for form in self.forms)]
+    def conflicts(self, given: Mapping[str, object]) -> list[InitErrorDetails]:
+        """Return which of the keys that are given exclude each other."""
+        present = self._present(given)
+        return [] if not present or self._fitting(present) else [self._conflict(present)]
+
+    def lacks(self, given: Mapping[str, object]) -> list[Lack]:
+        """Return what is missing beside the keys that are given."""
+        present = self._present(given)
         if not present:
-            return [_detail((), "missing-field", f"missing {self._choice()}")] if self.required else []
-        fitting = [form for form in self.forms if set(present) <= set(form)]
-        if not fitting:
-            return [self._conflict(present)]
-        missing = [key for key in fitting[0] if key not in present]
+            every = tuple(dict.fromkeys(key for form in self.forms for key in form))
+            absent = _detail((), "missing-field", f"missing {self._choice()}")
+            return [Lack(every, self._choice(), absent)] if self.required else []
+        missing = [key for form in self._fitting(present)[:1] for key in form if key not in present]
+        help_ = "`{}` needs `{}` beside it"
         return [
-            _detail((), "missing-field", f"missing key `{key}`", f"`{present[0]}` needs `{key}` beside it")
+            Lack(
+                (key,),
+                f"`{key}`",
+                _detail((), "missing-field", f"missing key `{key}`", help_.format(present[0], key)),
+            )
             for key in missing
         ]
+
+    def _present(self, given: Mapping[str, object]) -> list[str]:
+        return [key for key in given if any(key in form for form in self.forms)]
+
+    def _fitting(self, present: list[str]) -> list[tuple[str, ...]]:
+        return [form for form in self.forms if set(present) <= set(form)]
 
     def schema(self) -> JsonSchemaValue:
         """Return the same rule as JSON Schema."""
@@ -92,15 +118,16 @@ class Model(BaseModel):
         if not isinstance(data, dict):
             raise _no_mapping(data, cls.model_fields)
         details = [_empty(key) for key, value in data.items() if value is None and key in cls.model_fields]
-        details += [detail for rule in cls.exclusive for detail in rule.faults(data)]
+        details += [detail for rule in cls.exclusive for detail in rule.conflicts(data)]
+        lacks = [lack for rule in cls.exclusive for lack in rule.lacks(data)]
         try:
             model = handler(
                 {key: value for key, value in data.items() if value is not None} if details else data
             )
         except ValidationError as error:
-            raise together([*cls._explained(error, data), *details]) from None
-        if details:
-            raise together(details)
+            raise together([*cls._explained(error, data, lacks), *details]) from None
+        if details or lacks:
+            raise together([*details, *(lack.detail for lack in lacks)])
         return model
 
     @classmethod
@@ -119,22 +146,19 @@ class Model(BaseModel):
         return schema
 
     @classmethod
-    def _explained(cls, error: ValidationError, data: Mapping[str, object]) -> list[InitErrorDetails]:
+    def _explained(
+        cls, error: ValidationError, data: Mapping[str, object], lacks: list[Lack]
+    ) -> list[InitErrorDetails]:
         """Put pydantic's faults about this mapping's own keys into the language's words."""
-        details = details_of(error)
+        details, known = details_of(error), cls.model_fields
         missing = [str(d["loc"][0]) for d in details if _is(d, "missing")]
+        lacks = [*lacks, *(_missing(key, known[key]) for key in missing if key not in data)]
         unknown = [str(d["loc"][0]) for d in details if _is(d, "extra_forbidden")]
-        strange = [_unknown(key, missing, cls.model_fields) for key in unknown[:_ADVISED]]
-        strange += [
-            _detail((key,), "unknown-field", f"unknown key `{clip(key)}`") for key in unknown[_ADVISED:]
-        ]
-        # A missing key that an unknown one resembles is one slip of the pen, not two faults.
-        accounted = {closest(key, missing) for key in unknown[:_ADVISED]} | data.keys()
-        absent = [_missing(key, cls.model_fields[key]) for key in missing if key not in accounted]
         others = [
             d for d in details if not (_is(d, "missing") or _is(d, "extra_forbidden") or _echo(d, details))
         ]
-        return [*(_few(d, cls.model_fields) for d in others), *absent, *strange]
+        absent = {key: field for key, field in known.items() if key not in data}
+        return [*(_few(d, known) for d in others), *_wrong_keys(unknown, lacks, known, absent)]
 
 
 def section(description: str) -> Any:
@@ -188,18 +212,48 @@ def _empty(key: str) -> InitErrorDetails:
     return _detail((key,), "empty-value", f"`{key}` has no value", f"write its value, or remove `{key}`")
 
 
-def _missing(key: str, field: FieldInfo) -> InitErrorDetails:
+def _missing(key: str, field: FieldInfo) -> Lack:
     help_ = f"add `{key}`: {field.description}" if field.description else f"add `{key}`"
-    return _detail((), "missing-field", f"missing key `{key}`", help_)
+    return Lack((key,), f"`{key}`", _detail((), "missing-field", f"missing key `{key}`", help_))
 
 
-def _unknown(key: str, missing: list[str], known: Mapping[str, FieldInfo]) -> InitErrorDetails:
+def _wrong_keys(
+    unknown: list[str], lacks: list[Lack], known: Mapping[str, FieldInfo], absent: Mapping[str, FieldInfo]
+) -> list[InitErrorDetails]:
+    """Return the faults of unknown and of missing keys; one slip of the pen is one fault, not two."""
+    placed = {key: _place(key, known) for key in unknown[:_ADVISED]}
+    meant = {key: closest(key, absent) for key, place in placed.items() if not place}
+    still = [lack for lack in lacks if not set(lack.keys) & set(meant.values())]
+    if len(unknown) == len(still) == 1 and not (placed[unknown[0]] or closest(unknown[0], known)):
+        return [_instead(unknown[0], still[0], known)]
+    strange = [
+        _detail((key,), "unknown-field", f"unknown key `{clip(key)}`", _key_help(key, placed, meant, known))
+        for key in unknown
+    ]
+    return [*(lack.detail for lack in still), *strange]
+
+
+def _key_help(
+    key: str, placed: Mapping[str, str], meant: Mapping[str, str | None], known: Mapping[str, FieldInfo]
+) -> str:
+    if key not in placed:
+        return ""
+    close = meant.get(key)
+    return placed[key] or (f"did you mean `{close}`?" if close else nearest(key, known))
+
+
+def _place(key: str, known: Mapping[str, FieldInfo]) -> str:
+    """Return where else a key belongs; empty if nowhere."""
     below = [name for name, field in known.items() if key in _keys_below(field)]
-    close = closest(key, missing)
-    help_ = f"did you mean `{close}`?" if close else key_help(key, known)
-    if below:
-        help_ = f"`{key}` belongs under `{below[0]}`"
-    return _detail((key,), "unknown-field", f"unknown key `{clip(key)}`", help_)
+    return f"`{key}` belongs under `{below[0]}`" if below else elsewhere(key, known)
+
+
+def _instead(key: str, lack: Lack, known: Mapping[str, FieldInfo]) -> InitErrorDetails:
+    """Return one fault for an unlike pair: the only unknown key, and the only missing one."""
+    message = f"unknown key `{clip(key)}`, and {lack.name} is missing"
+    about = known[lack.keys[0]].description if len(lack.keys) == 1 else ""
+    help_ = f"write {lack.name} instead" + (f": {about}" if about else "")
+    return _detail((key,), "unknown-field", message, help_)
 
 
 def _keys_below(field: FieldInfo) -> Mapping[str, object]:

@@ -26,6 +26,9 @@ from shotc.units import (
     parse_quantity,
 )
 
+# Two numbers with a dash between them, which is how a range is written by hand.
+_DASHED = re.compile(rf"\s*({NUMBER})\s*(?:-|–|\.\.|to)\s*({NUMBER})\s*([^\W\d_]\S*|[°%])?\s*")
+
 
 @dataclass(frozen=True, eq=False)
 class Quantity(FieldType):
@@ -104,9 +107,10 @@ class Tuple(FieldType):
     def read(self, value: Any) -> tuple[Any, ...]:
         """Return the items, each read by its type."""
         if not isinstance(value, list | tuple):
-            raise fault("wrong-type", f"expected a list {self.shape}, got {describe(value)}")
+            raise fault("wrong-type", f"expected a list {self.shape}, got {describe(value)}", _apart(value))
         if len(value) != len(self.items):
-            raise fault("wrong-length", f"expected {len(self.items)} values {self.shape}, got {len(value)}")
+            few = f"expected {len(self.items)} values {self.shape}, got {len(value)}"
+            raise fault("wrong-length", few, _apart(value[0]) if len(value) == 1 else "")
         pairs = zip(self.items, value, strict=True)
         return tuple(read_each(((i,), partial(item.read, v)) for i, (item, v) in enumerate(pairs)))
 
@@ -166,6 +170,10 @@ class Span(FieldType):
         if isinstance(value, list):
             first, last = Tuple(self.label, (self.item, self.item), "[from, to]").read(value)
             return (first, last)
+        if help_ := _apart(value):
+            raise fault(
+                "wrong-type", f"expected one value or a list [from, to], got {describe(value)}", help_
+            )
         only = self.item.read(value)
         return (only, only)
 
@@ -173,3 +181,12 @@ class Span(FieldType):
         """Return a value-or-array schema."""
         pair = Tuple(self.label, (self.item, self.item), "[from, to]")
         return {"anyOf": [self.item.reference(), pair.schema()]}
+
+
+def _apart(value: object) -> str:
+    """Return how to write a text such as ``40-65 m`` as two values; empty for anything else."""
+    match = _DASHED.fullmatch(clip(value)) if isinstance(value, str) else None
+    if match is None:
+        return ""
+    unit = f" {match[3]}" if match[3] else ""
+    return f"write two values, such as `[{match[1]}{unit}, {match[2]}{unit}]`"

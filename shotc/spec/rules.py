@@ -27,7 +27,9 @@ class RulesSpec(Model):
     """Rules for the whole mission."""
 
     composition: CompositionSet = Field(
-        default=COMPOSITIONS[presets.COMPOSITION], description="where on screen targets may be"
+        default=COMPOSITIONS[presets.COMPOSITION],
+        description="where on screen targets may be: a set, a named point or [[u, v], ...]; thirds includes "
+        "the centre",
     )
     separation: NonNegativeLength = Field(
         default=presets.SEPARATION, description="least distance between drones, centre to centre"

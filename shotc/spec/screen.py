@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from math import inf
 from typing import Annotated, Any
@@ -28,7 +29,8 @@ class OwnPointType(FieldType):
 
     def read(self, value: Any) -> Composition:
         """Return the set of this one point."""
-        return Composition("own", points=(_PAIR.read(value),))
+        point: Vec2 = _PAIR.read(value)
+        return Composition(_named((point,)), points=(point,))
 
     def schema(self) -> JsonSchemaValue:
         """Return how a screen point is written."""
@@ -49,17 +51,21 @@ class OwnPointsType(FieldType):
                 f"write one of {', '.join(COMPOSITIONS)}, or a list of points such as [[-0.3, 0], [0.3, 0]]",
             )
         points = read_each(((i,), partial(_PAIR.read, item)) for i, item in enumerate(value))
-        return Composition("own", points=tuple((u, v) for u, v in points))
+        return Composition(_named(points), points=tuple((u, v) for u, v in points))
 
     def schema(self) -> JsonSchemaValue:
         """Return a list of screen points."""
         return {"type": "array", "items": _PAIR.reference(), "minItems": 1}
 
 
+def _named(points: Sequence[Vec2]) -> str:
+    """Return points given by numbers as they are written, which is how messages and pictures name them."""
+    written = ", ".join(f"[{u:.4g}, {v:.4g}]" for u, v in points)
+    return clip(written if len(points) == 1 else f"[{written}]")
+
+
 Frame = Annotated[Composition, NamedOr("Frame", FRAMES, "frame", OwnPointType())]
-CompositionSet = Annotated[
-    Composition, NamedOr("CompositionSet", COMPOSITIONS, "composition", OwnPointsType())
-]
+CompositionSet = Annotated[Composition, NamedOr("CompositionSet", FRAMES, "composition", OwnPointsType())]
 
 
 class AspectType(FieldType):

@@ -3,7 +3,7 @@
 A kind subclasses ``ShotBase`` with its own parameters and ``kind: Literal["its-name"]``.
 """
 
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -13,7 +13,6 @@ from shotc.spec.faults import fault
 from shotc.spec.fields import (
     Angle,
     CompositionSet,
-    Duration,
     FieldOfView,
     Frame,
     LookAt,
@@ -28,12 +27,21 @@ from shotc.spec.fields import (
     ShareRange,
     Switch,
 )
+from shotc.spec.fieldtypes import Hinted
 from shotc.spec.model import Model, OneOf, section
-from shotc.units import clip, describe
+from shotc.spec.quantities import Quantity
+from shotc.units import SMALLEST, clip, describe
 
 # The two ways to aim a camera: at something, or by compass heading and pitch.
 AIM = OneOf((("look_at",), ("heading", "pitch")))
 AIM_IF_ANY = OneOf(AIM.forms, required=False)
+
+
+_DURATION = Hinted(
+    Quantity("Duration", "duration", SMALLEST["duration"]),
+    "auto",
+    "leave `duration` out, or write `timing: auto` where nothing else is given",
+)
 
 
 class TimingSpec(Model):
@@ -43,7 +51,9 @@ class TimingSpec(Model):
         default=None, description="first filmed frame, from mission start"
     )
     after: Name | None = Field(default=None, description="id of the shot that has to end first")
-    duration: Duration | None = Field(default=None, description="length of the shot, holds included")
+    duration: Annotated[float, _DURATION] | None = Field(
+        default=None, description="length of the shot, holds included"
+    )
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
@@ -101,7 +111,9 @@ class ShotBase(Model):
     target: Name | None = Field(default=None, description="name of the target in the picture")
     timing: TimingSpec = section("auto, or any of start, after, duration")
     composition: CompositionSet | None = Field(
-        default=None, description="where on screen the target may be; the rules' set if silent"
+        default=None,
+        description="where on screen the target may be: a set, a named point or [[u, v], ...]; the rules' "
+        "if silent; thirds includes the centre: to force a side, name a point such as left-third",
     )
     pace: Pace | None = Field(default=None, description="share of the limits used where timing is auto")
     size: PositiveShare | None = Field(

@@ -53,9 +53,9 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return f"known are {', '.join(words)}" if len(words) > 1 else f"the only one known is `{words[0]}`"
 
 
-def key_help(key: str, known: Collection[str]) -> str:
-    """Return the help for an unknown key: where it belongs, the nearest known key, or all of them."""
-    return _ELSEWHERE[key] if key in _ELSEWHERE and key not in known else nearest(key, known)
+def elsewhere(key: str, known: Collection[str]) -> str:
+    """Return where a key belongs that people look for among those known; empty for any other."""
+    return "" if key in known else _ELSEWHERE.get(key, "")
 
 
 def _alike(word: str, other: str) -> bool:

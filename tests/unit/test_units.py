@@ -70,7 +70,8 @@ def test_quantities_people_write(value, dimension, expected):
         ("8 s", "speed", "wrong-dimension", "expected a speed, got a duration"),
         ("8 m", "angle", "wrong-dimension", "expected an angle, got a length"),
         ("8 deg", "angular rate", "wrong-dimension", "expected an angular rate, got an angle"),
-        (45, "angle", "bare-angle", "`45 deg` or `45 rad`"),
+        (45, "angle", "bare-angle", "an angle needs a unit write `45 deg`"),
+        (1.5, "angle", "bare-angle", "`1.5 deg`, or `1.5 rad` if radians are meant"),
         (0, "angle", "bare-angle", "`0 deg`"),
         ("45", "angle", "bare-angle", "`45 deg`"),
         (60, "angular rate", "bare-angle", "deg/s"),
@@ -99,6 +100,13 @@ def test_faults_name_what_is_wrong(value, dimension, kind, words):
         parse_quantity(value, dimension)
     assert caught.value.kind == kind
     assert words in f"{caught.value.message} {caught.value.help}"
+
+
+@given(st.floats(-1e6, 1e6))
+def test_radians_are_proposed_for_an_angle_only_within_a_turn(value):
+    with pytest.raises(QuantityError) as caught:
+        parse_quantity(value, "angle")
+    assert ("rad`" in caught.value.help) is (abs(value) <= 2 * pi)
     assert not caught.value.message.endswith(".")
 
 

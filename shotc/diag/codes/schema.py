@@ -71,7 +71,8 @@ CODES: tuple[CodeInfo, ...] = (
         "two keys say the same thing in different ways",
         "Some things can be written in more than one way, of which a mission picks one: a camera looks at "
         "something, or has heading and pitch; a target stands at a place, or has a track; a zone is a "
-        "cylinder, a polygon or a box. Remove one of the two.",
+        "cylinder, a polygon or a box. Remove one of the two. An aspect beside a sensor with width and height is "
+        "allowed as long as both say the same.",
         ("look_at: tower", "look_at: tower, heading: 10 deg"),
     ),
     _code(
@@ -167,5 +168,14 @@ CODES: tuple[CodeInfo, ...] = (
         "A mission without shots has nothing to plan. Add a shot under `shots`, or start from a template "
         "with `shotc new`.",
         (_PASSING[_PASSING.index("shots:") :], "shots: []\n"),
+    ),
+    _code(
+        17,
+        "not-a-mission",
+        "a plan stands where a mission is wanted",
+        "`shotc check` and `shotc plan` read missions, the YAML that people write. The plan.json that `shotc "
+        "plan` makes of one is read by `shotc verify`, `emit`, `view` and `diff`. The plan names its mission "
+        "file under `source`.",
+        (_PASSING, '{"format": "shotc-plan", "version": 1}\n'),
     ),
 )

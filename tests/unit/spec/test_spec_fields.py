@@ -40,9 +40,14 @@ def slugs(annotation, value):
         (fields.ScreenPoint, [-0.3, 0.1], (-0.3, 0.1)),
         (fields.Frame, "keep", Composition("keep", keep=True)),
         (fields.Frame, "thirds", COMPOSITIONS["thirds"]),
-        (fields.Frame, [0.2, 0], Composition("own", points=((0.2, 0.0),))),
+        (fields.Frame, [0.2, 0], Composition("[0.2, 0]", points=((0.2, 0.0),))),
         (fields.CompositionSet, "phi", COMPOSITIONS["phi"]),
-        (fields.CompositionSet, [[0, 0], [0.5, 0]], Composition("own", points=((0.0, 0.0), (0.5, 0.0)))),
+        (fields.CompositionSet, "left-third", Composition("left-third", points=((-1 / 3, 0.0),))),
+        (
+            fields.CompositionSet,
+            [[0, 0], [0.5, 0]],
+            Composition("[[0, 0], [0.5, 0]]", points=((0.0, 0.0), (0.5, 0.0))),
+        ),
         (fields.Pace, "calm", 0.5),
         (fields.Pace, "60 %", 0.6),
         (fields.Pace, 1, 1.0),
@@ -203,8 +208,11 @@ def test_a_camera_is_a_field_of_view_or_a_sensor_and_a_lens():
     camera = CameraSpec.model_validate({"sensor": "36 mm", "focal_length": "18 mm"})
     assert camera.field_of_view == pytest.approx(pi / 2)
     assert camera.aspect_ratio is None
-    both = CameraSpec.model_validate({"sensor": [0.036, 0.024], "focal_length": 0.018, "aspect": "16:9"})
-    assert both.aspect_ratio == pytest.approx(16 / 9)
+    both = CameraSpec.model_validate({"sensor": [0.036, 0.024], "focal_length": 0.018, "aspect": "3:2"})
+    assert both.aspect_ratio == pytest.approx(1.5)
+    wide = {"sensor": [0.036, 0.024], "focal_length": 0.018, "aspect": "16:9"}
+    assert slugs(CameraSpec, wide) == [("conflicting-fields", ("aspect",))]
+    assert CameraSpec.model_validate({**wide, "sensor": 0.036}).aspect_ratio == pytest.approx(16 / 9)
     assert CameraSpec.model_validate({}).field_of_view is None
     assert slugs(CameraSpec, {"sensor": "36 mm"}) == [("missing-field", ())]
     assert slugs(CameraSpec, {"hfov": "70 deg", "focal_length": "9 mm"}) == [

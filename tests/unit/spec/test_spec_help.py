@@ -43,6 +43,13 @@ shots:
         ("hfov: 70 deg, aspect: 1.6", "hfov: 70 deg, aspect: 16/9", "aspect `16/9`", 'such as "16:9"'),
         ("sweep: 180 deg", "sweep: south", "got the text `south`", "write `180 deg`"),
         ("sweep: 180 deg", "sweep: NE", "got the text `NE`", "write `45 deg`"),
+        ("timing: {duration: 30}", "timing: {duration: auto}", "text `auto`", "or write `timing: auto`"),
+        ("height: 24", "height: [40-65]", "got a list", "such as `12 m`"),
+        ("hfov: 70 deg", "sensor: 1 inch, focal_length: 9 mm", "unknown unit `inch`", "sensor's width"),
+        ("hfov: 70 deg", "sensor: 1/2.3in, focal_length: 9 mm", "`1/2.3in`", "sensor's width"),
+        ("aspect: 1.6", "aspect: 1.6, zoom: 2", "unknown key `zoom`", "known are"),
+        ("radius: 4", "diameter: 8", "unknown key `diameter`, and `radius` is missing", "write `radius`"),
+        ("sweep: 180 deg", "sweep: 180", "an angle needs a unit", "write `180 deg`"),
         (
             "      - {at: [40, -40, 10], look_at: tower}\n",
             "",
@@ -71,3 +78,73 @@ def test_the_help_names_what_was_meant(right, wrong, message, help_, loads):
 )
 def test_the_closest_word(word, known, meant):
     assert closest(word, known) == meant
+
+
+def spiral(altitude):
+    return MISSION.replace("kind: orbit", "kind: spiral").replace("altitude: 20", f"altitude: {altitude}")
+
+
+@pytest.mark.parametrize("written", ["[40-65]", "40-65", "[40 - 65]", "40 to 65", '["40..65"]'])
+def test_a_range_by_hand_is_told_as_two_values(written, loads):
+    (found,) = loads(spiral(written)).diagnostics
+    assert found.help == "write two values, such as `[40, 65]`"
+    assert loads(spiral("[40, 65]")).diagnostics == ()
+    assert loads(spiral("[40-65 ft]")).diagnostics[0].help == "write two values, such as `[40 ft, 65 ft]`"
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "help_"),
+    [
+        ("look_at: tower, frame", "lookat: tower, frame", "did you mean `look_at`?"),
+        ("look_at: tower, frame", "lok_at: tower, frame", "did you mean `look_at`?"),
+        ("look_at: tower, frame", "heading: 0 deg, pich: 0 deg, frame", "did you mean `pitch`?"),
+        ("look_at: tower, frame", "gaze: tower, frame", "write `look_at` or `heading` with `pitch` instead"),
+        ("radius: 50", "diameter: 100", "write `radius` instead: horizontal distance"),
+        ("radius: 50", "radios: 100", "did you mean `radius`?"),
+    ],
+)
+def test_a_required_key_under_another_name_is_one_fault(right, wrong, help_, loads):
+    (found,) = loads(MISSION.replace(right, wrong, 1)).diagnostics
+    assert found.code == "S003"
+    assert found.help.startswith(help_)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "hfov: 40 deg",  # has its place elsewhere
+        "start_azimut: 90 deg",  # an optional key with a slip of the pen
+        "swep: 90 deg",  # a key that is there already
+        "diameter: 100, colour: red",  # which of them was meant cannot be told
+    ],
+)
+def test_other_pairs_of_unknown_and_missing_keys_stay_apart(wrong, loads):
+    found = loads(MISSION.replace("radius: 50", wrong)).diagnostics
+    assert sorted({d.code for d in found}) == ["S003", "S004"]
+
+
+def test_a_shot_may_name_a_point_as_its_composition(loads):
+    text = MISSION.replace("kind: orbit", "kind: orbit, composition: upper-left")
+    composition = loads(text).mission.spec.shots[1].composition
+    assert composition.points == ((-1 / 3, 1 / 3),)
+
+
+def test_a_point_by_numbers_is_named_by_them(loads):
+    text = MISSION.replace("frame: left-third", "frame: [0.9, 0]")
+    assert loads(text).mission.spec.shots[0].keyframes[0].frame.name == "[0.9, 0]"
+
+
+def test_an_aspect_beside_a_sensor_has_to_agree(loads):
+    camera = "sensor: [13.2 mm, 8.8 mm], focal_length: 8.8 mm, aspect: {}"
+    right, wrong = (MISSION.replace("hfov: 70 deg, aspect: 1.6", camera.format(a)) for a in ("1.51", "1.6"))
+    assert loads(right).diagnostics == ()
+    (found,) = loads(wrong).diagnostics
+    assert found.code == "S005"
+    assert len(found.labels) == 2
+    assert "sensor: 13.2 mm" in found.help
+
+
+@pytest.mark.parametrize("head", ['{"format": "shotc-plan"', '\n {\n  "format" :"shotc-plan"'])
+def test_a_plan_is_told_from_a_mission_whatever_its_size(head, loads):
+    (found,) = loads(head + ', "drones": [' + "0, " * 2_000_000 + "0]}").diagnostics
+    assert (found.code, found.message) == ("S017", "this is a plan, not a mission")

@@ -101,6 +101,7 @@ PLACES = [
     ("impossible-camera", '"16:9"', '"16:0"', (10, 73, 79)),
     ("no-shots", BASE[BASE.index("shots:") :], "", (1, 1, 1)),
     ("no-shots", BASE[BASE.index("shots:") :], "shots: []", (12, 1, 6)),
+    ("not-a-mission", BASE, '{"format": "shotc-plan"}', (1, 1, 1)),
     ("unknown-unit", "3 m/s", "3 m/sec", (4, 9, 16)),
     ("wrong-dimension", "3 m/s", "3 s", (4, 9, 12)),
     ("wrong-dimension", "[0, -60, 0]", "[0, -60 s, 0]", (10, 33, 38)),
