@@ -134,15 +134,18 @@ def _names(canvas: Canvas, shown: Picture, mission: MissionIR, subject: str | No
     box = shown.box
     inner = Box(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
     things = sorted(name_places(shown, mission), key=lambda thing: thing[0] != subject)
-    labels, bodies = [], []
+    targets = {target.name for target in mission.targets}
+    labels, bodies, others = [], [], []
     for name, color, seen in things:
         place = seen
         if name == subject:
             for mark in (mark for mark in taken if mark.meets(seen)):
                 place = place.with_box(mark)
             bodies.append(seen)
-        labels.append(Label(name, color, place, PICTURE_SIDES, 7.0, bold=False))
-    write_labels(canvas, inner, labels, [*taken, *bodies])
+        elif name in targets:
+            others.append(seen)
+        labels.append(Label(name, color, place, PICTURE_SIDES, 7.0, bold=False, inside=name not in targets))
+    write_labels(canvas, inner, labels, [*taken, *bodies], others)
 
 
 def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> None:

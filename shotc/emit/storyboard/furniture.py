@@ -70,17 +70,19 @@ def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
 
 def height_marks(canvas: Canvas, sheet: Sheet) -> list[Box]:
     """Write heights along the right edge of a side view, away from the camera; return the room they take."""
-    box, style = sheet.box, Type(7.0, QUIET, across="right", along="center_baseline", halo=SKY_LOW)
+    box, style = sheet.box, Type(7.0, QUIET, across="right", along="center_baseline")
     step = max(1.0, round_length(0.75 / sheet.inches))
     middle = sheet.centre[1]
     most = box.height / 2 / sheet.inches
     rooms = []
-    for k in range(int(np.ceil((middle - most) / step)), int(np.floor((middle + most) / step)) + 1):
+    # The ground itself shows where 0 is.
+    for k in range(max(1, int(np.ceil((middle - most) / step))), int(np.floor((middle + most) / step)) + 1):
         y = float(sheet.at(np.array([0.0, k * step]))[1])
-        text = f"{k * step:g} m".replace("-", "−")
+        text = f"{k * step:g} m"
         width = canvas.extent(text, style)[0]
-        room = Box(box.right - width - 0.18, y - 0.08, width + 0.18, 0.16)
+        room = Box(box.right - width - 0.18, y - 0.08, width + 0.17, 0.16)
         if box.holds(room):
+            canvas.polygons([room.outline()], (*SKY_LOW, 0.85))
             canvas.lines([np.array([[box.right - 0.08, y], [box.right, y]])], INK, 0.8)
             canvas.text(box.right - 0.12, y, text, style)
             rooms.append(room)

@@ -17,7 +17,10 @@ MAP_SIDES = ("under", "over", "left", "right", *FLUSH, "over left", "over right"
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A name, the rectangle of its thing, and the sides of that on which it may stand, best first."""
+    """A name, the rectangle of its thing, and the sides of that on which it may stand, best first.
+
+    inside : whether it stands best on the thing, where that has room for it
+    """
 
     text: str
     color: Rgb
@@ -25,6 +28,7 @@ class Label:
     sides: tuple[str, ...] = MAP_SIDES
     size: float = 7.5
     bold: bool = True
+    inside: bool = False
 
 
 def write_labels(
@@ -48,7 +52,10 @@ def free_room(
 ) -> Box | None:
     """Return where a label of some size goes, or None; others : what is taken, and what to avoid."""
     taken, avoid = others
-    rooms = [room for side in label.sides if inner.holds(room := _beside(label.thing, side, size))]
+    width, height = size
+    roomy = label.inside and label.thing.width > 1.3 * width and label.thing.height > 4 * height
+    sides = ("on", *label.sides) if roomy else label.sides
+    rooms = [room for side in sides if inner.holds(room := _beside(label.thing, side, size))]
     free = [room for room in rooms if not _meets(room, taken)]
     return next((room for room in free if not _meets(room, avoid)), free[0] if free else None)
 

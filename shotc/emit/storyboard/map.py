@@ -199,13 +199,9 @@ def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, t
     for zone in mission.zones:
         seen = sheet.visible(sheet.outline(zone.solid))
         if zone.keep == "out" and seen is not None:
-            labels.append(Label(zone.name, shade(KEEP_OUT, 0.8), seen))
+            labels.append(Label(zone.name, shade(KEEP_OUT, 0.8), seen, inside=True))
     inner = Box(sheet.box.x + 0.03, sheet.box.y + 0.03, sheet.box.width - 0.06, sheet.box.height - 0.06)
     lines = [_square(at, 0.03) for at in sheet.place(board.path[::2])]
-    others = [label.thing for label in labels[len(bodies) :] if not _inside(label, inner)]
-    write_labels(canvas, inner, labels, [*taken, *bodies], [*lines, *others])
-
-
-def _inside(label: Label, inner: Box) -> bool:
-    """Tell whether a thing covers so much of the sheet that names may stand on it."""
-    return label.thing.width * label.thing.height > 0.2 * inner.width * inner.height
+    # Names may stand on a zone, but not on one so small that it would be lost under them.
+    small = [label.thing for label in labels[len(bodies) :] if label.thing.height < 0.6]
+    write_labels(canvas, inner, labels, [*taken, *bodies], [*lines, *small])

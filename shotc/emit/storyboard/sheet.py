@@ -119,7 +119,8 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
         low = np.array([low[0], 0.0])
     reach = np.maximum(high - low, 10.0) * (NEAR - 1) / 2
     things = [cylinder(t) for t in mission.targets] + [z.solid for z in mission.zones if z.keep == "out"]
-    for shape in (outline(axes, thing) for thing in things):
+    pad = np.array([board.drone.home]) @ axes.T
+    for shape in (pad, *(outline(axes, thing) for thing in things)):
         first, last = _corners([shape])
         near = (first < high + reach).all() and (last > low - reach).all()
         if near:
