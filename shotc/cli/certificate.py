@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import isfinite
 
-from shotc.cli.summary import clock, table
+from shotc.cli.summary import clock
+from shotc.cli.table import table
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.numbers import measure
 

@@ -11,7 +11,7 @@ import typer
 
 from shotc.cli import console
 from shotc.cli.plans import proved
-from shotc.cli.summary import table
+from shotc.cli.table import table
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.numbers import measure
 from shotc.planfile.compare import Comparison, ShotChange, compare

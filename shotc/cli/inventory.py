@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated
+from math import degrees
+from typing import Annotated, Any
 
 import typer
 
 from shotc.cli import console
+from shotc.cli.table import table
 
 
 class Group(StrEnum):
@@ -20,7 +22,16 @@ class Group(StrEnum):
     COMPOSITIONS = "compositions"
 
 
-Row = tuple[str, str]
+DRONE_HEADING = (
+    "name",
+    "speed m/s",
+    "climb m/s",
+    "accel. m/s^2",
+    "hfov deg",
+    "endurance min",
+    "autopilot",
+    "what it is",
+)
 GroupArgument = Annotated[Group, typer.Argument(help="What to list.")]
 
 
@@ -30,11 +41,10 @@ def show(group: GroupArgument) -> None:
     Example: `shotc list kinds`
     """
     rows = _rows(group)
-    width = max((len(name) for name, _ in rows), default=0)
-    console.out("\n".join(f"{name:<{width}}  {summary}".rstrip() for name, summary in rows))
+    console.out("\n".join(table(rows)) if rows else "")
 
 
-def _rows(group: Group) -> list[Row]:
+def _rows(group: Group) -> list[tuple[str, ...]]:
     match group:
         case Group.DRONES:
             return _drones()
@@ -44,7 +54,7 @@ def _rows(group: Group) -> list[Row]:
             return _plugins(group)
 
 
-def _plugins(group: Group) -> list[Row]:
+def _plugins(group: Group) -> list[tuple[str, ...]]:
     """List a plugin group; a plugin of another package bears that package's name."""
     from shotc.plugins import discover, listing
 
@@ -52,22 +62,45 @@ def _plugins(group: Group) -> list[Row]:
     if found.diagnostics:
         console.report(found.diagnostics, {})
     return [
-        (name, summary if package == "shotc" else f"{summary} [{package}]")
+        (name, summary + _remark(found.plugins.get(name), package))
         for name, summary, package in listing(group)
     ]
 
 
-def _drones() -> list[Row]:
+def _remark(plugin: Any, package: str) -> str:
+    """Return where a plugin comes from, if not from here, and whether its missions are only checked."""
+    # Emitters and refiners have no such thing as being planned.
+    later = "" if getattr(plugin, "planned", True) else " (checked, not planned yet)"
+    return later + ("" if package == "shotc" else f" [{package}]")
+
+
+def _drones() -> list[tuple[str, ...]]:
+    """Tell what drones may do, in the units that missions are mostly written in."""
     from shotc.spec.presets import PRESETS
 
-    return [(name, preset.summary) for name, preset in PRESETS.items()]
+    return [
+        DRONE_HEADING,
+        *(
+            (
+                name,
+                f"{preset.limits.speed:g}",
+                f"{preset.limits.climb:g}",
+                f"{preset.limits.acceleration:g}",
+                f"{degrees(preset.hfov):.3g}",
+                f"{preset.endurance / 60:.3g}",
+                preset.autopilot,
+                preset.summary,
+            )
+            for name, preset in PRESETS.items()
+        ),
+    ]
 
 
-def _compositions() -> list[Row]:
-    from shotc.spec.compositions import COMPOSITIONS
+def _compositions() -> list[tuple[str, ...]]:
+    from shotc.spec.compositions import FRAMES
 
-    rows = []
-    for name, composition in COMPOSITIONS.items():
+    rows: list[tuple[str, ...]] = []
+    for name, composition in FRAMES.items():
         points = [f"({u:.3g}, {v:.3g})" for u, v in composition.points]
         lines = [f"u = {u:.3g}" for u in composition.u_lines] + [f"v = {v:.3g}" for v in composition.v_lines]
         said = (

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from shotc.emission import Crew
     from shotc.ir.mission import MissionIR
 
+_PASSES = f"Passes: {', '.join(PASS_NAMES)}."
 Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
 Output = Annotated[Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION].")]
 Emit = Annotated[str | None, typer.Option(help="Emitters to run, separated by commas.", metavar="LIST")]
@@ -28,9 +29,12 @@ Autopilot = Annotated[
     typer.Option(help="Write for this autopilot, whatever the drone's model says."),
 ]
 StopAfter = Annotated[
-    str | None, typer.Option(help="Stop after this pass; nothing is written.", metavar="PASS")
+    str | None,
+    typer.Option(help=f"Stop after this pass; nothing is written. {_PASSES}", metavar="PASS"),
 ]
-DumpIr = Annotated[str | None, typer.Option(help="Print what this pass gives, as text.", metavar="PASS")]
+DumpIr = Annotated[
+    str | None, typer.Option(help=f"Print what this pass gives, as text. {_PASSES}", metavar="PASS")
+]
 TimePasses = Annotated[bool, typer.Option("--time-passes", help="Print how long each pass took.")]
 Jobs = Annotated[
     int | None,

@@ -7,6 +7,7 @@ from math import degrees, isfinite
 from pathlib import Path
 from textwrap import wrap
 
+from shotc.cli.table import table
 from shotc.ir.trajectory import Claim, Phase, VerifiedIR
 
 WIDTH = 100
@@ -45,12 +46,6 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
             if phase.shot is not None
         ]
     return rows
-
-
-def table(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Set rows in columns two spaces apart."""
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
 
 
 def clock(seconds: float) -> str:

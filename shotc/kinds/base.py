@@ -155,6 +155,7 @@ class Kind(NamedTuple):
     model : of its parameters, with ``kind: Literal[name]``
     expand : takes a shot of that model and its scene
     api : version of this contract that the kind was written against
+    planned : whether missions of it are planned, or only checked
     """
 
     name: str
@@ -162,6 +163,7 @@ class Kind(NamedTuple):
     model: type[ShotBase]
     expand: Callable[[Any, Scene], Expansion]
     api: int = API_VERSION
+    planned: bool = True
 
 
 def placed(origin: GeoOrigin | None, position: Place) -> Vec3:

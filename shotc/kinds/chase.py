@@ -18,4 +18,4 @@ class ChaseShot(ShotBase):
     altitude: Length = Field(description="z of the camera")
 
 
-KIND = Kind("chase", "follow a moving target from behind", ChaseShot, postponed("chase"))
+KIND = Kind("chase", "follow a moving target from behind", ChaseShot, postponed("chase"), planned=False)

@@ -46,4 +46,4 @@ def expand(shot: DisplayShot, scene: Scene) -> Expansion:
     return Expansion.of([Diagnostic("N003", f"unknown fleet `{shot.fleet}`", (label,), help=help_), later])
 
 
-KIND = Kind("display", "let a fleet draw pictures in the air", DisplayShot, expand)
+KIND = Kind("display", "let a fleet draw pictures in the air", DisplayShot, expand, planned=False)

@@ -22,4 +22,6 @@ class FlybyShot(ShotBase):
     )
 
 
-KIND = Kind("flyby", "pass a moving target from behind to ahead", FlybyShot, postponed("flyby"))
+KIND = Kind(
+    "flyby", "pass a moving target from behind to ahead", FlybyShot, postponed("flyby"), planned=False
+)

@@ -44,4 +44,4 @@ def expand(shot: FramingShot, scene: Scene) -> Expansion:
     return Expansion.of([*wrong, Deferred("a shot of kind `framing`", (*scene.path, "kind"))])
 
 
-KIND = Kind("framing", "go where the subjects appear as asked", FramingShot, expand)
+KIND = Kind("framing", "go where the subjects appear as asked", FramingShot, expand, planned=False)

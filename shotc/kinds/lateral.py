@@ -22,4 +22,6 @@ class LateralShot(ShotBase):
     altitude: Length = Field(description="z of the camera")
 
 
-KIND = Kind("lateral", "accompany a moving target at its side", LateralShot, postponed("lateral"))
+KIND = Kind(
+    "lateral", "accompany a moving target at its side", LateralShot, postponed("lateral"), planned=False
+)

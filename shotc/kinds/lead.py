@@ -18,4 +18,4 @@ class LeadShot(ShotBase):
     altitude: Length = Field(description="z of the camera")
 
 
-KIND = Kind("lead", "fly ahead of a moving target, looking back", LeadShot, postponed("lead"))
+KIND = Kind("lead", "fly ahead of a moving target, looking back", LeadShot, postponed("lead"), planned=False)

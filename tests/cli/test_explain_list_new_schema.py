@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 
 from shotc.cli import new
 from shotc.diag.registry import registry
+from shotc.pipeline import PASS_NAMES
 from tests.cli.conftest import GOOD, Run
 
 
@@ -52,6 +54,28 @@ def test_lists_name_and_summary(run: Run, group: str, name: str) -> None:
     assert result.code == 0
     rows = dict(line.split(maxsplit=1) for line in result.out.splitlines())
     assert rows[name]
+
+
+def test_drones_are_listed_with_what_they_may_do(run: Run) -> None:
+    heading, *rows = (re.split(r"  +", line) for line in run("list", "drones").out.splitlines())
+    assert heading[:6] == ["name", "speed m/s", "climb m/s", "accel. m/s^2", "hfov deg", "endurance min"]
+    x500 = next(row for row in rows if row[0] == "x500")
+    assert x500[1:7] == ["8", "3", "3", "70", "15", "px4"]
+    assert {len(row) for row in rows} == {len(heading)}
+
+
+def test_kinds_that_are_only_checked_are_marked(run: Run, tmp_path: Path) -> None:
+    marked = {line.split()[0] for line in run("list", "kinds").out.splitlines() if "not planned yet" in line}
+    assert marked == {"chase", "lead", "lateral", "flyby", "framing", "display"}
+
+
+def test_named_points_are_listed_with_the_compositions(run: Run) -> None:
+    assert re.search(r"^left-third +\(-0\.333, 0\)$", run("list", "compositions").out, re.MULTILINE)
+
+
+def test_help_of_plan_names_the_passes(run: Run) -> None:
+    out = run("plan", "--help").out
+    assert all(name in out for name in PASS_NAMES)
 
 
 def test_an_unknown_list(run: Run) -> None:

@@ -9,7 +9,7 @@ import pytest
 from shotc.emit.plan_json import EMITTER
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
-from tests.cli.conftest import Run
+from tests.cli.conftest import GOOD, Run
 from tests.samples import orbit_plan
 
 
@@ -114,6 +114,24 @@ def test_no_plan_is_told_without_a_traceback(run: Run, tmp_path: Path, command: 
     assert "error[E00" in done.err
     assert "Traceback" not in done.err
     assert list(tmp_path.iterdir()) == [tmp_path / "junk.json"]
+
+
+@pytest.mark.parametrize("text", [GOOD, '{"shotc": 1, "mission": "look"}'])
+@pytest.mark.parametrize("command", ["verify", "emit"])
+def test_a_mission_in_place_of_a_plan(run: Run, tmp_path: Path, command: str, text: str) -> None:
+    (tmp_path / "m.yaml").write_text(text)
+    done = run(command, "m.yaml")
+    assert done.code == 1
+    assert "this is a mission, not a plan" in done.err
+    assert "run `shotc plan` on it first" in done.err
+
+
+@pytest.mark.parametrize("command", ["check", "plan"])
+def test_a_plan_in_place_of_a_mission(run: Run, plan: Path, command: str) -> None:
+    done = run(command, str(plan))
+    assert done.code == 1
+    assert "error[S017]: this is a plan, not a mission" in done.out + done.err
+    assert (done.out + done.err).count("error[") == 1
 
 
 def test_a_file_that_is_not_there(run: Run) -> None:
