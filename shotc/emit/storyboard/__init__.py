@@ -1,4 +1,4 @@
-"""storyboard.png: what the camera sees at every shot's keyframes, with a map, on one page."""
+"""storyboard.png: what the camera sees in every shot, with a map or a side view, on one page."""
 
 from __future__ import annotations
 
