@@ -67,7 +67,9 @@ class Profile:
         """Return t at s after a knot, by bisection, since s(t) rises."""
         if not 0 <= knot < len(self.s) - 1:
             return float(self.t[0 if knot < 0 else -1])
-        curve = self.curve()
+        ends = slice(knot, knot + 2)
+        s0, sd, sdd = (part[ends, None] for part in (self.s, self.sd, self.sdd))
+        curve = quintic_hermite(self.t[ends], s0, sd, sdd)
         low, high = float(self.t[knot]), float(self.t[knot + 1])
         for _ in range(50):
             middle = 0.5 * (low + high)
