@@ -213,9 +213,8 @@ def clip(text: str, width: int = 40) -> str:
 def _parse_text(text: str, dimension: Dimension) -> float:
     match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
     if match is None:
-        bearing = _COMPASS.get(text.strip().lower()) if dimension == "angle" else None
-        help_ = _such_as(dimension) if bearing is None else f"write `{bearing} deg`"
-        raise QuantityError("not-a-quantity", f"expected {a(dimension)}, got {describe(text)}", help_)
+        message = f"expected {a(dimension)}, got {describe(text)}"
+        raise QuantityError("not-a-quantity", message, _meant_by(text, dimension))
     number, unit = float(match[1]), match[2] or ""
     scale = UNITS[dimension].get(unit)
     if scale is not None:
@@ -230,6 +229,17 @@ def _parse_text(text: str, dimension: Dimension) -> float:
             f"`{clip(text)}` is {a(other)}; {_such_as(dimension)}",
         )
     raise QuantityError("unknown-unit", f"unknown unit `{clip(unit)}`", _nearest(unit, dimension))
+
+
+def _meant_by(text: str, dimension: Dimension) -> str:
+    """Return the help for text that is no quantity: what it was most likely meant to be."""
+    bearing = _COMPASS.get(text.strip().lower()) if dimension == "angle" else None
+    if bearing is not None:
+        return f"write `{bearing} deg`"
+    point = text.strip().replace(",", ".")
+    if text.count(",") == 1 and len(point) <= _LONGEST_TEXT and _QUANTITY.fullmatch(point):
+        return f"decimals have a point: `{point}`"
+    return _such_as(dimension)
 
 
 def _with_unit(value: float, dimension: Dimension) -> str:

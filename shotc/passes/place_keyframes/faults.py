@@ -12,8 +12,8 @@ from math import ceil, degrees, floor, hypot, pi, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.camera import Vec2
-from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot
+from shotc.geom.camera import Vec2, Vec3
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes.candidates import (
     TOUCH,
@@ -26,6 +26,7 @@ from shotc.passes.place_keyframes.candidates import (
 
 FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
 WIDEST = radians(150)
+LEVEL = 0.1  # metres off the target's axis, below which a camera is above it
 _WARNINGS = ("G011", "G012")
 TILT = 1e-6  # rad past the gimbal's stop that are rounding
 
@@ -65,7 +66,7 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
         abs(place[1]),
         f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
         (instead,),
-        lambda: f"{_what_fits(keyframe.composition, setting)}, or set `composition: keep` to allow cropping",
+        lambda: f"{_what_fits(keyframe, setting)}, or set `composition: keep` to allow cropping",
     )
 
 
@@ -104,7 +105,7 @@ def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
             f"wherever `{keyframe.composition.name}` puts it, at least {over:.2f} m are cropped, "
             f"{_range(setting)} and {degrees(setting.hfov):.1f} deg wide",
         ),
-        partial(_what_fits, keyframe.composition, setting),
+        partial(_what_fits, keyframe, setting),
     )
 
 
@@ -138,26 +139,40 @@ def _within_reach(setting: Setting, pitch: float) -> str:
     return f"let the gimbal pitch to {enough:.1f} deg, or fly {level} or farther away"
 
 
-def _what_fits(composition: Composition, setting: Setting) -> str:
+def _what_fits(keyframe: Keyframe, setting: Setting) -> str:
     """Name the least distance and field of view that show the target whole on the set, or beside it."""
+    composition = keyframe.composition
     return (
-        _options(setting, lambda s: has_candidate(s, composition))
-        or _options(setting, lambda s: roomiest(s, composition) >= -TOUCH)
+        _options(keyframe, setting, lambda s: has_candidate(s, composition))
+        or _options(keyframe, setting, lambda s: roomiest(s, composition) >= -TOUCH)
         or "point the camera from lower or farther away, or make the target smaller"
     )
 
 
-def _options(setting: Setting, fits: Callable[[Setting], bool]) -> str:
-    away = _least(lambda k: fits(replace(setting, offset=_scaled(setting, k))), 1.0, FARTHEST)
+def _options(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], bool]) -> str:
     wide = None
     if setting.hfov < WIDEST:
         wide = _least(lambda a: fits(replace(setting, hfov=a)), setting.hfov, WIDEST)
-    options = []
-    if away is not None:
-        options.append(f"move to {ceil(away * hypot(*setting.offset) * 10) / 10:.1f} m from its centre")
+    options = [_farther(keyframe, setting, fits)]
     if wide is not None:
         options.append(f"widen `hfov` to {ceil(degrees(wide) * 10) / 10:.1f} deg")
-    return ", or ".join(options)
+    return ", or ".join(option for option in options if option)
+
+
+def _farther(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], bool]) -> str:
+    """Propose a distance: straight back for a camera of the user's, level for one on a generated path."""
+    x, y, z = setting.offset
+    across = hypot(x, y)
+    level = not keyframe.placed and across > LEVEL
+
+    def back(k: float) -> Vec3:
+        return (x * k, y * k, z if level else z * k)
+
+    k = _least(lambda k: fits(replace(setting, offset=back(k))), 1.0, FARTHEST)
+    if k is None:
+        return ""
+    far = ceil(k * (across if level else hypot(x, y, z)) * 10) / 10
+    return f"keep {far:.1f} m from its axis" if level else f"move to {far:.1f} m from its centre"
 
 
 def _least(fits: Callable[[float], bool], low: float, high: float) -> float | None:
@@ -171,11 +186,6 @@ def _least(fits: Callable[[float], bool], low: float, high: float) -> float | No
         else:
             low = middle
     return high
-
-
-def _scaled(setting: Setting, k: float) -> tuple[float, float, float]:
-    x, y, z = setting.offset
-    return (x * k, y * k, z * k)
 
 
 def _range(setting: Setting) -> str:

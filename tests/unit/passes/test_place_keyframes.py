@@ -202,6 +202,17 @@ def test_a_gimbal_that_stops_short_of_the_set_is_told_as_the_cause_and_its_help_
     assert place_with(enough - 0.1)
 
 
+def test_a_generated_path_is_told_the_distance_to_keep_at_its_altitude() -> None:
+    head = "shotc: 1\nmission: far\ntargets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}\n"
+    head += "drones: {cam1: {home: [0, -90, 0]}}\nshots:\n"
+    shot = "  - {id: a, kind: orbit, drone: cam1, target: tower, radius: RR, altitude: 20}\n"
+    (error,) = placed(head + shot.replace("RR", "20"))[1]
+    assert error.code == "G010"
+    enough = float(error.help.split("keep ")[1].split(" m")[0])
+    assert placed(head + shot.replace("RR", f"{enough}"))[1] == []
+    assert placed(head + shot.replace("RR", f"{enough - 0.2}"))[1] != []
+
+
 def test_a_line_with_an_error_has_no_warnings_beside_it() -> None:
     line: dict[str, Any] = {"composition": FRAMES["upper-left"], "path": ("shots", 0, "kind")}
     near, far = keyframe(at=(0.0, -20.0, 12.0), **line), keyframe(at=(0.0, -40.0, 12.0), **line)

@@ -42,6 +42,7 @@ shots:
         ("frame: left-third", "frame: [640, 360]", "above what a place on screen may be", "give -1 to 1"),
         ("hfov: 70 deg, aspect: 1.6", "hfov: 70 deg, aspect: 16/9", "aspect `16/9`", 'such as "16:9"'),
         ("sweep: 180 deg", "sweep: south", "got the text `south`", "write `180 deg`"),
+        ("altitude: 20", 'altitude: "20,5 m"', "got the text `20,5 m`", "decimals have a point: `20.5 m`"),
         ("sweep: 180 deg", "sweep: NE", "got the text `NE`", "write `45 deg`"),
         ("timing: {duration: 30}", "timing: {duration: auto}", "text `auto`", "or write `timing: auto`"),
         ("height: 24", "height: [40-65]", "got a list", "such as `12 m`"),
