@@ -8,6 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from shotc.cli.table import table
+from shotc.emit.screen import percent
 from shotc.ir.trajectory import Claim, Phase, VerifiedIR
 
 WIDTH = 100
@@ -66,7 +67,7 @@ def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
     return (
         clock(phase.start),
         f"{phase.end - phase.start:.2f} s",
-        "-" if frame is None else f"{100 * frame:.4g} %",
+        "-" if frame is None else percent(frame),
         "-" if error is None else f"{error:.3f}",
         "-" if small is None or large is None else f"{small:.2f} to {large:.2f}",
     )
