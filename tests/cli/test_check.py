@@ -80,7 +80,7 @@ def test_a_folder_that_may_not_be_read(run: Run) -> None:
     Path("m/locked").chmod(0)
     result = run("check", "m", "--format", "concise")
     assert result.code == 1
-    assert "m/locked:1:1: Y022 the folder cannot be read" in result.out
+    assert "m/locked:1:1: error[Y022]: the folder cannot be read" in result.out
 
 
 def test_a_folder_is_searched_for_missions(run: Run) -> None:
