@@ -265,8 +265,10 @@ def _missing_libraries(what: str, libraries: Sequence[str]) -> tuple[Diagnostic,
 
 def _not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
     """Say what cannot be had without some libraries; P004 refuses, P005 goes on without."""
+    extra = "view" if set(libraries) == {"rerun"} else "all" if "rerun" in libraries else "plan"
+    also = ", or `pip install 'shotc[all]'` for the viewer too" if extra == "plan" else ""
     return Diagnostic(
         code,
         f"{what} needs {', '.join(libraries)}, not installed here",
-        help="run `pip install 'shotc[plan]'`, or `pip install 'shotc[all]'` for the viewer too",
+        help=f"run `pip install 'shotc[{extra}]'`{also}",
     )

@@ -177,7 +177,7 @@ def test_an_output_without_its_library_is_left_out(place: Path) -> None:
     assert result.code == 0
     (report,) = result.reports
     assert (report.severity, report.code) == ("warning", "P005")
-    assert "shotc[all]" in report.help
+    assert "shotc[view]" in report.help
     assert set(content(place / "there")) == TABLES
 
 
