@@ -1,7 +1,8 @@
 """`make bench`: whole-process times as ratios to bare imports, growth over keyframes, peak memory.
 
-Every figure is a median of runs that take turns (A B A B ...), so that a machine whose speed drifts
-slows both sides alike. Nothing is asserted: the table is for people.
+Whole processes are medians of runs that take turns (A B A B ...), so that a machine whose speed drifts
+slows both sides alike; CPU time stands beside wall time, for it suffers less from what else runs.
+Nothing is asserted: the tables are for people.
 """
 
 from __future__ import annotations
@@ -12,35 +13,43 @@ import statistics
 import sys
 import tempfile
 import time
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 from pathlib import Path
 
-from shotc import __version__
-from shotc.api import Compilation, PlanOptions, compile_source
+from shotc import __version__, plugins
+from shotc.api import PlanOptions, compile_source
+from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
 ROOT = Path(__file__).resolve().parents[2]
 DEMO = ROOT / "specs" / "westerhever-lighthouse.yaml"
 SHOTC = [sys.executable, "-m", "shotc"]
 KEYFRAMES = (5, 20, 80)
+REPEATS = 3
+# Without compiled modules on the disk every run would compile them anew.
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 
 
 @dataclass(frozen=True)
 class Timing:
-    """Wall seconds, CPU seconds and peak memory (MiB) of one process."""
+    """Wall seconds, CPU seconds and peak memory (MiB) of one process, and of what it waited for.
+
+    peak : of the largest process
+    """
 
     wall: float
     cpu: float
     peak: float
 
 
-def run(command: list[str]) -> Timing:
+def run(command: Sequence[str]) -> Timing:
     """Run a command to its end with its output thrown away."""
     began = time.perf_counter()
     pid = os.posix_spawn(
         command[0],
         command,
-        os.environ,
+        ENVIRONMENT,
         file_actions=[(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)],
     )
     _, status, usage = os.wait4(pid, 0)
@@ -50,17 +59,29 @@ def run(command: list[str]) -> Timing:
     return Timing(wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 
 
-def versus(ours: list[str], theirs: list[str], runs: int) -> tuple[Timing, Timing]:
-    """Return the medians of two commands that take turns, after one run of each to warm up."""
-    run(ours), run(theirs)
-    pairs = [(run(ours), run(theirs)) for _ in range(runs)]
+def in_turn(commands: Sequence[Sequence[str]], runs: int) -> list[Timing]:
+    """Return the medians of commands that take turns, after one run of each to warm up."""
+    for command in commands:
+        run(command)
+    rounds = [[run(command) for command in commands] for _ in range(runs)]
 
-    def median(side: int) -> Timing:
-        return Timing(
-            *(statistics.median(getattr(p[side], k) for p in pairs) for k in ("wall", "cpu", "peak"))
+    def median(side: int, key: str) -> float:
+        return statistics.median(getattr(times[side], key) for times in rounds)
+
+    return [Timing(*(median(i, key) for key in ("wall", "cpu", "peak"))) for i in range(len(commands))]
+
+
+def processes(runs: int, imports: str, commands: Mapping[str, Sequence[str]]) -> None:
+    """Print whole-process times of commands against a process that only imports some libraries."""
+    bare = [sys.executable, "-c", f"import {imports}"]
+    base, *ours = in_turn([bare, *commands.values()], runs)
+    print(f"\n| process, median of {runs} | wall | ratio | CPU | ratio | peak memory |")
+    print("|---|---|---|---|---|---|")
+    for name, t in zip((f"python -c 'import {imports}'", *commands), (base, *ours), strict=True):
+        print(
+            f"| `{name}` | {t.wall:.2f} s | x{t.wall / base.wall:.2f} "
+            f"| {t.cpu:.2f} s | x{t.cpu / base.cpu:.2f} | {t.peak:.0f} MiB |"
         )
-
-    return median(0), median(1)
 
 
 def growing_mission(keyframes: int) -> bytes:
@@ -75,6 +96,7 @@ def growing_mission(keyframes: int) -> bytes:
         [
             "shotc: 1",
             "mission: growth",
+            "world: {origin: {lat: 47.3769, lon: 8.5417, alt: 408}}",
             "targets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}",
             "drones: {cam: {model: x500, home: [0, -70, 0], endurance: 60 min}}",
             "rules: {composition: center}",
@@ -90,40 +112,49 @@ def growing_mission(keyframes: int) -> bytes:
     ).encode()
 
 
+def steps(keyframes: int) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the wall seconds of every pass and of every emitter for a mission of that size."""
+    done = compile_source(growing_mission(keyframes), "growth.yaml", None, PlanOptions())
+    if done.plan is None:
+        raise SystemExit("\n".join(d.message for d in done.diagnostics))
+    emitted = {}
+    for emitter in (PLAN_JSON, *plugins.discover("emitters").plugins.values()):
+        began = time.perf_counter()
+        emitter.emit(done.plan)
+        emitted[emitter.name] = time.perf_counter() - began
+    return {report.name: report.seconds for report in done.reports}, emitted
+
+
 def growth() -> None:
-    """Print what each pass costs as the keyframes multiply."""
-    done: dict[int, Compilation] = {}
-    for count in (KEYFRAMES[0], *KEYFRAMES):  # the first run warms up
-        done[count] = compile_source(growing_mission(count), "growth.yaml", None, PlanOptions())
-        if done[count].plan is None:
-            raise SystemExit("\n".join(d.message for d in done[count].diagnostics))
-    print(f"\n| pass | {' | '.join(f'{n} keyframes' for n in KEYFRAMES)} | growth x16 |")
-    print("|---|" + "---|" * (len(KEYFRAMES) + 1))
-    names = [report.name for report in done[KEYFRAMES[0]].reports]
-    for i, name in enumerate(names):
-        seconds = [done[n].reports[i].seconds for n in KEYFRAMES]
-        print(f"| {name} | {' | '.join(f'{s:.3f} s' for s in seconds)} | x{seconds[-1] / seconds[0]:.1f} |")
-    totals = [sum(r.seconds for r in done[n].reports) for n in KEYFRAMES]
-    print(f"| all | {' | '.join(f'{s:.3f} s' for s in totals)} | x{totals[-1] / totals[0]:.1f} |")
+    """Print what each pass and emitter costs as the keyframes multiply."""
+    steps(KEYFRAMES[0])  # imports are paid once
+    found = {n: [steps(n) for _ in range(REPEATS)] for n in KEYFRAMES}
+    more = KEYFRAMES[-1] / KEYFRAMES[0]
+    sizes = " | ".join(f"{n} keyframes" for n in KEYFRAMES)
+    for part, title in enumerate(("pass", "emitter")):
+        print(f"\n| {title}, median of {REPEATS} | {sizes} | for x{more:.0f} keyframes |")
+        print("|---|" + "---|" * (len(KEYFRAMES) + 1))
+        names = list(found[KEYFRAMES[0]][0][part])
+        rows = {
+            name: [statistics.median(times[part][name] for times in found[n]) for n in KEYFRAMES]
+            for name in names
+        }
+        rows["all"] = [sum(row[i] for row in rows.values()) for i in range(len(KEYFRAMES))]
+        for name, row in rows.items():
+            times = f"x{row[-1] / row[0]:.1f}" if row[0] > 0.001 else ""
+            print(f"| {name} | {' | '.join(f'{s:.3f} s' for s in row)} | {times} |")
 
 
 def main() -> None:
     """Print the tables."""
     print(f"shotc {__version__}, Python {platform.python_version()}, {platform.system()}")
-    print(f"{platform.machine()}, {os.cpu_count()} cores. Medians of runs that take turns.\n")
-    print("| command | wall | cpu | peak memory | against | wall ratio |")
-    print("|---|---|---|---|---|---|")
+    print(f"{platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
+    check = [*SHOTC, "check", str(DEMO)]
+    processes(15, "typer, pydantic", {"shotc check DEMO": check})
     with tempfile.TemporaryDirectory() as folder:
         plan = [*SHOTC, "plan", str(DEMO), "-o", folder]
-        for name, ours, imports, runs in (
-            ("shotc check", [*SHOTC, "check", str(DEMO)], "typer, pydantic", 15),
-            ("shotc plan", plan, "cvxpy, toppra, rerun", 5),
-        ):
-            mine, bare = versus(ours, [sys.executable, "-c", f"import {imports}"], runs)
-            print(
-                f"| `{name}` of the demo | {mine.wall:.2f} s | {mine.cpu:.2f} s | {mine.peak:.0f} MiB "
-                f"| `import {imports}`: {bare.wall:.2f} s | x{mine.wall / bare.wall:.2f} |"
-            )
+        commands = {"shotc plan DEMO": plan, "shotc plan DEMO --jobs 1": [*plan, "--jobs", "1"]}
+        processes(7, "cvxpy, toppra, rerun", commands)
     growth()
 
 
