@@ -35,6 +35,7 @@ class Emitter(Protocol):
     """Writes one family of output formats (entry-point group ``shotc.emitters``).
 
     summary : one line for `shotc list emitters`; api : the plugin api it was written against (1)
+    One that loads large libraries may have ``prepare``, too (see ``Prepares``), to run beside the others.
     """
 
     name: ClassVar[str]
