@@ -18,6 +18,8 @@ from shotc.ir.sampling import clock, phase_index, references, seen, subjects
 from shotc.ir.trajectory import DroneTrajectory, Phase, VerifiedIR
 
 NUMBER = "%.9g"
+DEGREES = "%.9f"
+"""Latitude and longitude: nine significant digits would be steps of decimetres East of 100 degrees."""
 
 TRAJECTORY = (
     "t_s,drone,phase,shot,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,ax_m_s2,ay_m_s2,az_m_s2,"
@@ -69,9 +71,12 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
     ]
     if mission.origin is not None:
         columns.append(geodetic(mission.origin, pose[:, :3]))
+    formats = [NUMBER] * sum(c.shape[1] for c in columns)
+    if mission.origin is not None:
+        formats[-3:-1] = [DEGREES, DEGREES]
     names = [f"{track.drone},{phase.name},{phase.shot or ''}" for phase in track.phases]
     numbers = np.concatenate(columns, axis=1) + 0.0  # no negative zeros
-    line = f"{NUMBER},%s,{','.join([NUMBER] * numbers.shape[1])}"
+    line = f"{NUMBER},%s,{','.join(formats)}"
     for time, phase, row in zip(
         t.tolist(), phase_index(track.phases, t).tolist(), numbers.tolist(), strict=True
     ):

@@ -1,10 +1,13 @@
-"""Diagnostics one a line, as editors and grep read them: ``path:line:column: severity[CODE]: message``."""
+"""Diagnostics one a line, as editors and grep read them: ``path:line:column: CODE message``.
+
+A warning says so before its message.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from shotc.diag.model import Diagnostic
+from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.registry import severity_of
 from shotc.diag.render.common import ordered, visible
 from shotc.source.file import SourceFile
@@ -16,8 +19,8 @@ def render(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile])
 
 
 def _line(diagnostic: Diagnostic) -> str:
-    severity = severity_of(diagnostic).value
-    said = f"{severity}[{diagnostic.code}]: {visible(diagnostic.message)}"
+    weight = "warning: " if severity_of(diagnostic) is Severity.WARNING else ""
+    said = f"{diagnostic.code} {weight}{visible(diagnostic.message)}"
     if not diagnostic.labels:
         return said
     first = diagnostic.labels[0]
