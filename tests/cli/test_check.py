@@ -25,7 +25,7 @@ def test_a_rejected_mission(run: Run) -> None:
     result = run("check", "bad.yaml")
     assert result.code == 1
     assert result.out.startswith(
-        "Y012 the key 'mission' stands here a second time\n --> bad.yaml:3:1\n"
+        "error[Y012]: the key 'mission' stands here a second time\n --> bad.yaml:3:1\n"
     )
     assert result.out.endswith("1 error found\n")
     assert result.err == "checked 1 mission\n"
@@ -105,7 +105,7 @@ def test_a_folder_without_missions_is_an_error(run: Run) -> None:
     Path("empty/other.yaml").write_text("a: 1\n")
     result = run("check", "empty")
     assert result.code == 1
-    assert "Y023 the folder holds no mission" in result.out
+    assert "error[Y023]: the folder holds no mission" in result.out
 
 
 def test_a_file_by_name_is_checked_whatever_it_holds(run: Run) -> None:
