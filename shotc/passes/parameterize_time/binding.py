@@ -20,8 +20,7 @@ from shotc.source.file import Span
 
 # A limit holds a piece back where at least this share of it is used.
 BINDING = 0.97
-# The path itself bends a little with the times and limits it is asked for: what is named as enough
-# leaves room for that.
+# The path itself bends a little with the limits: what is named as enough leaves room for that.
 ROOM = 1.004
 # Raising a limit further than this is no advice; so many halvings find the least within that.
 HIGHEST = 4.0

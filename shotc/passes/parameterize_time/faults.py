@@ -12,7 +12,6 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.path import Leg
 from shotc.ir.trajectory import Phase
 from shotc.passes.parameterize_time.binding import (
-    ROOM,
     Holdup,
     binding_labels,
     binding_notes,
@@ -40,7 +39,7 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
     notes = binding_notes(mission, drone, remedies.holdup)
     raised = raises(mission, drone, remedies.holdup.names[:2], remedies.enough)
     if fault.mark is None:
-        least = up(ROOM * (fault.shortest or 0.0))
+        least = up(fault.shortest or 0.0)
         return Diagnostic(
             "T001",
             f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
@@ -53,10 +52,11 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
     )
     remedy = "give this keyframe or those next to it other times"
     if fault.shortest is not None:
-        earliest = ROOM * fault.shortest
-        notes = (f"{up(earliest)} s is the earliest possible at full limits", *notes)
-        rest = f", and all later times {up(earliest - fault.asked)} s more" if fault.shifts_rest else ""
-        remedy = f"give it `time: {up(earliest)} s`{rest}"
+        earliest = up(fault.shortest)
+        notes = (f"{earliest} s is the earliest possible at full limits", *notes)
+        more = up(float(earliest) - fault.asked)
+        rest = f", and all later times {more} s more" if fault.shifts_rest else ""
+        remedy = f"give it `time: {earliest} s`{rest}"
     return Diagnostic(
         "T002",
         message,
@@ -129,7 +129,7 @@ def timing_label(mission: MissionIR, path: KeyPath, key: str) -> Label:
 
 def up(seconds: float) -> str:
     """Write seconds rounded up to a hundredth, so that the number given is enough."""
-    return f"{ceil(seconds * 100 - 1e-6) / 100:.2f}"
+    return f"{ceil(seconds * 100 - 1e-7) / 100:.2f}"
 
 
 def plain(seconds: float) -> str:

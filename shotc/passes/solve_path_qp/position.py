@@ -56,7 +56,7 @@ class Stretch:
     corners : shape (M, 3); s : shape (M,), path parameter at the corners
     bound   : indices of corners the curve must pass, ends included
     pulled  : points it should pass near, with their parameters, shapes (G, 3) and (G,)
-    speed   : share of the limits at which it is to be smooth, or None, with ``nominal`` m/s instead
+    pace    : share of the limits at which it is to be smooth
     """
 
     corners: Array
@@ -65,7 +65,6 @@ class Stretch:
     pulled: Array
     pulled_at: Array
     pace: float
-    nominal: float | None = None
 
     @property
     def straight(self) -> bool:
@@ -178,8 +177,6 @@ def _nominal(stretch: Stretch, limits: Limits, breaks: Array) -> tuple[Array, Ar
     middle = 0.5 * (breaks[:-1] + breaks[1:])
     leg = np.clip(np.searchsorted(stretch.s, middle) - 1, 0, len(stretch.s) - 2)
     direction = (np.diff(stretch.corners, axis=0) / np.diff(stretch.s)[:, None])[leg]
-    if stretch.nominal is not None:
-        return direction, np.full(len(middle), stretch.nominal)
     flat = np.linalg.norm(direction[:, :2], axis=1)
     vertical = np.where(direction[:, 2] > 0, limits.climb, limits.descent)
     reach = np.minimum(

@@ -167,8 +167,6 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
             bound.append(i - first)
     bound.append(last - first)
     s = line.s[first : last + 1]
-    duration = placed.shot.timing.duration
-    nominal = None if duration is None else 1.25 * float(line.s[-1]) / duration
     return Stretch(
         corners=line.corners[first : last + 1],
         s=s,
@@ -176,7 +174,6 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
         pulled=np.array(pulled).reshape(-1, 3),
         pulled_at=np.array(pulled_at),
         pace=placed.shot.pace,
-        nominal=nominal,
     )
 
 
