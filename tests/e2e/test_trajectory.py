@@ -55,8 +55,9 @@ def test_columns_and_clock(plan: Plan, path: Path) -> None:
 
 
 def cells(planned: Planned) -> list[str]:
+    """Some numbers as they are written, degrees left out."""
     rows = planned.files["trajectory.csv"].decode().splitlines()[1::97]
-    return [cell for row in rows for i, cell in enumerate(row.split(",")) if i not in (1, 2, 3)]
+    return [cell for row in rows for i, cell in enumerate(row.split(",")[:19]) if i not in (1, 2, 3)]
 
 
 def test_phases_follow_one_another(plan: Plan, path: Path) -> None:
@@ -163,7 +164,7 @@ def test_latitude_longitude_and_altitude(plan: Plan, path: Path) -> None:
     if origin is None:
         return
     back = east_north_up(origin, table.numbers("lat_deg", "lon_deg", "alt_m"))
-    assert back == pytest.approx(table.numbers(*POSITION), abs=0.02)
+    assert back == pytest.approx(table.numbers(*POSITION), abs=0.002)
 
 
 def east_north_up(origin: GeoOrigin, places: Array) -> Array:
