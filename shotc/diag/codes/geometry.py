@@ -184,7 +184,7 @@ CODES: tuple[CodeInfo, ...] = (
         "The path that a kind generates is an ideal. Where a zone or a target stands in it the plan goes "
         "round, and says how far and when. Choose another altitude or distance to keep the ideal.",
         ("radius: 50, altitude: 20", "radius: 36, altitude: 11"),
-    ),
+    )._replace(exact=("Q006",)),
     _code(
         17,
         "far-from-origin",

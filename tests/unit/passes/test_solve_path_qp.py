@@ -8,7 +8,7 @@ from math import hypot, pi, radians
 import numpy as np
 import pytest
 
-from shotc.api import PlanOptions, compile_source
+from shotc.api import PlanOptions, check_source, compile_source
 from shotc.diag.codes.convex import CODES
 from shotc.geom.camera import view
 from shotc.geom.convex import distances
@@ -406,3 +406,18 @@ def test_the_shortest_duration_named_is_met_and_a_hundredth_less_is_not(count):
     shortest = float(fault.message.split("but ")[1].split(" s")[0])
     assert timed(shortest).value is not None
     assert [d.code for d in timed(shortest - 0.011).diagnostics] == ["T001"]
+
+
+def test_plan_says_once_that_an_ideal_path_is_blocked():
+    text = """\
+shotc: 1
+mission: round-the-tree
+world: {zones: {tree: {keep: out, cylinder: {center: [30, 0], radius: 3, height: [0, 30]}}}}
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam1: {model: x500, home: [0, -60, 0]}}
+shots:
+  - {id: round, kind: orbit, drone: cam1, target: mast, composition: center, radius: 30, altitude: 10}
+"""
+    found = compile_source(text.encode(), "m.yaml", None, PlanOptions()).diagnostics
+    assert [d.code for d in found if d.code in {"G016", "Q006"}] == ["Q006"]
+    assert [d.code for d in check_source(text.encode(), "m.yaml", None).diagnostics] == ["G016"]
