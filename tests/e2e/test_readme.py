@@ -1,0 +1,91 @@
+"""What the README and the guides say is tried here."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from shotc.api import PlanOptions, check_source, compile_source
+from shotc.cli.app import COMMANDS
+from shotc.diag.registry import registry
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+DOCS = sorted((ROOT / "shotc" / "docs").glob("*.md"))
+PAGES = [ROOT / "README.md", *DOCS, *sorted(ROOT.glob("plugins/*/README.md"))]
+
+
+NUMBER = re.compile(r"\d+\.\d+")
+
+
+def numbers(text):
+    return [float(n) for n in NUMBER.findall(text)]
+
+
+def blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+
+
+def test_the_first_mission_plans_without_a_warning_but_the_missing_origin():
+    (mission,) = blocks("yaml")
+    done = compile_source(mission.encode(), "readme.yaml", None, PlanOptions())
+    assert done.diagnostics == ()
+    assert done.plan is not None
+
+
+def test_the_answer_to_an_impossible_duration_is_what_it_says():
+    """The block shows what `shotc plan` prints of the first mission with eighteen seconds for the shot."""
+    from shotc.diag.render.text import render
+
+    (shown,) = re.findall(r"^```\n(error\[.*?)\n```", README, re.DOTALL | re.MULTILINE)
+    (mission,) = blocks("yaml")
+    asked = re.search(r"timing: \{duration: [^}]*\}", shown)
+    assert asked is not None
+    short = mission.replace("    target: tower\n", f"    target: tower\n    {asked[0]}\n")
+    done = compile_source(short.encode(), "tower.yaml", None, PlanOptions())
+    assert done.plan is None
+    said = render(done.diagnostics, done.sources)[: len(shown)]
+    assert NUMBER.sub("#", said) == NUMBER.sub("#", shown)
+    assert numbers(said) == pytest.approx(numbers(shown), rel=0.02)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_file_that_a_page_links_to_is_there(page):
+    for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
+        if not target.startswith("http"):
+            assert (page.parent / target).exists(), target
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_command_and_code_that_a_page_names_exists(page):
+    text = page.read_text(encoding="utf-8")
+    for command in re.findall(r"(?:`|^)shotc ([a-z]+)\b", text, re.MULTILINE):
+        assert command in COMMANDS, command
+    for code in re.findall(r"\b([YSNUGKQRTVEPX]\d{3})\b", text):
+        assert code in registry(), code
+
+
+def test_the_language_guide_names_every_kind():
+    from shotc import plugins
+
+    guide = (ROOT / "shotc" / "docs" / "language.md").read_text(encoding="utf-8")
+    for kind in plugins.names("kinds"):
+        assert f"`{kind}`" in guide, kind
+
+
+def test_the_pre_commit_hook_runs_a_command_that_works():
+    import yaml
+
+    (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
+    assert hook["entry"].split() == ["shotc", "check"]
+    pattern = re.compile(hook["files"])
+    assert pattern.search("tower.shot.yaml")
+    assert pattern.search("missions/tower.yaml")
+    assert not pattern.search(".github/workflows/ci.yaml")
+
+
+def test_missions_of_the_guides_check_clean():
+    for template in sorted((ROOT / "shotc" / "templates").glob("*.yaml")):
+        assert check_source(template.read_bytes(), template.name, template.parent).diagnostics == ()
