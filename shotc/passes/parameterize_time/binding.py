@@ -116,7 +116,7 @@ def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str
 
 
 def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[Label, ...]:
-    """Return labels on the lines of the limits that bind, at most two."""
+    """Return labels on the lines of the limits that bind, at most two, and on the wind that lowers one."""
     found: dict[Span, Label] = {}
     for name in holdup.names[:2]:
         label = mission.origins.value((*drone.path, *_SHOWN[name].key), _SHOWN[name].words)
@@ -124,10 +124,13 @@ def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[La
         found[label.span] = (
             label if before is None else replace(before, text=f"{before.text} and {label.text}")
         )
-    return tuple(
+    labels = tuple(
         replace(label, text=f"{label.text} bind{'' if ' and ' in label.text else 's'}")
         for label in found.values()
     )
+    if "speed" in holdup.names[:2] and mission.wind > 0:
+        labels += (mission.origins.value(("world", "wind"), "takes a part of the speed"),)
+    return labels
 
 
 def raises(
@@ -160,8 +163,9 @@ def _least_factor(enough: Callable[[float], bool]) -> float | None:
 
 
 def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
-    """Return a limit with its name in words."""
-    return f"{_SHOWN[name].words} {limit_text(mission, drone, name)}"
+    """Return a limit with its name in words, and what the wind takes of it."""
+    wind = f" less {mission.wind:.2f} m/s of wind" if name == "speed" and mission.wind > 0 else ""
+    return f"{_SHOWN[name].words} {limit_text(mission, drone, name)}{wind}"
 
 
 def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:
