@@ -44,7 +44,8 @@ def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
     breaks = task.cam_yaw.breaks
     at = _samples(breaks)
     cam = task.cam_yaw(at)[:, 0]
-    length = max(0.5 * task.speed / drone.limits.yaw_rate, 1e-3)
+    # No turn is spread over more than the whole leg; on a short one the numbers would part too far.
+    length = min(max(0.5 * task.speed / drone.limits.yaw_rate, 1e-3), float(breaks[-1] - breaks[0]))
     if drone.body == "forward":
         value, weight = _forward(drone, task, at, cam)
         stiff = (FAINT * length**2, length**6)

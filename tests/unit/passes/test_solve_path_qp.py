@@ -236,6 +236,15 @@ def test_keep_in_corners_are_rounded():
     assert np.linalg.norm(leg.curve(np.linspace(0, leg.curve.end, 300))[:, :2], axis=1).max() <= 69.4
 
 
+@pytest.mark.parametrize("body", ["follow-camera", "forward", "free"])
+@pytest.mark.parametrize("size", [0.01, 0.04, 0.2, 5000.0])
+def test_backing_away_by_any_length_is_planned_in_every_body_mode(size, body):
+    # Flown backwards, so that the gimbal's end binds the body.
+    spots = [30 + share * size for share in (0, 1 / 3, 2 / 3, 1)]
+    keyframes = [framed(i, (0.8 * x, 0.6 * x, 12), TOWER) for i, x in enumerate(spots)]
+    planned(mission(body=body), shot(keyframes))
+
+
 def test_the_transit_altitude_obeys_ground_and_floors():
     made = mission(inside("high", replace(FIELD, bottom=7.0)), targets=())
     path = planned(made, shot([free(0, (0, 0, 20)), free(1, (10, 0, 20))]))
