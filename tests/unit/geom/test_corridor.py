@@ -53,7 +53,8 @@ def test_the_distance_of_a_segment_is_that_of_its_nearest_point(solid, a, b):
     x = np.linspace(0, 1, 2001)[:, None]
     sampled = float(distances(solid, (1 - x) * a + x * b).min())
     found = float(segment_distances(solid, a[None], b[None])[0])
-    assert found <= sampled + 1e-9
+    # As stated: good to the square of 1e-7 of the length, and to 1e-7 where the segment meets the solid.
+    assert found <= sampled + 1e-7 * np.linalg.norm(b - a) + 1e-9
     assert found >= sampled - np.linalg.norm(b - a) / 2000
 
 
