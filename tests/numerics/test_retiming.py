@@ -17,6 +17,7 @@ from shotc.passes.parameterize_time.grid import sample
 from shotc.passes.parameterize_time.limits import EASE, Ceiling
 from shotc.passes.parameterize_time.move import axes_of, time_move, topp_limits
 from shotc.passes.parameterize_time.profile import fly
+from shotc.passes.solve_path_qp.turns import steady
 from shotc.solvers.conic import Status
 from shotc.solvers.retiming_socp import cell_times
 from shotc.solvers.topp import fastest
@@ -146,6 +147,20 @@ def test_without_any_answer_of_the_solver_a_rough_profile_keeps_every_limit(
     assert max(uses(move.curve, CEILING).values()) <= 1.0
     assert best.duration < move.duration < 2.0 * best.duration
     assert all(jump < 1e-6 for jump in jumps(move.curve))
+
+
+@pytest.mark.parametrize("seed", [0, 10, 12, 13])
+def test_turns_within_centimetres_among_long_ways_cost_no_more_than_they_must(seed: int):
+    rng = np.random.default_rng(seed)
+    at = np.concatenate([[0.0], np.cumsum(10 ** rng.uniform(-2, 1.3, 12))])
+    yaw = steady(at, np.cumsum(rng.uniform(-3, 3, 13))).ctrl[:, :, 0]
+    pitch = steady(at, rng.uniform(-1, 0, 13)).ctrl[:, :, 0]
+    place = np.linspace(at[:-1], at[1:], 6, axis=1)
+    zero = np.zeros_like(place)
+    path = Piecewise(at, np.stack([place, zero, zero + 10, yaw, pitch, yaw, zero + HFOV], axis=2))
+    move = time_move(path, (0.0, path.end), CEILING)
+    assert max(uses(move.curve, CEILING).values()) <= 1.0
+    assert move.scale < 1.03
 
 
 def test_a_path_along_the_end_of_the_gimbal_s_range_is_flown_within_it():

@@ -45,7 +45,7 @@ KEEP_FIRST, KEEP = 0.15, 0.3
 # A grid is refined where the flown quintics lose more than this share of time to scaling, or all over
 # where the solver gave nothing; so often at most, and not beyond so many cells.
 LOSS = 0.015
-REFINEMENTS = 4
+REFINEMENTS = 8
 MOST_CELLS = 20000
 # An inaccurate profile is good enough to be flown and checked.
 USABLE = (Status.SOLVED, Status.INACCURATE)
