@@ -73,14 +73,18 @@ def segment_distances(part: Solid, a: Array, b: Array) -> Array:
     The distance to a convex set is convex along a segment, so golden section finds its minimum; it
     stops at 1e-7 of the length, where the value is good to the square of that unless it is 0.
     """
+    near = distances(part, _nearest_on_segments(part, a, b))
+    return np.asarray(np.minimum.reduce([near, distances(part, a), distances(part, b)]))
+
+
+def _nearest_on_segments(part: Solid, a: Array, b: Array) -> Array:
     low, high = np.zeros(len(a)), np.ones(len(a))
     side = b - a
     for _ in range(34):
         x1, x2 = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
         left = distances(part, a + x1[:, None] * side) <= distances(part, a + x2[:, None] * side)
         low, high = np.where(left, low, x1), np.where(left, x2, high)
-    middle = distances(part, a + 0.5 * (low + high)[:, None] * side)
-    return np.asarray(np.minimum.reduce([middle, distances(part, a), distances(part, b)]))
+    return np.asarray(a + 0.5 * (low + high)[:, None] * side)
 
 
 def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]:
@@ -99,6 +103,8 @@ def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]
         n = np.tile(direction, (len(hulls), 1))
         best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
     starts = [at, *np.moveaxis(hulls, 1, 0)]
+    if hulls.shape[1] == 2:  # projections converge slowly along a chord; its nearest point is known
+        starts.append(_nearest_on_segments(part, hulls[:, 0], hulls[:, 1]))
     for start in starts:
         n, gap = _plane_at(part, hulls, start)
         best, best_gap = _better(best, best_gap, n, gap)
