@@ -153,7 +153,7 @@ def _refiner(name: str) -> tuple[Any, tuple[Diagnostic, ...]]:
     known = plugins.discover("refiners")
     if name not in known.lacking:
         return known.plugins.get(name), known.diagnostics
-    missing = _not_installed("P004", f"refiner `{name}`", [known.lacking[name]])
+    missing = plugins.not_installed("P004", f"refiner `{name}`", [known.lacking[name]])
     return None, (*known.diagnostics, missing)
 
 
@@ -189,14 +189,14 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None, crew: Crew |
     notes: list[str] = []
     code = "P005" if names is None else "P004"
     diagnostics += [
-        _not_installed(code, f"output `{n}`", [known.lacking[n]]) for n in wanted if n in known.lacking
+        plugins.not_installed(code, f"output `{n}`", [known.lacking[n]]) for n in wanted if n in known.lacking
     ]
     emitters = (PLAN_JSON, *(known.plugins[n] for n in wanted if n in known.plugins))
     for emitter, made in zip(emitters, (crew or ALONE).emit(plan, emitters), strict=True):
         if isinstance(made, ModuleNotFoundError):
             if not plugins.is_optional(made):
                 raise made
-            diagnostics.append(_not_installed(code, f"output `{emitter.name}`", [str(made.name)]))
+            diagnostics.append(plugins.not_installed(code, f"output `{emitter.name}`", [str(made.name)]))
             continue
         artifacts.extend(made.artifacts)
         diagnostics.extend(made.diagnostics)
@@ -260,15 +260,4 @@ def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:
 
 def _missing_libraries(what: str, libraries: Sequence[str]) -> tuple[Diagnostic, ...]:
     missing = [library for library in libraries if find_spec(library) is None]
-    return (_not_installed("P004", what, missing),) if missing else ()
-
-
-def _not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
-    """Say what cannot be had without some libraries; P004 refuses, P005 goes on without."""
-    extra = "view" if set(libraries) == {"rerun"} else "all" if "rerun" in libraries else "plan"
-    also = ", or `pip install 'shotc[all]'` for the viewer too" if extra == "plan" else ""
-    return Diagnostic(
-        code,
-        f"{what} needs {', '.join(libraries)}, not installed here",
-        help=f"run `pip install 'shotc[{extra}]'`{also}",
-    )
+    return (plugins.not_installed("P004", what, missing),) if missing else ()

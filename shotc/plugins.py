@@ -7,7 +7,7 @@ version is a diagnostic that names the package, never a silent choice.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, NamedTuple
@@ -93,6 +93,18 @@ def listing(group: str) -> list[tuple[str, str, str]]:
 def is_optional(missing: ModuleNotFoundError) -> bool:
     """Tell whether what could not be imported is one of the optional libraries."""
     return (missing.name or "").partition(".")[0] in OPTIONAL
+
+
+def not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
+    """Say what cannot be had without some optional libraries; P004 refuses, P005 goes on without."""
+    packages = {library.partition(".")[0] for library in libraries}
+    extra = "view" if packages == {"rerun"} else "all" if "rerun" in packages else "plan"
+    also = ", or `pip install 'shotc[all]'` for the viewer too" if extra == "plan" else ""
+    return Diagnostic(
+        code,
+        f"{what} needs {', '.join(libraries)}, not installed here",
+        help=f"run `pip install 'shotc[{extra}]'`{also}",
+    )
 
 
 def forget() -> None:

@@ -171,17 +171,11 @@ def _pipe_closed() -> int:
 
 def _not_installed(missing: ModuleNotFoundError) -> int:
     """Report a command that needs more than the base install."""
-    from shotc.diag.model import Diagnostic
-    from shotc.plugins import is_optional
+    from shotc.plugins import is_optional, not_installed
 
     if not is_optional(missing):
         return _bug(missing)
-    fault = Diagnostic(
-        "P004",
-        f"this command needs {missing.name}, not installed here",
-        help="run `pip install 'shotc[plan]'`, or `pip install 'shotc[all]'` for the viewer too",
-    )
-    console.report([fault], {})
+    console.report([not_installed("P004", "this command", [str(missing.name)])], {})
     return console.EXIT_REJECTED
 
 

@@ -74,6 +74,20 @@ def test_our_bug_is_a_diagnostic(run: Run, monkeypatch: pytest.MonkeyPatch) -> N
     assert "Traceback" in run("check", "x.yaml").err
 
 
+@pytest.mark.parametrize(("library", "extra"), [("numpy", "plan"), ("rerun.blueprint", "view")])
+def test_a_missing_library_is_told_with_the_extra_that_brings_it(
+    run: Run, monkeypatch: pytest.MonkeyPatch, library: str, extra: str
+) -> None:
+    def lack(*_: object) -> None:
+        raise ModuleNotFoundError(f"No module named '{library}'", name=library)
+
+    monkeypatch.setattr(check, "gather", lack)
+    result = run("check", "x.yaml")
+    assert (result.code, result.out) == (1, "")
+    assert result.err.startswith(f"error[P004]: this command needs {library}")
+    assert f"run `pip install 'shotc[{extra}]'`" in result.err
+
+
 def test_interrupt(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt

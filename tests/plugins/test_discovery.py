@@ -105,3 +105,20 @@ def test_a_kind_may_not_take_the_name_of_ours(install):
 def test_both_ways_to_the_kinds_find_the_same(install):
     install("kind-maker", "sample", MODULE.format(name="sample", api=1), group="kinds")
     assert dict(plugins.shot_kinds().plugins) == dict(plugins.discover("kinds").plugins)
+
+
+@pytest.mark.parametrize(
+    ("libraries", "extra"),
+    [
+        (["cvxpy", "clarabel"], "plan"),
+        (["rerun"], "view"),
+        (["rerun.blueprint"], "view"),
+        (["rerun", "numpy"], "all"),
+    ],
+    ids=" ".join,
+)
+def test_missing_libraries_are_named_with_the_extra_that_brings_them(libraries, extra):
+    fault = plugins.not_installed("P005", "this output", libraries)
+    assert fault.code == "P005"
+    assert fault.message == f"this output needs {', '.join(libraries)}, not installed here"
+    assert fault.help.startswith(f"run `pip install 'shotc[{extra}]'`")
