@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
@@ -56,13 +57,12 @@ def _code(
     slug: str,
     summary: str,
     explanation: str,
-    slip: tuple[str, str] = ("", ""),
+    *changes: tuple[str, str],
     severity: Severity = Severity.ERROR,
 ) -> CodeInfo:
-    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
-    phase: Literal["plan", "other"] = "plan" if slip[0] else "other"
-    failing = _PASSING.replace(*slip) if slip[0] else _PASSING
-    return CodeInfo(f"Q{number:03}", slug, severity, summary, explanation, failing, _PASSING, phase)
+    phase: Literal["plan", "other"] = "plan" if changes else "other"
+    info = slip(f"Q{number:03}", slug, summary, explanation, _PASSING, *changes)
+    return info._replace(severity=severity, phase=phase)
 
 
 CODES: tuple[CodeInfo, ...] = (
@@ -120,7 +120,7 @@ CODES: tuple[CodeInfo, ...] = (
         "allows. The warning says how far it strays and where. Keyframes that you place yourself are "
         "never moved.",
         ("center: [38, -20], radius: 1", "center: [30.6, 40.6], radius: 1"),
-        Severity.WARNING,
+        severity=Severity.WARNING,
     ),
     _code(
         7,
@@ -131,7 +131,7 @@ CODES: tuple[CodeInfo, ...] = (
         "target leaves its place. Pass at a greater distance, nearer to the target's height, or widen "
         "`gimbal.pitch`.",
         ("{at: [5, 5, 8], look_at: lamp}", "{at: [5, 40, 8], look_at: lamp}"),
-        Severity.WARNING,
+        severity=Severity.WARNING,
     ),
     _code(
         8,
@@ -150,6 +150,6 @@ CODES: tuple[CodeInfo, ...] = (
         "how much; it also says where the camera cannot follow exactly. Pass beside the target, or give the "
         "keyframes a `heading` and a `pitch` of their own.",
         ("lamp: {at: [20, 30, 14]", "lamp: {at: [25.5, 7.5, 1]"),
-        Severity.WARNING,
+        severity=Severity.WARNING,
     ),
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
@@ -38,11 +39,10 @@ _WARNINGS = {11, 12, 16, 18}
 
 
 def _code(
-    number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str], base: str = _PASSING
+    number: int, slug: str, summary: str, explanation: str, change: tuple[str, str], base: str = _PASSING
 ) -> CodeInfo:
-    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
     severity = Severity.WARNING if number in _WARNINGS else Severity.ERROR
-    return CodeInfo(f"G{number:03}", slug, severity, summary, explanation, base.replace(*slip), base)
+    return slip(f"G{number:03}", slug, summary, explanation, base, change)._replace(severity=severity)
 
 
 CODES: tuple[CodeInfo, ...] = (

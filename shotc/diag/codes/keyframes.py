@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from shotc.diag.model import Severity
+from shotc.diag.codes._slips import slip
 from shotc.diag.registry import CodeInfo
 
 _PASSING = """\
@@ -31,15 +31,10 @@ shots:
 
 
 def _code(
-    number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str], *exact: str
+    number: int, slug: str, summary: str, explanation: str, change: tuple[str, str], *exact: str
 ) -> CodeInfo:
-    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong).
-
-    exact : codes of the time pass that tell the same fault with exact numbers
-    """
-    failing = _PASSING.replace(*slip)
-    error = Severity.ERROR
-    return CodeInfo(f"K{number:03}", slug, error, summary, explanation, failing, _PASSING, exact=exact)
+    """Return one code; ``exact`` are codes of the time pass that tell the same fault with exact numbers."""
+    return slip(f"K{number:03}", slug, summary, explanation, _PASSING, change)._replace(exact=exact)
 
 
 CODES: tuple[CodeInfo, ...] = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
@@ -30,85 +31,78 @@ shots:
   - {id: route, kind: follow-path, drone: cam1, points: [[0, -50, 15], [40, -50, 15]]}
 """
 
-
-def _code(
-    number: int,
-    slug: str,
-    summary: str,
-    explanation: str,
-    slip: tuple[str, str],
-    passing: str = _PASSING,
-) -> CodeInfo:
-    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
-    failing = passing.replace(*slip)
-    return CodeInfo(f"N{number:03}", slug, Severity.ERROR, summary, explanation, failing, passing)
-
-
 CODES: tuple[CodeInfo, ...] = (
-    _code(
-        1,
+    slip(
+        "N001",
         "unknown-target",
         "a target is named that the mission does not define",
         "A shot's `target`, a `look_at` by name and the subjects of a framing refer to the keys under "
         "`targets`. The nearest known name is proposed. Mend the name, or define the target.",
+        _PASSING,
         ("look_at: tower}", "look_at: towr}"),
     ),
-    _code(
-        2,
+    slip(
+        "N002",
         "unknown-drone",
         "a drone is named that the mission does not define",
         "A shot's `drone` refers to a key under `drones`, or is `auto`. What the shot asks of its drone is "
         "not judged until the drone is known. Mend the name, or define the drone.",
+        _PASSING,
         ("id: wide, kind: static, drone: cam1", "id: wide, kind: static, drone: cam"),
     ),
-    _code(
-        3,
+    slip(
+        "N003",
         "unknown-fleet",
         "a fleet is named that the mission does not define",
         "A display's `fleet` refers to a key under `fleets`. Mend the name, or define the fleet.",
+        _PASSING,
         ("fleet: swarm", "fleet: swam"),
     ),
-    _code(
-        4,
+    slip(
+        "N004",
         "unknown-shot",
         "a shot waits for one that does not exist",
         "`after` in a shot's timing names the id of another shot that has to end first. Mend the name, or "
         "drop `after`: the shots of one drone run in the order in which they are written anyway.",
+        _PASSING,
         ("after: wide", "after: wider"),
     ),
-    _code(
-        5,
+    slip(
+        "N005",
         "unknown-emitter",
         "an output is asked for that no installed emitter makes",
         "`output.emit` names emitters; `shotc list emitters` shows those that are installed, with those of "
         "plugins. Mend the name, or install the plugin that brings it.",
+        _PASSING,
         ("emit: [csv]", "emit: [cvs]"),
     ),
-    _code(
-        6,
+    slip(
+        "N006",
         "duplicate-shot",
         "two shots have the same id",
         "Outputs, waits and messages speak of shots by their ids, so each id may be used once. The second "
         "shot of a name is reported. Give it another id.",
+        _PASSING,
         ("id: side", "id: wide"),
     ),
-    _code(
-        7,
+    slip(
+        "N007",
         "circular-wait",
         "shots wait for each other in a circle",
         "Each shot of the circle waits, by `after`, for one that comes after itself, so that none can ever "
         "begin. Drop one of the waits, or let one of the shots wait for another shot.",
+        _PASSING,
         ("look_at: tower}", "look_at: tower, timing: {after: side}}"),
     ),
-    _code(
-        8,
+    slip(
+        "N008",
         "missing-file",
         "a file that the mission names cannot be read",
         "Tracks and routes may stand in files of their own. Their paths count from the folder of the "
         "mission, with `/` between folders. Files of the same sort that lie there are proposed. Mend the "
         "path, or put the file there.",
-        ("points: [[0, -50, 15], [40, -50, 15]]", "file: no-such-route.csv"),
         _BY_FILE,
+        ("points: [[0, -50, 15], [40, -50, 15]]", "file: no-such-route.csv"),
     ),
     CodeInfo(
         "N009",

@@ -5,6 +5,7 @@ What no path at all could meet is found earlier, without a solver, and has K cod
 
 from __future__ import annotations
 
+from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
@@ -43,13 +44,9 @@ shots:
 
 
 def _code(
-    number: int, slug: str, summary: str, explanation: str, *slips: tuple[str, str], base: str = _MISSION
+    number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str], base: str = _MISSION
 ) -> CodeInfo:
-    """Return a code whose failing mission is the passing one with slips of the pen: (right, wrong)."""
-    failing = base
-    for slip in slips:
-        failing = failing.replace(*slip)
-    return CodeInfo(f"T{number:03}", slug, Severity.ERROR, summary, explanation, failing, base, "plan")
+    return slip(f"T{number:03}", slug, summary, explanation, base, *changes)._replace(phase="plan")
 
 
 CODES: tuple[CodeInfo, ...] = (

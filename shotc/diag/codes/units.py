@@ -2,83 +2,66 @@
 
 from __future__ import annotations
 
-from shotc.diag.model import Severity
+from shotc.diag.codes._slips import LOOK, slip
 from shotc.diag.registry import CodeInfo
 
-_PASSING = """\
-shotc: 1
-mission: look
-world:
-  wind: 3 m/s
-  zones:
-    tree: {keep: out, cylinder: {center: [-30, 20], radius: 3, height: [0, 12]}}
-targets:
-  tower: {at: [0, 0, 12], radius: 4, height: 24}
-drones:
-  cam1: {model: x500, home: [0, -60, 0], camera: {hfov: 70 deg, aspect: "16:9"}}
-rules: {composition: thirds, pace: calm}
-shots:
-  - {id: wide, kind: static, drone: cam1, target: tower, at: [0, -50, 15], look_at: tower, timing: {duration: 5}}
-"""
-
-
-def _code(number: int, slug: str, summary: str, explanation: str, slip: tuple[str, str]) -> CodeInfo:
-    """Return a code whose failing mission is the passing one with a slip of the pen: (right, wrong)."""
-    failing = _PASSING.replace(*slip)
-    return CodeInfo(f"U{number:03}", slug, Severity.ERROR, summary, explanation, failing, _PASSING)
-
-
 CODES: tuple[CodeInfo, ...] = (
-    _code(
-        1,
+    slip(
+        "U001",
         "unknown-unit",
         "a unit is not known",
         "Units come from a closed table, so that nothing is guessed: m, mm, cm, km, ft; s, ms, min, h; m/s,"
         " km/h, kn, mph, ft/s; m/s^2; m/s^3; deg, rad, and both per s and s^2; %; Hz. Spelling counts: "
         "`Hz`, not `hz`. `g` is not among them, since it is a gram to some and an acceleration to others.",
+        LOOK,
         ("wind: 3 m/s", "wind: 3 m/sec"),
     ),
-    _code(
-        2,
+    slip(
+        "U002",
         "wrong-dimension",
         "the unit belongs to another kind of quantity",
         "The unit is known, but measures something else: a speed cannot be given in seconds. Both kinds of "
         "quantity are named.",
+        LOOK,
         ("wind: 3 m/s", "wind: 3 s"),
     ),
-    _code(
-        3,
+    slip(
+        "U003",
         "bare-angle",
         "an angle has no unit",
         "A bare number means SI units everywhere, but for angles people expect degrees where SI has "
         "radians, and both look alike. Angles and their rates are therefore always written with a unit: `45"
         " deg`, `0.8 rad`, `60 deg/s`. This holds for 0 as well.",
+        LOOK,
         ("hfov: 70 deg", "hfov: 70"),
     ),
-    _code(
-        4,
+    slip(
+        "U004",
         "missing-unit",
         "a number in quotes has no unit",
         "A quantity is a bare number in SI units, or text with a unit. A number in quotes is text and has "
         "none; it often comes from a template or another tool. Remove the quotes, or add the unit inside "
         "them.",
+        LOOK,
         ("wind: 3 m/s", 'wind: "3"'),
     ),
-    _code(
-        5,
+    slip(
+        "U005",
         "not-a-quantity",
         "a value is no number with a unit",
         "Here stands a quantity: one number, and a unit after it. Sums, ranges in words, thousands "
         "separators and decimal commas are not read; nothing is evaluated.",
+        LOOK,
         ("wind: 3 m/s", "wind: 3 to 5 m/s"),
     ),
-    _code(
-        6,
+    slip(
+        "U006",
         "absurd-value",
         "a quantity is not finite or far too large",
         "Infinity, not-a-number and magnitudes that no camera drone meets (beyond 100 km, 1000 m/s, a day "
         "in the air) are slips of the pen, and would only surface as strange failures of the solver later. "
         "The help names the largest magnitude.",
+        LOOK,
         ("wind: 3 m/s", "wind: 1e300"),
     ),
 )

@@ -1,0 +1,38 @@
+"""Codes that are shown by a slip of the pen: a mission that passes, and the same one with the slip in it."""
+
+from __future__ import annotations
+
+from shotc.diag.model import Severity
+from shotc.diag.registry import CodeInfo
+
+LOOK = """\
+shotc: 1
+mission: look
+world:
+  wind: 3 m/s
+  zones:
+    tree: {keep: out, cylinder: {center: [-30, 20], radius: 3, height: [0, 12]}}
+targets:
+  tower: {at: [0, 0, 12], radius: 4, height: 24}
+drones:
+  cam1: {model: x500, home: [0, -60, 0], camera: {hfov: 70 deg, aspect: "16:9"}}
+rules: {composition: thirds, pace: calm}
+shots:
+  - {id: wide, kind: static, drone: cam1, target: tower, at: [0, -50, 15], look_at: tower, timing: {duration: 5}}
+"""
+"""A small mission with something of everything that is written by hand."""
+
+
+def slip(
+    code: str, slug: str, summary: str, explanation: str, passing: str, *changes: tuple[str, str]
+) -> CodeInfo:
+    """Return an error of ``check`` whose failing mission is the passing one with every change (right, wrong).
+
+    Raises ValueError where there is nothing to change: an example that does not fail would show nothing.
+    """
+    failing = passing
+    for right, wrong in changes:
+        if right not in failing:
+            raise ValueError(f"{code}: the passing mission does not hold {right!r}")
+        failing = failing.replace(right, wrong)
+    return CodeInfo(code, slug, Severity.ERROR, summary, explanation, failing, passing)
