@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
@@ -237,8 +236,8 @@ def _models(kinds: Mapping[str, Any]) -> Mapping[str, Any]:
 def _with_autopilot(keyframes: KeyframeIR, autopilot: Literal["px4", "ardupilot"] | None) -> KeyframeIR:
     if autopilot is None:
         return keyframes
-    drones = tuple(replace(drone, autopilot=autopilot) for drone in keyframes.mission.drones)
-    return replace(keyframes, mission=replace(keyframes.mission, drones=drones))
+    drones = tuple(drone._replace(autopilot=autopilot) for drone in keyframes.mission.drones)
+    return keyframes._replace(mission=keyframes.mission._replace(drones=drones))
 
 
 def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:

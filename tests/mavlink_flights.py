@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from shotc.geom.bernstein import concatenate, quintic_hermite
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, Phase, Reference, VerifiedIR
+from tests.records import replace
 from tests.samples import orbit_mission, orbit_plan
 
 Pose = tuple[float, float, float, float, float]  # x, y, z, yaw of camera and body, pitch

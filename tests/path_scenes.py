@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import cos, pi, radians, sin
 
 import numpy as np
@@ -14,6 +13,7 @@ from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Target, Timing, Zo
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.solve_path_qp import SolvePathQp
+from tests.records import replace
 from tests.samples import orbit_mission
 
 HFOV, ASPECT = radians(70), 16 / 9

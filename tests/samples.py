@@ -100,7 +100,7 @@ def orbit_mission(*, origin: bool = True) -> MissionIR:
         emit=("csv", "mavlink", "rerun"),
         source_sha256="0" * 64,
         deferred=(),
-        origins=OriginMap("half-orbit.yaml"),
+        origins=OriginMap("half-orbit.yaml", {}, {}),
     )
 
 

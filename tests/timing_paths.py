@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi, radians
 
 import numpy as np
@@ -15,6 +14,7 @@ from shotc.ir.path import DronePath, Leg, Mark, PathIR, PhaseName, Stop
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.parameterize_time.limits import Ceiling
 from shotc.source.file import Span
+from tests.records import replace
 from tests.samples import orbit_mission
 
 CEILING = Ceiling(8.0, 4.0, 3.0, 3.0, 8.0, radians(60), radians(90), radians(45), radians(90))

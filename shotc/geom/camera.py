@@ -7,17 +7,15 @@ plain arithmetic only, so they take floats and numpy arrays alike (``S`` below i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan, atan2, cos, hypot, pi, sin, sqrt, tan
-from typing import Any
+from typing import Any, NamedTuple
 
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
 Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(NamedTuple):
     """Direction cosines of a camera, and half its screen: tan of half the fields of view."""
 
     cos_yaw: S

@@ -5,8 +5,6 @@ The array counterpart of ``geom.solids``, for the planner's inner loops.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,7 +21,7 @@ GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 def bounded(part: Solid) -> Solid:
     """Return the solid with infinite heights replaced by ones no mission reaches."""
-    return replace(part, bottom=max(part.bottom, -FAR), top=min(part.top, FAR))
+    return part._replace(bottom=max(part.bottom, -FAR), top=min(part.top, FAR))
 
 
 def closest_points(part: Solid, p: Array) -> Array:

@@ -7,7 +7,6 @@ camera is drawn right, too. Screen coordinates are those of ``geom.camera``.
 
 from __future__ import annotations
 
-from dataclasses import fields
 from itertools import pairwise
 
 import numpy as np
@@ -78,7 +77,7 @@ def project_loops(camera: View, loops: Array) -> list[Array]:
 
     camera : its fields have shape (T,); loops : shape (T, M, 3), offsets from each camera, W
     """
-    each = View(*(np.asarray(getattr(camera, field.name))[:, None] for field in fields(View)))
+    each = View(*(np.asarray(part)[:, None] for part in camera))
     points = np.stack(each.to_camera((loops[..., 0], loops[..., 1], loops[..., 2])), axis=-1)
     half = np.stack([camera.half_width, camera.half_height], axis=-1)
     return [_scaled(_clip_near(loop), *pair) for loop, pair in zip(points, half, strict=True)]

@@ -6,16 +6,15 @@ closest point to a point, and its support function.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, hypot, inf, sin
+from typing import NamedTuple
 
 Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Cylinder:
+class Cylinder(NamedTuple):
     """An upright cylinder; centre (x, y), radius, bottom and top z, metres."""
 
     centre: Vec2
@@ -36,8 +35,7 @@ class Cylinder:
         return n[0] * self.centre[0] + n[1] * self.centre[1] + rim + max(n[2] * self.bottom, n[2] * self.top)
 
 
-@dataclass(frozen=True, slots=True)
-class Prism:
+class Prism(NamedTuple):
     """An upright prism over a simple polygon; points counter-clockwise, bottom and top z, metres.
 
     ``closest`` and ``support`` are for convex footprints only: see ``convex_parts``.

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from shotc.ir.mission import MissionIR, Shot, Vec2, Vec3
 from shotc.ir.origin import KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class PlacedKeyframe:
+class PlacedKeyframe(NamedTuple):
     """A camera pose with the screen position its target is to have there.
 
     at : p_WC; yaw : camera yaw in (-pi, pi], rad; pitch : rad, up positive; hfov : rad
@@ -32,16 +31,14 @@ class PlacedKeyframe:
     path: KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class PlacedShot:
+class PlacedShot(NamedTuple):
     """A shot and its placed keyframes (at least one; one alone is a still camera)."""
 
     shot: Shot
     keyframes: tuple[PlacedKeyframe, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class KeyframeIR:
+class KeyframeIR(NamedTuple):
     """The mission with every shot's keyframes placed, in the order the shots are flown."""
 
     mission: MissionIR

@@ -6,8 +6,7 @@ the mission file (see ``OriginMap``).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, TypeVar
+from typing import Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
 from shotc.ir.origin import KeyPath, OriginMap
@@ -17,8 +16,7 @@ Vec3 = tuple[float, float, float]
 Range = tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class GeoOrigin:
+class GeoOrigin(NamedTuple):
     """The WGS84 place of W's origin.
 
     lat_deg, lon_deg : degrees
@@ -30,8 +28,7 @@ class GeoOrigin:
     alt: float
 
 
-@dataclass(frozen=True, slots=True)
-class Zone:
+class Zone(NamedTuple):
     """A named volume that the body sphere stays out of, or inside."""
 
     name: str
@@ -40,8 +37,7 @@ class Zone:
     path: KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+class Target(NamedTuple):
     """A standing camera target: an upright cylinder about its centre."""
 
     name: str
@@ -51,8 +47,7 @@ class Target:
     path: KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(NamedTuple):
     """What a drone may do; norms as in the language definition.
 
     speed : horizontal speed over ground, world.wind already taken off, m/s
@@ -71,8 +66,7 @@ class Limits:
     yaw_acceleration: float
 
 
-@dataclass(frozen=True, slots=True)
-class Gimbal:
+class Gimbal(NamedTuple):
     """Camera angles the gimbal reaches: pitch against the horizon, yaw against the body.
 
     pitch, yaw : (lowest, highest), rad; rate, acceleration : per axis, rad/s, rad/s^2
@@ -84,8 +78,7 @@ class Gimbal:
     acceleration: float
 
 
-@dataclass(frozen=True, slots=True)
-class Drone:
+class Drone(NamedTuple):
     """A drone with its presets filled in.
 
     home : p_WB at rest on its pad
@@ -108,8 +101,7 @@ class Drone:
     path: KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class Composition:
+class Composition(NamedTuple):
     """Screen positions a target may take: points, lines, or wherever the user put it (``keep``).
 
     Without any of them the camera keeps its own angles and the target is only watched.
@@ -130,8 +122,7 @@ class Composition:
         return not (self.points or self.u_lines or self.v_lines or self.keep)
 
 
-@dataclass(frozen=True, slots=True)
-class Keyframe:
+class Keyframe(NamedTuple):
     """Where the camera is to be and what it looks at, before composition.
 
     at : p_WC
@@ -154,8 +145,7 @@ class Keyframe:
     path: KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class Timing:
+class Timing(NamedTuple):
     """When a shot is filmed; all None is ``auto``. Seconds; ``after`` names a shot."""
 
     start: float | None = None
@@ -163,8 +153,7 @@ class Timing:
     duration: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Promise:
+class Promise(NamedTuple):
     """What a shot promises and verification holds it to (``require``); None promises nothing.
 
     in_frame : share of samples with the whole target in frame, 0 to 1
@@ -177,8 +166,7 @@ class Promise:
     size: Range | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Shot:
+class Shot(NamedTuple):
     """One shot of one drone as keyframes.
 
     pace : share of the limits used where the duration is not given, 0 to 1
@@ -197,8 +185,7 @@ class Shot:
     path: KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class Rules:
+class Rules(NamedTuple):
     """Mission-wide rules, metres."""
 
     separation: float
@@ -206,16 +193,14 @@ class Rules:
     target_clearance: float
 
 
-@dataclass(frozen=True, slots=True)
-class Deferred:
+class Deferred(NamedTuple):
     """A part of the language that is checked but that this version cannot plan yet."""
 
     feature: str
     path: KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class MissionIR:
+class MissionIR(NamedTuple):
     """The whole mission.
 
     shots : in the order they are written

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from shotc.diag.model import Label
 from shotc.source.file import WHOLE_FILE, Span
@@ -11,8 +11,7 @@ from shotc.source.file import WHOLE_FILE, Span
 KeyPath = tuple[str | int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class OriginMap:
+class OriginMap(NamedTuple):
     """Spans of the keys and values of one mission, looked up by key path.
 
     file   : the name the mission is shown under
@@ -20,9 +19,9 @@ class OriginMap:
     values : span of the value at a path
     """
 
-    file: str = "<mission>"
-    keys: Mapping[KeyPath, Span] = field(default_factory=dict)
-    values: Mapping[KeyPath, Span] = field(default_factory=dict)
+    file: str
+    keys: Mapping[KeyPath, Span]
+    values: Mapping[KeyPath, Span]
 
     def value(self, path: KeyPath, text: str = "") -> Label:
         """Return a label on the value at ``path``, or at the nearest ancestor's key that is written down."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
 from typing import Any
 
 from shotc.ir.origin import OriginMap
+from shotc.ir.records import field_names
 
 DIGITS = 9
 
@@ -20,10 +20,10 @@ def _lines(value: Any, indent: int) -> Iterator[str]:
     pad = "  " * indent
     if isinstance(value, OriginMap):
         yield f"{pad}{value.file}"
-    elif is_dataclass(value) and not isinstance(value, type):
+    elif names := field_names(value):
         yield f"{pad}{type(value).__name__}"
-        for field in fields(value):
-            yield from _field(field.name, getattr(value, field.name), indent + 1)
+        for name in names:
+            yield from _field(name, getattr(value, name), indent + 1)
     elif isinstance(value, Mapping):
         for key in value:
             yield from _field(str(key), value[key], indent)
@@ -48,9 +48,9 @@ def _field(name: str, value: Any, indent: int) -> Iterator[str]:
 
 
 def _flat(value: Any) -> bool:
-    if isinstance(value, list | tuple):
-        return all(isinstance(v, int | float | str | None) for v in value)
-    return not is_dataclass(value) and not isinstance(value, Mapping)
+    if field_names(value) or isinstance(value, Mapping):
+        return False
+    return not isinstance(value, list | tuple) or all(isinstance(v, int | float | str | None) for v in value)
 
 
 def _scalar(value: Any) -> str:

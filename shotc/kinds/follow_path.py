@@ -155,7 +155,7 @@ def _corners(points: list[Vec3], start: int, end: int, tolerance: float) -> set[
 def _aims(shot: FollowPathShot, scene: Scene, points: list[Vec3]) -> list[Aim] | Diagnostic | Deferred:
     if shot.heading is None and (shot.look_at is not None or shot.target is not None):
         aim = scene.aim(shot, _Look(shot.look_at))
-        return [aim] * len(points) if isinstance(aim, tuple) else aim
+        return aim if isinstance(aim, Diagnostic | Deferred) else [aim] * len(points)
     return [((yaw, shot.pitch), None) for yaw in _courses(points)]
 
 

@@ -4,6 +4,8 @@ from typing import Literal
 
 from pydantic import Field
 
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Deferred
 from shotc.kinds.base import Expansion, Kind, Part, Scene
 from shotc.spec.shot import KeyframeSpec, ShotBase
 
@@ -25,7 +27,7 @@ def expand(shot: KeyframesShot, scene: Scene) -> Expansion:
 def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
     spec, path = shot.keyframes[index], ("keyframes", index)
     aim = scene.aim(shot, spec, *path)
-    if not isinstance(aim, tuple):
+    if isinstance(aim, Diagnostic | Deferred):
         return aim
     return scene.keyframe(
         scene.place(spec.at),

@@ -4,6 +4,8 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Deferred
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.spec.fields import Angle, LookAt, Pitch, Position
 from shotc.spec.model import OneOf
@@ -25,7 +27,7 @@ class StaticShot(ShotBase):
 def expand(shot: StaticShot, scene: Scene) -> Expansion:
     """Return one keyframe, held for the shot's duration."""
     aim = scene.aim(shot, shot)
-    if not isinstance(aim, tuple):
+    if isinstance(aim, Diagnostic | Deferred):
         return Expansion.of([aim])
     keyframe = scene.keyframe(
         scene.place(shot.at),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from shotc.diag.model import Diagnostic
@@ -27,8 +26,7 @@ class PassContext(NamedTuple):
     progress: Callable[[str], None] = silent
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome(Generic[Value_co]):
+class Outcome(NamedTuple, Generic[Value_co]):
     """What a pass gives: the next IR, or None where an error stopped it, and its diagnostics."""
 
     value: Value_co | None

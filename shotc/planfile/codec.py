@@ -1,13 +1,13 @@
-"""IR dataclasses to JSON values and back, by their type hints; faults are collected with their JSON path.
+"""IR records to JSON values and back, by their type hints; faults are collected with their JSON path.
 
-A dataclass is an object with all its fields, in their order; where a field may hold one of several
-dataclasses, ``type`` names it. Tuples are lists. A number that may be without limit is "inf" or "-inf" then;
+A record is an object with all its fields, in their order; where a field may hold one of several
+records, ``type`` names it. Tuples are lists. A number that may be without limit is "inf" or "-inf" then;
 nothing else that is not finite is read or written. A curve is {"breaks": [...], "control": [[[...]]]}.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from functools import cache
 from math import inf, isfinite
 from types import NoneType, UnionType
@@ -17,6 +17,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder, Prism
+from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim
 
 UNLIMITED = {
@@ -46,9 +47,9 @@ def encode(value: Any) -> Any:
     """Return a JSON value for an IR value."""
     if isinstance(value, Piecewise):
         return {"breaks": value.breaks.tolist(), "control": value.ctrl.tolist()}
-    if is_dataclass(value) and not isinstance(value, type):
+    if names := field_names(value):
         tag = {"type": type(value).__name__} if isinstance(value, Cylinder | Prism) else {}
-        return tag | {f.name: encode(getattr(value, f.name)) for f in fields(value)}
+        return tag | {name: encode(getattr(value, name)) for name in names}
     if isinstance(value, tuple | list):
         return [encode(item) for item in value]
     if isinstance(value, float):
@@ -58,9 +59,9 @@ def encode(value: Any) -> Any:
 
 @cache
 def hints(kind: type) -> dict[str, Any]:
-    """Return the resolved types of a dataclass's fields, in their order."""
+    """Return the resolved types of a record's fields, in their order."""
     found = get_type_hints(kind)
-    return {f.name: found[f.name] for f in fields(kind)}
+    return {name: found[name] for name in field_names(kind)}
 
 
 @dataclass(slots=True)
@@ -79,7 +80,7 @@ class Decoder:
             return value
         if kind is Piecewise:
             return self._curve(value, path)
-        if is_dataclass(kind):
+        if field_names(kind):
             return self._record(kind, value, path)
         origin = get_origin(kind)
         if origin in (Union, UnionType):
@@ -217,8 +218,8 @@ def show(value: Any) -> str:
 
 
 def _fits(kind: Any, value: Any) -> bool:
-    if is_dataclass(kind):
-        return isinstance(value, dict) and value.get("type", kind.__name__) == kind.__name__  # type: ignore[union-attr]
+    if field_names(kind):
+        return isinstance(value, dict) and value.get("type", kind.__name__) == kind.__name__
     if get_origin(kind) is tuple:
         args = get_args(kind)
         return isinstance(value, list) and (args[-1] is Ellipsis or len(args) == len(value))

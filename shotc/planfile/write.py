@@ -46,7 +46,7 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
 
 def encode_mission(mission: MissionIR) -> dict[str, Any]:
     """Return the fields of a mission, without the map of its origins."""
-    names = (name for name in MissionIR.__slots__ if name != "origins")
+    names = (name for name in MissionIR._fields if name != "origins")
     return {name: encode(getattr(mission, name)) for name in names}
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -25,8 +25,7 @@ _DIRECTIVE = re.compile(r"^%", re.MULTILINE)
 _TAG = re.compile(r"[^ \t\r\n,\]}]*")
 
 
-@dataclass(slots=True)
-class Composed:
+class Composed(NamedTuple):
     """The first document of a text.
 
     root  : its tree, as far as it was read; None for an empty text

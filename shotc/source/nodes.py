@@ -8,8 +8,7 @@ from typing import NamedTuple
 from shotc.source.core_schema import ScalarValue
 
 
-@dataclass(slots=True)
-class Scalar:
+class Scalar(NamedTuple):
     """A value without parts; ``text`` is what it says before the schema turns it into a value."""
 
     start: int
@@ -43,8 +42,7 @@ class Collection:
     height: int = 1
 
 
-@dataclass(slots=True)
-class Alias:
+class Alias(NamedTuple):
     """A use of a value that is written elsewhere."""
 
     start: int

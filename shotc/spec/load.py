@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -138,7 +137,7 @@ def _diagnostics(found: list[Finding], origins: OriginMap) -> tuple[Diagnostic, 
         return tuple(every)
     last = every[MAX_DIAGNOSTICS - 1]
     note = f"{more} more faults of this file are not shown"
-    return (*every[: MAX_DIAGNOSTICS - 1], replace(last, notes=(*last.notes, note)))
+    return (*every[: MAX_DIAGNOSTICS - 1], last._replace(notes=(*last.notes, note)))
 
 
 def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:

@@ -122,10 +122,10 @@ def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[La
         label = mission.origins.value((*drone.path, *_SHOWN[name].key), _SHOWN[name].words)
         before = found.get(label.span)
         found[label.span] = (
-            label if before is None else replace(before, text=f"{before.text} and {label.text}")
+            label if before is None else before._replace(text=f"{before.text} and {label.text}")
         )
     labels = tuple(
-        replace(label, text=f"{label.text} bind{'' if ' and ' in label.text else 's'}")
+        label._replace(text=f"{label.text} bind{'' if ' and ' in label.text else 's'}")
         for label in found.values()
     )
     if "speed" in holdup.names[:2] and mission.wind > 0:

@@ -8,7 +8,6 @@ candidate.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
@@ -22,8 +21,7 @@ HALVINGS = 40
 GOLDEN = (sqrt(5) - 1) / 2
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
+class Setting(NamedTuple):
     """A camera that stands still and may turn, and the target it frames.
 
     offset : target's centre less camera, W, m; radius, height : of the target, m

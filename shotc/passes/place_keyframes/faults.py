@@ -6,7 +6,6 @@ Keyframes that share a line of the mission, as generated ones do, are reported o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import partial
 from math import ceil, degrees, floor, hypot, pi, radians
 from typing import NamedTuple
@@ -48,7 +47,7 @@ class Miss(NamedTuple):
 def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Vec2) -> Miss:
     """Warn that the target stands off its set: it would be cropped on it, or the gimbal stops short."""
     instead = f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}"
-    free = replace(setting, pitch=(-pi / 2, pi / 2))
+    free = setting._replace(pitch=(-pi / 2, pi / 2))
     wanted = nearest_candidate(free, keyframe.composition, asked)
     aim = None if wanted is None else free.aim(wanted)
     if aim is not None:
@@ -89,7 +88,7 @@ def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
 
 def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
     """Explain why no place of the set, nor of its vertical lines, is a candidate."""
-    free = replace(setting, pitch=(-pi / 2, pi / 2))
+    free = setting._replace(pitch=(-pi / 2, pi / 2))
     place = nearest_candidate(free, keyframe.composition, asked)
     place = place or nearest_on_verticals(free, keyframe.composition, asked)
     aim = None if place is None else free.aim(place)
@@ -152,7 +151,7 @@ def _what_fits(keyframe: Keyframe, setting: Setting) -> str:
 def _options(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], bool]) -> str:
     wide = None
     if setting.hfov < WIDEST:
-        wide = _least(lambda a: fits(replace(setting, hfov=a)), setting.hfov, WIDEST)
+        wide = _least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, WIDEST)
     options = [_farther(keyframe, setting, fits)]
     if wide is not None:
         options.append(f"widen `hfov` to {ceil(degrees(wide) * 10) / 10:.1f} deg")
@@ -168,7 +167,7 @@ def _farther(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], boo
     def back(k: float) -> Vec3:
         return (x * k, y * k, z if level else z * k)
 
-    k = _least(lambda k: fits(replace(setting, offset=back(k))), 1.0, FARTHEST)
+    k = _least(lambda k: fits(setting._replace(offset=back(k))), 1.0, FARTHEST)
     if k is None:
         return ""
     far = ceil(k * (across if level else hypot(x, y, z)) * 10) / 10

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import replace
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
@@ -42,7 +41,7 @@ def _by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:
 def _raised(keyframe: Keyframe, floor: float) -> Keyframe:
     """Return a keyframe that is too low as it is once that is mended, so that one fault is told once."""
     x, y, z = keyframe.at
-    return keyframe if z >= floor else replace(keyframe, at=(x, y, floor))
+    return keyframe if z >= floor else keyframe._replace(at=(x, y, floor))
 
 
 def _too_low(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import dist, inf
 
 from shotc.diag.model import Diagnostic
@@ -41,7 +40,7 @@ def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[s
     """Return what stands against a home, and the numbers; None where nothing does."""
     top = max(drone.home[2], mission.rules.ground_clearance + drone.radius)
     if obstacle.role == "in":
-        walls = replace(obstacle.solid, bottom=-inf)
+        walls = obstacle.solid._replace(bottom=-inf)
         room = min(-signed_distance(walls, p) for p in (drone.home, (drone.home[0], drone.home[1], top)))
         if room >= drone.radius - ROUNDING:
             return None
@@ -66,7 +65,7 @@ def _remedy(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> str:
     ways = obstacle._replace(room=drone.radius).ways_out(home)
     places = [outward(home, (x, y, home[2])) for x, y, _ in ways if (x, y) != home[:2]]
     around = obstacles_of(mission, drone)
-    free = [q for q in places if all(_obstructed(mission, replace(drone, home=q), o) is None for o in around)]
+    free = [q for q in places if all(_obstructed(mission, drone._replace(home=q), o) is None for o in around)]
     if not free:
         return "move the home, or the obstacle"
     return move(home, min(free, key=lambda q: dist(home, q)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import replace
 from typing import Any
 
 from shotc.diag.model import Diagnostic
@@ -42,9 +41,9 @@ def _merged(group: list[Diagnostic]) -> Diagnostic:
     """Return one diagnostic for the same unknown name in different places."""
     ordered = sorted(group, key=lambda found: found.sort_key)
     first, *others = dict.fromkeys(found.labels[0] for found in ordered)
-    labels = (first, *(replace(label, text="here, too") for label in others[: _SHOWN - 1]))
+    labels = (first, *(label._replace(text="here, too") for label in others[: _SHOWN - 1]))
     notes = (f"it stands in {1 + len(others)} places",) if len(others) >= _SHOWN else ()
-    return replace(group[0], labels=labels, notes=(*group[0].notes, *notes))
+    return group[0]._replace(labels=labels, notes=(*group[0].notes, *notes))
 
 
 def _drones(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 from math import floor
 
@@ -37,8 +37,8 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
     """Return the ground clearance, metres, rounded down, that leaves a way; None if none does."""
 
     def opens(clearance: float) -> bool:
-        rules = replace(mission.rules, ground_clearance=clearance)
-        return find_route(flight_room(replace(mission, rules=rules), drone), start, end) is not None
+        rules = mission.rules._replace(ground_clearance=clearance)
+        return find_route(flight_room(mission._replace(rules=rules), drone), start, end) is not None
 
     low, high = 0.0, mission.rules.ground_clearance
     if high <= 0.0 or not opens(low):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from typing import Any
 
 import jsonschema
@@ -13,6 +12,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
 from shotc.diag.render.sarif import render
 from shotc.source.file import SourceFile, Span
+from tests.records import replace
 from tests.unit.diag.reports import MISSION, REPORT, SOURCES, at
 
 TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}

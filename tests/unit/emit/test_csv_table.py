@@ -2,7 +2,6 @@
 
 import csv
 import io
-from dataclasses import replace
 from math import hypot, pi
 
 import numpy as np
@@ -16,6 +15,7 @@ from shotc.ir.mission import Zone
 from shotc.ir.path import CAM_YAW
 from shotc.ir.sampling import clock, phase_index
 from shotc.ir.trajectory import VerifiedIR
+from tests.records import replace
 from tests.samples import orbit_plan
 
 HEADER = (

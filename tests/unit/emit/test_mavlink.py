@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -16,6 +15,7 @@ from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.path import HFOV
 from shotc.ir.trajectory import DroneTrajectory, Phase
 from tests.mavlink_flights import flight, plan, retold, straight
+from tests.records import replace
 from tests.samples import orbit_mission, orbit_plan
 
 

@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -12,6 +10,7 @@ from shotc.emit.mavlink.geo import tie
 from shotc.geom.solids import Cylinder, Prism, distance, signed_area
 from shotc.ir.mission import MissionIR, Zone
 from tests.mavlink_flights import plan, straight
+from tests.records import replace
 from tests.samples import orbit_mission
 
 TRACK = np.array([[x, -60.0, 20.0] for x in np.linspace(0, 40, 81)])

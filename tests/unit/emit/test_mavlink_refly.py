@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi, radians
 
 import numpy as np
@@ -15,6 +14,7 @@ from shotc.emit.mavlink.refly import Flown, refly
 from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.ir.trajectory import VerifiedIR
 from tests.mavlink_flights import flight, plan, retold, straight
+from tests.records import replace
 from tests.samples import orbit_plan
 
 PX4, ARDUPILOT = "px4", "ardupilot"

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import acos, ceil, inf, pi, radians
 
@@ -16,6 +15,7 @@ from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Zone
 from shotc.ir.trajectory import VerifiedIR
 from tests.mavlink_flights import flight, plan, retold, straight
+from tests.records import replace
 from tests.samples import orbit_mission, orbit_plan
 
 SAMPLE = orbit_plan()

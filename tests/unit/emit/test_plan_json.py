@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Zone
 from shotc.ir.origin import OriginMap
+from shotc.ir.records import field_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
@@ -24,6 +24,7 @@ from shotc.planfile import layout
 from shotc.planfile.compare import compare
 from shotc.planfile.read import read_plan
 from shotc.source.file import Span
+from tests.records import replace
 from tests.samples import orbit_plan
 
 CONTEXT = PassContext()
@@ -42,8 +43,8 @@ DATA = EMITTER.emit(PLAN).artifacts[0].data
 def same(a: Any, b: Any) -> bool:
     if isinstance(a, Piecewise):
         return np.array_equal(a.breaks, b.breaks) and np.array_equal(a.ctrl, b.ctrl)
-    if is_dataclass(a):
-        return type(a) is type(b) and all(same(getattr(a, f.name), getattr(b, f.name)) for f in fields(a))
+    if names := field_names(a):
+        return type(a) is type(b) and all(same(getattr(a, name), getattr(b, name)) for name in names)
     if isinstance(a, tuple):
         return isinstance(b, tuple) and len(a) == len(b) and all(map(same, a, b))
     return type(a) is type(b) and a == b if not isinstance(a, float) else a == b

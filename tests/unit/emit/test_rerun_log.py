@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from dataclasses import replace
 from functools import cache
 from math import pi, radians
 from pathlib import Path
@@ -22,6 +21,7 @@ from shotc.geom.camera import view
 from shotc.geom.solids import Cylinder, Prism, box, signed_area
 from shotc.ir.path import HFOV
 from shotc.ir.trajectory import VerifiedIR
+from tests.records import replace
 from tests.samples import orbit_plan
 
 

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import replace
 from math import inf, pi
 
 import numpy as np
@@ -20,6 +19,7 @@ from shotc.emit.storyboard.sheet import outline, sheet_of
 from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Composition
 from shotc.ir.trajectory import Claim, KeyframeTime, VerifiedIR
+from tests.records import replace
 from tests.samples import orbit_plan
 
 

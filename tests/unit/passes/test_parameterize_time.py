@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi, radians
 
 import numpy as np
@@ -20,6 +19,7 @@ from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.parameterize_time import move as move_module
 from shotc.solvers.conic import Status
+from tests.records import replace
 from tests.timing_paths import (
     CEILING,
     HFOV,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import cos, hypot, pi, radians, sin, tan
 
 import pytest
@@ -19,6 +18,7 @@ from shotc.passes.place_keyframes.candidates import (
     nearest_on_verticals,
     roomiest,
 )
+from tests.records import replace
 
 THIRD = 1 / 3
 CORNERS = tuple((u, v) for u in (-THIRD, THIRD) for v in (-THIRD, THIRD))

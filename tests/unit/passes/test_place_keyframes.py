@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import atan2, cos, hypot, pi, radians, sin
 from typing import Any
@@ -20,6 +19,7 @@ from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
 from tests.front import clean, placed
+from tests.records import replace
 from tests.samples import orbit_mission
 
 TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))

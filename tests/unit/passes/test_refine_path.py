@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import REFINER, RefinePath
+from tests.records import replace
 
 TEMPLATE = Path(__file__).parents[3] / "shotc" / "templates" / "orbit.yaml"
 

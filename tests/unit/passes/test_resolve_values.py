@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from dataclasses import replace
 from math import degrees, inf, radians
 
 import pytest
@@ -17,6 +16,7 @@ from shotc.passes.resolve.motion import least_shot, least_travel
 from shotc.passes.resolve.obstacles import signed_distance
 from shotc.spec.presets import PRESETS
 from tests.front import resolved
+from tests.records import replace
 
 TEXT = """\
 shotc: 1

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot, pi, radians
 
 import numpy as np
@@ -36,6 +35,7 @@ from tests.path_scenes import (
     shot,
     solve,
 )
+from tests.records import replace
 
 TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))
 TREE = out("tree", Cylinder((-20.0, 10.0), 3.0, 0.0, 12.0))

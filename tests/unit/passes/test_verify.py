@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
 from math import inf, nan, pi, radians
 
 import numpy as np
@@ -23,6 +22,7 @@ from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.numbers import enough, measure, told_apart
 from shotc.passes.verify.report import rule_of
 from shotc.source.file import Span
+from tests.records import replace
 from tests.samples import orbit_plan
 
 PLAN = orbit_plan().trajectory
