@@ -24,6 +24,13 @@ if TYPE_CHECKING:
     from shotc.kinds.base import Expansion, Kind, Scene
     from shotc.passes.base import Outcome, PassContext
     from shotc.passes.refine_path import Refiner
+    from shotc.passes.refine_path.faults import (
+        SolverState,
+        fallback,
+        impossible,
+        solver_nan,
+        stopped_early,
+    )
     from shotc.spec.shot import ShotBase
 
 _HOMES = {
@@ -47,8 +54,13 @@ _HOMES = {
     "Refiner": "shotc.passes.refine_path",
     "Scene": "shotc.kinds.base",
     "ShotBase": "shotc.spec.shot",
+    "SolverState": "shotc.passes.refine_path.faults",
     "TrajectoryIR": "shotc.ir.trajectory",
     "VerifiedIR": "shotc.ir.trajectory",
+    "fallback": "shotc.passes.refine_path.faults",
+    "impossible": "shotc.passes.refine_path.faults",
+    "solver_nan": "shotc.passes.refine_path.faults",
+    "stopped_early": "shotc.passes.refine_path.faults",
 }
 
 __all__ = [
@@ -72,8 +84,13 @@ __all__ = [
     "Refiner",
     "Scene",
     "ShotBase",
+    "SolverState",
     "TrajectoryIR",
     "VerifiedIR",
+    "fallback",
+    "impossible",
+    "solver_nan",
+    "stopped_early",
 ]
 
 

@@ -40,4 +40,54 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "R010",
+        "solver-not-a-number",
+        Severity.ERROR,
+        "the refiner's solver came to values that are not numbers",
+        "A step of the solver led to where the problem has no value, such as a camera straight above its target, whose "
+        "heading means nothing. The stage, its time and the constraint that was worst in the last step that had numbers "
+        "are named. Move the keyframes there apart from what is named, let the shot fly its convex path by `refine: "
+        "{optional: true}`, or plan with `--refiner none`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R011",
+        "solver-stopped-early",
+        Severity.ERROR,
+        "the refiner's solver stopped before it had a path",
+        "The solver reached its limit of iterations or of time. What it had by then breaks a constraint, so it is not "
+        "used: the stage, its time, the constraint that was worst and by how much are named. A limit that is barely "
+        "met, or keyframes that ask for a sharp turn, make a problem slow. Loosen what is named or add a keyframe "
+        "there, let the shot fly its convex path by `refine: {optional: true}`, or plan with `--refiner none`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R012",
+        "refinement-impossible",
+        Severity.ERROR,
+        "no path near the convex one keeps all constraints of the refiner's problem",
+        "The solver found that near the convex path the constraints contradict one another. The stage, its time and the "
+        "constraint that could be met least are named, with the number by which it was broken. Loosen it or move the "
+        "keyframes beside it, let the shot fly its convex path by `refine: {optional: true}`, or plan with `--refiner "
+        "none`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R013",
+        "second-solver-used",
+        Severity.WARNING,
+        "a shot was refined by the second solver, since the first did not converge",
+        "A refiner may have a solver that is fast and one that is robust. Where the first gives up the second is tried, "
+        "and this says so. The plan is proved as any other; planning took longer.",
+        "",
+        "",
+        "other",
+    ),
 )
