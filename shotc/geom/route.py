@@ -24,6 +24,7 @@ ROUTE_MARGIN = 2 * MARGIN  # the route leaves the corridor some play
 NODE_MARGIN = 2.4 * MARGIN  # nodes stand clear of the prisms that edges are tested against
 ROOMY = 10.0  # times these margins where there is room for it
 DETOUR = 1.15  # how much longer a roomy way may be than one that scrapes past
+SAME_PLACE = 1e-6  # metres
 NARROW = (0.2, 0.05)  # of these margins, tried in turn: a narrow gap is better than no way
 CLIMB_PRICE = 0.3  # extra length for each metre up or down
 OVERFLIGHT_PRICE = 0.3  # extra length for each metre above an obstacle
@@ -283,4 +284,10 @@ def _level(room: Room, path: Array) -> Array:
     even[:, 2] = path[0, 2] + along / along[-1] * (path[-1, 2] - path[0, 2])
     inside = bounds_slack(room, even[1:-1]) >= MARGIN
     free = not blocked(room, even[:-1], even[1:], ROUTE_MARGIN).any()
-    return even if inside.all() and free else path
+    return _apart(even) if inside.all() and free else path
+
+
+def _apart(path: Array) -> Array:
+    """Leave out corners that stand where the next one does: corners above one another that were levelled."""
+    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    return np.asarray(path[np.append(steps > SAME_PLACE, True)])

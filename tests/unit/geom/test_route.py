@@ -76,6 +76,14 @@ def test_heights_change_evenly_along_the_way():
     assert route[:, 2] == pytest.approx(5 + 10 * flat / flat[-1])
 
 
+def test_corners_above_one_another_are_one_where_heights_change_evenly():
+    """The way ends close over a roof, whose corner right above the end is levelled down onto it."""
+    roof, tower = Cylinder((112.6, -108.8), 119.4, 0.0, 11.75), Cylinder((24.7, 94.3), 110.0, 0.0, 12.4)
+    route = way(room(roof, tower, clearance=4.6), (244, 245, 17), (0, -60, 16.45))
+    assert len(route) > 2
+    assert np.linalg.norm(np.diff(route, axis=0), axis=1).min() > 1e-3
+
+
 def test_there_may_be_no_way():
     yard = (
         GROUND,
