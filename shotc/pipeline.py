@@ -4,8 +4,6 @@ LoadedMission --resolve--> MissionIR --place-keyframes--> KeyframeIR --solve-pat
 --refine-path--> PathIR --parameterize-time--> TrajectoryIR --verify--> VerifiedIR
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise

@@ -5,8 +5,6 @@ against). Nothing is imported until it is asked for; a clash of names, a failed 
 version is a diagnostic that names the package, never a silent choice.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points

@@ -1,7 +1,5 @@
 """The command line: global flags, the commands, and what becomes of every way to end."""
 
-from __future__ import annotations
-
 import errno
 import os
 import sys

@@ -1,7 +1,5 @@
 """Mission texts that a command is given: files, folders of missions, and standard input."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

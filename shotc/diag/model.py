@@ -1,7 +1,5 @@
 """A diagnostic as a frozen value: what is wrong, where, with which numbers, and what helps."""
 
-from __future__ import annotations
-
 from enum import StrEnum
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """All codes in one table: slug, severity, explanation and the examples that tests run."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from functools import cache
 from importlib import import_module

@@ -5,8 +5,6 @@ from East, pitch is positive up. Screen (u, v) lies in [-1, 1]^2, u right, v up.
 plain arithmetic only, so they take floats and numpy arrays alike (``S`` below is either).
 """
 
-from __future__ import annotations
-
 from math import atan, atan2, cos, hypot, pi, sin, sqrt, tan
 from typing import Any, NamedTuple
 

@@ -4,8 +4,6 @@ Every solid is split into convex parts, and a convex part offers the two things 
 closest point to a point, and its support function.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from math import cos, hypot, inf, sin
 from typing import NamedTuple

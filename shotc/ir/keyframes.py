@@ -1,7 +1,5 @@
 """KeyframeIR: keyframes whose camera angles place their target on the composition. Plain Python."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from shotc.ir.mission import MissionIR, Shot, Vec2, Vec3

@@ -4,8 +4,6 @@ World frame W (East, North, Up, metres), radians, seconds; ``path`` is where an 
 the mission file (see ``OriginMap``).
 """
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid

@@ -1,7 +1,5 @@
 """Where an IR element comes from in the mission file: key paths and the map from them to spans."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 

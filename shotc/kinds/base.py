@@ -4,10 +4,8 @@ A kind reads everything it may read from its ``Scene`` and gives an ``Expansion`
 kinds by an entry point in the group ``shotc.kinds`` that names a ``Kind``; ours come the same way.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, Self
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
@@ -54,7 +52,7 @@ class Expansion(NamedTuple):
     deferred: tuple[Deferred, ...] = ()
 
     @classmethod
-    def of(cls, parts: Iterable[Part]) -> Expansion:
+    def of(cls, parts: Iterable[Part]) -> Self:
         """Sort parts: keyframes count only where nothing stands against them."""
         found = tuple(parts)
         diagnostics = tuple(p for p in found if isinstance(p, Diagnostic))

@@ -1,7 +1,5 @@
 """Places on the earth that cannot be meant: so far from the origin that something else is wrong with them."""
 
-from __future__ import annotations
-
 from math import hypot
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Tables and GPX tracks that a mission names: text to rows of numbers, with the line of every fault."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import isfinite
 from typing import Any, NamedTuple

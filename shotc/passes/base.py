@@ -1,7 +1,5 @@
 """What a pass is: a frozen value with a name that turns one IR into the next, or says why it cannot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 

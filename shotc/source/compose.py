@@ -4,8 +4,6 @@
 that a bomb only goes off later. Here every event is weighed before anything is built from it.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, field
 from difflib import get_close_matches

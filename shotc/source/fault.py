@@ -1,7 +1,5 @@
 """A fault in the text of a mission: what the YAML reader reports instead of raising."""
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple, get_args
 
 from shotc.source.file import Span

@@ -1,7 +1,5 @@
 """Where a piece of mission text stands: spans in lines and columns, and the files they point into."""
 
-from __future__ import annotations
-
 import re
 from bisect import bisect_right
 from dataclasses import dataclass, field

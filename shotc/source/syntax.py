@@ -3,8 +3,6 @@
 The parser says what it expected; a rule looks at the text round that place and says what is wrong there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

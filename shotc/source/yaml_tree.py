@@ -1,7 +1,5 @@
 """The hardened YAML reader: any bytes in; plain values, the place of each, and faults out."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple

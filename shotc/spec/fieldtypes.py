@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -49,13 +48,13 @@ class FieldType(ABC):
         return self.reference()
 
 
-@dataclass(frozen=True, eq=False)
 class Integer(FieldType):
     """A whole number between ``low`` and ``high``, inclusive."""
 
-    label: str
-    low: int
-    high: int
+    def __init__(self, label: str, low: int, high: int) -> None:
+        self.label = label
+        self.low = low
+        self.high = high
 
     def read(self, value: Any) -> int:
         """Return the number; 3.0 is whole too."""
@@ -79,14 +78,14 @@ def _digits(value: int) -> str:
     return str(value) if abs(value) < 10**30 else "a number of many digits"
 
 
-@dataclass(frozen=True, eq=False)
 class Text(FieldType):
     """Text that matches ``pattern``; anything else is reported with ``rule`` as help."""
 
-    label: str
-    pattern: str
-    fault: str
-    rule: str
+    def __init__(self, label: str, pattern: str, fault: str, rule: str) -> None:
+        self.label = label
+        self.pattern = pattern
+        self.fault = fault
+        self.rule = rule
 
     def read(self, value: Any) -> str:
         """Return the text."""
@@ -122,21 +121,17 @@ class Flag(FieldType):
         return {"type": "boolean"}
 
 
-@dataclass(frozen=True, eq=False)
 class Hinted(FieldType):
     """Another field type that has a help of its own for a text which people write there by mistake.
 
     slip : pattern of that text, whatever the case of its letters
     """
 
-    of: FieldType
-    slip: str
-    help: str
-
-    @property
-    def label(self) -> str:  # type: ignore[override]
-        """Name of the other type's definition."""
-        return self.of.label
+    def __init__(self, of: FieldType, slip: str, help: str) -> None:
+        self.label = of.label
+        self.of = of
+        self.slip = slip
+        self.help = help
 
     def read(self, value: Any) -> Any:
         """Return the value as the other type reads it."""
@@ -153,17 +148,19 @@ class Hinted(FieldType):
         return self.of.schema()
 
 
-@dataclass(frozen=True, eq=False)
 class NamedOr(FieldType):
     """A name from a table, kept as what the table says, or what ``other`` reads.
 
     what : the noun for messages about unknown names
     """
 
-    label: str
-    named: Mapping[str, Any]
-    what: str
-    other: FieldType | None = None
+    def __init__(
+        self, label: str, named: Mapping[str, Any], what: str, other: FieldType | None = None
+    ) -> None:
+        self.label = label
+        self.named = named
+        self.what = what
+        self.other = other
 
     def read(self, value: Any) -> Any:
         """Return the table's entry, or the value as ``other`` reads it."""

@@ -1,7 +1,5 @@
 """From the bytes of a mission file to its models, or to diagnostics that say what is wrong and where."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from hashlib import sha256

@@ -4,8 +4,6 @@ Modules that define models do without ``from __future__ import annotations``: py
 compile every annotation again.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple, Self, get_args
 

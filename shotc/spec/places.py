@@ -1,6 +1,5 @@
 """Field types for places in the world: a position, and what a camera looks at."""
 
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -26,12 +25,12 @@ NAME = Text(
 )
 
 
-@dataclass(frozen=True, eq=False)
 class DegreesType(FieldType):
     """Latitude or longitude: a number of degrees, as maps give it; kept in degrees."""
 
-    label: str
-    limit: float
+    def __init__(self, label: str, limit: float) -> None:
+        self.label = label
+        self.limit = limit
 
     def read(self, value: Any) -> float:
         """Return the number, at most ``limit`` either way."""

@@ -5,8 +5,6 @@ maxima, so that a plan leaves the autopilot room to correct, and endurance leave
 accelerations of gimbals, and jerks, are hardly ever published; they are what smooth footage bears.
 """
 
-from __future__ import annotations
-
 from math import radians
 from typing import Literal, NamedTuple
 

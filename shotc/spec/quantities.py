@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import partial
 from math import degrees, inf
 from typing import Any
@@ -30,19 +29,27 @@ from shotc.units import (
 _DASHED = re.compile(rf"\s*({NUMBER})\s*(?:-|–|\.\.|to)\s*({NUMBER})\s*([^\W\d_]\S*|[°%])?\s*")
 
 
-@dataclass(frozen=True, eq=False)
 class Quantity(FieldType):
     """A number with a dimension, kept in SI, between ``low`` and ``high`` (SI, inclusive).
 
     fault : slug of the code for a value out of bounds; noun : what messages about bounds call it
     """
 
-    label: str
-    dimension: Dimension
-    low: float = -inf
-    high: float = inf
-    fault: str = "out-of-range"
-    noun: str = ""
+    def __init__(
+        self,
+        label: str,
+        dimension: Dimension,
+        low: float = -inf,
+        high: float = inf,
+        fault: str = "out-of-range",
+        noun: str = "",
+    ) -> None:
+        self.label = label
+        self.dimension = dimension
+        self.low = low
+        self.high = high
+        self.fault = fault
+        self.noun = noun
 
     def read(self, value: Any) -> float:
         """Return the value in SI."""
@@ -96,13 +103,13 @@ class Percentage(Quantity):
         return f"{100 * number:g} %"
 
 
-@dataclass(frozen=True, eq=False)
 class Tuple(FieldType):
     """A list of fixed length, kept as a tuple; ``shape`` is how it is written, such as ``[x, y, z]``."""
 
-    label: str
-    items: tuple[FieldType, ...]
-    shape: str
+    def __init__(self, label: str, items: tuple[FieldType, ...], shape: str) -> None:
+        self.label = label
+        self.items = items
+        self.shape = shape
 
     def read(self, value: Any) -> tuple[Any, ...]:
         """Return the items, each read by its type."""
@@ -125,13 +132,13 @@ class Tuple(FieldType):
         }
 
 
-@dataclass(frozen=True, eq=False)
 class Range(FieldType):
     """A list ``[lowest, highest]``, kept as a tuple; ``thick`` refuses equal ends."""
 
-    label: str
-    item: FieldType
-    thick: bool = False
+    def __init__(self, label: str, item: FieldType, thick: bool = False) -> None:
+        self.label = label
+        self.item = item
+        self.thick = thick
 
     def read(self, value: Any) -> tuple[float, float]:
         """Return (lowest, highest) in SI."""
@@ -158,12 +165,12 @@ class Range(FieldType):
         return Tuple(self.label, (self.item, self.item), "[lowest, highest]")
 
 
-@dataclass(frozen=True, eq=False)
 class Span(FieldType):
     """One value, or ``[from, to]``; kept as (from, to)."""
 
-    label: str
-    item: FieldType
+    def __init__(self, label: str, item: FieldType) -> None:
+        self.label = label
+        self.item = item
 
     def read(self, value: Any) -> tuple[float, float]:
         """Return (from, to) in SI; both ends are the same where one value is given."""

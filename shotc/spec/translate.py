@@ -1,7 +1,5 @@
 """Pydantic's errors in the language's own words: one finding per fault, with the place to blame."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, NamedTuple

@@ -5,8 +5,6 @@ the picture. A place at which the target would be cropped, or that the gimbal ca
 candidate.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple

@@ -69,7 +69,7 @@ class Resolve:
             origins,
             read,
         )
-        shots = expand_shots(spec, cast, resolve_drone("spare", DroneSpec(), put, 0.0))
+        shots = expand_shots(spec, cast, lambda: resolve_drone("spare", DroneSpec(), put, 0.0))
         faults = once(
             [
                 *astray,

@@ -1,7 +1,5 @@
 """Zones and targets as obstacles to one drone: how much room a place lacks, and the shortest way out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import atan2, ceil, degrees, dist, floor, hypot, isfinite, pi
 from typing import Literal, NamedTuple

@@ -1,7 +1,5 @@
 """Shots: their kinds expanded to keyframes, with timing, pace and promises."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
@@ -36,8 +34,8 @@ class Shots(NamedTuple):
     deferred: tuple[Deferred, ...]
 
 
-def expand_shots(spec: MissionSpec, cast: Cast, spare: Drone) -> Shots:
-    """Expand every shot; one without a drone of its own is checked with ``spare`` and left out."""
+def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> Shots:
+    """Expand every shot; one without a drone of its own is checked with what ``spare`` makes and left out."""
     shots: list[Shot] = []
     diagnostics: list[Diagnostic] = []
     deferred: list[Deferred] = []
@@ -46,7 +44,7 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Drone) -> Shots:
         if written.target is not None and written.target not in cast.targets:
             where = (*path, "target")
             diagnostics.append(unknown_target(cast.origins, where, written.target, cast.targets))
-        expansion = _expand(spec, written, cast, cast.drones.get(written.drone, spare), path)
+        expansion = _expand(spec, written, cast, cast.drones.get(written.drone) or spare(), path)
         diagnostics += expansion.diagnostics
         deferred += expansion.deferred
         if expansion.keyframes and written.drone in cast.drones:

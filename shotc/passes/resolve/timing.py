@@ -3,8 +3,6 @@
 Straight lines at full limits say what no drone can do, not what one can: that number is ``plan``'s.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from math import ceil
