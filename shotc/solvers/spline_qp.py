@@ -17,6 +17,7 @@ from shotc.geom.bspline import DEGREE, IntArray, Rows
 from shotc.solvers.conic import Status, solve
 
 MISS = 1e-6  # metres that a solution may miss an equality by
+POINT_PRICE = 1.01  # of a metre that a point gives way: where a floor gives as little, the point stays
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -115,11 +116,12 @@ def minimise(problem: SplineProblem) -> SplineSolution:
     centre = problem.equalities.value.mean(axis=0)
     problem = _moved(problem, -centre)
     coef = _unbounded(problem)
-    found = (
-        _programme(problem)
-        if coef is None
-        else SplineSolution(Status.SOLVED, coef, _energy(problem, coef), 0.0)
-    )
+    if coef is not None:
+        return SplineSolution(Status.SOLVED, coef + centre, _energy(problem, coef), 0.0)
+    found = _programme(problem)
+    if found.coef is None:
+        # Costs of many orders above the constraints pass for a certificate that there is no solution.
+        found = _programme(problem, _dearest(problem))
     return found if found.coef is None else replace(found, coef=found.coef + centre)
 
 
@@ -161,7 +163,13 @@ def _energy(problem: SplineProblem, coef: Array) -> float:
     return float(sum(((goal.rows.apply(coef) - goal.value) ** 2).sum() for goal in problem.goals))
 
 
-def _programme(problem: SplineProblem) -> SplineSolution:
+def _dearest(problem: SplineProblem) -> float:
+    """Return the highest price of a unit above a bound, at least 1."""
+    return max([1.0, *(float(cone.price.max()) for cone in problem.cones if cone.price is not None)])
+
+
+def _programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
+    """Solve with the objective measured in ``unit`` m^2, which changes only the arithmetic."""
     import cvxpy as cp
 
     x = cp.Variable(3 * problem.size)
@@ -173,23 +181,23 @@ def _programme(problem: SplineProblem) -> SplineSolution:
         if cone.price is not None:
             slack = cp.Variable(len(cone.bound), nonneg=True)
             bound = bound + slack
-            price = price + cone.price @ slack
+            price = price + (cone.price / unit) @ slack
         constraints.append(_cone(cone, problem.size, x, bound))
-    energy = cp.sum_squares(_stack(problem, x))
+    energy = cp.sum_squares(_stack(problem, x) / unit**0.5)
     programme = cp.Problem(cp.Minimize(energy + price), constraints)
     status = solve(programme)
     if x.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
         return SplineSolution(status, None, float("nan"), float("nan"))
-    coef, objective = _coef(x, problem.size), float(energy.value)
+    coef, objective = _coef(x, problem.size), float(energy.value) * unit
     if np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value).max() > MISS:
         return SplineSolution(Status.FAILED, None, float("nan"), float("nan"))
-    return SplineSolution(status, coef, objective, float(programme.value) - objective)
+    return SplineSolution(status, coef, objective, float(programme.value) * unit - objective)
 
 
 def relax(problem: SplineProblem, owners: int) -> Relaxation:
     """Return the smallest give-way (sum of metres) of floors, hard cones and points that is feasible.
 
-    Soft cones are left out: they never stop anything. A weak energy term picks one of many answers.
+    Soft cones and the energy are left out: they never stop anything.
     """
     import cvxpy as cp
 
@@ -204,8 +212,7 @@ def relax(problem: SplineProblem, owners: int) -> Relaxation:
     constraints += [_floor_map(f, problem.size) @ x + lack[f.owner] >= f.offset for f in problem.floors]
     hard = [cone for cone in problem.cones if cone.price is None]
     constraints += [_cone(c, problem.size, x, c.bound + lack[c.owner]) for c in hard]
-    weak = 1e-6 * cp.sum_squares(_stack(problem, x))
-    programme = cp.Problem(cp.Minimize(cp.sum(lack) + cp.sum(shift) + weak), constraints)
+    programme = cp.Problem(cp.Minimize(cp.sum(lack) + POINT_PRICE * cp.sum(shift)), constraints)
     status = solve(programme)
     if x.value is None:
         return Relaxation(status, None, np.zeros(owners), np.zeros(points))

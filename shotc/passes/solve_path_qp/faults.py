@@ -17,13 +17,13 @@ from shotc.passes.solve_path_qp.angles import NOTICE, Cut
 from shotc.passes.solve_path_qp.gap import lower_clearance, narrow_gap, opening
 from shotc.passes.solve_path_qp.lines import NoWay, TooNear
 from shotc.passes.solve_path_qp.pad import PadBlocked
+from shotc.passes.solve_path_qp.remedy import conflict, needed, remedy
 from shotc.passes.solve_path_qp.room import GROUND, named, owner_path
 from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, Stuck
 from shotc.passes.solve_path_qp.swings import Swing
 from shotc.solvers.conic import Status
 
 _WAY = {"over": "down", "under": "up"}
-LEAST = 1e-3  # metres of give-way that count as part of a conflict
 
 
 def failure(
@@ -36,7 +36,7 @@ def failure(
         case TooNear():
             return _too_near(mission, drone, shot, what)
         case Stuck():
-            return _stuck(mission, drone, shot, what)
+            return _stuck(mission, drone, room, shot, what)
         case AngleFailure():
             return _angles(mission, drone, shot, what)
         case _:
@@ -197,31 +197,25 @@ def _too_near(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: T
     )
 
 
-def _stuck(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: Stuck) -> Diagnostic:
+def _stuck(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Stuck) -> Diagnostic:
     ends = (what.keyframes[0], what.keyframes[-1]) if what.keyframes else (-1, -1)
-    if what.solved.status is not Status.INFEASIBLE or what.solved.relaxation is None:
+    if what.solved.status is not Status.INFEASIBLE:
         return _solver_failed(mission, drone, shot, f"path ({what.solved.status})")
-    relaxation = what.solved.relaxation
-    lack = [
-        (n, float(x)) for n, x in zip(what.solved.owners, relaxation.floor_lack, strict=False) if x > LEAST
-    ]
-    lack.sort(key=lambda item: -item[1])
-    shifts = [(k, float(x)) for k, x in enumerate(relaxation.point_shift) if x > LEAST]
+    found = conflict(what)
+    if not found.owners and not found.points:
+        # Nothing is too tight, so there is nothing that the user could widen.
+        return _solver_failed(mission, drone, shot, "path (no curve kept clear of everything)")
     labels = _ends(mission, drone, shot, ends)
-    labels += [_owner_label(mission, name, f"would have to give {x:.2f} m") for name, x in lack]
-    notes = [f"{named(name)} would have to be {x:.2f} m smaller" for name, x in lack]
-    notes += [f"keyframe {_bound_name(what, k)} would have to move by {x:.2f} m" for k, x in shifts]
-    help_ = (
-        f"shrink or move {named(lack[0][0])} by {lack[0][1] + 0.01:.2f} m"
-        if lack
-        else "move the keyframes apart"
-    )
+    labels += [_owner_label(mission, name, f"would have to give {x:.2f} m") for name, x in found.owners]
+    notes = [needed(mission, name, x) for name, x in found.owners]
+    notes += [f"keyframe {_bound_name(what, k)} would have to move by {x:.2f} m" for k, x in found.points]
     return Diagnostic(
         "Q003",
         f"the corridor {_leading(shot, ends)} is too tight for a smooth path of `{drone.name}`",
         tuple(labels),
         tuple(notes),
-        help_,
+        remedy(mission, drone, room, shot, what)
+        or "lead the way through wider places: move the end points, or what stands between them",
     )
 
 

@@ -130,7 +130,7 @@ def _transit(flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: Ke
         line = straight_line(flight.room, a, b)
         if not isinstance(line, Line):
             return line
-        found = _smooth(flight, line)
+        found = smooth(flight.room, flight.drone, line)
         if isinstance(found, Stuck):
             return found
         position = found
@@ -138,11 +138,12 @@ def _transit(flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: Ke
     return curve if isinstance(curve, AngleFailure) else [_plain(phase, curve, path)]
 
 
-def _smooth(flight: Flight, line: Line) -> Piecewise | Stuck:
+def smooth(room: Room, drone: Drone, line: Line) -> Piecewise | Stuck:
+    """Return the position curve of an unfilmed leg along a polyline."""
     none = np.zeros(0)
     ends = (0, len(line.corners) - 1)
     stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
-    solved = solve_stretch(flight.room, stretch, flight.drone.limits)
+    solved = solve_stretch(room, stretch, drone.limits)
     return Stuck(solved, line.corners, ()) if solved.curve is None else solved.curve
 
 
