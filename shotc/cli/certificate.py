@@ -8,7 +8,7 @@ from math import isfinite
 from shotc.cli.summary import clock
 from shotc.cli.table import table
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.numbers import measure
+from shotc.passes.verify.numbers import measure, told_apart
 
 WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}
 HEADING = ("", "claim", "asked", "worst", "at", "known by")
@@ -27,12 +27,14 @@ def certificate_text(certificate: Sequence[Claim]) -> str:
 
 def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
     for claim in claims:
-        asked = f"{'<=' if claim.upper else '>='} {measure(claim.limit, claim.unit)}"
+        worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
+        if not claim.holds:
+            worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
         yield (
             mark(claim),
             claim.constraint,
-            asked if isfinite(claim.limit) else "-",
-            measure(claim.worst, claim.unit) if isfinite(claim.worst) else "-",
+            f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-",
+            worst if isfinite(claim.worst) else "-",
             "" if claim.time is None else clock(claim.time),
             WAYS[claim.method],
         )

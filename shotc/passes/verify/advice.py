@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, isfinite
+from math import ceil, isfinite
 
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, Phase
@@ -35,9 +35,9 @@ def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) ->
     if special:
         return special
     setting = _setting(mission, claim)
-    if rule.power and phase is not None and phase.shot is not None:
-        stretch = max(1.0, claim.worst / claim.limit) ** rule.power if claim.limit > 0 else inf
-        longer = (phase.end - phase.start) * stretch
+    if rule.power and claim.limit > 0 and phase is not None and phase.shot is not None:
+        stretch = max(1.0, claim.worst / claim.limit) ** rule.power
+        longer = ceil(10 * (phase.end - phase.start) * stretch) / 10
         time = f"give shot `{phase.shot}` {longer:.1f} s or more"
         return f"{time}, or {setting}; then plan again" if setting else f"{time}; then plan again"
     return f"{setting}, or {REPLAN}" if setting else REPLAN

@@ -10,7 +10,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
-from shotc.passes.verify.numbers import measure, told_apart
+from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
 
 RULES = {
@@ -114,7 +114,7 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
         message = f"{claim.subject}: {_state(claim, rule.code)}"
         notes += filter(None, [wind_note(mission, claim)])
         help_ = advice(mission, claim, rule, phase)
-    limit = f"{_side(claim)} {measure(claim.limit, claim.unit)}"
+    limit = f"{_side(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
     return Diagnostic(rule.code, message, _labels(mission, claim, phase, limit), tuple(notes), help_)
 
 

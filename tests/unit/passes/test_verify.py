@@ -19,7 +19,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, Deviation
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify, judge
-from shotc.passes.verify.numbers import enough, measure, told_apart
+from shotc.passes.verify.numbers import enough, measure
 from shotc.passes.verify.report import rule_of
 from shotc.source.file import Span
 from tests.records import replace
@@ -476,9 +476,3 @@ def test_a_broken_promise_names_what_bent_the_path() -> None:
     (found,) = promising(Promise(size=(0.1, 0.7)), replace(PLAN, deviations=bent))
     assert "the shot leaves its ideal path by up to 1.50 m, round zone `tree`" in found.notes
     assert not any("ground" in note for note in found.notes)
-
-
-@given(st.floats(-1e3, 1e3), st.floats(1e-6, 1.0), st.sampled_from(["m", "m/s", "rad", "of samples"]))
-def test_values_that_differ_look_different(value: float, by: float, unit: str) -> None:
-    one, other = told_apart(value, value + by, unit)
-    assert one != other
