@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, TextIO
 
@@ -35,8 +34,9 @@ class Color(StrEnum):
     NEVER = "never"
 
 
-@dataclass(slots=True)
 class _Settings:
+    """The global flags of this process."""
+
     color: Color = Color.AUTO
     quiet: bool = False
 

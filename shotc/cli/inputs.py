@@ -4,7 +4,6 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
@@ -20,7 +19,7 @@ STDIN = "-"
 STDIN_NAME = "<stdin>"
 _SUFFIXES = (".yaml", ".yml")
 # In a folder a YAML file is a mission if its top level has the key `shotc`, in block or in flow style.
-_MISSION = re.compile(rb"""^(?:\xef\xbb\xbf)?(?:\s*\{\s*)?["']?shotc["']?[ \t]*:""", re.MULTILINE)
+_MISSION = rb"""(?m)^(?:\xef\xbb\xbf)?(?:\s*\{\s*)?["']?shotc["']?[ \t]*:"""
 
 
 class MissionText(NamedTuple):
@@ -31,13 +30,13 @@ class MissionText(NamedTuple):
     folder: Path
 
 
-@dataclass(slots=True)
 class Gathered:
     """Missions to check, what could not be read, and the YAML files passed over as no missions."""
 
-    missions: list[MissionText] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    skipped: int = 0
+    def __init__(self) -> None:
+        self.missions: list[MissionText] = []
+        self.diagnostics: list[Diagnostic] = []
+        self.skipped = 0
 
 
 def read_mission(spec: str, stdin_name: str | None = None) -> MissionText:
@@ -73,7 +72,7 @@ def _gather_folder(folder: Path, gathered: Gathered, seen: set[str]) -> None:
     errors: list[OSError] = []
     for path in _yaml_files(folder, errors):
         found = _read(str(path), None)
-        if isinstance(found, MissionText) and not _MISSION.search(found.data):
+        if isinstance(found, MissionText) and not re.search(_MISSION, found.data):
             gathered.skipped += 1
             continue
         holds_any = True

@@ -1,9 +1,8 @@
-"""Tables and GPX tracks that a mission names: text to rows of numbers, with the line of every fault."""
+"""Tables that a mission names: text to rows of numbers, with the line of every fault."""
 
 from collections.abc import Sequence
 from math import isfinite
-from typing import Any, NamedTuple
-from xml.parsers import expat
+from typing import NamedTuple
 
 LARGEST = 4_000_000  # bytes
 MOST_ROWS = 50_000
@@ -50,96 +49,16 @@ def read_table(data: bytes, layouts: Sequence[tuple[str, ...]]) -> Table | FileF
     body = cells if _is_number(cells[0][1][0]) else cells[1:]
     rows: list[tuple[float, ...]] = []
     for number, row in body:
-        numbers = _row(number, row, columns)
+        numbers = row_of(number, row, columns)
         if isinstance(numbers, FileFault):
             return numbers
         rows.append(numbers)
     return Table(columns, tuple(rows))
 
 
-def read_gpx(data: bytes) -> Table | FileFault:
-    """Read the track points of a GPX file, or its route points if it has no track: lat, lon, ele.
-
-    A document type declaration is refused, for entities could grow without bound.
-    """
-    if len(data) > LARGEST:
-        return _too_large(data)
-    reader = _Gpx()
-    parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = reader.doctype
-    parser.StartElementHandler = reader.start
-    parser.EndElementHandler = reader.end
-    parser.CharacterDataHandler = reader.text
-    reader.parser = parser
-    try:
-        parser.Parse(data, True)
-    except _Stop:
-        assert reader.fault is not None
-        return reader.fault
-    except expat.ExpatError as error:
-        return FileFault(f"not well-formed XML: {expat.ErrorString(error.code)}", error.lineno)
-    points = reader.points["trkpt"] or reader.points["rtept"]
-    if not points:
-        return FileFault("the file has no track points", help="export a track (`trkpt`) or a route (`rtept`)")
-    return Table(("lat", "lon", "ele"), tuple(points))
-
-
-class _Stop(Exception):
-    """The reader has found its first fault and leaves expat."""
-
-
-class _Gpx:
-    """Expat's handlers; collects points until the first fault."""
-
-    def __init__(self) -> None:
-        self.parser: Any = None
-        self.points: dict[str, list[tuple[float, ...]]] = {"trkpt": [], "rtept": []}
-        self.fault: FileFault | None = None
-        self._open: tuple[str, str, str, int] | None = None
-        self._ele: str | None = None
-        self._reading = False
-
-    def doctype(self, *_: Any) -> None:
-        self._stop("the file has a document type declaration", "remove the `<!DOCTYPE ...>`")
-
-    def start(self, tag: str, attributes: dict[str, str]) -> None:
-        name = tag.rsplit(":", 1)[-1]
-        if name in self.points:
-            lat, lon = attributes.get("lat", ""), attributes.get("lon", "")
-            self._open, self._ele = (name, lat, lon, self.parser.CurrentLineNumber), None
-        self._reading = name == "ele" and self._open is not None
-        if self._reading:
-            self._ele = ""
-
-    def text(self, data: str) -> None:
-        if self._reading:
-            self._ele = (self._ele or "") + data
-
-    def end(self, tag: str) -> None:
-        name = tag.rsplit(":", 1)[-1]
-        self._reading = False
-        if self._open is None or name != self._open[0]:
-            return
-        kind, lat, lon, line = self._open
-        self._open = None
-        if self._ele is None:
-            self._stop("a point has no elevation", "give every point an `<ele>`", line)
-        row = _row(line, (lat, lon, (self._ele or "").strip()), ("lat", "lon", "ele"))
-        if isinstance(row, FileFault):
-            self._stop(row.message, row.help, line)
-        else:
-            self.points[kind].append(row)
-        if len(self.points[kind]) > MOST_ROWS:
-            self._stop(f"the file has more than {MOST_ROWS} points", "thin the track")
-
-    def _stop(self, message: str, help: str, line: int | None = None) -> None:
-        self.fault = FileFault(message, line or self.parser.CurrentLineNumber, help)
-        raise _Stop
-
-
 def _text(data: bytes) -> str | FileFault:
     if len(data) > LARGEST:
-        return _too_large(data)
+        return too_large(data)
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -160,7 +79,8 @@ def _no_table(line: int, first: str) -> FileFault | None:
     return None
 
 
-def _too_large(data: bytes) -> FileFault:
+def too_large(data: bytes) -> FileFault:
+    """Return the fault of a file of more than ``LARGEST`` bytes."""
     return FileFault(f"the file is {len(data) / 1e6:.1f} MB; at most {LARGEST / 1e6:.0f} MB are read")
 
 
@@ -179,7 +99,8 @@ def _columns(
     return FileFault(f"the header `{','.join(first)[:60]}` names other columns", line, f"write {wanted}")
 
 
-def _row(line: int, cells: tuple[str, ...], columns: tuple[str, ...]) -> tuple[float, ...] | FileFault:
+def row_of(line: int, cells: tuple[str, ...], columns: tuple[str, ...]) -> tuple[float, ...] | FileFault:
+    """Return the numbers of one row under its columns, or what is wrong with it; line from 1."""
     if len(cells) != len(columns):
         return FileFault(f"the row has {len(cells)} columns, not {len(columns)}", line)
     for cell, column in zip(cells, columns, strict=True):

@@ -11,7 +11,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Deferred, Vec2, Vec3
 from shotc.kinds.base import Aim, Expansion, Kind, Part, Place, Scene
 from shotc.kinds.earth import stray
-from shotc.kinds.files import FileFault, Table, read_gpx, read_table
+from shotc.kinds.files import FileFault, Table, read_table
+from shotc.kinds.gpx import read_gpx
 from shotc.spec.fields import Geodetic, LookAt, Pitch, Position, RelativePath
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.model import OneOf

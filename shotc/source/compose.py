@@ -5,7 +5,6 @@ that a bomb only goes off later. Here every event is weighed before anything is 
 """
 
 import re
-from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import Any, NamedTuple
 
@@ -72,16 +71,16 @@ class _StopReading(Exception):
     """Ends the pass over the events: a cap is reached or a second document begins."""
 
 
-@dataclass(slots=True)
 class _Open:
     """A collection whose end has not come; a mapping may wait for the value of ``key``."""
 
-    node: Collection
-    anchor: str | None
-    flow: bool
-    key: Entry | None = None
-    has_key: bool = False
-    seen: dict[str, Entry] = field(default_factory=dict)
+    def __init__(self, node: Collection, anchor: str | None, flow: bool) -> None:
+        self.node = node
+        self.anchor = anchor
+        self.flow = flow
+        self.key: Entry | None = None
+        self.has_key = False
+        self.seen: dict[str, Entry] = {}
 
 
 class _Composer:

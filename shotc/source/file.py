@@ -2,8 +2,7 @@
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
 
@@ -25,18 +24,14 @@ def _position(starts: tuple[int, ...], offset: int) -> tuple[int, int]:
     return line, offset - starts[line - 1] + 1
 
 
-@dataclass(frozen=True, slots=True)
 class SourceFile:
     """A text and the name it is shown under; lines end as editors see them: LF, CRLF or CR."""
 
-    name: str
-    text: str
-    _starts: tuple[int, ...] = field(init=False, repr=False, compare=False)
-    """The offset at which each line begins."""
-
-    def __post_init__(self) -> None:
-        starts = (0, *(match.end() for match in _LINE_END.finditer(self.text)))
-        object.__setattr__(self, "_starts", starts)
+    def __init__(self, name: str, text: str) -> None:
+        self.name: Final = name
+        self.text: Final = text
+        # The offset at which each line begins.
+        self._starts: Final = (0, *(match.end() for match in _LINE_END.finditer(text)))
 
     def line(self, number: int) -> str:
         """Return line ``number`` (from 1) without its line end, or an empty string past the end."""

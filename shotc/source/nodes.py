@@ -1,8 +1,5 @@
 """The tree of a YAML document: values with the offsets at which they stand."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from shotc.source.core_schema import ScalarValue
@@ -23,10 +20,9 @@ class Entry(NamedTuple):
     key: str
     start: int
     end: int
-    value: Node
+    value: "Node"
 
 
-@dataclass(slots=True)
 class Collection:
     """A list (``entries`` is None) or a mapping.
 
@@ -34,12 +30,13 @@ class Collection:
     height : collections inside each other, itself included, aliases followed
     """
 
-    start: int
-    end: int
-    items: list[Node] = field(default_factory=list)
-    entries: list[Entry] | None = None
-    size: int = 1
-    height: int = 1
+    def __init__(self, start: int, end: int, entries: list[Entry] | None) -> None:
+        self.start = start
+        self.end = end
+        self.items: list[Node] = []
+        self.entries = entries
+        self.size = 1
+        self.height = 1
 
 
 class Alias(NamedTuple):

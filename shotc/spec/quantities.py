@@ -26,7 +26,7 @@ from shotc.units import (
 )
 
 # Two numbers with a dash between them, which is how a range is written by hand.
-_DASHED = re.compile(rf"\s*({NUMBER})\s*(?:-|–|\.\.|to)\s*({NUMBER})\s*([^\W\d_]\S*|[°%])?\s*")
+_DASHED = rf"\s*({NUMBER})\s*(?:-|–|\.\.|to)\s*({NUMBER})\s*([^\W\d_]\S*|[°%])?\s*"
 
 
 class Quantity(FieldType):
@@ -192,7 +192,7 @@ class Span(FieldType):
 
 def _apart(value: object) -> str:
     """Return how to write a text such as ``40-65 m`` as two values; empty for anything else."""
-    match = _DASHED.fullmatch(clip(value)) if isinstance(value, str) else None
+    match = re.fullmatch(_DASHED, clip(value)) if isinstance(value, str) else None
     if match is None:
         return ""
     unit = f" {match[3]}" if match[3] else ""

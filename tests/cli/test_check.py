@@ -196,3 +196,15 @@ def test_check_loads_nothing_heavy(good: Path) -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "0 []\n"
+
+
+def test_check_defines_no_dataclasses(good: Path) -> None:
+    code = (
+        "import sys; from shotc.cli.app import run\n"
+        f"code = run(['check', {str(good)!r}])\n"
+        "ours = [module for name, module in sys.modules.items() if name.startswith('shotc')]\n"
+        "found = {item for module in ours for item in vars(module).values() if isinstance(item, type)}\n"
+        "print(code, [i for i in found if i.__module__.startswith('shotc') and hasattr(i, '__dataclass_fields__')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "0 []\n"

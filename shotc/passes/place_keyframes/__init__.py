@@ -7,7 +7,6 @@ guarantees that every target with a composition is whole in the frame of a camer
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, hypot, pi
 from typing import ClassVar
@@ -25,7 +24,6 @@ from shotc.passes.place_keyframes.flown_order import flown_order
 NORTH = pi / 2
 
 
-@dataclass(frozen=True, slots=True)
 class PlaceKeyframes:
     """The pass; it has no options."""
 

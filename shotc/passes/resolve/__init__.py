@@ -8,9 +8,8 @@ timing are judged once all names and places stand.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
@@ -35,7 +34,6 @@ from shotc.spec.presets import RATE
 ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
 class Resolve:
     """The pass.
 
@@ -45,8 +43,9 @@ class Resolve:
 
     name: ClassVar[str] = "resolve"
 
-    kinds: Mapping[str, Kind]
-    emitters: Collection[str] | None = None
+    def __init__(self, kinds: Mapping[str, Kind], emitters: Collection[str] | None = None) -> None:
+        self.kinds: Final = kinds
+        self.emitters: Final = emitters
 
     def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[MissionIR]:
         """Resolve one mission."""

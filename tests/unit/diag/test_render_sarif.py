@@ -184,7 +184,7 @@ def test_fingerprints_outlast_lines_added_above() -> None:
         run = json.loads(render(found, {file.name: file}))["runs"][0]
         return [result["partialFingerprints"]["primaryLocationLineHash"] for result in run["results"]]
 
-    longer = replace(MISSION, text="# a\n# b\n" + MISSION.text)
+    longer = SourceFile(MISSION.name, "# a\n# b\n" + MISSION.text)
     assert fingerprints(MISSION, 4) == fingerprints(longer, 6)
     assert fingerprints(MISSION, 4) != fingerprints(MISSION, 6)
 

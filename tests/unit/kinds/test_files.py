@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.kinds.files import LARGEST, FileFault, Table, read_gpx, read_table
+from shotc.kinds.files import LARGEST, FileFault, Table, read_table
+from shotc.kinds.gpx import read_gpx
 
 XYZ = (("x", "y", "z"), ("lat", "lon", "height"))
 GPX = '<?xml version="1.0"?>\n<gpx xmlns="http://www.topografix.com/GPX/1/1">\n{}\n</gpx>'
