@@ -202,9 +202,10 @@ def test_check_defines_no_dataclasses(good: Path) -> None:
     code = (
         "import sys; from shotc.cli.app import run\n"
         f"code = run(['check', {str(good)!r}])\n"
-        "ours = [module for name, module in sys.modules.items() if name.startswith('shotc')]\n"
-        "found = {item for module in ours for item in vars(module).values() if isinstance(item, type)}\n"
-        "print(code, [item for item in found if hasattr(item, '__dataclass_fields__')])"
+        "ours = {name: vars(module) for name, module in sys.modules.items() if name.startswith('shotc')}\n"
+        "held = [item for members in ours.values() for item in members.values()]\n"
+        "data = [item for item in held if hasattr(item, '__dataclass_fields__')]\n"
+        "print(code, [item for item in data if item.__module__ in ours])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "0 []\n"
