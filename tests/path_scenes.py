@@ -18,6 +18,11 @@ from tests.samples import orbit_mission
 
 HFOV, ASPECT = radians(70), 16 / 9
 FIELD = Prism(((-80.0, -80.0), (80.0, -80.0), (80.0, 80.0), (-80.0, 80.0)), 2.0, 60.0)
+TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))
+
+
+def codes(outcome: Outcome[PathIR]) -> list[str]:
+    return [d.code for d in outcome.diagnostics]
 
 
 def mission(*zones: Zone, targets: tuple[Target, ...] | None = None, **drone: object) -> MissionIR:

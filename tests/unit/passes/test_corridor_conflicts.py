@@ -15,7 +15,7 @@ from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.shots import Stuck
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import Relaxation
-from tests.path_scenes import FIELD, block, free, inside, mission, out, planned, shot, solve
+from tests.path_scenes import FIELD, block, free, inside, legs, mission, out, planned, shot, solve
 from tests.records import replace
 
 POLE = Cylinder((0.0, 0.0), 2.0, 0.0, 70.0)
@@ -57,7 +57,7 @@ def test_a_remedy_that_is_told_plans_when_it_is_applied():
     less = metres(fault.help)
     assert 0.3 <= less < 0.36
     shrunk = replace(POLE, radius=POLE.radius - less, bottom=POLE.bottom + less, top=POLE.top - less)
-    planned(scene(shrunk), through(PAST))
+    assert len(legs(planned(scene(shrunk), through(PAST)), "shot")) == 1
 
 
 def test_a_border_is_widened():
@@ -70,7 +70,7 @@ def test_a_border_is_widened():
     wider = metres(fault.help)
     grown = tuple((x + wider * np.sign(x), y + wider * np.sign(y)) for x, y in FIELD.points)
     larger = replace(FIELD, points=grown, bottom=FIELD.bottom - wider, top=FIELD.top + wider)
-    planned(replace(made, zones=(inside("field", larger),)), through(rim))
+    assert len(legs(planned(replace(made, zones=(inside("field", larger),)), through(rim)), "shot")) == 1
 
 
 def test_the_ground_cannot_shrink_but_its_clearance_can():
@@ -81,7 +81,7 @@ def test_the_ground_cannot_shrink_but_its_clearance_can():
     assert fault.notes == ("rules.ground_clearance would have to be 0.30 m lower",)
     assert fault.help.startswith("lower rules.ground_clearance by ")
     eased = replace(made.rules, ground_clearance=made.rules.ground_clearance - metres(fault.help))
-    planned(replace(made, rules=eased), through(low))
+    assert len(legs(planned(replace(made, rules=eased), through(low)), "shot")) == 1
 
 
 def test_where_nothing_tried_helps_no_number_is_promised():
