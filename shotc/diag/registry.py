@@ -59,6 +59,12 @@ def registry() -> dict[str, CodeInfo]:
     return table
 
 
+@cache
+def code_of(slug: str) -> str:
+    """Return the code with this slug."""
+    return next(info.code for info in registry().values() if info.slug == slug)
+
+
 def severity_of(diagnostic: Diagnostic) -> Severity:
     """Return the severity that the registry gives this diagnostic's code."""
     return registry()[diagnostic.code].severity

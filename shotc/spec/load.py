@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from shotc.diag.codes import schema, units
 from shotc.diag.codes.yaml import text_diagnostic
 from shotc.diag.model import Diagnostic, Label
+from shotc.diag.registry import code_of
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.source.yaml_tree import Document, parse
@@ -23,7 +23,6 @@ from shotc.units import clip
 MAX_DIAGNOSTICS = 100
 # How a plan.json begins, which is YAML, too.
 _PLAN = re.compile(rb'\s*\{\s*"format"\s*:\s*"shotc-plan"')
-_CODES = {info.slug: info.code for info in (*schema.CODES, *units.CODES)}
 
 
 class LoadedMission(NamedTuple):
@@ -73,7 +72,7 @@ def _plan_given(name: str) -> Loaded:
     """Return the one fault of a plan that stands where a mission is wanted."""
     label = (Label(name, WHOLE_FILE),)
     help_ = "give the mission's YAML file; `shotc verify`, `emit`, `view` and `diff` take plans"
-    found = Diagnostic(_CODES["not-a-mission"], "this is a plan, not a mission", label, help=help_)
+    found = Diagnostic(code_of("not-a-mission"), "this is a plan, not a mission", label, help=help_)
     return Loaded(None, (found,), SourceFile(name, ""))
 
 
@@ -143,4 +142,4 @@ def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:
     if finding.path == ():
         label = Label(origins.file, WHOLE_FILE)
     related = (origins.key(finding.beside, "given here"),) if finding.beside else ()
-    return Diagnostic(_CODES[finding.slug], finding.message, (label, *related), finding.notes, finding.help)
+    return Diagnostic(code_of(finding.slug), finding.message, (label, *related), finding.notes, finding.help)
