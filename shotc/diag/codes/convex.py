@@ -93,7 +93,8 @@ CODES: tuple[CodeInfo, ...] = (
         "The route round the zones is turned into a corridor, and the curve with the least jerk is sought "
         "inside it. None exists, even with more pieces. The notes give the smallest set of requirements "
         "in conflict, found by letting each give way at a price: how much each zone would have to shrink "
-        "and each keyframe to move.",
+        "and each keyframe to move. A change with numbers in the help has been tried: with it there is a "
+        "path.",
     ),
     _code(
         4,
