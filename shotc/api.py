@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # the base install has no numpy
     from shotc.emission import Crew
     from shotc.emit.base import Artifact, Emitter
     from shotc.ir.trajectory import Claim, VerifiedIR
+    from shotc.passes.refine_path import Seat
 
 SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "matplotlib", "pymap3d")
 
@@ -45,12 +46,15 @@ def _ignore(_mission: MissionIR) -> None:
 class PlanOptions(NamedTuple):
     """How to compile.
 
+    refiner : its name; None means ``plugins.usual_refiner()``
+    deadline : seconds that the refiner may take, in a process of its own then
     autopilot : "px4" or "ardupilot" instead of what the drone's model says
     stop_after : the name of the last pass to run; progress : called with each pass's name
     on_mission : called with the mission once it can be planned, before the solvers load
     """
 
-    refiner: str = "none"
+    refiner: str | None = None
+    deadline: float | None = None
     autopilot: Literal["px4", "ardupilot"] | None = None
     stop_after: str | None = None
     seed: int = 0
@@ -116,7 +120,7 @@ def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
 def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOptions) -> Compilation:
     """Compile one mission into a verified plan.
 
-    options.refiner must be one of ``plugins.names("refiners")``
+    options.refiner must be None or one of ``plugins.names("refiners")``
     """
     kinds = plugins.shot_kinds()
     loaded = load(data, name, folder, _models(kinds.plugins))
@@ -134,12 +138,12 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
         return Compilation(None, front.reports, (*found, *refusals), sources)
-    refiner, faults = _refiner(options.refiner)
+    seat, faults = _seat(options.refiner or plugins.usual_refiner(), front.value.mission)
     found += faults
-    if refiner is None or stops(found):
+    if seat is None or stops(found):
         return Compilation(None, front.reports, tuple(found), sources)
     options.on_mission(front.value.mission)
-    passes = default_passes(kinds.plugins, refiner)[len(front.reports) :]
+    passes = default_passes(kinds.plugins, seat, options.deadline)[len(front.reports) :]
     back = run(passes, _with_autopilot(front.value, options.autopilot), ctx, options.stop_after)
     found = [*without_answered(found, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
@@ -147,13 +151,19 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     return Compilation(plan, front.reports + back.reports, tuple(found), sources)
 
 
-def _refiner(name: str) -> tuple[Any, tuple[Diagnostic, ...]]:
-    """Return a refiner, or None where it cannot be used, and what there is to say about refiners."""
-    known = plugins.discover("refiners")
-    if name not in known.lacking:
-        return known.plugins.get(name), known.diagnostics
-    missing = plugins.not_installed("P004", f"refiner `{name}`", [known.lacking[name]])
-    return None, (*known.diagnostics, missing)
+def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic, ...]]:
+    """Return who refines the path, or None and why there is nobody.
+
+    A refiner that cannot be used does not matter to a mission that accepts the convex path in all its shots.
+    """
+    from shotc.passes.refine_path import Seat, Unusable
+
+    found = plugins.one("refiners", name)
+    if found.plugin is not None:
+        return Seat(found.plugin, found.package, found.reference), ()
+    if all(shot.refine_optional for shot in mission.shots):
+        return Seat(Unusable(name, found.diagnostics), found.package), ()
+    return None, found.diagnostics
 
 
 def crew(jobs: int | None = None) -> AbstractContextManager[Crew]:

@@ -39,14 +39,18 @@ def front_passes(kinds: Any, emitters: Any = None) -> tuple[AnyPass, ...]:
     return (Resolve(kinds, emitters), PlaceKeyframes())
 
 
-def default_passes(kinds: Any, refiner: Any) -> tuple[AnyPass, ...]:
-    """Return the whole compiler."""
+def default_passes(kinds: Any, seat: Any, deadline: float | None = None) -> tuple[AnyPass, ...]:
+    """Return the whole compiler.
+
+    seat : the refiner and where it comes from (``refine_path.Seat``); deadline : seconds that it may take
+    """
     from shotc.passes.parameterize_time import ParameterizeTime
     from shotc.passes.refine_path import RefinePath
     from shotc.passes.solve_path_qp import SolvePathQp
     from shotc.passes.verify import Verify
 
-    return (*front_passes(kinds), SolvePathQp(), RefinePath(refiner), ParameterizeTime(), Verify())
+    refine = RefinePath(seat, deadline)
+    return (*front_passes(kinds), SolvePathQp(), refine, ParameterizeTime(), Verify())
 
 
 PASS_NAMES = (

@@ -15,6 +15,7 @@ from shotc.diag.model import Diagnostic
 API_VERSION = 1
 OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun")
 """Libraries that the base install does without: a plugin that misses one is not broken."""
+OUR_REFINER, NO_REFINER = "ours", "none"
 GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}
 
 
@@ -27,6 +28,19 @@ class Found(NamedTuple):
     plugins: Mapping[str, Any]
     diagnostics: tuple[Diagnostic, ...]
     lacking: Mapping[str, str]
+
+
+class Source(NamedTuple):
+    """One plugin and where it comes from.
+
+    plugin : None where it cannot be used; diagnostics say why
+    package : its distribution; reference : module:attribute, as its entry point says
+    """
+
+    plugin: Any
+    package: str
+    reference: str
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 class OnDemand(Mapping[str, Any]):
@@ -55,6 +69,32 @@ class OnDemand(Mapping[str, Any]):
 def discover(group: str) -> Found:
     """Load every plugin of ``group`` ("kinds", "refiners" or "emitters")."""
     return _prove(group, _by_name(group))
+
+
+def one(group: str, name: str) -> Source:
+    """Load one plugin of a group alone: what is wrong with others does not matter. KeyError: no such name."""
+    entries = _by_name(group)[name]
+    found = _prove(group, {name: entries})
+    owners = " and ".join(dict.fromkeys(map(_owner, entries)))
+    missing = tuple(
+        not_installed("P004", f"{group.removesuffix('s')} `{name}`", [library])
+        for library in found.lacking.values()
+    )
+    return Source(found.plugins.get(name), owners, entries[0].value, found.diagnostics + missing)
+
+
+def usual_refiner() -> str:
+    """Return the refiner that is used where none is asked for: ours where it is installed."""
+    return OUR_REFINER if OUR_REFINER in names("refiners") else NO_REFINER
+
+
+def no_refiner() -> Diagnostic:
+    """Say that a mission was planned without a refiner, since ours is not installed."""
+    return Diagnostic(
+        "P007",
+        "planned without a refiner, the convex path is flown as it is",
+        help="install shotc-casadi, which has the refiner `ours`; `--refiner none` is to mean it",
+    )
 
 
 @cache

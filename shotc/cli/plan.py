@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -19,11 +20,34 @@ if TYPE_CHECKING:
     from shotc.emission import Crew
     from shotc.ir.mission import MissionIR
 
+
+def _positive(seconds: float | None) -> float | None:
+    """Accept a time that ends some day."""
+    if seconds is not None and not 0 < seconds < inf:
+        raise typer.BadParameter(f"{seconds:g} is no time that a refiner can be given")
+    return seconds
+
+
 _PASSES = f"Passes: {', '.join(PASS_NAMES)}."
 Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
 Output = Annotated[Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION].")]
 Emit = Annotated[str | None, typer.Option(help="Emitters to run, separated by commas.", metavar="LIST")]
-RefinerName = Annotated[str, typer.Option("--refiner", help="Which refiner improves the path.")]
+RefinerName = Annotated[
+    str | None,
+    typer.Option(
+        "--refiner",
+        metavar="NAME",
+        help="Which refiner improves the path [ours where it is installed, else none].",
+    ),
+]
+Deadline = Annotated[
+    float | None,
+    typer.Option(
+        metavar="SECONDS",
+        help="Stop the refiner when it has taken so long, loading included, whatever it is doing.",
+        callback=_positive,
+    ),
+]
 Autopilot = Annotated[
     Literal["px4", "ardupilot"] | None,
     typer.Option(help="Write for this autopilot, whatever the drone's model says."),
@@ -51,7 +75,8 @@ def plan(
     spec: Spec,
     output: Output = None,
     emit: Emit = None,
-    refiner: RefinerName = "none",
+    refiner: RefinerName = None,
+    deadline: Deadline = None,
     autopilot: Autopilot = None,
     stop_after: StopAfter = None,
     dump_ir: DumpIr = None,
@@ -78,8 +103,8 @@ def plan(
         def start(mission: MissionIR) -> None:
             hands.prepare(mission.emit if emitters is None else emitters)
 
-        options = PlanOptions(refiner, autopilot, stop, seed, progress, start)
-        done = compile_source(source.data, source.name, source.folder, options)
+        options = PlanOptions(refiner, deadline, autopilot, stop, seed, progress, start)
+        done = _told(compile_source(source.data, source.name, source.folder, options), refiner)
         if dump_ir is not None:
             _dump(done, dump_ir)
         if options.stop_after is None:
@@ -91,6 +116,14 @@ def plan(
     if time_passes:
         _print_times(done)
     raise typer.Exit(code)
+
+
+def _told(done: Compilation, refiner: str | None) -> Compilation:
+    """Add that there was no refiner, where none was asked for and the path could have been refined."""
+    reached = any(report.name == "refine-path" for report in done.reports)
+    if refiner is not None or plugins.usual_refiner() != plugins.NO_REFINER or not reached:
+        return done
+    return done._replace(diagnostics=(*done.diagnostics, plugins.no_refiner()))
 
 
 def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, hands: Crew) -> int:

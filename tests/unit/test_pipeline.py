@@ -8,7 +8,7 @@ import pytest
 from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.refine_path import REFINER
+from shotc.passes.refine_path import Seat
 from shotc.pipeline import PASS_NAMES, default_passes, mismatches, run
 
 
@@ -45,7 +45,7 @@ class Spell:
 
 
 def test_the_default_passes_fit_together_and_bear_their_names():
-    passes = default_passes(plugins.discover("kinds").plugins, REFINER)
+    passes = default_passes(plugins.discover("kinds").plugins, Seat())
     assert mismatches(passes) == []
     assert tuple(p.name for p in passes) == PASS_NAMES
 

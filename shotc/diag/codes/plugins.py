@@ -98,4 +98,17 @@ CODES: tuple[CodeInfo, ...] = (
         _PASSING,
         "plan",
     ),
+    CodeInfo(
+        "P007",
+        "no-refiner",
+        Severity.WARNING,
+        "planned without a refiner, since none was asked for and ours is not installed",
+        "Without `--refiner` a mission is planned by the refiner `ours`, which keeps the composition between keyframes "
+        "and comes with the package shotc-casadi. It is not installed here, so the convex path is flown as it is: "
+        "proved like any other, but with nobody to trade framing against smoothness. Install it, or say `--refiner "
+        "none` to mean it.",
+        "",
+        "",
+        "other",
+    ),
 )

@@ -23,8 +23,10 @@ CODES: tuple[CodeInfo, ...] = (
         "refiner-broken-path",
         Severity.ERROR,
         "the refiner returned something that is not a flyable path",
-        "What a refiner returns is checked: the same legs, joined end to end, at rest where the convex path rests, "
-        "finite numbers. This one broke a rule. Report it to the plugin's author; plan with another refiner meanwhile.",
+        "What a refiner returns is checked, not believed: legs joined end to end, at rest where the convex path rests, "
+        "finite numbers, no jump of place, angle or of their first two derivatives. This one broke a rule. It is a "
+        "fault of the package that is named: tell its authors, and plan with another refiner meanwhile, or let the shot "
+        "accept its convex path by `refine: {optional: true}`.",
         "",
         "",
         "other",
@@ -33,9 +35,73 @@ CODES: tuple[CodeInfo, ...] = (
         "R003",
         "refinement-skipped",
         Severity.WARNING,
-        "the refiner gave nothing usable and the mission accepts the convex path",
-        "Every shot of the mission says `refine: {optional: true}`, so the convex path is flown where the refiner "
-        "fails. It is verified like any other path; only the framing between keyframes may be worse.",
+        "the refiner failed in a shot that accepts its convex path",
+        "The shot says `refine: {optional: true}`, so its convex path is flown where the refiner fails, and the other "
+        "shots stay refined. What was wrong is in the notes. The path is verified like any other; only the framing "
+        "between keyframes may be worse.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R004",
+        "refiner-too-slow",
+        Severity.ERROR,
+        "the refiner did not answer within the deadline",
+        "`--deadline SECONDS` lets the refiner run in a process of its own, which is stopped for good when its time is "
+        "up, whatever it is doing; loading its libraries counts. Give it longer, plan with another refiner or with "
+        "`--refiner none`, or let the shots accept their convex paths by `refine: {optional: true}`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R005",
+        "refiner-changed-mission",
+        Severity.ERROR,
+        "the refiner changed what is not its to change",
+        "A refiner may move the camera between keyframes. Which shots there are and in which order, their durations, "
+        "pace, holds, keyframes and fixed times, which targets they frame, and where those are wanted on screen is the "
+        "mission's; take-off and landing are at home. This refiner handed back a path for another mission. It is a "
+        "fault of the package that is named: tell its authors, and plan with another refiner meanwhile.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R006",
+        "refined-path-too-near",
+        Severity.ERROR,
+        "the refined path comes too near to a zone, a target or the ground",
+        "Every filmed leg and every way between shots has to keep its clearances at every point, not only at the "
+        "solver's stages. The refined path does not: what it comes too near to, where, and by how much is told. The "
+        "refiner should have kept it, so tell the authors of the package that is named; more room between the keyframes "
+        "and what stands there avoids it meanwhile, and so do another refiner and `refine: {optional: true}`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R007",
+        "refined-keyframe-missed",
+        Severity.ERROR,
+        "the refined path misses a keyframe that the mission places",
+        "A position that the user wrote down binds, to a millimetre. The refined path passes it at a distance, which is "
+        "told. It is a fault of the package that is named: tell its authors, and plan with another refiner meanwhile, "
+        "or let the shot accept its convex path by `refine: {optional: true}`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "R008",
+        "refined-gimbal-out-of-range",
+        Severity.ERROR,
+        "the refined path points the camera where the gimbal cannot",
+        "The gimbal's pitch is measured against the horizon, its yaw against the body; both have to stay in the range "
+        "of the mission at every point. The refined path leaves it: the axis, where, and by how much is told. It is a "
+        "fault of the package that is named: tell its authors, and plan with another refiner meanwhile, or let the shot "
+        "accept its convex path by `refine: {optional: true}`.",
         "",
         "",
         "other",

@@ -99,7 +99,7 @@ def shape(flight: Flight) -> Iterator[Claim]:
     """Claim continuity of value, rate and acceleration, home and rest at both ends, and endurance."""
     curve, drone = flight.track.curve, flight.drone
     for order, name in enumerate(ORDERS):
-        worst = _largest_jump(curve, order)
+        worst = largest_jump(curve, order)
         yield claim(flight, Limit(f"jump of {name}", TOLERANCE, "of its scale", drone.path), worst)
     ends = np.array([curve.start, curve.end])
     away = np.linalg.norm(curve(ends)[:, :3] - np.array(drone.home), axis=1)
@@ -114,7 +114,7 @@ def shape(flight: Flight) -> Iterator[Claim]:
     yield claim(flight, endurance, Worst(curve.end - curve.start, curve.end, "exact"))
 
 
-def _largest_jump(curve: Piecewise, order: int) -> Worst:
+def largest_jump(curve: Piecewise, order: int) -> Worst:
     """Return the largest jump of a derivative at a break, relative to its scale.
 
     The scale of a channel is its largest control value, at least one unit. What rounding of the control

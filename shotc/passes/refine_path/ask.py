@@ -1,0 +1,57 @@
+"""Asking a refiner, which may raise, take forever, or answer anything."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from shotc.diag.model import Diagnostic, Severity
+from shotc.diag.registry import registry, severity_of
+from shotc.ir.path import PathIR
+from shotc.passes.base import Outcome, PassContext
+from shotc.passes.refine_path.child import Failed, TooSlow, refined_within, told
+from shotc.passes.refine_path.finding import Fault, Finding, own, tell
+from shotc.passes.refine_path.seat import Seat
+
+
+class Answer(NamedTuple):
+    """What a refiner said.
+
+    path : anything, None where there is none; faults : its errors, and ours about it; warnings : its own
+    """
+
+    path: Any
+    faults: tuple[Fault, ...] = ()
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> Answer:
+    """Let a refiner refine a path, for ``deadline`` seconds at most where one is given."""
+    mission = path.keyframes.mission
+
+    def fault(code: str, what: str, *notes: str) -> Answer:
+        return Answer(None, (tell(mission, seat, Finding(code, what, notes)),))
+
+    try:
+        if deadline is None or not seat.reference:
+            outcome: Any = seat.refiner.refine(path, ctx)
+        else:
+            outcome = refined_within(deadline, seat.reference, path, ctx)
+    except TooSlow:
+        return fault("R004", f"was stopped after {deadline:g} s", "that is what `--deadline` gives it")
+    except Failed as failed:
+        return fault("R001", "failed", str(failed))
+    except (Exception, SystemExit) as raised:  # noqa: BLE001  a plugin may raise anything
+        return fault("R001", "failed", told(raised))
+    if not isinstance(outcome, Outcome):
+        return fault("R002", "returned no path", f"it returned a {type(outcome).__name__}, not an Outcome")
+    if not _are_diagnostics(outcome.diagnostics):
+        return fault("R002", "returned no path", "its diagnostics are none, or have codes that are unknown")
+    errors = [d for d in outcome.diagnostics if severity_of(d) is Severity.ERROR]
+    warnings = tuple(d for d in outcome.diagnostics if severity_of(d) is not Severity.ERROR)
+    if outcome.value is None and not errors:
+        return fault("R002", "returned no path", "it does not say why")
+    return Answer(outcome.value, tuple(own(mission, seat, d) for d in errors), warnings)
+
+
+def _are_diagnostics(told: object) -> bool:
+    return isinstance(told, tuple) and all(isinstance(d, Diagnostic) and d.code in registry() for d in told)

@@ -1,0 +1,196 @@
+"""Whether a refined path is one at all, and still of the same mission: legs, stops, keyframes, references."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import isfinite
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.ir.path import CHANNELS, DronePath, FramingSpan, Leg, PathIR
+from shotc.passes.refine_path.faults import place
+from shotc.passes.refine_path.finding import Finding
+from shotc.passes.verify.shape import ORDERS, largest_jump
+
+SAME = 1e-6
+"""Metres, radians or screen units that still count as the same place."""
+
+SMOOTH = 1e-6
+"""Jump of value, first or second derivative, relative to the scale of its channel."""
+
+OFF = 0.01
+"""Screen units that a reference may leave the line that it had, as in verification."""
+
+UPRIGHT = ("takeoff", "land")
+UNFILMED = ("transit", "return")
+DEGREE = 5
+_DENSE = 257
+
+
+def structure(before: PathIR, after: object) -> Iterator[Finding]:
+    """Find what keeps the legs of two paths from being compared."""
+    if not isinstance(after, PathIR):
+        yield _broken(f"it is a {type(after).__name__}, not a PathIR")
+        return
+    if after.keyframes is not before.keyframes and after.keyframes != before.keyframes:
+        yield Finding(
+            "R005", "changed the mission", ("the keyframes it returned are not those it was given",)
+        )
+    if _skeleton(before) != _skeleton(after) or any(map(_doubled, after.drones)):
+        yield _broken("its legs are not those of the convex path")
+        return
+    if not all(isinstance(name, str) and _is_told(value) for name, value in after.stats):
+        yield _broken("its statistics are not pairs of a name and a number or a word")
+    for drone in after.drones:
+        for leg in drone.legs:
+            fault = _shapeless(leg)
+            if fault:
+                yield _broken(f"the {leg.phase} {fault}", leg.shot)
+
+
+def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
+    """Find where a path of known structure does not join, jumps, or left what the mission says."""
+    for old, new in zip(before.drones, after.drones, strict=True):
+        yield from _joints(new)
+        yield from _pads(old, new)
+        for leg in new.legs:
+            if leg.curve is not None:
+                yield from _jumps(leg, leg.curve)
+        for was, now in zip(_shots(old), _shots(new), strict=True):
+            for fault in _changed(was, now):
+                yield Finding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
+
+
+def _broken(note: str, shot: str | None = None) -> Finding:
+    return Finding("R002", "returned a path that cannot be flown", (note,), shot)
+
+
+def _skeleton(path: PathIR) -> list[tuple[str, list[tuple[str, str | None]]]]:
+    return [
+        (d.drone, [(leg.phase, leg.shot) for leg in d.legs if leg.phase not in UNFILMED]) for d in path.drones
+    ]
+
+
+def _doubled(drone: DronePath) -> bool:
+    """Tell whether unfilmed legs follow one another; between two poses there is one way or none."""
+    return any(a.phase in UNFILMED and b.phase in UNFILMED for a, b in pairwise(drone.legs))
+
+
+def _is_told(value: object) -> bool:
+    return isinstance(value, str) or (isinstance(value, float | int) and isfinite(value))
+
+
+def _shapeless(leg: Leg) -> str:
+    """Say what is wrong with the numbers of a leg alone, or return an empty string."""
+    if len(leg.pose) != len(CHANNELS) or not all(map(isfinite, leg.pose)):
+        return f"starts where there are not {len(CHANNELS)} finite numbers"
+    numbers = [n for stop in leg.stops for n in (stop.s, stop.hold)] + [mark.s for mark in leg.marks]
+    numbers += [n for span in leg.framing for n in (span.start, span.end)]
+    if not leg.stops or not all(map(isfinite, numbers)):
+        return "has stops, keyframes or framings that are nowhere"
+    if leg.curve is None:
+        return ""
+    if leg.curve.ctrl.shape[1:] != (DEGREE + 1, len(CHANNELS)):
+        return f"is no curve of degree {DEGREE} with {len(CHANNELS)} channels"
+    if not (np.isfinite(leg.curve.ctrl).all() and np.isfinite(leg.curve.breaks).all()):
+        return "has numbers that are not finite"
+    low, high = leg.curve.start - SAME, leg.curve.end + SAME
+    places = [stop.s for stop in leg.stops], [mark.s for mark in leg.marks]
+    if any(a > b for run in places for a, b in pairwise([low, *run, high])):
+        return "has stops or keyframes that are out of order, or off its curve"
+    return ""
+
+
+def _joints(drone: DronePath) -> Iterator[Finding]:
+    for a, b in pairwise(drone.legs):
+        gap = float(np.abs(_end(a) - np.array(b.pose)).max())
+        if gap > SAME:
+            note = f"the {b.phase} begins {gap:.3g} from where the {a.phase} ends"
+            yield _broken(f"{drone.drone}: {note} (m or rad)")
+    for leg in drone.legs:
+        if leg.curve is None:
+            continue
+        off = float(np.abs(leg.curve.ctrl[0, 0] - np.array(leg.pose)).max())
+        ends = (leg.stops[0].s - leg.curve.start, leg.curve.end - leg.stops[-1].s)
+        if off > SAME or max(map(abs, ends)) > 1e-9:
+            yield _broken(
+                f"{drone.drone}: the {leg.phase} does not begin and end at rest at its ends", leg.shot
+            )
+
+
+def _end(leg: Leg) -> Array:
+    return np.array(leg.pose) if leg.curve is None else leg.curve.ctrl[-1, -1]
+
+
+def _pads(old: DronePath, new: DronePath) -> Iterator[Finding]:
+    """Find take-offs and landings that are not where they were."""
+    for was, now in zip(_lifts(old), _lifts(new), strict=True):
+        moved = max(float(np.abs(f(was)[:3] - f(now)[:3]).max()) for f in (_start, _end))
+        aside = 0.0 if now.curve is None else float(np.ptp(now.curve.ctrl[:, :, :2], axis=(0, 1)).max())
+        if moved > SAME or aside > SAME:
+            yield Finding(
+                "R005", f"moved the {now.phase} of `{new.drone}`", (f"by {max(moved, aside):.3f} m",)
+            )
+
+
+def _start(leg: Leg) -> Array:
+    return np.array(leg.pose)
+
+
+def _jumps(leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+    """Find where a leg is not smooth, the lowest order only; at its stops the motion ends, so it may turn."""
+    rests = np.searchsorted(curve.breaks, [stop.s - SAME for stop in leg.stops])
+    cuts = sorted({0, len(curve.ctrl), *map(int, rests)})
+    whole = [(0, len(curve.ctrl))]
+    for order, name in enumerate(ORDERS):
+        for i, j in pairwise(cuts) if order else whole:
+            stretch = Piecewise(curve.breaks[i : j + 1], curve.ctrl[i:j])
+            jump = largest_jump(stretch, order)
+            if jump.value > SMOOTH:
+                where = place(leg, float(jump.time or 0.0))
+                yield _broken(f"its {name} jumps by {jump.value:.3g} of its scale, {where}", leg.shot)
+                return
+
+
+def _shots(drone: DronePath) -> list[Leg]:
+    return [leg for leg in drone.legs if leg.phase == "shot"]
+
+
+def _lifts(drone: DronePath) -> list[Leg]:
+    return [leg for leg in drone.legs if leg.phase in UPRIGHT]
+
+
+def _changed(was: Leg, now: Leg) -> Iterator[str]:
+    """Say what of a shot is not as it was."""
+    if (was.pace, was.duration, was.start, was.path) != (now.pace, now.duration, now.start, now.path):
+        yield "its timing is another"
+    if [stop.hold for stop in was.stops] != [stop.hold for stop in now.stops]:
+        yield "its stops are others"
+    if [(m.index, m.time, m.path) for m in was.marks] != [(m.index, m.time, m.path) for m in now.marks]:
+        yield "its keyframes are others"
+    if (was.curve is None) != (now.curve is None):
+        yield "a still camera moves now, or a moving one stands still"
+    elif was.curve is None and np.abs(_start(was)[:3] - _start(now)[:3]).max() > SAME:
+        yield "its still camera is elsewhere"
+    if [(f.target, f.reference is None) for f in was.framing] != [
+        (f.target, f.reference is None) for f in now.framing
+    ]:
+        yield "it frames other targets"
+        return
+    for old, new in zip(was.framing, now.framing, strict=True):
+        off = _off(old, new)
+        if off > OFF:
+            yield f"the wanted place of `{old.target}` on screen is {off:.3f} of half a frame off"
+
+
+def _off(old: FramingSpan, new: FramingSpan) -> float:
+    """Return how far the new reference leaves the line of the old one on screen; at its ends, its ends."""
+    if old.reference is None or new.reference is None or old.reference is new.reference:
+        return 0.0
+    a, b = old.reference, new.reference
+    line, points = a(np.linspace(a.start, a.end, _DENSE)), b(np.linspace(b.start, b.end, _DENSE))
+    ends = float(np.abs(line[[0, -1]] - points[[0, -1]]).max())
+    between = np.linalg.norm(points[:, None] - line[None], axis=2).min(axis=1)
+    return max(ends, float(between.max()))

@@ -1,0 +1,151 @@
+"""Whether a refined path keeps its distances, its keyframes and the gimbal's range, at every point of it.
+
+A hull that keeps a clearance proves it for its piece; a piece whose hull does not is halved, until it is
+proved or a point of it is found that is too near.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees, pi
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.corridor import Room, breaches, shortfall
+from shotc.geom.pieces import Pieces, pieces
+from shotc.geom.proof import inf_channel, sup_channel
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR
+from shotc.passes.refine_path.faults import leg_of, place
+from shotc.passes.refine_path.finding import Finding
+from shotc.passes.refine_path.form import UPRIGHT
+from shotc.passes.solve_path_qp.room import flight_room, named, owner_path
+
+TOLERANCE = 2e-6
+"""Metres and radians beyond a limit that still keep it, as where the convex path is made."""
+
+ON_PLACE = 1e-3
+"""Metres within which a keyframe that the user placed is passed, as in verification."""
+
+HALVINGS = 16
+ENOUGH = 1e-4
+"""Metres to which the worst breach is told."""
+
+
+class Near(NamedTuple):
+    """A point of a path that is too near to something: where, and by how many metres."""
+
+    s: float
+    point: Array
+    lack: float
+
+
+def limits(path: PathIR) -> Iterator[Finding]:
+    """Find where a path of sound form breaks a clearance, misses a keyframe or leaves the gimbal's range."""
+    mission = path.keyframes.mission
+    for track in path.drones:
+        drone = mission.drone(track.drone)
+        room = flight_room(mission, drone)
+        for leg in track.legs:
+            if leg.curve is not None:
+                if leg.phase not in UPRIGHT:
+                    yield from _clearance(mission, room, leg, leg.curve)
+                yield from _gimbal(mission, drone, leg, leg.curve)
+    yield from _keyframes(path)
+
+
+def nearest(room: Room, curve: Piecewise) -> Near | None:
+    """Return where a curve of channels x, y, z is too near by the most, None where it nowhere is."""
+    bag, worst = pieces(curve), None
+    for _ in range(HALVINGS):
+        least = TOLERANCE if worst is None else worst.lack + ENOUGH
+        bag = bag.pick(shortfall(room, bag.ctrl) > least)
+        if not len(bag):
+            break
+        found = _worst_of(room, bag)
+        if found.lack > TOLERANCE and (worst is None or found.lack > worst.lack):
+            worst = found
+        bag = bag.halves()
+    return worst
+
+
+def _worst_of(room: Room, bag: Pieces) -> Near:
+    at = np.concatenate([bag.low, bag.high])
+    points = np.concatenate([bag.ctrl[:, 0], bag.ctrl[:, -1]])
+    lack = shortfall(room, points[:, None, :])
+    k = int(lack.argmax())
+    return Near(float(at[k]), points[k], float(lack[k]))
+
+
+def _clearance(mission: MissionIR, room: Room, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+    near = nearest(room, curve.channels(0, 1, 2))
+    if near is None:
+        return
+    breach = breaches(room, near.point)[0]
+    keeps = f"its clearance of {breach.clearance:.2f} m" if breach.clearance > 0 else "its border"
+    x, y, z = near.point
+    owner = owner_path(mission, breach.owner)
+    find = mission.origins.value if owner[:1] == ("rules",) else mission.origins.key
+    yield Finding(
+        "R006",
+        f"flies {_which(leg)} too near to {named(breach.owner)}",
+        (
+            f"by {near.lack:.3g} m less than {keeps}, at ({x:.2f}, {y:.2f}, {z:.2f}) m",
+            place(leg, near.s),
+        ),
+        leg.shot,
+        (find(owner, "too near to this"),),
+    )
+
+
+def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+    """Find camera angles that the gimbal does not reach; its yaw counts from the body, whole turns apart."""
+    whole = pieces(curve)
+    low, high = drone.gimbal.yaw
+    relative = whole.ctrl[:, :, [CAM_YAW]] - whole.ctrl[:, :, [BODY_YAW]]
+    relative = relative - 2 * pi * np.round((relative[0, 0, 0] - 0.5 * (low + high)) / (2 * pi))
+    axes = {
+        "pitch": (whole.channels(CAM_PITCH), drone.gimbal.pitch),
+        "yaw": (Pieces(whole.low, whole.high, relative), drone.gimbal.yaw),
+    }
+    for axis, (angle, (least, most)) in axes.items():
+        under, over = inf_channel(angle, 0, _fine), sup_channel(angle, 0, _fine)
+        beyond, at = max((least - under.proven, under.at), (over.proven - most, over.at))
+        if beyond > TOLERANCE:
+            yield Finding(
+                "R008",
+                f"turns the gimbal beyond its {axis} in {_which(leg)}",
+                (
+                    f"by {degrees(beyond):.3g} deg, past {degrees(least):.1f} deg to {degrees(most):.1f} deg",
+                    place(leg, at),
+                ),
+                leg.shot,
+                (mission.origins.value((*drone.path, "gimbal", axis), "its range"),),
+            )
+
+
+def _fine(_worst: float) -> float:
+    return 0.5 * TOLERANCE
+
+
+def _keyframes(path: PathIR) -> Iterator[Finding]:
+    for placed in path.keyframes.shots:
+        leg = leg_of(path, placed.shot.id)
+        for mark in leg.marks:
+            keyframe = placed.keyframes[mark.index]
+            at = np.array(leg.pose) if leg.curve is None else leg.curve(mark.s)
+            away = float(np.linalg.norm(at[:3] - np.array(keyframe.at)))
+            if keyframe.placed and away > ON_PLACE:
+                yield Finding(
+                    "R007",
+                    f"passes keyframe {mark.index + 1} of shot `{leg.shot}` at a distance",
+                    (f"{away:.3g} m away from where the mission places it, {place(leg, mark.s)}",),
+                    leg.shot,
+                    (path.keyframes.mission.origins.key(keyframe.path, "this keyframe"),),
+                )
+
+
+def _which(leg: Leg) -> str:
+    return f"shot `{leg.shot}`" if leg.shot is not None else f"the {leg.phase}"

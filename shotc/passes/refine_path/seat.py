@@ -1,0 +1,75 @@
+"""Who sits in the refiner seat: what a refiner is, the one that does nothing, and where it comes from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple, Protocol
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.path import PathIR
+from shotc.passes.base import Outcome, PassContext
+
+
+class Refiner(Protocol):
+    """What sits in the refiner seat (entry-point group ``shotc.refiners``)."""
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+    api: ClassVar[int]
+
+    def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
+        """Return a better path, or errors that say why there is none.
+
+        An error that labels the key of a shot is about that shot alone: return it together with a path
+        that has the shot's convex leg, and the other shots stay refined where the mission allows it.
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class KeepPath:
+    """The refiner ``none``: the convex path is flown as it is."""
+
+    name: ClassVar[str] = "none"
+    summary: ClassVar[str] = "fly the convex path as it is"
+    api: ClassVar[int] = 1
+
+    def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
+        """Return ``path``."""
+        del ctx
+        return Outcome(path)
+
+
+REFINER = KeepPath()
+
+
+@dataclass(frozen=True, slots=True)
+class Unusable:
+    """A refiner that could not be loaded; ``faults`` say why."""
+
+    name: str
+    faults: tuple[Diagnostic, ...]
+    summary: ClassVar[str] = "cannot be loaded"
+    api: ClassVar[int] = 1
+
+    def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
+        """Return why there is no better path."""
+        del path, ctx
+        return Outcome(None, self.faults)
+
+
+class Seat(NamedTuple):
+    """A refiner and where it comes from.
+
+    package : the distribution that registers it
+    reference : module:attribute, by which another process finds it; empty where none can
+    """
+
+    refiner: Refiner | Unusable = REFINER
+    package: str = "shotc"
+    reference: str = ""
+
+    @property
+    def named(self) -> str:
+        """The refiner as messages call it, with its package."""
+        return f"refiner `{self.refiner.name}` of package {self.package}"

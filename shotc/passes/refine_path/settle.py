@@ -1,0 +1,109 @@
+"""What is flown after a refiner has answered: its path, or the convex one where the mission allows it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, X, Y, Z
+from shotc.passes.base import Outcome
+from shotc.passes.refine_path.ask import Answer
+from shotc.passes.refine_path.child import told
+from shotc.passes.refine_path.faults import leg_of
+from shotc.passes.refine_path.finding import Fault, Finding, tell
+from shotc.passes.refine_path.form import form, structure
+from shotc.passes.refine_path.room import limits
+from shotc.passes.refine_path.seat import Seat
+from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined
+
+CAMERA = (X, Y, Z, CAM_YAW, CAM_PITCH)
+
+
+def settle(before: PathIR, seat: Seat, answer: Answer) -> Outcome[PathIR]:
+    """Return the path to fly: refined where that is sound, convex in shots that allow it; or no path."""
+    shots = before.keyframes.mission.shots
+    path, faults = _mended(before, seat, answer)
+    if path is None:
+        path, concerned = before, {shot.id for shot in shots}
+    else:
+        concerned = {fault.shot for fault in faults if fault.shot is not None}
+    optional = {shot.id for shot in shots if shot.refine_optional}
+    if concerned <= optional:
+        kept = (_kept(before, seat, name, faults) for name in sorted(concerned))
+        return Outcome(path, (*answer.warnings, *kept))
+    errors = dict.fromkeys(fault.told for fault in faults if fault.shot not in optional)
+    return Outcome(None, (*answer.warnings, *(errors or dict.fromkeys(fault.told for fault in faults))))
+
+
+def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, list[Fault]]:
+    """Return the refined path with the convex legs of shots that failed, and all faults.
+
+    None where nothing of the refined path can be used.
+    """
+    path, faults = answer.path, list(answer.faults)
+    failed = {fault.shot for fault in faults}
+    while path is not None and path is not before:
+        found = [fault for fault in _judged(before, seat, path) if fault.shot not in failed]
+        faults += found
+        failed |= {fault.shot for fault in found}
+        if None in failed:
+            return None, faults
+        mixed = _with_convex(before, path, failed)
+        if mixed is path:
+            return path, faults
+        path = mixed
+    return (None if None in failed else path), faults
+
+
+def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
+    """Return what is wrong with what should be a path; only a path that is one is looked at closely."""
+    try:
+        found = list(structure(before, path)) or [*form(before, path), *limits(path)]
+    except Exception as raised:  # noqa: BLE001  a plugin may hand back anything, and reading it may raise
+        found = [
+            Finding("R002", "returned a path that cannot be flown", (f"to read it raises {told(raised)}",))
+        ]
+    return [tell(before.keyframes.mission, seat, finding) for finding in found]
+
+
+def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> PathIR | None:
+    """Return the path with the convex legs of some shots, itself where it has them, None where none joins."""
+    convex = [name for name in failed if name is not None]
+    if all(_same(leg_of(before, name), leg_of(path, name)) for name in convex):
+        return path
+    refined = {
+        leg.shot: leg.curve.channels(*CAMERA)
+        for drone in path.drones
+        for leg in drone.legs
+        if leg.shot is not None and leg.curve is not None and leg.shot not in convex
+    }
+    try:
+        return rejoined(before, refined)
+    except (NoTransit, ValueError):
+        return None
+
+
+def _same(a: Leg, b: Leg) -> bool:
+    if a is b:
+        return True
+    if a.curve is None or b.curve is None:
+        return a.pose == b.pose
+    return np.array_equal(a.curve.breaks, b.curve.breaks) and np.array_equal(a.curve.ctrl, b.curve.ctrl)
+
+
+def _kept(before: PathIR, seat: Seat, shot: str, faults: list[Fault]) -> Diagnostic:
+    """Return the warning of a shot whose convex path is flown, with what was wrong with the other."""
+    mission = before.keyframes.mission
+    (path,) = (s.path for s in mission.shots if s.id == shot)
+    about = [fault.told for fault in faults if fault.shot in (shot, None)]
+    notes = [note for d in about or [f.told for f in faults] for note in (d.message, *d.notes)]
+    return Diagnostic(
+        "R003",
+        f"shot `{shot}` flies its convex path, since {seat.named} gave none that can be flown",
+        (mission.origins.key((*path, "refine"), "this allows it"),),
+        tuple(notes),
+        "mend what is named, or plan with `--refiner none`",
+    )
