@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from shotc.diag.model import Diagnostic
 
 API_VERSION = 1
-OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun")
+OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi")
 """Libraries that the base install does without: a plugin that misses one is not broken."""
 OUR_REFINER, NO_REFINER = "ours", "none"
 GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}

@@ -1,0 +1,4 @@
+"""Refiners for shotc: the framing problem of Gebhardt and Hilliges as an optimal-control problem.
+
+conditions -> wishes -> stages -> program -> camera -> refiner: each module uses those before it.
+"""

@@ -1,0 +1,72 @@
+"""From the nodes of a solution to a camera over path parameter: smooth, exact where it has to be."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict, spline, subdivide
+from shotc.ir.mission import Drone
+from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_fit import Fit, fit
+from shotc_casadi.stages import Stages
+from shotc_casadi.symbols import PITCH, YAW
+
+STIFF = 1e-12  # weight of smoothness against the nodes, both without dimension by the spacing of keyframes
+NODES_A_PIECE = 1.5
+
+
+class NoFit(Exception):
+    """No spline comes near the nodes within the gimbal's range."""
+
+
+def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, ends: Array) -> Piecewise:
+    """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline through the changes.
+
+    states : shape (N + 1, 16) as in symbols
+    ends : yaw and pitch at the leg's two ends, shape (2, 2), met exactly; so are positions at pins
+    """
+    curve = leg.curve
+    assert curve is not None
+    breaks = _breaks(curve.breaks, stages)
+    base = restrict(curve.channels(0, 1, 2, CAM_YAW, CAM_PITCH), breaks)
+    change = states[:, [0, 1, 2, YAW, PITCH]] - base(stages.s)
+    pinned = stages.s[stages.pins]
+    outer = np.array([curve.start, curve.end])
+    at_ends = ends - base(outer)[:, 3:]
+    low, high = drone.gimbal.pitch
+    pitch = base.ctrl[:, :, 4]
+    fits = [_fit(breaks, stages, change[:, k], (pinned, np.zeros(len(pinned)))) for k in range(3)]
+    fits.append(_fit(breaks, stages, change[:, 3], (outer, at_ends[:, 0])))
+    fits.append(_fit(breaks, stages, change[:, 4], (outer, at_ends[:, 1]), (low - pitch, high - pitch)))
+    ctrl = base.ctrl + spline(breaks, np.column_stack(fits)).ctrl
+    ctrl[:, :, 4] = np.clip(ctrl[:, :, 4], low, high)
+    return Piecewise(breaks, ctrl)
+
+
+def _breaks(convex: Array, stages: Stages) -> Array:
+    """Return the convex path's breaks, each piece cut until it has few nodes."""
+    nodes = np.histogram(stages.s, convex)[0]
+    parts = np.maximum(1, np.ceil(nodes / NODES_A_PIECE).astype(int))
+    pieces = [subdivide(convex[i : i + 2], int(n))[:-1] for i, n in enumerate(parts)]
+    return np.append(np.concatenate(pieces), convex[-1])
+
+
+def _fit(
+    breaks: Array,
+    stages: Stages,
+    value: Array,
+    anchors: tuple[Array, Array],
+    bounds: tuple[Array, Array] | None = None,
+) -> Array:
+    """Fit one channel; nodes weigh by the stretch of path that they stand for."""
+    s = stages.s
+    width = np.gradient(s)
+    spacing = float(s[-1] - s[0]) / max(len(stages.pins) - 1, 1)
+    stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
+    low, high = (None, None) if bounds is None else bounds
+    status, coef = fit(Fit(breaks, s, value, width / spacing, *anchors, stiff, low, high))
+    if status not in {Status.SOLVED, Status.INACCURATE}:
+        raise NoFit
+    return coef

@@ -1,0 +1,32 @@
+"""What is asked of the camera: the paper's conditions ANG, LOOK-AT and OURS, and its four-point form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Visibility = Literal["silhouette", "points", "none"]
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """One way to aim the camera between keyframes.
+
+    aims : "framing" holds the target at its place on screen, "angles" interpolates the author's own
+        camera angles, "look-at" the points that the author's cameras look at
+    visibility : how the target is kept whole: by its exact silhouette, by the four hull points of
+        Gebhardt and Hilliges (Eq. 4-7), or not at all
+    """
+
+    name: str
+    summary: str
+    aims: Literal["framing", "angles", "look-at"]
+    visibility: Visibility
+
+
+OURS = Condition("ours", "hold the composition, with the whole target in the frame", "framing", "silhouette")
+OURS_4PT = Condition(
+    "ours-4pt", "the same with the paper's four hull points for the target", "framing", "points"
+)
+LOOK_AT = Condition("look-at", "look at points interpolated between keyframes", "look-at", "none")
+ANG = Condition("ang", "interpolate the author's camera angles between keyframes", "angles", "none")

@@ -1,0 +1,169 @@
+"""The derivatives of the programme: those of one stage, mapped over the horizon.
+
+They are made once in symbols for one stage, and their nonzeros are laid straight into the sparse
+matrices of the programme, so it takes a tenth of a second to build where differentiating the
+whole of it takes seconds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc_casadi.conditions import Visibility
+from shotc_casadi.symbols import INPUTS, STATES, Stage, stage
+
+WIDTH = STATES + INPUTS
+Index = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Derived:
+    """Functions of one stage and of the last node, with their derivatives laid out as the solvers ask."""
+
+    cost: Any
+    last_cost: Any
+    gradient: Any
+    last_gradient: Any
+    first_jacobian: Any
+    jacobian: Any
+    last_jacobian: Any
+    hessian: Any
+    last_hessian: Any
+    bound: int
+    last_bound: int
+
+
+def laid_out(d: Derived, solver: str, stages: int, x: Any, p: Any) -> dict[str, Any]:
+    """Return the derivatives of the programme, under the names by which CasADi's solvers ask for them."""
+    z, end = ca.reshape(x[: stages * WIDTH], WIDTH, stages), x[stages * WIDTH :]
+    given = ca.reshape(p, p.numel() // (stages + 1), stages + 1)
+    inner, last = given[:, :stages], given[:, stages]
+    lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", stages * (STATES + d.bound) + d.last_bound)
+    lam = ca.reshape(lam_g[: stages * (STATES + d.bound)], STATES + d.bound, stages)
+    costate = lam[:STATES, :]
+
+    slope, blocks = d.hessian.map(stages)(z, inner, ca.repmat(lam_f, 1, stages), costate, lam[STATES:, :])
+    end_slope, end_block = d.last_hessian(end, last, lam_f, lam_g[stages * (STATES + d.bound) :])
+    curvature = ca.MX(_block_diagonal(d, stages), ca.vertcat(blocks.nz[:], end_block.nz[:]))
+    before = ca.vertcat(ca.horzcat(ca.MX(STATES, 1), costate[:, :-1]), ca.MX(INPUTS, stages))
+    slopes = ca.vertcat(ca.vec(slope + before), end_slope + costate[:, -1])
+
+    gap0, bound0, first = d.first_jacobian(z[:, 0], inner[:, 0])
+    gaps, bounds, rest = d.jacobian.map(stages - 1)(z[:, 1:], inner[:, 1:])
+    end_bound, end_rows = d.last_jacobian(end, last)
+    jacobian = ca.MX(_staircase(d, stages), ca.vertcat(first.nz[:], rest.nz[:], end_rows.nz[:]))
+    following = ca.horzcat(z[:STATES, 1:], end)
+    rows = ca.vertcat(ca.horzcat(gap0, gaps), ca.horzcat(bound0, bounds))
+    rows = ca.vertcat(following - rows[:STATES, :], rows[STATES:, :])
+    g = ca.vertcat(ca.vec(rows), end_bound)
+
+    value, gradient = d.gradient.map(stages)(z, inner)
+    end_value, end_gradient = d.last_gradient(end, last)
+    total, whole = ca.sum2(value) + end_value, ca.vertcat(ca.vec(gradient), end_gradient)
+    made = [ca.Function("nlp_jac_g", [x, p], [g, jacobian], ["x", "p"], ["g", "jac_g_x"])]
+    multipliers = ["x", "p", "lam_f", "lam_g"]
+    if solver == "fatrop":
+        made += [
+            ca.Function("nlp_grad_f", [x, p], [whole], ["x", "p"], ["grad_f_x"]),
+            ca.Function(
+                "nlp_hess_l",
+                [x, p, lam_f, lam_g],
+                [slopes, curvature],
+                multipliers,
+                ["grad_gamma_x", "hess_gamma_x_x"],
+            ),
+        ]
+    else:
+        upper = ca.triu(curvature)
+        made += [
+            ca.Function("nlp_grad_f", [x, p], [total, whole], ["x", "p"], ["f", "grad_f_x"]),
+            ca.Function("nlp_hess_l", [x, p, lam_f, lam_g], [upper], multipliers, ["triu_hess_gamma_x_x"]),
+        ]
+    return {f.name(): f for f in made}
+
+
+@lru_cache(maxsize=8)
+def derived(visibility: Visibility, planes: int) -> Derived:
+    """Return the functions of one stage with that many half-spaces."""
+    s: Stage = stage(visibility, planes)
+    x = s.z[:STATES]
+    cost, bound = s.node + s.passing, ca.vertcat(s.held, s.driven)
+    weight, costate = ca.SX.sym("weight"), ca.SX.sym("costate", STATES)
+    force, held_force = ca.SX.sym("force", bound.numel()), ca.SX.sym("force", s.held.numel())
+    lagrangian = weight * cost - ca.dot(costate, s.following) + ca.dot(force, bound)
+    end_lagrangian = weight * s.node + ca.dot(held_force, s.held)
+    own = ca.vertcat(-ca.jacobian(s.following, s.z), ca.jacobian(bound, s.z))
+    end_own = ca.jacobian(s.held, x)
+    joint = ca.horzcat(ca.SX.eye(STATES), ca.SX(STATES, INPUTS))
+
+    def function(name: str, inputs: list[Any], outputs: list[Any]) -> Any:
+        return ca.Function(name, inputs, outputs, {"cse": True})
+
+    return Derived(
+        cost=function("cost", [s.z, s.p], [cost, s.following, bound]),
+        last_cost=function("last_cost", [x, s.p], [s.node, s.held]),
+        gradient=function("gradient", [s.z, s.p], [cost, ca.gradient(cost, s.z)]),
+        last_gradient=function("last_gradient", [x, s.p], [s.node, ca.gradient(s.node, x)]),
+        first_jacobian=function("first_jacobian", [s.z, s.p], [s.following, bound, own]),
+        jacobian=function("jacobian", [s.z, s.p], [s.following, bound, ca.vertcat(joint, own)]),
+        last_jacobian=function("last_jacobian", [x, s.p], [s.held, ca.vertcat(ca.SX.eye(STATES), end_own)]),
+        hessian=function("hessian", [s.z, s.p, weight, costate, force], _curved(lagrangian, s.z)),
+        last_hessian=function("last_hessian", [x, s.p, weight, held_force], _curved(end_lagrangian, x)),
+        bound=bound.numel(),
+        last_bound=s.held.numel(),
+    )
+
+
+def _curved(lagrangian: Any, at: Any) -> list[Any]:
+    curvature, slope = ca.hessian(lagrangian, at)
+    return [slope, curvature]
+
+
+def _block_diagonal(d: Derived, stages: int) -> Any:
+    rows, columns = _repeated(d.hessian.sparsity_out(1), range(stages), WIDTH, WIDTH)
+    end = _triplets(d.last_hessian.sparsity_out(1))
+    side = stages * WIDTH + STATES
+    rows, columns = np.append(rows, end[0] + stages * WIDTH), np.append(columns, end[1] + stages * WIDTH)
+    return ca.Sparsity.triplet(side, side, rows.tolist(), columns.tolist())
+
+
+def _staircase(d: Derived, stages: int) -> Any:
+    """Return the sparsity of the constraints' Jacobian.
+
+    A stage's columns hold the joint to the stage before, then its own gap and bounds; the nonzeros of
+    ``jacobian`` come in that order.
+    """
+    high = STATES + d.bound
+    first = _triplets(d.first_jacobian.sparsity_out(2))
+    rows, columns = _repeated(d.jacobian.sparsity_out(2), range(1, stages), high, WIDTH, lift=high)
+    end = _triplets(d.last_jacobian.sparsity_out(1))
+    end_rows = np.where(end[0] < STATES, (stages - 1) * high, stages * high - STATES) + end[0]
+    return ca.Sparsity.triplet(
+        stages * high + d.last_bound,
+        stages * WIDTH + STATES,
+        np.concatenate([first[0], rows, end_rows]).tolist(),
+        np.concatenate([first[1], columns, end[1] + stages * WIDTH]).tolist(),
+    )
+
+
+def _repeated(block: Any, at: range, high: int, wide: int, lift: int = 0) -> tuple[Index, Index]:
+    """Return the places of a block repeated down a diagonal.
+
+    lift : rows by which the block's first STATES rows stand higher than the rest of it would have them
+    """
+    row, column = _triplets(block)
+    if lift:
+        row = np.where(row < STATES, row - lift, row - STATES)
+    k = np.array(at)[:, None]
+    return (row + k * high).ravel(), (column + k * wide).ravel()
+
+
+def _triplets(sparsity: Any) -> tuple[Index, Index]:
+    row, column = sparsity.get_triplet()
+    return np.array(row, dtype=np.int64), np.array(column, dtype=np.int64)

@@ -1,0 +1,224 @@
+"""The optimal-control problem of one shot: Gebhardt and Hilliges Eq. 12 on the nodes of its path."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from shotc.geom.bernstein import Array
+from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc_casadi.conditions import Condition
+from shotc_casadi.program import Problem
+from shotc_casadi.stages import Stages
+from shotc_casadi.symbols import (
+    ACCELERATION,
+    FIELDS,
+    INPUTS,
+    JERK,
+    LENGTH,
+    PITCH,
+    PITCH_ACCELERATION,
+    PITCH_JERK,
+    PITCH_RATE,
+    POSITION,
+    STATES,
+    TIME,
+    VELOCITY,
+    YAW,
+    YAW_ACCELERATION,
+    YAW_JERK,
+    YAW_RATE,
+    size,
+)
+from shotc_casadi.wishes import Subject, Wishes, fields_of_view
+
+# Weights of the cost. Every term is a mean over the nodes or the time, relative to the time of the
+# first guess, so that they mean the same for a shot of 5 s and one of 5 min.
+FRAMING = 1e3  # per rad^2
+VISIBILITY = 1e4  # per squared share of the distance to the target
+AIMING = 10.0  # per rad^2
+POSITION_ERROR = 300.0  # per squared share of the distance to the target
+JERK_SHARE = 0.02  # per squared share of the jerk limit
+ANGULAR_JERK_SHARE = 0.02  # per squared share of what reaches the gimbal's acceleration in a second
+PACE = 0.3  # per squared relative change of a stage's length
+PIN = 1e4  # per squared share of the distance, or per rad^2, (m/s)^2 ...: values that are given
+SLOWEST, FASTEST = 5.0, 0.2  # bounds on a stage's length against the first guess
+
+
+@dataclass(frozen=True, slots=True)
+class Margins:
+    """What is kept from the limits so that they hold between the nodes, too.
+
+    frame : share of the frame that the target has to fit into
+    room : metres kept from obstacles beyond what the convex path kept
+    hold : factor on the price of leaving the convex path
+    """
+
+    frame: float = 0.97
+    room: float = 0.0
+    hold: float = 1.0
+
+
+def problem(
+    subject: Subject, condition: Condition, stages: Stages, wanted: Wishes, walls: Array, margins: Margins
+) -> Problem:
+    """Return the programme of one shot; walls : shape (N + 1, M, 4)."""
+    states, inputs = _guess(subject, stages, wanted, condition)
+    return Problem(
+        visibility=condition.visibility,
+        parameters=_parameters(subject, stages, wanted, walls, margins, states),
+        states=states,
+        inputs=inputs,
+        state_bounds=_state_bounds(subject, len(stages.s)),
+        input_bounds=_input_bounds(inputs),
+        held=_held(subject, walls),
+        driven=(np.array([-inf]), np.array([(_pace(subject) * subject.drone.limits.jerk) ** 2])),
+    )
+
+
+def _pace(subject: Subject) -> float:
+    return subject.leg.pace if subject.leg.duration is None else 1.0
+
+
+def _guess(subject: Subject, stages: Stages, wanted: Wishes, condition: Condition) -> tuple[Array, Array]:
+    curve = subject.leg.curve
+    assert curve is not None
+    q = curve(stages.s)
+    angles = q[:, [CAM_YAW, CAM_PITCH]] if condition.aims == "framing" else wanted.aim
+    values = np.column_stack([q[:, :3], angles])
+    rest = ([(1, np.zeros(5)), (2, np.zeros(5))],) * 2
+    motion = make_interp_spline(stages.t, values, k=5, bc_type=rest)
+    x = np.zeros((len(stages.s), STATES))
+    rows = [motion(stages.t, order) for order in range(3)]
+    for order, (place, yaw, pitch) in enumerate(
+        [
+            (POSITION, YAW, PITCH),
+            (VELOCITY, YAW_RATE, PITCH_RATE),
+            (ACCELERATION, YAW_ACCELERATION, PITCH_ACCELERATION),
+        ]
+    ):
+        x[:, place], x[:, yaw], x[:, pitch] = rows[order][:, :3], rows[order][:, 3], rows[order][:, 4]
+    x[:, TIME] = stages.t
+    u = np.zeros((len(stages.s) - 1, INPUTS))
+    u[:, LENGTH] = np.diff(stages.t)
+    steps = np.diff(rows[2], axis=0) / u[:, [LENGTH]]
+    u[:, JERK], u[:, YAW_JERK], u[:, PITCH_JERK] = steps[:, :3], steps[:, 3], steps[:, 4]
+    return x, u
+
+
+def _parameters(
+    subject: Subject, stages: Stages, wanted: Wishes, walls: Array, margins: Margins, guess: Array
+) -> Array:
+    n = len(stages.s) - 1
+    total = float(stages.t[-1])
+    drone = subject.drone
+    assert subject.leg.curve is not None
+    reference = subject.leg.curve(stages.s)[:, :3]
+    distance = np.maximum(np.linalg.norm(wanted.centre - reference, axis=1), 1.0)
+    if not wanted.framed.any():
+        distance = np.full(n + 1, max(1.0, 0.2 * float(stages.s[-1] - stages.s[0])))
+    wide, tall = fields_of_view(subject, stages.s)
+    pinned, weight = _pinned(subject, stages, guess, distance)
+    pinned[:, POSITION] = reference
+    weight[:, POSITION] *= margins.hold
+    swing = max(drone.gimbal.acceleration, drone.limits.yaw_acceleration)
+    each = 1.0 / n
+    values = {
+        "centre": wanted.centre,
+        "radius": wanted.radius,
+        "height": wanted.height,
+        "place": wanted.place,
+        "half_width": wide,
+        "half_height": tall,
+        "frame": np.full(n + 1, margins.frame),
+        "aim": wanted.aim,
+        "state": pinned,
+        "state_weight": each * weight,
+        "framing": each * FRAMING * wanted.framed,
+        "visibility": each * VISIBILITY * wanted.whole,
+        "aiming": each * AIMING * (1.0 - wanted.framed),
+        "jerk": np.full(n + 1, JERK_SHARE / total / drone.limits.jerk**2),
+        "angular_jerk": np.full(n + 1, ANGULAR_JERK_SHARE / total / swing**2),
+        "time": np.full(n + 1, 1.0 / total),
+        "pace": np.full(n + 1, each * PACE),
+        "nominal": 1.0 / np.append(np.diff(stages.t), 1.0),
+    }
+    table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
+    planes = walls.copy()
+    planes[:, :, 3] += margins.room * np.linalg.norm(walls[:, :, :3], axis=2)
+    whole = np.column_stack([*table, planes.reshape(n + 1, -1)])
+    assert whole.shape[1] == size(walls.shape[1])
+    return whole
+
+
+def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> tuple[Array, Array]:
+    """Return wanted states and their weights: positions near the path, keyframes, rest, ends, times."""
+    value = guess.copy()
+    weight = np.zeros_like(value)
+    weight[:, POSITION] = (POSITION_ERROR / distance**2)[:, None]
+    leg, s = subject.leg, stages.s
+    hard = PIN / distance**2
+    pins = [int(k) for k in stages.pins]
+    placed = [m.s for m in leg.marks if subject.placed.keyframes[m.index].placed]
+    rests = [stop.s for stop in leg.stops]
+    times = {m.s: m.time for m in leg.marks if m.time is not None}
+    for k in pins:
+        if _among(s[k], placed) or k in (pins[0], pins[-1]):
+            weight[k, POSITION] = hard[k] * 100
+        if _among(s[k], rests):
+            still = [*range(3, 9), YAW_RATE, YAW_ACCELERATION, PITCH_RATE, PITCH_ACCELERATION]
+            value[k, still] = 0.0
+            weight[k, still] = PIN
+        held = sum(stop.hold for stop in leg.stops if stop.s < s[k])
+        if s[k] in times:
+            value[k, TIME], weight[k, TIME] = times[s[k]] - held, PIN
+    for k in (pins[0], pins[-1]):
+        weight[k, [YAW, PITCH]] = 100 * PIN
+    weight[0, TIME] = PIN
+    if leg.duration is not None:
+        weight[-1, TIME] = PIN
+    return value, weight
+
+
+def _among(s: float, places: list[float]) -> bool:
+    return any(abs(s - p) < 1e-9 * max(1.0, abs(s)) for p in places)
+
+
+def _state_bounds(subject: Subject, nodes: int) -> tuple[Array, Array]:
+    limits, gimbal = subject.drone.limits, subject.drone.gimbal
+    pace = _pace(subject)
+    low, high = np.full((nodes, STATES), -inf), np.full((nodes, STATES), inf)
+    low[:, 5], high[:, 5] = -pace * limits.descent, pace * limits.climb
+    # The camera turns with the body and on its gimbal; only a camera that the body follows has no gimbal.
+    own = 0.0 if subject.drone.body == "follow-camera" else 1.0
+    bounds = {
+        YAW_RATE: limits.yaw_rate + own * gimbal.rate,
+        YAW_ACCELERATION: limits.yaw_acceleration + own * gimbal.acceleration,
+        PITCH_RATE: gimbal.rate,
+        PITCH_ACCELERATION: gimbal.acceleration,
+    }
+    for index, bound in bounds.items():
+        low[:, index], high[:, index] = -pace * bound, pace * bound
+    low[:, PITCH], high[:, PITCH] = gimbal.pitch
+    return low, high
+
+
+def _input_bounds(inputs: Array) -> tuple[Array, Array]:
+    low, high = np.full_like(inputs, -inf), np.full_like(inputs, inf)
+    low[:, LENGTH] = FASTEST * inputs[:, LENGTH]
+    high[:, LENGTH] = SLOWEST * inputs[:, LENGTH]
+    return low, high
+
+
+def _held(subject: Subject, walls: Array) -> tuple[Array, Array]:
+    limits = subject.drone.limits
+    pace = _pace(subject)
+    planes = walls.shape[1]
+    low = np.concatenate([[-inf, -inf], np.zeros(planes)])
+    high = np.concatenate(
+        [[(pace * limits.speed) ** 2, (pace * limits.acceleration) ** 2], np.full(planes, inf)]
+    )
+    return low, high

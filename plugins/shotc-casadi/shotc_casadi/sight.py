@@ -1,0 +1,52 @@
+"""Where a keyframe's centre ray meets the world: the look-at points of earlier tools."""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.convex import distances
+from shotc.ir.keyframes import PlacedKeyframe
+
+if TYPE_CHECKING:
+    from shotc_casadi.wishes import Subject
+
+STEPS = 2000
+HORIZON = 1000.0  # metres: how far a ray is followed
+NEAR = 1e-3
+
+
+def sight_point(subject: Subject, keyframe: PlacedKeyframe, angles: tuple[float, ...]) -> Array:
+    """Return the first point of the ground, a target or a keep-out zone on a keyframe's centre ray.
+
+    Where the ray meets nothing, the point on it as far away as the keyframe's target.
+    """
+    yaw, pitch = angles[0], angles[1]
+    eye = np.array(keyframe.at)
+    ray = np.array([cos(yaw) * cos(pitch), sin(yaw) * cos(pitch), sin(pitch)])
+    hits = [_march(o.part, eye, ray) for o in subject.room.obstacles]
+    if ray[2] < 0:
+        hits.append(float(-eye[2] / ray[2]))
+    met = [h for h in hits if h is not None and 0.0 < h <= HORIZON]
+    if met:
+        return np.asarray(eye + min(met) * ray)
+    away = 50.0
+    if keyframe.target is not None:
+        away = float(np.linalg.norm(np.array(subject.mission.target(keyframe.target).centre) - eye))
+    return np.asarray(eye + away * ray)
+
+
+def _march(part: object, eye: Array, ray: Array) -> float | None:
+    """Follow a ray by steps as long as the distance to a convex solid: it cannot jump over it."""
+    along = 0.0
+    for _ in range(STEPS):
+        gap = float(distances(part, eye + along * ray))  # type: ignore[arg-type]
+        if gap < NEAR:
+            return along
+        along += gap
+        if along > HORIZON:
+            return None
+    return along

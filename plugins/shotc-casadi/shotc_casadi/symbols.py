@@ -1,0 +1,194 @@
+"""One stage of the optimal-control problem in CasADi symbols: dynamics, cost and constraints.
+
+State (16): position, velocity, acceleration (W, SI); camera yaw with rate and acceleration; camera
+pitch likewise; time. Input (6): jerk; yaw and pitch jerk; the stage's length in seconds. A stage
+stands at a given progress along the reference path, so the length of a stage is how fast the
+progress is made (theta of Gebhardt and Hilliges Eq. 15, with progress as the independent variable).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+
+from shotc_casadi.conditions import Visibility
+
+STATES, INPUTS = 16, 6
+POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
+YAW, YAW_RATE, YAW_ACCELERATION, PITCH, PITCH_RATE, PITCH_ACCELERATION, TIME = range(9, 16)
+JERK, YAW_JERK, PITCH_JERK, LENGTH = slice(0, 3), 3, 4, 5
+
+FIELDS = {
+    "centre": 3,
+    "radius": 1,
+    "height": 1,
+    "place": 2,
+    "half_width": 1,
+    "half_height": 1,
+    "frame": 1,
+    "aim": 2,
+    "state": STATES,
+    "state_weight": STATES,
+    "framing": 1,
+    "visibility": 1,
+    "aiming": 1,
+    "jerk": 1,
+    "angular_jerk": 1,
+    "time": 1,
+    "pace": 1,
+    "nominal": 1,
+}
+"""The parameters of a stage and their sizes; half-spaces (normal and offset) follow.
+
+centre, radius, height : the target's cylinder, W, metres
+place : (u, v) wanted of its centre; half_width, half_height : tan of half the fields of view
+frame : share of the frame the target has to fit into
+aim : yaw and pitch wanted; state : wanted state
+framing, visibility, aiming, state_weight, jerk, angular_jerk, time, pace : weights in the cost
+nominal : 1 / s, one over the stage's length in the first guess
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """Symbols of one stage.
+
+    z : state and input; p : parameters
+    following : the next state; node : cost of the state; passing : cost of the way to the next
+    held : what is bounded of the state; driven : what is bounded of the input
+    """
+
+    z: Any
+    p: Any
+    following: Any
+    node: Any
+    passing: Any
+    held: Any
+    driven: Any
+
+
+def stage(visibility: Visibility, planes: int) -> Stage:
+    """Return a stage with that many half-spaces to stay in.
+
+    held is horizontal speed squared, acceleration squared, then the half-spaces' slacks (metres);
+    driven is jerk squared.
+    """
+    z = ca.SX.sym("z", STATES + INPUTS)
+    p = ca.SX.sym("p", size(planes))
+    x, u = z[:STATES], z[STATES:]
+    given = fields(p)
+    position = x[POSITION]
+    offset = given["centre"] - position
+    distance = ca.sqrt(ca.sumsqr(offset) + 1e-9)
+    view = _to_camera(offset, x[YAW], x[PITCH])
+    node = (
+        given["framing"] * _framing(view, distance, given)
+        + given["aiming"] * _aiming(x, given)
+        + ca.dot(given["state_weight"], (x - given["state"]) ** 2)
+    )
+    if visibility != "none":
+        node += given["visibility"] * _cropped(visibility, x, offset, view, distance, given)
+    length = u[LENGTH]
+    passing = (
+        length * (given["jerk"] * ca.sumsqr(u[JERK]) + given["time"])
+        + length * given["angular_jerk"] * (u[YAW_JERK] ** 2 + u[PITCH_JERK] ** 2)
+        + given["pace"] * (length * given["nominal"] - 1) ** 2
+    )
+    first = p.numel() - 4 * planes
+    slack = [
+        ca.dot(p[first + 4 * i : first + 4 * i + 3], position) - p[first + 4 * i + 3] for i in range(planes)
+    ]
+    held = ca.vertcat(ca.sumsqr(x[VELOCITY][:2]), ca.sumsqr(x[ACCELERATION]), *slack)
+    return Stage(z, p, _following(x, u), node, passing, held, ca.sumsqr(u[JERK]))
+
+
+def size(planes: int) -> int:
+    """Return how many parameters a stage has."""
+    return sum(FIELDS.values()) + 4 * planes
+
+
+def fields(p: Any) -> dict[str, Any]:
+    """Cut a parameter vector into its fields."""
+    cut, at = {}, 0
+    for name, width in FIELDS.items():
+        cut[name] = p[at : at + width]
+        at += width
+    return cut
+
+
+def _following(x: Any, u: Any) -> Any:
+    """Return the state after the stage: integrators under constant jerk, exact."""
+    h = u[LENGTH]
+
+    def integrated(q: Any, v: Any, a: Any, j: Any) -> tuple[Any, Any, Any]:
+        return q + h * (v + h * (a / 2 + h * j / 6)), v + h * (a + h * j / 2), a + h * j
+
+    moved = integrated(x[POSITION], x[VELOCITY], x[ACCELERATION], u[JERK])
+    yaw = integrated(x[YAW], x[YAW_RATE], x[YAW_ACCELERATION], u[YAW_JERK])
+    pitch = integrated(x[PITCH], x[PITCH_RATE], x[PITCH_ACCELERATION], u[PITCH_JERK])
+    return ca.vertcat(*moved, *yaw, *pitch, x[TIME] + h)
+
+
+def _to_camera(d: Any, yaw: Any, pitch: Any) -> tuple[Any, Any, Any]:
+    """Turn a vector of W into the camera: right, up, forward (roll is zero)."""
+    along = ca.cos(yaw) * d[0] + ca.sin(yaw) * d[1]
+    right = ca.sin(yaw) * d[0] - ca.cos(yaw) * d[1]
+    return (
+        right,
+        ca.cos(pitch) * d[2] - ca.sin(pitch) * along,
+        ca.cos(pitch) * along + ca.sin(pitch) * d[2],
+    )
+
+
+def _framing(view: tuple[Any, Any, Any], distance: Any, given: dict[str, Any]) -> Any:
+    """Return c_f of Gebhardt and Hilliges, Eq. 3: squared distance of unit rays."""
+    place = given["place"]
+    ray = ca.vertcat(place[0] * given["half_width"], place[1] * given["half_height"], 1)
+    return ca.sumsqr(ca.vertcat(*view) / distance - ray / ca.norm_2(ray))
+
+
+def _aiming(x: Any, given: dict[str, Any]) -> Any:
+    aim = given["aim"]
+    return ca.cos(aim[1]) ** 2 * (x[YAW] - aim[0]) ** 2 + (x[PITCH] - aim[1]) ** 2
+
+
+def _cropped(
+    visibility: Visibility, x: Any, offset: Any, view: tuple[Any, Any, Any], distance: Any, given: Any
+) -> Any:
+    """Return c_v: squared lengths, as shares of the distance, by which the target sticks out of the frame."""
+    wide, tall = given["half_width"] * given["frame"], given["half_height"] * given["frame"]
+    across, along = 1 / ca.sqrt(1 + wide**2), 1 / ca.sqrt(1 + tall**2)
+    right, up, forward = view
+    inside = [
+        across * (wide * forward + right),
+        across * (wide * forward - right),
+        along * (tall * forward + up),
+        along * (tall * forward - up),
+    ]
+    if visibility == "silhouette":
+        sin, cos = ca.sin(x[PITCH]), ca.cos(x[PITCH])
+        normals = [wide * across * sin] * 2 + [along * (tall * sin + cos), along * (tall * sin - cos)]
+        gaps = [i - _reach(n, given) for i, n in zip(inside, normals, strict=True)]
+    else:
+        gaps = [
+            across * (wide * f + r) if side == 0 else along * (tall * f + r)
+            for point in _hull_points(offset, given)
+            for r0, u0, f in [_to_camera(point, x[YAW], x[PITCH])]
+            for side, r in ((0, r0), (0, -r0), (1, u0), (1, -u0))
+        ]
+    return sum(ca.fmax(0, -gap / distance) ** 2 for gap in gaps)
+
+
+def _reach(up: Any, given: dict[str, Any]) -> Any:
+    """Return how far a cylinder reaches along a unit normal whose upward component is ``up``."""
+    return given["height"] / 2 * ca.sqrt(up**2 + 1e-8) + given["radius"] * ca.sqrt(1 - up**2 + 1e-6)
+
+
+def _hull_points(offset: Any, given: dict[str, Any]) -> list[Any]:
+    """Return top, bottom, left and right of Eq. 4-7, with world up for the camera's (right at any pitch)."""
+    flat = ca.sqrt(offset[0] ** 2 + offset[1] ** 2 + 1e-9)
+    side = given["radius"] * ca.vertcat(-offset[1], offset[0], 0) / flat
+    up = ca.vertcat(0, 0, given["height"] / 2)
+    return [offset + up, offset - up, offset + side, offset - side]

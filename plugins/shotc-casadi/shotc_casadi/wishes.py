@@ -1,0 +1,160 @@
+"""What the camera is to show at every node: the target and its place on screen, or angles to keep.
+
+Between two keyframes that frame a target everything moves from one to the other with the C2 step of
+the convex path: the place on screen and, where targets change hands, the target's cylinder (f_t and
+v_d of Gebhardt and Hilliges, Sec. 4.1-4.2). Elsewhere the angles of the convex path are kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import aim_at
+from shotc.geom.corridor import Room
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, Leg
+from shotc.passes.solve_path_qp.angles import smoother
+from shotc.passes.solve_path_qp.turns import steady
+from shotc_casadi.conditions import Condition
+from shotc_casadi.sight import sight_point
+
+FAR = 1.0  # metres ahead of the camera that a target nobody asked for is put
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Wishes:
+    """One row a node.
+
+    centre (N + 1, 3), radius, height, place (N + 1, 2), aim (N + 1, 2) : as in symbols.FIELDS
+    framed : where the target is to be at its place; whole : where it is to be in the frame
+    """
+
+    centre: Array
+    radius: Array
+    height: Array
+    place: Array
+    aim: Array
+    framed: Array
+    whole: Array
+
+
+class Subject(NamedTuple):
+    """What a shot is about: the mission, its drone, where it may fly, its keyframes and its leg."""
+
+    mission: MissionIR
+    drone: Drone
+    room: Room
+    placed: PlacedShot
+    leg: Leg
+
+
+def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
+    """Return what a condition wants at path parameters s, shape (N + 1,)."""
+    if condition.aims == "framing":
+        return _framed(subject, s)
+    keys = _keys(subject)
+    angles = _unwrapped([own_angles(subject, k) for _, k in keys], subject)
+    at = np.array([key_s for key_s, _ in keys])
+    turn = np.column_stack([steady(at, angles[:, i])(s)[:, 0] for i in (0, 1)])
+    nothing = _nothing(subject, s)
+    if condition.aims == "angles":
+        return Wishes(*nothing[:4], turn, nothing[5], nothing[6])
+    points = np.array([sight_point(subject, k, tuple(a)) for (_, k), a in zip(keys, angles, strict=True)])
+    x, i = _progress(at, s)
+    looked_at = (1 - x) * points[i] + x * points[i + 1]
+    _, radius, height, place, _, _, whole = nothing
+    aim = _towards(looked_at - _position(subject, s), turn)
+    return Wishes(looked_at, radius, height, place, aim, np.ones(len(s)), whole)
+
+
+def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float]:
+    """Return the camera yaw and pitch of the author's own framing, before composition."""
+    if keyframe.target is None or keyframe.asked is None:
+        return keyframe.yaw, keyframe.pitch
+    centre = subject.mission.target(keyframe.target).centre
+    d = tuple(c - p for c, p in zip(centre, keyframe.at, strict=True))
+    own = aim_at((d[0], d[1], d[2]), keyframe.asked, keyframe.hfov, subject.drone.aspect, keyframe.yaw)
+    return own or (keyframe.yaw, keyframe.pitch)
+
+
+def _framed(subject: Subject, s: Array) -> Wishes:
+    centre, radius, height, place, aim, framed, whole = _nothing(subject, s)
+    keys = _keys(subject)
+    x, i = _progress(np.array([at for at, _ in keys]), s)
+    for k, ((_, a), (_, b)) in enumerate(pairwise(keys)):
+        here = i == k
+        if a.target is None or b.target is None or a.reference is None or b.reference is None:
+            continue
+        share = x[here]
+        first, second = subject.mission.target(a.target), subject.mission.target(b.target)
+        centre[here] = (1 - share) * np.array(first.centre) + share * np.array(second.centre)
+        radius[here] = ((1 - share) * first.radius + share * second.radius)[:, 0]
+        height[here] = ((1 - share) * first.height + share * second.height)[:, 0]
+        place[here] = (1 - share) * np.array(a.reference) + share * np.array(b.reference)
+        framed[here] = 1.0
+        whole[here] = 1.0
+    return Wishes(centre, radius, height, place, aim, framed, whole)
+
+
+def _nothing(subject: Subject, s: Array) -> tuple[Array, Array, Array, Array, Array, Array, Array]:
+    """Return wishes that keep the convex path's angles and frame nothing."""
+    curve = subject.leg.curve
+    assert curve is not None
+    q = curve(s)
+    aim = q[:, [CAM_YAW, CAM_PITCH]]
+    ahead = np.column_stack(
+        [np.cos(aim[:, 0]) * np.cos(aim[:, 1]), np.sin(aim[:, 0]) * np.cos(aim[:, 1]), np.sin(aim[:, 1])]
+    )
+    zero = np.zeros(len(s))
+    centre = q[:, :3] + FAR * ahead
+    return centre, zero.copy(), zero.copy(), np.zeros((len(s), 2)), aim, zero.copy(), zero.copy()
+
+
+def _keys(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:
+    """Return the keyframes with their places on the path, each place once."""
+    keys: list[tuple[float, PlacedKeyframe]] = []
+    for mark in subject.leg.marks:
+        if not keys or mark.s > keys[-1][0]:
+            keys.append((mark.s, subject.placed.keyframes[mark.index]))
+    return keys
+
+
+def _progress(at: Array, s: Array) -> tuple[Array, np.ndarray]:
+    """Return the smooth progress within the interval between keyframes, (N + 1, 1), and which it is."""
+    i = np.clip(np.searchsorted(at, s, side="right") - 1, 0, len(at) - 2)
+    x = np.clip((s - at[i]) / (at[i + 1] - at[i]), 0.0, 1.0)
+    return smoother(x)[:, None], i
+
+
+def _unwrapped(angles: list[tuple[float, float]], subject: Subject) -> Array:
+    """Return angles as an array, yaw without jumps and starting near the convex path's own."""
+    rows = np.array(angles, dtype=np.float64)
+    start = subject.leg.pose[CAM_YAW]
+    rows[0, 0] += 2 * np.pi * np.round((start - rows[0, 0]) / (2 * np.pi))
+    rows[:, 0] = np.unwrap(rows[:, 0])
+    return rows
+
+
+def _towards(d: Array, near: Array) -> Array:
+    """Return yaw and pitch of directions, yaw on the winding of ``near``."""
+    yaw = np.unwrap(np.arctan2(d[:, 1], d[:, 0]))
+    yaw += 2 * np.pi * np.round((near[0, 0] - yaw[0]) / (2 * np.pi))
+    return np.column_stack([yaw, np.arctan2(d[:, 2], np.hypot(d[:, 0], d[:, 1]))])
+
+
+def _position(subject: Subject, s: Array) -> Array:
+    assert subject.leg.curve is not None
+    return np.asarray(subject.leg.curve(s)[:, :3])
+
+
+def fields_of_view(subject: Subject, s: Array) -> tuple[Array, Array]:
+    """Return tan of half the horizontal and vertical fields of view at s."""
+    assert subject.leg.curve is not None
+    half = np.tan(subject.leg.curve(s)[:, HFOV] / 2)
+    return half, half / subject.drone.aspect

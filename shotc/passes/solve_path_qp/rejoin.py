@@ -1,0 +1,112 @@
+"""Refined shots put back into a path: the body turned anew, the unfilmed legs led to the new ends.
+
+What a refiner hands back is where the camera is and where it looks; the rest of the path follows from
+that, so no refiner has to plan transits or bodies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.bspline import restrict
+from shotc.ir.mission import Drone
+from shotc.ir.path import BODY_YAW, HFOV, DronePath, Leg, PathIR
+from shotc.passes.solve_path_qp.body import BodyTask, body_line
+from shotc.passes.solve_path_qp.legs import Flight, drone_legs
+from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
+from shotc.passes.solve_path_qp.room import flight_room, pad_room
+from shotc.passes.solve_path_qp.shots import ShotCurve, stack
+from shotc.solvers.conic import Status
+
+SAME_END = 1e-9
+
+
+class NoTransit(Exception):
+    """The unfilmed legs cannot be led to a refined shot's ends; the text says to which."""
+
+
+def rejoined(path: PathIR, cameras: Mapping[str, Piecewise]) -> PathIR:
+    """Return the path with some shots' cameras replaced.
+
+    cameras : by shot id, curves of x, y, z, cam_yaw, cam_pitch over the leg's own s, quintic, C2
+    Legs whose ends stay the same keep the unfilmed legs around them. NoTransit where there is no way
+    to a new end; ValueError where a curve does not cover its leg.
+    """
+    return replace(path, drones=tuple(_drone(path, drone, cameras) for drone in path.drones))
+
+
+def _drone(path: PathIR, flown: DronePath, cameras: Mapping[str, Piecewise]) -> DronePath:
+    if not any(leg.shot in cameras for leg in flown.legs):
+        return flown
+    drone = path.keyframes.mission.drone(flown.drone)
+    legs = [
+        leg if leg.shot not in cameras else _turned(drone, leg, cameras[leg.shot or ""]) for leg in flown.legs
+    ]
+    if all(_same_ends(a, b) for a, b in zip(flown.legs, legs, strict=True)):
+        return replace(flown, legs=tuple(legs))
+    return replace(flown, legs=_led_anew(path, drone, legs))
+
+
+def _turned(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
+    """Return a shot's leg with another camera, and the body that goes with it."""
+    old = leg.curve
+    if old is None or abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
+        raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
+    ends: tuple[float | None, float | None] = (None, None)
+    if _same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and _same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1]):
+        ends = float(old.ctrl[0, 0, BODY_YAW]), float(old.ctrl[-1, -1, BODY_YAW])
+    speed = leg.pace * drone.limits.speed
+    status, body = body_line(drone, BodyTask(camera.channels(0, 1, 2), camera.channels(3), *ends, speed))
+    if status not in {Status.SOLVED, Status.INACCURATE}:
+        raise NoTransit(f"no body yaw goes with the camera of shot {leg.shot}")
+    zoom = restrict(_merged(old.channels(HFOV), camera), camera.breaks)
+    curve = stack(camera, body, zoom)
+    if ends[0] is not None:
+        # Fits are good to 1e-9; joints are to be equal.
+        ctrl = curve.ctrl.copy()
+        ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]
+        curve = Piecewise(curve.breaks, ctrl)
+    return replace(leg, curve=curve, pose=tuple(map(float, curve.ctrl[0, 0])))
+
+
+def _merged(zoom: Piecewise, camera: Piecewise) -> Piecewise:
+    """Return the zoom on pieces that a restriction to the camera's breaks can take; it is C2 there."""
+    missing = [b for b in zoom.breaks if np.abs(camera.breaks - b).min() > 1e-9 * (zoom.end - zoom.start)]
+    if missing:
+        raise ValueError(f"the camera's breaks lack {len(missing)} of its leg's")
+    return zoom
+
+
+def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
+    mission = path.keyframes.mission
+    room = flight_room(mission, drone)
+    top = transit_point(room, pad_room(mission, drone), drone)
+    assert not isinstance(top, PadBlocked), "it was free when the path was first planned"
+    placed = {p.shot.id: p for p in path.keyframes.shots}
+    shots = [
+        ShotCurve(placed[leg.shot], leg.curve, leg.pose, leg.stops, leg.marks, leg.framing, (), (), None, ())
+        for leg in legs
+        if leg.shot is not None
+    ]
+    joined = drone_legs(Flight(drone, room, top), shots)
+    if isinstance(joined[0], Leg):
+        return joined
+    before = joined[1]
+    raise NoTransit(f"no way leads to {'home' if before is None else f'shot {before.shot.shot.id}'}")
+
+
+def _same_ends(old: Leg, new: Leg) -> bool:
+    if old.curve is None or new.curve is None:
+        return old is new
+    return old is new or (
+        _same(old.curve.ctrl[0, 0], new.curve.ctrl[0, 0])
+        and _same(old.curve.ctrl[-1, -1], new.curve.ctrl[-1, -1])
+    )
+
+
+def _same(a: np.ndarray, b: np.ndarray) -> bool:
+    return bool(np.abs(a - b).max() < SAME_END)
