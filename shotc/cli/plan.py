@@ -13,6 +13,7 @@ from shotc import plugins
 from shotc.api import Compilation, PlanOptions, compile_source, crew, emit_plan
 from shotc.cli import console
 from shotc.cli.inputs import read_mission
+from shotc.cli.refiner import told
 from shotc.output import write
 from shotc.pipeline import PASS_NAMES
 
@@ -104,7 +105,7 @@ def plan(
             hands.prepare(mission.emit if emitters is None else emitters)
 
         options = PlanOptions(refiner, deadline, autopilot, stop, seed, progress, start)
-        done = _told(compile_source(source.data, source.name, source.folder, options), refiner)
+        done = told(compile_source(source.data, source.name, source.folder, options), refiner)
         if dump_ir is not None:
             _dump(done, dump_ir)
         if options.stop_after is None:
@@ -116,14 +117,6 @@ def plan(
     if time_passes:
         _print_times(done)
     raise typer.Exit(code)
-
-
-def _told(done: Compilation, refiner: str | None) -> Compilation:
-    """Add that there was no refiner, where none was asked for and the path could have been refined."""
-    reached = any(report.name == "refine-path" for report in done.reports)
-    if refiner is not None or plugins.usual_refiner() != plugins.NO_REFINER or not reached:
-        return done
-    return done._replace(diagnostics=(*done.diagnostics, plugins.no_refiner()))
 
 
 def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, hands: Crew) -> int:

@@ -16,6 +16,7 @@ from shotc.api import PlanOptions, compile_source, emit_plan
 from shotc.cli import console
 from shotc.cli.inputs import read_mission
 from shotc.cli.plans import proved
+from shotc.cli.refiner import told
 from shotc.diag.model import Diagnostic
 from shotc.ir.trajectory import VerifiedIR
 
@@ -55,7 +56,8 @@ def _is_plan(what: str) -> bool:
 def _planned(spec: str) -> VerifiedIR:
     """Return the plan of a mission; where there is none, report why and exit."""
     source = read_mission(spec)
-    done = compile_source(source.data, source.name, source.folder, PlanOptions(progress=console.note))
+    options = PlanOptions(progress=console.note)
+    done = told(compile_source(source.data, source.name, source.folder, options), None)
     console.report(done.diagnostics, done.sources)
     if done.plan is None:
         raise typer.Exit(console.EXIT_REJECTED)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-PLAN = [sys.executable, "-m", "shotc", "plan"]
+PLAN = [sys.executable, "-m", "shotc", "plan", "--refiner", "none"]
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="workers are forked on Linux only")
 
 

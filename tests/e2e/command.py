@@ -12,6 +12,8 @@ from itertools import pairwise
 from pathlib import Path
 
 SHOTC = (sys.executable, "-m", "shotc")
+PLAN = ("plan", "--refiner", "none")
+"""Most tests are of what no refiner touches."""
 SMALL = """\
 shotc: 1
 mission: small

@@ -55,8 +55,8 @@ Plan = Callable[[Path], Planned]
 
 
 def compiled(path: Path) -> api.Compilation:
-    """Compile a file, named as one that stands in the current folder."""
-    return api.compile_source(path.read_bytes(), path.name, path.parent, api.PlanOptions())
+    """Compile a file, named as one that stands in the current folder, without a refiner."""
+    return api.compile_source(path.read_bytes(), path.name, path.parent, api.PlanOptions(refiner="none"))
 
 
 @pytest.fixture(scope="session")

@@ -45,7 +45,7 @@ def checked(text: str) -> list[Diagnostic]:
 
 
 def planned(text: str) -> tuple[bool, list[Diagnostic]]:
-    done = compile_source(text.encode(), "bounds.yaml", None, PlanOptions())
+    done = compile_source(text.encode(), "bounds.yaml", None, PlanOptions(refiner="none"))
     return done.plan is not None, list(done.diagnostics)
 
 
@@ -84,7 +84,9 @@ def test_shots_in_each_others_way_are_answered_once(code: str) -> None:
 def test_a_bound_stands_where_no_later_pass_answers_it(tmp_path: Path) -> None:
     text = MISSION.replace(*SLIPS["K004"])
     for stop in ("resolve", "place-keyframes", "solve-path-qp"):
-        done = compile_source(text.encode(), "bounds.yaml", tmp_path, PlanOptions(stop_after=stop))
+        done = compile_source(
+            text.encode(), "bounds.yaml", tmp_path, PlanOptions(refiner="none", stop_after=stop)
+        )
         assert done.plan is None
         assert [d.code for d in done.diagnostics] == ["K004"]
     assert done.reports[-1].name == "solve-path-qp"

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.e2e.command import SHOTC, SMALL, environment, run
+from tests.e2e.command import PLAN, SHOTC, SMALL, environment, run
 
 pytestmark = [
     pytest.mark.skipif(os.name != "posix", reason="signals, limits and device files"),
@@ -31,7 +31,7 @@ def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a mission and its outputs."""
     folder = tmp_path_factory.mktemp("planned")
     (folder / "small.yaml").write_text(SMALL)
-    result = run("plan", "small.yaml", folder=folder)
+    result = run(*PLAN, "small.yaml", folder=folder)
     assert (result.code, result.err) == (0, "")
     return folder
 
@@ -51,7 +51,7 @@ def test_a_plan_is_written_where_it_says(planned: Path) -> None:
 
 
 def test_results_go_to_the_output_stream(place: Path) -> None:
-    result = run("plan", "small.yaml", "-o", "there", folder=place)
+    result = run(*PLAN, "small.yaml", "-o", "there", folder=place)
     assert (result.code, result.err) == (0, "")
     assert "planned and proved" in result.out
     assert "there/: plan.json, trajectory.csv, framing.csv" in result.out
@@ -60,7 +60,7 @@ def test_results_go_to_the_output_stream(place: Path) -> None:
 
 
 def test_a_mission_comes_from_standard_input(place: Path) -> None:
-    result = run("plan", "-", "-o", "piped", folder=place, stdin=SMALL.encode())
+    result = run(*PLAN, "-", "-o", "piped", folder=place, stdin=SMALL.encode())
     assert (result.code, result.err) == (0, "")
     for name in ("trajectory.csv", "framing.csv"):
         assert (place / "piped" / name).read_bytes() == (place / "out" / "small" / name).read_bytes()
@@ -69,7 +69,7 @@ def test_a_mission_comes_from_standard_input(place: Path) -> None:
 def test_a_rejected_mission_writes_nothing(place: Path) -> None:
     (place / "wrong.yaml").write_text(WRONG)
     before = content(place / "out" / "small")
-    result = run("plan", "wrong.yaml", folder=place)
+    result = run(*PLAN, "wrong.yaml", folder=place)
     assert (result.code, result.out) == (1, "")
     (report,) = result.reports
     assert (report.code, report.line) == ("N001", 8)
@@ -90,7 +90,7 @@ def test_a_rejected_mission_writes_nothing(place: Path) -> None:
     ids=" ".join,
 )
 def test_usage_errors(planned: Path, arguments: list[str]) -> None:
-    result = run("plan", "small.yaml", *arguments, folder=planned)
+    result = run(*PLAN, "small.yaml", *arguments, folder=planned)
     assert (result.code, result.out) == (2, "")
     assert result.err.startswith("error: ")
     assert result.err.endswith("try `shotc plan --help`\n")
@@ -102,7 +102,7 @@ def test_an_interrupt_leaves_the_old_files(place: Path, moment: str) -> None:
     before = content(place / "out" / "small")
     (place / "small.yaml").write_text(SMALL.replace("[0, -50, 15]", "[0, -52, 15]"))
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_INTERRUPT": moment}
-    result = run("plan", "small.yaml", "--emit", "csv,storyboard", "--jobs", "2", folder=place, env=env)
+    result = run(*PLAN, "small.yaml", "--emit", "csv,storyboard", "--jobs", "2", folder=place, env=env)
     assert (result.code, result.out, result.err) == (130, "", "interrupted\n")
     assert content(place / "out" / "small") == before
 
@@ -112,7 +112,7 @@ def test_a_full_disk_leaves_the_old_files(place: Path, emit: str) -> None:
     before = content(place / "out" / "small")
     (place / "small.yaml").write_text(SMALL.replace("[0, -50, 15]", "[0, -52, 15]"))
     done = subprocess.run(
-        [*SHOTC, "plan", "small.yaml", "--emit", emit],
+        [*SHOTC, *PLAN, "small.yaml", "--emit", emit],
         cwd=place,
         env=environment({}),
         capture_output=True,
@@ -128,7 +128,7 @@ def test_a_full_disk_leaves_the_old_files(place: Path, emit: str) -> None:
 @pytest.mark.parametrize("output", ["taken", "/proc/nowhere"])
 def test_a_folder_that_cannot_be_written(place: Path, output: str) -> None:
     (place / "taken").write_text("a file")
-    result = run("plan", "small.yaml", "-o", output, folder=place)
+    result = run(*PLAN, "small.yaml", "-o", output, folder=place)
     assert (result.code, result.out) == (1, "")
     assert [report.code for report in result.reports] == ["E901"]
     assert (place / "taken").read_text() == "a file"
@@ -136,7 +136,7 @@ def test_a_folder_that_cannot_be_written(place: Path, output: str) -> None:
 
 def test_a_reader_that_leaves_early_is_no_error(place: Path) -> None:
     with subprocess.Popen(
-        [*SHOTC, "plan", "small.yaml", "-o", "there"],
+        [*SHOTC, *PLAN, "small.yaml", "-o", "there"],
         cwd=place,
         env=environment({}),
         stdout=subprocess.PIPE,
@@ -153,7 +153,7 @@ def test_a_reader_that_leaves_early_is_no_error(place: Path) -> None:
 @pytest.mark.parametrize("library", ["cvxpy", "matplotlib", SOLVERS], ids=["cvxpy", "matplotlib", "all"])
 def test_planning_without_its_libraries_says_what_to_install(planned: Path, library: str) -> None:
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": library}
-    result = run("plan", "small.yaml", "-o", "none", folder=planned, env=env)
+    result = run(*PLAN, "small.yaml", "-o", "none", folder=planned, env=env)
     assert (result.code, result.out) == (1, "")
     (report,) = result.reports
     assert report.code == "P004"
@@ -173,7 +173,7 @@ def test_reading_a_plan_without_libraries_says_what_to_install(planned: Path, ar
 def test_an_output_without_its_library_is_left_out(place: Path) -> None:
     (place / "small.yaml").write_text(SMALL.replace("[csv]", "[rerun, csv]"))
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": "rerun"}
-    result = run("plan", "small.yaml", "-o", "there", folder=place, env=env)
+    result = run(*PLAN, "small.yaml", "-o", "there", folder=place, env=env)
     assert result.code == 0
     (report,) = result.reports
     assert (report.severity, report.code) == ("warning", "P005")

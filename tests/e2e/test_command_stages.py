@@ -10,7 +10,7 @@ import pytest
 
 from shotc.cli import app, console
 from shotc.pipeline import PASS_NAMES
-from tests.e2e.command import SMALL, Result
+from tests.e2e.command import PLAN, SMALL, Result
 
 pytestmark = pytest.mark.xdist_group("command")
 
@@ -36,7 +36,7 @@ def shotc(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captur
 
 @pytest.mark.parametrize(("name", "gives"), list(zip(PASS_NAMES, GIVES, strict=True)))
 def test_every_pass_can_be_dumped(shotc: Shotc, name: str, gives: str) -> None:
-    result = shotc("plan", "small.yaml", "--dump-ir", name)
+    result = shotc(*PLAN, "small.yaml", "--dump-ir", name)
     assert (result.code, result.err) == (0, "")
     first, *rest = result.out.splitlines()
     assert first == gives
@@ -46,7 +46,7 @@ def test_every_pass_can_be_dumped(shotc: Shotc, name: str, gives: str) -> None:
 
 @pytest.mark.parametrize("name", PASS_NAMES)
 def test_stopping_after_a_pass_times_the_passes_and_writes_nothing(shotc: Shotc, name: str) -> None:
-    result = shotc("plan", "small.yaml", "--stop-after", name, "--time-passes")
+    result = shotc(*PLAN, "small.yaml", "--stop-after", name, "--time-passes")
     assert (result.code, result.out) == (0, "")
     times = [line.split() for line in result.err.splitlines()]
     assert [words[2] for words in times] == list(PASS_NAMES[: PASS_NAMES.index(name) + 1])
@@ -64,12 +64,12 @@ def test_stopping_after_a_pass_times_the_passes_and_writes_nothing(shotc: Shotc,
     ],
 )
 def test_emitters_are_chosen_by_name(shotc: Shotc, emit: str, files: list[str]) -> None:
-    assert shotc("plan", "small.yaml", "--emit", emit).code == 0
+    assert shotc(*PLAN, "small.yaml", "--emit", emit).code == 0
     assert sorted(path.name for path in Path("out/small").iterdir()) == files
 
 
 def test_a_written_plan_is_verified_and_an_edited_one_refused(shotc: Shotc) -> None:
-    shotc("plan", "small.yaml")
+    shotc(*PLAN, "small.yaml")
     result = shotc("verify", "out/small")
     assert result.code == 0
     assert result.err.startswith("the plan holds: ")
@@ -88,16 +88,16 @@ def test_a_written_plan_is_verified_and_an_edited_one_refused(shotc: Shotc) -> N
 
 
 def test_emit_writes_the_same_tables_again(shotc: Shotc) -> None:
-    shotc("plan", "small.yaml")
+    shotc(*PLAN, "small.yaml")
     assert shotc("emit", "out/small", "-o", "again", "--emit", "csv").code == 0
     for name in ("plan.json", "trajectory.csv", "framing.csv"):
         assert Path("again", name).read_bytes() == Path("out/small", name).read_bytes()
 
 
 def test_diff_tells_two_plans_apart(shotc: Shotc) -> None:
-    shotc("plan", "small.yaml", "-o", "old")
+    shotc(*PLAN, "small.yaml", "-o", "old")
     Path("small.yaml").write_text(SMALL.replace("[0, -50, 15]", "[0, -50, 17]"))
-    shotc("plan", "small.yaml", "-o", "new")
+    shotc(*PLAN, "small.yaml", "-o", "new")
     assert "the certificates say the same" in shotc("diff", "old", "old").out
     result = shotc("diff", "old", "new")
     assert result.code == 0

@@ -22,7 +22,9 @@ DRAG = 0.25
 
 @pytest.fixture(scope="module")
 def plan():
-    return compile_source(MISSION.read_bytes(), "tower-reveal.yaml", MISSION.parent, PlanOptions()).plan
+    return compile_source(
+        MISSION.read_bytes(), "tower-reveal.yaml", MISSION.parent, PlanOptions(refiner="none")
+    ).plan
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from shotc.cli import app, console
-from tests.e2e.command import Report, Result
+from tests.e2e.command import PLAN, Report, Result
 
 TOWER = """\
 shotc: 1
@@ -274,7 +274,7 @@ def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capt
 
     def plan(text: str) -> Result:
         Path("hard.yaml").write_text(text)
-        code = app.run(["plan", "hard.yaml", "-o", "out", "--emit", "csv", "--jobs", "1"])
+        code = app.run([*PLAN, "hard.yaml", "-o", "out", "--emit", "csv", "--jobs", "1"])
         console.configure()
         return Result(code, *capsys.readouterr())
 

@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from shotc import plugins
+from tests.distributions import lay
 
 MODULE = """
 class Sample:
@@ -22,18 +23,13 @@ PLUGIN = Sample()
 def install(tmp_path, monkeypatch):
     """Lay a distribution with one emitter, or another plugin, on sys.path."""
 
-    def lay(distribution: str, entry: str, body: str, group: str = "emitters") -> None:
-        module = distribution.replace("-", "_")
-        (tmp_path / f"{module}.py").write_text(body)
-        info = tmp_path / f"{module}-1.0.dist-info"
-        info.mkdir()
-        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {distribution}\nVersion: 1.0\n")
-        (info / "entry_points.txt").write_text(f"[shotc.{group}]\n{entry} = {module}:PLUGIN\n")
-        monkeypatch.delitem(sys.modules, module, raising=False)
+    def laid(distribution: str, entry: str, body: str, group: str = "emitters") -> None:
+        lay(tmp_path, distribution, entry, body, group)
+        monkeypatch.delitem(sys.modules, distribution.replace("-", "_"), raising=False)
 
     monkeypatch.syspath_prepend(str(tmp_path))
     plugins.forget()
-    yield lay
+    yield laid
     plugins.forget()
 
 
@@ -122,3 +118,32 @@ def test_missing_libraries_are_named_with_the_extra_that_brings_them(libraries, 
     assert fault.code == "P005"
     assert fault.message == f"this output needs {', '.join(libraries)}, not installed here"
     assert fault.help.startswith(f"run `pip install 'shotc[{extra}]'`")
+
+
+def test_one_plugin_is_loaded_and_named_with_its_package(install):
+    install("sample-maker", "sample", MODULE.format(name="sample", api=1), group="refiners")
+    found = plugins.one("refiners", "sample")
+    assert found.plugin.name == "sample"
+    assert (found.package, found.reference, found.diagnostics) == ("sample-maker", "sample_maker:PLUGIN", ())
+
+
+def test_one_plugin_is_used_though_another_is_broken(install):
+    install("sample-maker", "sample", MODULE.format(name="sample", api=1), group="refiners")
+    install("broken-maker", "broken", "raise RuntimeError('no such solver')", group="refiners")
+    assert plugins.one("refiners", "sample").plugin is not None
+    broken = plugins.one("refiners", "broken")
+    assert broken.plugin is None
+    assert [d.code for d in broken.diagnostics] == ["P002"]
+
+
+def test_a_refiner_that_lacks_an_optional_library_says_which(install):
+    install("fast-maker", "fast", "raise ModuleNotFoundError('no scipy', name='scipy')", group="refiners")
+    (missing,) = plugins.one("refiners", "fast").diagnostics
+    assert (missing.code, "refiner `fast` needs scipy" in missing.message) == ("P004", True)
+
+
+def test_our_refiner_is_the_usual_one_where_it_is_installed(install, monkeypatch):
+    monkeypatch.setattr(plugins, "names", lambda group: ["none", "other"])
+    assert plugins.usual_refiner() == "none"
+    monkeypatch.setattr(plugins, "names", lambda group: ["none", "other", "ours"])
+    assert plugins.usual_refiner() == "ours"

@@ -19,7 +19,9 @@ TEXT = TEMPLATE.read_text()
 
 @cache
 def path():
-    done = compile_source(TEXT.encode(), "m.yaml", None, PlanOptions(stop_after="solve-path-qp"))
+    done = compile_source(
+        TEXT.encode(), "m.yaml", None, PlanOptions(refiner="none", stop_after="solve-path-qp")
+    )
     return done.reports[-1].output
 
 
