@@ -40,7 +40,7 @@ class Check(NamedTuple):
 def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
     """Prove a camera's clearances and look at its frame between the nodes."""
     lack = float(shortfall(subject.room, camera.ctrl[:, :, :3]).max())
-    cropped = 0.0 if condition.visibility == "none" else _cropped(subject, condition, camera)
+    cropped = _cropped(subject, condition, camera) if condition.visibility == "silhouette" else 0.0
     return Check(max(lack, 0.0), cropped)
 
 
