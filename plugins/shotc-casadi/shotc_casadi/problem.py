@@ -54,11 +54,13 @@ class Margins:
 
     frame : share of the frame that the target has to fit into
     room : metres kept from obstacles beyond what the convex path kept
+    limits : share of the drone's and the gimbal's limits that may be used
     hold : factor on the price of leaving the convex path
     """
 
     frame: float = 0.97
     room: float = 0.0
+    limits: float = 1.0
     hold: float = 1.0
 
 
@@ -72,15 +74,15 @@ def problem(
         parameters=_parameters(subject, stages, wanted, walls, margins, states),
         states=states,
         inputs=inputs,
-        state_bounds=_state_bounds(subject, len(stages.s)),
+        state_bounds=_state_bounds(subject, len(stages.s), margins),
         input_bounds=_input_bounds(inputs),
-        held=_held(subject, walls),
-        driven=(np.array([-inf]), np.array([(_pace(subject) * subject.drone.limits.jerk) ** 2])),
+        held=_held(subject, walls, margins),
+        driven=(np.array([-inf]), np.array([(_pace(subject, margins) * subject.drone.limits.jerk) ** 2])),
     )
 
 
-def _pace(subject: Subject) -> float:
-    return subject.leg.pace if subject.leg.duration is None else 1.0
+def _pace(subject: Subject, margins: Margins) -> float:
+    return margins.limits * (subject.leg.pace if subject.leg.duration is None else 1.0)
 
 
 def _guess(subject: Subject, stages: Stages, wanted: Wishes, condition: Condition) -> tuple[Array, Array]:
@@ -187,9 +189,9 @@ def _among(s: float, places: list[float]) -> bool:
     return any(abs(s - p) < 1e-9 * max(1.0, abs(s)) for p in places)
 
 
-def _state_bounds(subject: Subject, nodes: int) -> tuple[Array, Array]:
+def _state_bounds(subject: Subject, nodes: int, margins: Margins) -> tuple[Array, Array]:
     limits, gimbal = subject.drone.limits, subject.drone.gimbal
-    pace = _pace(subject)
+    pace = _pace(subject, margins)
     low, high = np.full((nodes, STATES), -inf), np.full((nodes, STATES), inf)
     low[:, 5], high[:, 5] = -pace * limits.descent, pace * limits.climb
     # The camera turns with the body and on its gimbal; only a camera that the body follows has no gimbal.
@@ -213,9 +215,9 @@ def _input_bounds(inputs: Array) -> tuple[Array, Array]:
     return low, high
 
 
-def _held(subject: Subject, walls: Array) -> tuple[Array, Array]:
+def _held(subject: Subject, walls: Array, margins: Margins) -> tuple[Array, Array]:
     limits = subject.drone.limits
-    pace = _pace(subject)
+    pace = _pace(subject, margins)
     planes = walls.shape[1]
     low = np.concatenate([[-inf, -inf], np.zeros(planes)])
     high = np.concatenate(

@@ -1,4 +1,4 @@
-"""Whether a refined camera holds between its nodes: clear of everything, the target whole."""
+"""Whether a refined camera holds between its nodes: clear of everything, in time, the target whole."""
 
 from __future__ import annotations
 
@@ -10,6 +10,11 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import subdivide
 from shotc.geom.camera import View, frustum_margins
 from shotc.geom.corridor import shortfall
+from shotc.passes.parameterize_time.grid import rough_profile
+from shotc.passes.parameterize_time.leg import fastest_moves, plan_of
+from shotc.passes.parameterize_time.limits import Ceiling, ceiling_of
+from shotc.passes.parameterize_time.move import axes_of
+from shotc.passes.solve_path_qp.rejoin import with_camera
 from shotc_casadi.conditions import Condition
 from shotc_casadi.problem import Margins
 from shotc_casadi.wishes import Subject, fields_of_view, wishes
@@ -17,31 +22,39 @@ from shotc_casadi.wishes import Subject, fields_of_view, wishes
 SAMPLES = 6  # a piece
 ROOM_STEP = 0.02  # metres added to what was missing
 FRAME_STEP = 1.5  # times what was missing
+LIMIT_STEP = 1.2  # times what was missing
 HOLD = 1e3
-GAIN = 0.9  # of what was cropped before; a round that leaves more has helped nothing
+GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
+AMPLE = 0.8  # share of a duration that a rough profile may take for it to be met without a closer look
 
 
 class Check(NamedTuple):
-    """What is left open.
+    """What is left open, the worst first.
 
     lack : metres by which clearance is not proved for all s (Bernstein hulls); 0 is proved
+    late : share of the duration asked for by which the fastest flight is too long
     cropped : the most that the target sticks out of the frame, as a share of its distance
     """
 
     lack: float
+    late: float
     cropped: float
 
     @property
     def holds(self) -> bool:
         """Whether nothing is left open."""
-        return self.lack <= 0.0 and self.cropped <= 0.0
+        return max(self) <= 0.0
+
+    def helped(self, before: Check) -> bool:
+        """Tell whether anything that was open has become notably better."""
+        return any(now < GAIN * then for now, then in zip(self, before, strict=True))
 
 
 def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
-    """Prove a camera's clearances and look at its frame between the nodes."""
+    """Prove a camera's clearances, time it, and look at its frame between the nodes."""
     lack = float(shortfall(subject.room, camera.ctrl[:, :, :3]).max())
     cropped = _cropped(subject, condition, camera) if condition.visibility == "silhouette" else 0.0
-    return Check(max(lack, 0.0), cropped)
+    return Check(max(lack, 0.0), _late(subject, camera), cropped)
 
 
 def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
@@ -49,8 +62,29 @@ def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
     return Margins(
         frame=max(0.5, margins.frame - FRAME_STEP * check.cropped),
         room=margins.room + (check.lack + ROOM_STEP if check.lack > 0 else 0.0),
+        limits=margins.limits / (1.0 + LIMIT_STEP * check.late),
         hold=HOLD if hold and check.lack > 0 else margins.hold,
     )
+
+
+def _late(subject: Subject, camera: Piecewise) -> float:
+    """Return by how much of the duration asked for the fastest flight of this camera misses it."""
+    if subject.leg.duration is None:
+        return 0.0
+    leg = with_camera(subject.drone, subject.leg, camera)
+    plan, ceiling = plan_of(leg), ceiling_of(subject.drone)
+    available = subject.leg.duration - sum(stop.hold for stop in plan.stops)
+    if sum(_roughly(leg.curve, span, ceiling) for span in plan.spans) < AMPLE * available:
+        return 0.0
+    needed = sum(move.duration for move in fastest_moves(leg, plan, ceiling))
+    return max(0.0, needed / available - 1.0)
+
+
+def _roughly(curve: Piecewise | None, span: tuple[float, float], ceiling: Ceiling) -> float:
+    assert curve is not None
+    s, b = rough_profile(curve, *span, axes_of(curve, span, ceiling))
+    root = np.sqrt(b)
+    return float(np.sum(2 * np.diff(s) / np.maximum(root[1:] + root[:-1], 1e-9)))
 
 
 def _cropped(subject: Subject, condition: Condition, camera: Piecewise) -> float:

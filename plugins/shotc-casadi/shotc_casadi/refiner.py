@@ -27,7 +27,7 @@ from shotc_casadi.camera import camera
 from shotc_casadi.conditions import Condition
 from shotc_casadi.problem import Margins, problem
 from shotc_casadi.program import Problem, Solution, Solver, solve
-from shotc_casadi.proof import GAIN, Check, checked, tighter
+from shotc_casadi.proof import Check, checked, tighter
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, TIME, YAW
 from shotc_casadi.walls import half_spaces
@@ -158,7 +158,7 @@ def _refine(subject: Subject, condition: Condition, count: int | None) -> Refine
     margins = Margins()
     task = problem(subject, condition, nodes, wanted, walls, margins)
     ends = task.states[[0, -1]][:, [YAW, PITCH]]
-    best = _Tried(None, Check(inf, inf))
+    best = _Tried(None, Check(inf, inf, inf))
     seconds, first, rounds = 0.0, None, 0
     for rounds in range(1, ROUNDS + 1):
         solution, failed = _solved(task)
@@ -168,7 +168,7 @@ def _refine(subject: Subject, condition: Condition, count: int | None) -> Refine
             break
         found = camera(subject.drone, leg, nodes, solution.states, ends)
         tried = _Tried(found, checked(subject, condition, found))
-        helped = tried.check < best.check and tried.check.cropped < GAIN * best.check.cropped
+        helped = tried.check.helped(best.check)
         best = min(best, tried, key=lambda t: t.check)
         if tried.check.holds or (best.check.lack <= 0 and not helped):
             break

@@ -5,17 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import Drone
-from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg
+from shotc.ir.path import Leg
+from shotc.passes.parameterize_time.grid import evened, rough_profile
+from shotc.passes.parameterize_time.leg import plan_of
+from shotc.passes.parameterize_time.limits import ceiling_of
+from shotc.passes.parameterize_time.move import axes_of
 
 STAGES = 100
 PER_INTERVAL = 12
 MOST = 400
-FINE = 20  # samples of the speed profile for each stage
-SHARE = 0.7  # of the acceleration that a bend may take up in the guess; the rest is for changes of speed
-GAIN = 1.4  # times acceleration times way: how fast speed squared may change; 2 would need endless jerk
 LEAST_SPEED = 1e-3  # m/s
 
 
@@ -41,15 +43,14 @@ def stages(leg: Leg, drone: Drone, count: int | None) -> Stages:
     assert curve is not None
     pins = _pins(leg)
     count = count or int(np.clip(PER_INTERVAL * (len(pins) - 1), STAGES, MOST))
-    fine = np.unique(np.concatenate([np.linspace(curve.start, curve.end, FINE * count + 1), pins]))
-    t = _profile(leg, drone, fine)
-    shares = _shares(np.interp(pins, fine, t), count)
+    fine, t = _profile(leg, drone)
     knots = np.interp(pins, fine, t)
+    shares = _shares(knots, count)
     parts = [
         np.linspace(a, b, n, endpoint=False) for a, b, n in zip(knots[:-1], knots[1:], shares, strict=True)
     ]
     at = np.append(np.concatenate(parts), knots[-1])
-    s = np.interp(at, t, fine)
+    s = PchipInterpolator(t, fine)(at)
     index = np.concatenate([[0], np.cumsum(shares)])
     s[index] = pins
     return Stages(s, at, index)
@@ -73,35 +74,20 @@ def _shares(knots: Array, count: int) -> np.ndarray:
     return np.asarray(shares)
 
 
-def _profile(leg: Leg, drone: Drone, s: Array) -> Array:
-    """Return seconds at parameters s: as fast as speed and rates allow, then braked for acceleration."""
+def _profile(leg: Leg, drone: Drone) -> tuple[Array, Array]:
+    """Return parameters and seconds: the time pass's own first guess, from stop to stop."""
     curve = leg.curve
     assert curve is not None
     pace = leg.pace if leg.duration is None else 1.0
-    limits = drone.limits
-    rate, bend = curve.derivative()(s), curve.derivative(2)(s)
-    vertical = np.where(rate[:, 2] > 0, limits.climb, limits.descent)
-    turn = np.minimum(
-        drone.gimbal.rate / np.maximum(np.abs(rate[:, CAM_PITCH]), 1e-9),
-        limits.yaw_rate / np.maximum(np.abs(rate[:, CAM_YAW]), 1e-9),
-    )
-    speed = pace * np.minimum.reduce(
-        [
-            limits.speed / np.maximum(np.hypot(rate[:, 0], rate[:, 1]), 1e-9),
-            vertical / np.maximum(np.abs(rate[:, 2]), 1e-9),
-            turn,
-        ]
-    )
-    curved = np.maximum(np.linalg.norm(bend[:, :3], axis=1), 1e-9)
-    square = np.minimum(speed**2, SHARE * pace * limits.acceleration / curved)
-    square[np.isin(s, [stop.s for stop in leg.stops])] = 0.0
-    gain = GAIN * pace * limits.acceleration * np.diff(s)
-    for i in range(len(s) - 1):
-        square[i + 1] = min(square[i + 1], square[i] + gain[i])
-    for i in range(len(s) - 2, -1, -1):
-        square[i] = min(square[i], square[i + 1] + gain[i])
-    root = np.sqrt(square)
-    t = np.concatenate([[0.0], np.cumsum(2 * np.diff(s) / np.maximum(root[1:] + root[:-1], LEAST_SPEED))])
+    ceiling = ceiling_of(drone).scaled(pace)
+    at, times = [np.array([curve.start])], [np.zeros(1)]
+    for start, end in plan_of(leg).spans:
+        s, b = rough_profile(curve, start, end, axes_of(curve, (start, end), ceiling))
+        root = np.sqrt(evened(b))
+        t = np.cumsum(2 * np.diff(s) / np.maximum(root[1:] + root[:-1], LEAST_SPEED))
+        at.append(s[1:])
+        times.append(times[-1][-1] + t)
+    t = np.concatenate(times)
     if leg.duration is not None:
         t *= (leg.duration - sum(stop.hold for stop in leg.stops)) / t[-1]
-    return np.asarray(t)
+    return np.concatenate(at), t

@@ -32,7 +32,8 @@ class NoTransit(Exception):
 def rejoined(path: PathIR, cameras: Mapping[str, Piecewise]) -> PathIR:
     """Return the path with some shots' cameras replaced.
 
-    cameras : by shot id, curves of x, y, z, cam_yaw, cam_pitch over the leg's own s, quintic, C2
+    cameras : by shot id, curves of x, y, z, cam_yaw, cam_pitch over the leg's own s, quintic, C2, on
+        breaks that hold those of the leg
     Legs whose ends stay the same keep the unfilmed legs around them. NoTransit where there is no way
     to a new end; ValueError where a curve does not cover its leg.
     """
@@ -44,15 +45,16 @@ def _drone(path: PathIR, flown: DronePath, cameras: Mapping[str, Piecewise]) -> 
         return flown
     drone = path.keyframes.mission.drone(flown.drone)
     legs = [
-        leg if leg.shot not in cameras else _turned(drone, leg, cameras[leg.shot or ""]) for leg in flown.legs
+        leg if leg.shot not in cameras else with_camera(drone, leg, cameras[leg.shot or ""])
+        for leg in flown.legs
     ]
     if all(_same_ends(a, b) for a, b in zip(flown.legs, legs, strict=True)):
         return replace(flown, legs=tuple(legs))
     return replace(flown, legs=_led_anew(path, drone, legs))
 
 
-def _turned(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
-    """Return a shot's leg with another camera, and the body that goes with it."""
+def with_camera(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
+    """Return a shot's leg with another camera (see ``rejoined``), and the body that goes with it."""
     old = leg.curve
     if old is None or abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
@@ -63,22 +65,13 @@ def _turned(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
     status, body = body_line(drone, BodyTask(camera.channels(0, 1, 2), camera.channels(3), *ends, speed))
     if status not in {Status.SOLVED, Status.INACCURATE}:
         raise NoTransit(f"no body yaw goes with the camera of shot {leg.shot}")
-    zoom = restrict(_merged(old.channels(HFOV), camera), camera.breaks)
-    curve = stack(camera, body, zoom)
+    curve = stack(camera, body, restrict(old.channels(HFOV), camera.breaks))
     if ends[0] is not None:
         # Fits are good to 1e-9; joints are to be equal.
         ctrl = curve.ctrl.copy()
         ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]
         curve = Piecewise(curve.breaks, ctrl)
     return replace(leg, curve=curve, pose=tuple(map(float, curve.ctrl[0, 0])))
-
-
-def _merged(zoom: Piecewise, camera: Piecewise) -> Piecewise:
-    """Return the zoom on pieces that a restriction to the camera's breaks can take; it is C2 there."""
-    missing = [b for b in zoom.breaks if np.abs(camera.breaks - b).min() > 1e-9 * (zoom.end - zoom.start)]
-    if missing:
-        raise ValueError(f"the camera's breaks lack {len(missing)} of its leg's")
-    return zoom
 
 
 def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
