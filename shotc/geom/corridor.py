@@ -200,10 +200,18 @@ def kept(slack: Array, share: float) -> Array:
 
 
 def shortfall(room: Room, hulls: Array) -> Array:
-    """Return by how much each piece fails to prove its clearances; shape (P,), metres, <= 0 is proved."""
+    """Return by how much each piece fails to prove its clearances; shape (P,), metres, <= 0 is proved.
+
+    A piece whose ball about its middle keeps clear needs no plane; its number is that of the ball.
+    """
     worst = -bounds_slack(room, hulls.reshape(-1, 3)).reshape(hulls.shape[:2]).min(axis=1)
+    middle = hulls.mean(axis=1)
+    size = np.linalg.norm(hulls - middle[:, None], axis=2).max(axis=1)
     for o in room.obstacles:
-        _, gap = separate(o.part, hulls)
+        gap = distances(o.part, middle) - size
+        near = np.flatnonzero(gap < o.clearance)
+        if len(near):
+            _, gap[near] = separate(o.part, hulls[near])
         worst = np.maximum(worst, o.clearance - gap)
     return np.asarray(worst)
 
