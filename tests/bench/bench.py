@@ -1,4 +1,4 @@
-"""`make bench`: whole-process times as ratios to bare imports, growth over keyframes, peak memory.
+"""`make bench`: whole-process times as ratios to bare imports, growth over keyframes and stages, memory.
 
 Whole processes are medians of runs that take turns (A B A B ...), so that a machine whose speed drifts
 slows both sides alike; CPU time stands beside wall time, for it suffers less from what else runs.
@@ -13,10 +13,14 @@ import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import cos, pi, sin
 from pathlib import Path
+
+from shotc_casadi.program import solve
+from shotc_casadi.refiner import OURS, SOLVERS, refine_shot, subjects
 
 from shotc import __version__, plugins
 from shotc.api import PlanOptions, compile_source
@@ -26,6 +30,7 @@ ROOT = Path(__file__).resolve().parents[2]
 DEMO = ROOT / "specs" / "westerhever-lighthouse.yaml"
 SHOTC = [sys.executable, "-m", "shotc"]
 KEYFRAMES = (5, 20, 80)
+STAGES = (50, 100, 200, 400)
 REPEATS = 3
 # Without compiled modules on the disk every run would compile them anew.
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
@@ -145,6 +150,37 @@ def growth() -> None:
             print(f"| {name} | {' | '.join(f'{s:.3f} s' for s in row)} | {times} |")
 
 
+def stages() -> None:
+    """Print what refining one shot costs as its stages multiply, by fatrop and by IPOPT."""
+    path = compile_source(DEMO.read_bytes(), "demo.yaml", None, PlanOptions(stop_after="solve-path-qp"))
+    subject = subjects(path.reports[-1].output)[0]
+    print(
+        f"\n| stages of shot {subject.leg.shot}, median of {REPEATS} | " + " | ".join(map(str, STAGES)) + " |"
+    )
+    print("|---|" + "---|" * len(STAGES))
+    rows: dict[str, list[str]] = {"building, once a process": [], "refining, solver warm": []}
+    rows |= {f"{solver}, the same problem": [] for solver in SOLVERS}
+    for count in STAGES:
+        began = time.perf_counter()
+        first = refine_shot(subject, OURS.condition, count)
+        cold = time.perf_counter() - began
+        warm = [_seconds(partial(refine_shot, subject, OURS.condition, count)) for _ in range(REPEATS)]
+        rows["building, once a process"].append(f"{cold - statistics.median(warm):.3f} s")
+        rows["refining, solver warm"].append(f"{statistics.median(warm):.3f} s")
+        for solver in SOLVERS:
+            found = [solve(first.problem, solver) for _ in range(REPEATS + 1)][1:]
+            seconds = statistics.median(each.seconds for each in found)
+            rows[f"{solver}, the same problem"].append(f"{seconds:.3f} s, {found[0].iterations} iterations")
+    for name, cells in rows.items():
+        print(f"| {name} | {' | '.join(cells)} |")
+
+
+def _seconds(work: Callable[[], object]) -> float:
+    began = time.perf_counter()
+    work()
+    return time.perf_counter() - began
+
+
 def main() -> None:
     """Print the tables."""
     print(f"shotc {__version__}, Python {platform.python_version()}, {platform.system()}")
@@ -153,9 +189,15 @@ def main() -> None:
     processes(15, "typer, pydantic", {"shotc check DEMO": check})
     with tempfile.TemporaryDirectory() as folder:
         plan = [*SHOTC, "plan", str(DEMO), "-o", folder]
-        commands = {"shotc plan DEMO": plan, "shotc plan DEMO --jobs 1": [*plan, "--jobs", "1"]}
+        bare = [*plan, "--refiner", "none"]
+        commands = {
+            "shotc plan DEMO --refiner none": bare,
+            "shotc plan DEMO --refiner none --jobs 1": [*bare, "--jobs", "1"],
+        }
         processes(7, "cvxpy, toppra, rerun", commands)
+        processes(7, "cvxpy, casadi, toppra, rerun", {"shotc plan DEMO": plan})
     growth()
+    stages()
 
 
 if __name__ == "__main__":

@@ -45,7 +45,8 @@ class Refined:
     """One shot refined.
 
     camera : x, y, z, yaw, pitch over the leg's s, or None where no solver found a way
-    rounds : how often it was solved until it was proved between the nodes; solution : the last one
+    rounds : how often it was solved until it was proved between the nodes
+    problem, solution : the last one
     seconds : of all solves; first : the solver that was tried and failed before, with its word
     """
 
@@ -53,6 +54,7 @@ class Refined:
     camera: Piecewise | None
     nodes: Stages
     rounds: int
+    problem: Problem
     solution: Solution
     seconds: float
     first: Solution | None
@@ -92,20 +94,12 @@ class Refiner:
             tuple(diagnostics),
         )
 
-    def shots(self, path: PathIR, ctx: PassContext, count: int | None = None) -> list[Refined]:
-        """Refine every moving shot; count : stages a shot, None for as many as its keyframes need."""
-        mission = path.keyframes.mission
-        placed = {p.shot.id: p for p in path.keyframes.shots}
+    def shots(self, path: PathIR, ctx: PassContext) -> list[Refined]:
+        """Refine every moving shot."""
         done: list[Refined] = []
-        for flown in path.drones:
-            drone = mission.drone(flown.drone)
-            room = flight_room(mission, drone)
-            for leg in flown.legs:
-                if leg.shot is None or leg.curve is None:
-                    continue
-                ctx.progress(f"refine shot {leg.shot}")
-                subject = Subject(mission, drone, room, placed[leg.shot], leg)
-                done.append(refine_shot(subject, self.condition, count))
+        for subject in subjects(path):
+            ctx.progress(f"refine shot {subject.leg.shot}")
+            done.append(refine_shot(subject, self.condition))
         return done
 
     def _report(self, path: PathIR, refined: Refined) -> Diagnostic | None:
@@ -135,9 +129,26 @@ class Refiner:
         return stopped_early(path, state, _word(solution))
 
 
+def subjects(path: PathIR) -> list[Subject]:
+    """Return the shots of a path whose camera moves, in the order they are flown."""
+    mission = path.keyframes.mission
+    placed = {p.shot.id: p for p in path.keyframes.shots}
+    found: list[Subject] = []
+    for flown in path.drones:
+        drone = mission.drone(flown.drone)
+        room = flight_room(mission, drone)
+        found += [
+            Subject(mission, drone, room, placed[leg.shot], leg)
+            for leg in flown.legs
+            if leg.shot is not None and leg.curve is not None
+        ]
+    return found
+
+
 def refine_shot(subject: Subject, condition: Condition, count: int | None = None) -> Refined:
     """Refine one shot, tightening what does not hold between the nodes until it does.
 
+    count : stages, or None for as many as its keyframes need
     A duration that cannot be met is left to the time pass, which says best what it lacks: it gets the
     path of the least time.
     """
@@ -160,7 +171,9 @@ def _refine(subject: Subject, condition: Condition, count: int | None) -> Refine
     ends = task.states[[0, -1]][:, [YAW, PITCH]]
     best = _Tried(None, Check(inf, inf, inf))
     seconds, first, rounds = 0.0, None, 0
+    following = task
     for rounds in range(1, ROUNDS + 1):
+        task = following
         solution, failed = _solved(task)
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
         first = first or failed
@@ -174,9 +187,9 @@ def _refine(subject: Subject, condition: Condition, count: int | None) -> Refine
             break
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
         tightened = problem(subject, condition, nodes, wanted, walls, margins)
-        task = replace(tightened, states=solution.states, inputs=solution.inputs)
+        following = replace(tightened, states=solution.states, inputs=solution.inputs)
     clear = best.camera if best.check.lack <= 0 else None
-    return Refined(leg.shot, clear, nodes, rounds, solution, seconds, first)
+    return Refined(leg.shot, clear, nodes, rounds, task, solution, seconds, first)
 
 
 class _Tried(NamedTuple):
@@ -222,7 +235,7 @@ def _deviation(path: PathIR, refined: Refined) -> list[Deviation]:
         return []
     return [
         Deviation(
-            refined.shot, float(away[k]), float(refined.nodes.s[k]), "a smoother flight and its framing"
+            refined.shot, float(away[k]), float(refined.nodes.s[k]), "its framing and a smoother flight"
         )
     ]
 
