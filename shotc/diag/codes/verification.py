@@ -289,6 +289,19 @@ _FRAMING = (
         ),
         severity=Severity.WARNING,
     ),
+    _code(
+        32,
+        "target-off-its-place",
+        (
+            "a target strays far from its place on screen, and the shot promises nothing of it",
+            "Where the composition and a limit conflict, the limit wins: the drone keeps its clearances and the gimbal "
+            "its range and rates, and the target leaves its place. This is told from a twentieth of half a frame on, "
+            "once a shot, with the worst frame, its time, and what of the gimbal and of the space around is at its "
+            "limit there. Loosen that or move the keyframes beside it. State `require: {screen_error: ...}` to have "
+            "the shot held to it; then it is an error. A shot without a composition is not judged.",
+        ),
+        severity=Severity.WARNING,
+    ),
 )
 
 _FILE = (

@@ -16,6 +16,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.framing import framing
+from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
 from shotc.passes.verify.pair import separation
 from shotc.passes.verify.report import report
@@ -59,7 +60,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
         claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
     claims += separation(ir, flights)
     certificate = tuple(claims)
-    return Verdict(certificate, (*_grounded(ir), *report(ir, certificate)))
+    return Verdict(certificate, (*_grounded(ir), *report(ir, certificate), *losses(ir, certificate)))
 
 
 def _grounded(ir: TrajectoryIR) -> list[Diagnostic]:

@@ -71,7 +71,7 @@ def test_whole_in_frame_between_samples() -> None:
 def test_without_promises_losses_are_warnings() -> None:
     ir = with_mission(shifted(CAM_YAW, radians(32)), shots=(replace(MISSION.shots[0], promise=Promise()),))
     outcome = Verify().run(ir, CONTEXT)
-    assert [d.code for d in outcome.diagnostics] == ["V030"]
+    assert [d.code for d in outcome.diagnostics] == ["V030", "V032"]
     assert outcome.value is not None
     soft = [c for c in outcome.value.certificate if not c.hard]
     assert {c.constraint for c in soft if not c.holds} == {"tower in frame"}
@@ -125,7 +125,8 @@ def test_a_broken_screen_error_is_told_with_a_promise_to_paste() -> None:
 
 def test_a_cropped_target_is_told_with_a_promise_to_paste() -> None:
     aside = shifted(CAM_YAW, radians(32))
-    (found,) = promising(Promise(in_frame=1.0), aside)
+    found, off_its_place = promising(Promise(in_frame=1.0), aside)
+    assert off_its_place.code == "V032"
     assert found.message == "tower is whole in 0 % of the frames of shot `half`, 100 % is promised"
     assert found.help.startswith("promise `in_frame: 0 %`, or move or widen the shot")
 
