@@ -25,14 +25,14 @@ def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, ends: Array) -
     """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline through the changes.
 
     states : shape (N + 1, 16) as in symbols
-    ends : yaw and pitch at the leg's two ends, shape (2, 2), met exactly; so are positions at pins
+    ends : yaw and pitch at the leg's two ends, shape (2, 2), met exactly; so are the positions that bind
     """
     curve = leg.curve
     assert curve is not None
     breaks = _breaks(curve.breaks, stages)
     base = restrict(curve.channels(0, 1, 2, CAM_YAW, CAM_PITCH), breaks)
     change = states[:, [0, 1, 2, YAW, PITCH]] - base(stages.s)
-    pinned = stages.s[stages.pins]
+    pinned = stages.s[stages.bound]
     outer = np.array([curve.start, curve.end])
     at_ends = ends - base(outer)[:, 3:]
     low, high = drone.gimbal.pitch

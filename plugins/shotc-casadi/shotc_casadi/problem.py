@@ -38,12 +38,13 @@ from shotc_casadi.wishes import Subject, Wishes, fields_of_view
 # Weights of the cost. Every term is a mean over the nodes or the time, relative to the time of the
 # first guess, so that they mean the same for a shot of 5 s and one of 5 min.
 FRAMING = 1e3  # per rad^2
-VISIBILITY = 1e4  # per squared share of the distance to the target
+VISIBILITY = 1e5  # per squared share of the distance to the target
 AIMING = 10.0  # per rad^2
-POSITION_ERROR = 300.0  # per squared share of the distance to the target
+POSITION_ERROR = 3e3  # per squared share of the distance to the target
 JERK_SHARE = 0.02  # per squared share of the jerk limit
 ANGULAR_JERK_SHARE = 0.02  # per squared share of what reaches the gimbal's acceleration in a second
 PACE = 0.3  # per squared relative change of a stage's length
+LAG = 10.0  # per squared share of the way to the neighbouring nodes, so that a node is where it says it is
 PIN = 1e4  # per squared share of the distance, or per rad^2, (m/s)^2 ...: values that are given
 SLOWEST, FASTEST = 5.0, 0.2  # bounds on a stage's length against the first guess
 
@@ -123,6 +124,8 @@ def _parameters(
     if not wanted.framed.any():
         distance = np.full(n + 1, max(1.0, 0.2 * float(stages.s[-1] - stages.s[0])))
     wide, tall = fields_of_view(subject, stages.s)
+    rate = subject.leg.curve.derivative()(stages.s)[:, :3]
+    spacing = np.maximum(np.gradient(stages.s), 1e-6)
     pinned, weight = _pinned(subject, stages, guess, distance)
     pinned[:, POSITION] = reference
     weight[:, POSITION] *= margins.hold
@@ -139,6 +142,8 @@ def _parameters(
         "aim": wanted.aim,
         "state": pinned,
         "state_weight": each * weight,
+        "tangent": rate / np.maximum(np.linalg.norm(rate, axis=1), 1e-9)[:, None],
+        "lag": each * LAG / spacing**2,
         "framing": each * FRAMING * wanted.framed,
         "visibility": each * VISIBILITY * wanted.whole,
         "aiming": each * AIMING * (1.0 - wanted.framed),
@@ -164,11 +169,10 @@ def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> 
     leg, s = subject.leg, stages.s
     hard = PIN / distance**2
     pins = [int(k) for k in stages.pins]
-    placed = [m.s for m in leg.marks if subject.placed.keyframes[m.index].placed]
     rests = [stop.s for stop in leg.stops]
     times = {m.s: m.time for m in leg.marks if m.time is not None}
     for k in pins:
-        if _among(s[k], placed) or k in (pins[0], pins[-1]):
+        if k in stages.bound:
             weight[k, POSITION] = hard[k] * 100
         if _among(s[k], rests):
             still = [*range(3, 9), YAW_RATE, YAW_ACCELERATION, PITCH_RATE, PITCH_ACCELERATION]

@@ -163,7 +163,7 @@ def _refine(subject: Subject, condition: Condition, count: int | None) -> Refine
     leg = subject.leg
     assert leg.curve is not None
     assert leg.shot is not None
-    nodes = stages(leg, subject.drone, count)
+    nodes = stages(leg, subject.placed, subject.drone, count)
     wanted = wishes(subject, condition, nodes.s)
     walls = half_spaces(subject.room, leg.curve, nodes)
     margins = Margins()

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from shotc.geom.bernstein import Array
+from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone
 from shotc.ir.path import Leg
 from shotc.passes.parameterize_time.grid import evened, rough_profile
@@ -18,6 +19,7 @@ from shotc.passes.parameterize_time.move import axes_of
 STAGES = 100
 PER_INTERVAL = 12
 MOST = 400
+APART = 1e-9  # of a path: places nearer to each other are one
 LEAST_SPEED = 1e-3  # m/s
 
 
@@ -27,14 +29,16 @@ class Stages:
 
     s, t : shape (N + 1,), path parameter and seconds (without holds) of the first guess
     pins : indices of the nodes at keyframes and stops, ends included
+    bound : those of them at which the position binds: the author put it there, or the drone rests
     """
 
     s: Array
     t: Array
     pins: np.ndarray
+    bound: np.ndarray
 
 
-def stages(leg: Leg, drone: Drone, count: int | None) -> Stages:
+def stages(leg: Leg, placed: PlacedShot, drone: Drone, count: int | None) -> Stages:
     """Return nodes evenly in time under a simple speed profile, with one at every keyframe and stop.
 
     count : how many stages, or None for as many as the keyframes need
@@ -53,7 +57,9 @@ def stages(leg: Leg, drone: Drone, count: int | None) -> Stages:
     s = PchipInterpolator(t, fine)(at)
     index = np.concatenate([[0], np.cumsum(shares)])
     s[index] = pins
-    return Stages(s, at, index)
+    binding = {m.s for m in leg.marks if placed.keyframes[m.index].placed} | {stop.s for stop in leg.stops}
+    bound = np.array([any(abs(pin - b) <= APART * pins[-1] for b in binding) for pin in pins])
+    return Stages(s, at, index, index[bound])
 
 
 def _pins(leg: Leg) -> Array:
@@ -61,7 +67,7 @@ def _pins(leg: Leg) -> Array:
     every = sorted(
         {m.s for m in leg.marks} | {stop.s for stop in leg.stops} | {leg.curve.start, leg.curve.end}
     )
-    apart = 1e-9 * (every[-1] - every[0])
+    apart = APART * (every[-1] - every[0])
     return np.array([s for i, s in enumerate(every) if i == 0 or s > every[i - 1] + apart])
 
 

@@ -31,6 +31,8 @@ FIELDS = {
     "aim": 2,
     "state": STATES,
     "state_weight": STATES,
+    "tangent": 3,
+    "lag": 1,
     "framing": 1,
     "visibility": 1,
     "aiming": 1,
@@ -46,7 +48,8 @@ centre, radius, height : the target's cylinder, W, metres
 place : (u, v) wanted of its centre; half_width, half_height : tan of half the fields of view
 frame : share of the frame the target has to fit into
 aim : yaw and pitch wanted; state : wanted state
-framing, visibility, aiming, state_weight, jerk, angular_jerk, time, pace : weights in the cost
+tangent : unit vector along the reference path
+lag, framing, visibility, aiming, state_weight, jerk, angular_jerk, time, pace : weights in the cost
 nominal : 1 / s, one over the stage's length in the first guess
 """
 
@@ -87,6 +90,7 @@ def stage(visibility: Visibility, planes: int) -> Stage:
         given["framing"] * _framing(view, distance, given)
         + given["aiming"] * _aiming(x, given)
         + ca.dot(given["state_weight"], (x - given["state"]) ** 2)
+        + given["lag"] * ca.dot(given["tangent"], position - given["state"][POSITION]) ** 2
     )
     if visibility != "none":
         node += given["visibility"] * _cropped(visibility, x, offset, view, distance, given)
