@@ -18,7 +18,7 @@ from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.passes.base import PassContext, silent
-from shotc.pipeline import PassReport, default_passes, front_passes, run
+from shotc.pipeline import PassReport, default_passes, front_passes, run, run_refined
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import load
@@ -144,7 +144,8 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
         return Compilation(None, front.reports, tuple(found), sources)
     options.on_mission(front.value.mission)
     passes = default_passes(kinds.plugins, seat, options.deadline)[len(front.reports) :]
-    back = run(passes, _with_autopilot(front.value, options.autopilot), ctx, options.stop_after)
+    keyframes = _with_autopilot(front.value, options.autopilot)
+    back = run_refined(passes, keyframes, ctx, seat, options.stop_after)
     found = [*without_answered(found, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
     plan = None if options.stop_after or has_errors(found) else back.value

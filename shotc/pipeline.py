@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple, get_args, get_type_hints
 
 from shotc.diag.model import Diagnostic
-from shotc.diag.registry import stops
+from shotc.diag.registry import has_errors, stops
 from shotc.passes.base import Pass, PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.passes.resolve import Resolve
@@ -19,11 +19,12 @@ AnyPass = Pass[Any, Any]
 
 
 class PassReport(NamedTuple):
-    """What one pass did: its name, its output (None where it failed), and wall seconds."""
+    """What one pass did: its name, its output (None where it failed), wall seconds, and what it said."""
 
     name: str
     output: Any
     seconds: float
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 class Run(NamedTuple):
@@ -84,7 +85,7 @@ def run(
         diagnostics.extend(outcome.diagnostics)
         failed = outcome.value is None or stops(outcome.diagnostics)
         value = None if failed else outcome.value
-        reports.append(PassReport(step.name, outcome.value, clock() - began))
+        reports.append(PassReport(step.name, outcome.value, clock() - began, outcome.diagnostics))
         if failed:
             break
         if hasattr(value, "check"):
@@ -92,6 +93,32 @@ def run(
         if step.name == stop_after:
             break
     return Run(value, tuple(diagnostics), tuple(reports))
+
+
+def run_refined(
+    passes: Sequence[AnyPass], value: Any, ctx: PassContext, seat: Any, stop_after: str | None = None
+) -> Run:
+    """Run passes, and where a refined path is refused that could be flown unrefined, blame its refiner.
+
+    seat : as in ``default_passes``. Where the mission allows it, the unrefined path is flown instead.
+    """
+    from shotc.passes.refine_path import blame
+
+    done = run(passes, value, ctx, stop_after)
+    k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), len(done.reports))
+    late = tuple(d for report in done.reports[k + 1 :] for d in report.diagnostics)
+    if not has_errors(late) or done.reports[k].output is done.reports[k - 1].output:
+        return done
+    convex, refined = (report.output for report in done.reports[k - 1 : k + 1])
+    again = run(passes[k + 1 :], convex, ctx, stop_after)
+    if has_errors(again.diagnostics):
+        return done
+    verdict = blame(seat, (convex, refined), tuple(d for d in late if has_errors([d])))
+    early = tuple(d for report in done.reports[: k + 1] for d in report.diagnostics)
+    if not verdict.convex:
+        return Run(None, (*early, *verdict.diagnostics), done.reports)
+    said = (*early, *verdict.diagnostics, *again.diagnostics)
+    return Run(again.value, said, (*done.reports[: k + 1], *again.reports))
 
 
 def mismatches(passes: Sequence[AnyPass]) -> list[str]:

@@ -107,6 +107,19 @@ CODES: tuple[CodeInfo, ...] = (
         "other",
     ),
     CodeInfo(
+        "R009",
+        "refined-path-refused",
+        Severity.ERROR,
+        "the refined path cannot be flown, and the convex one can",
+        "A later pass refuses the refined path: it takes longer than the duration asked, or breaks a limit or a "
+        "promise. The convex path, tried instead, does not. So it is the refiner's doing; what it broke is in the "
+        "notes. Plan with another refiner or with `--refiner none`, loosen what is named, or let all shots accept their "
+        "convex paths by `refine: {optional: true}`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
         "R010",
         "solver-not-a-number",
         Severity.ERROR,

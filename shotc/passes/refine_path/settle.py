@@ -32,8 +32,8 @@ def settle(before: PathIR, seat: Seat, answer: Answer) -> Outcome[PathIR]:
         concerned = {fault.shot for fault in faults if fault.shot is not None}
     optional = {shot.id for shot in shots if shot.refine_optional}
     if concerned <= optional:
-        kept = (_kept(before, seat, name, faults) for name in sorted(concerned))
-        return Outcome(path, (*answer.warnings, *kept))
+        told_of = (kept(before, seat, name, faults) for name in sorted(concerned))
+        return Outcome(path, (*answer.warnings, *told_of))
     errors = dict.fromkeys(fault.told for fault in faults if fault.shot not in optional)
     return Outcome(None, (*answer.warnings, *(errors or dict.fromkeys(fault.told for fault in faults))))
 
@@ -72,7 +72,7 @@ def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
 def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> PathIR | None:
     """Return the path with the convex legs of some shots, itself where it has them, None where none joins."""
     convex = [name for name in failed if name is not None]
-    if all(_same(leg_of(before, name), leg_of(path, name)) for name in convex):
+    if all(same(leg_of(before, name), leg_of(path, name)) for name in convex):
         return path
     refined = {
         leg.shot: leg.curve.channels(*CAMERA)
@@ -86,7 +86,8 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
         return None
 
 
-def _same(a: Leg, b: Leg) -> bool:
+def same(a: Leg, b: Leg) -> bool:
+    """Tell whether two legs fly the same."""
     if a is b:
         return True
     if a.curve is None or b.curve is None:
@@ -94,7 +95,7 @@ def _same(a: Leg, b: Leg) -> bool:
     return np.array_equal(a.curve.breaks, b.curve.breaks) and np.array_equal(a.curve.ctrl, b.curve.ctrl)
 
 
-def _kept(before: PathIR, seat: Seat, shot: str, faults: list[Fault]) -> Diagnostic:
+def kept(before: PathIR, seat: Seat, shot: str, faults: list[Fault]) -> Diagnostic:
     """Return the warning of a shot whose convex path is flown, with what was wrong with the other."""
     mission = before.keyframes.mission
     (path,) = (s.path for s in mission.shots if s.id == shot)

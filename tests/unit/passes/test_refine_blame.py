@@ -1,0 +1,77 @@
+"""A refined path that a later pass refuses although the convex one can be flown: the refiner is blamed."""
+
+from __future__ import annotations
+
+import pytest
+
+from shotc import api, plugins
+from shotc.passes.base import Outcome
+from tests.bad_refiners import PASS, ROUND, Odd, along, bumped, text
+
+DURATION = 22
+
+
+@pytest.fixture
+def planned(monkeypatch):
+    """Return a function that plans the mission by a refiner which does what it is told."""
+
+    def plan(act, source):
+        odd = plugins.Source(Odd(act), "odd-maker", "")
+        monkeypatch.setattr(plugins, "one", lambda group, name: odd)
+        return api.compile_source(source.encode(), "yard.yaml", None, api.PlanOptions(refiner="odd"))
+
+    return plan
+
+
+def detour(ir):
+    """Refine the round to a way up and down that takes far longer."""
+    return Outcome(bumped(ir, ROUND, along(2, 25.0)))
+
+
+def hurried(*optional: str, seconds: int = DURATION) -> str:
+    """Return the mission with a duration of the round that its convex path can be flown in."""
+    return text(*optional).replace(
+        "    radius: 25\n", f"    timing: {{duration: {seconds}}}\n    radius: 25\n"
+    )
+
+
+def test_the_convex_path_can_be_flown_in_that_time(planned):
+    assert planned(Outcome, hurried()).plan is not None
+
+
+def test_a_refiner_that_makes_a_shot_too_long_is_blamed(planned):
+    done = planned(detour, hurried())
+    assert done.plan is None
+    (fault,) = done.diagnostics
+    assert fault.code == "R009"
+    assert "`odd` of package odd-maker" in fault.message
+    assert f"is given {DURATION} s" in fault.notes[0]
+    assert fault.labels[0].span.line == hurried()[: hurried().index("timing:")].count("\n") + 1
+    assert "--refiner none" in fault.help
+
+
+def test_a_refiner_that_breaks_a_promise_is_blamed(planned):
+    promised = text().replace("    radius: 25\n", "    require: {screen_error: 0.02}\n    radius: 25\n")
+    done = planned(lambda ir: Outcome(bumped(ir, ROUND, along(3, 0.3))), promised)
+    assert [d.code for d in done.diagnostics] == ["R009"]
+    assert "0.02 is promised at most" in done.diagnostics[0].notes[0]
+
+
+def test_the_convex_path_is_flown_where_every_refined_shot_accepts_it(planned):
+    done = planned(detour, hurried(ROUND))
+    assert done.plan is not None
+    assert [d.code for d in done.diagnostics] == ["R003"]
+    assert "shot `round`" in done.diagnostics[0].message
+    (flown,) = (p for p in done.plan.trajectory.drones[0].phases if p.shot == ROUND)
+    assert flown.end - flown.start == pytest.approx(DURATION, abs=1e-6)
+    assert [report.name for report in done.reports][-3:] == ["refine-path", "parameterize-time", "verify"]
+
+
+def test_a_shot_that_was_not_refined_need_not_accept_anything(planned):
+    assert planned(detour, hurried(ROUND)).plan is not None
+    assert planned(detour, hurried(PASS)).plan is None
+
+
+def test_what_no_path_can_meet_is_not_the_refiner_s_fault(planned):
+    done = planned(detour, hurried(seconds=7))
+    assert [d.code for d in done.diagnostics] == ["T001"]
