@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -45,16 +46,14 @@ def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, 
     """
     path, faults = answer.path, list(answer.faults)
     failed = {fault.shot for fault in faults}
+    mended: set[str | None] = set()
     while path is not None and path is not before:
         found = [fault for fault in _judged(before, seat, path) if fault.shot not in failed]
         faults += found
         failed |= {fault.shot for fault in found}
-        if None in failed:
-            return None, faults
-        mixed = _with_convex(before, path, failed)
-        if mixed is path:
-            return path, faults
-        path = mixed
+        if None in failed or failed == mended:
+            break
+        path, mended = _with_convex(before, path, failed), set(failed)
     return (None if None in failed else path), faults
 
 
@@ -71,7 +70,7 @@ def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
 
 def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> PathIR | None:
     """Return the path with the convex legs of some shots, itself where it has them, None where none joins."""
-    convex = [name for name in failed if name is not None]
+    convex = {name for name in failed if name is not None}
     if all(same(leg_of(before, name), leg_of(path, name)) for name in convex):
         return path
     refined = {
@@ -81,9 +80,12 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
         if leg.shot is not None and leg.curve is not None and leg.shot not in convex
     }
     try:
-        return rejoined(before, refined)
+        joined = rejoined(before, refined)
     except (NoTransit, ValueError):
         return None
+    bent = [d for d in before.deviations if d.shot in convex]
+    bent += [d for d in path.deviations if d.shot not in convex]
+    return replace(joined, deviations=tuple(bent), stats=path.stats)
 
 
 def same(a: Leg, b: Leg) -> bool:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import sys
 
+import numpy as np
 import pytest
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.bernstein import Piecewise
+from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import REFINER, RefinePath, Seat, Unusable
 from tests.bad_refiners import PASS, ROUND, along, bumped, leg, nan, path, refine, returns, with_leg
@@ -159,6 +161,36 @@ def test_a_spoilt_shot_gets_its_convex_path_and_the_others_stay_refined(spoilt):
     assert lifted(20.0)[2] > flat(20.0)[2] + 0.9
     outcome.value.check()
     assert [d.code for d in outcome.diagnostics] == ["R003"]
+
+
+def turned_once_more(ir):
+    """Turn the camera of `pass` once round on its way, so that all that follows is a turn farther."""
+    curve = leg(ir, PASS).curve
+    x = (curve.breaks - curve.start) / (curve.end - curve.start)
+    step = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
+    value, rate, bend = (
+        2 * np.pi * (step.deriv(k) if k else step)(x)[:, None] / (curve.end - curve.start) ** k
+        for k in range(3)
+    )
+    turn = quintic_hermite(curve.breaks, value, rate, bend).ctrl * np.eye(7)[[CAM_YAW, BODY_YAW]].sum(axis=0)
+    return with_leg(ir, PASS, curve=Piecewise(curve.breaks, curve.ctrl + turn))
+
+
+@pytest.mark.timeout(60)
+def test_a_convex_path_follows_a_refined_one_a_whole_turn_farther():
+    def act(ir):
+        bent = (Deviation(PASS, 1.0, 3.0, "art"), Deviation(ROUND, 2.0, 3.0, "art"))
+        return Outcome(replace(nan(turned_once_more(ir), ROUND), stats=(("turns", 1.0),), deviations=bent))
+
+    outcome = refine(act, ROUND)
+    assert [d.code for d in outcome.diagnostics] == ["R003"]
+    given = leg(path(ROUND), ROUND).curve(5.0)
+    assert leg(outcome.value, ROUND).curve(5.0) - given == pytest.approx(
+        2 * np.pi * np.eye(7)[[CAM_YAW, BODY_YAW]].sum(axis=0), abs=1e-9
+    )
+    outcome.value.check()
+    assert outcome.value.stats == (("turns", 1.0),)
+    assert [d.shot for d in outcome.value.deviations] == [PASS]
 
 
 def test_a_refiner_that_cannot_be_loaded_says_why():
