@@ -19,9 +19,6 @@ from functools import partial
 from math import cos, pi, sin
 from pathlib import Path
 
-from shotc_casadi.program import solve
-from shotc_casadi.refiner import OURS, SOLVERS, refine_shot, subjects
-
 from shotc import __version__, plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
@@ -152,6 +149,10 @@ def growth() -> None:
 
 def stages() -> None:
     """Print what refining one shot costs as its stages multiply, by fatrop and by IPOPT."""
+    # Late, for a process that is started counts the memory of the one that starts it.
+    from shotc_casadi.program import solve
+    from shotc_casadi.refiner import OURS, SOLVERS, refine_shot, subjects
+
     path = compile_source(DEMO.read_bytes(), "demo.yaml", None, PlanOptions(stop_after="solve-path-qp"))
     subject = subjects(path.reports[-1].output)[0]
     print(
@@ -170,7 +171,10 @@ def stages() -> None:
         for solver in SOLVERS:
             found = [solve(first.problem, solver) for _ in range(REPEATS + 1)][1:]
             seconds = statistics.median(each.seconds for each in found)
-            rows[f"{solver}, the same problem"].append(f"{seconds:.3f} s, {found[0].iterations} iterations")
+            each = 1000 * seconds / found[0].iterations
+            rows[f"{solver}, the same problem"].append(
+                f"{seconds:.3f} s: {found[0].iterations} iterations of {each:.2f} ms"
+            )
     for name, cells in rows.items():
         print(f"| {name} | {' | '.join(cells)} |")
 
