@@ -102,18 +102,21 @@ def run_refined(
 
     seat : as in ``default_passes``. Where the mission allows it, the unrefined path is flown instead.
     """
-    from shotc.passes.refine_path import blame
+    from shotc.passes.refine_path import blame, still_true
 
     done = run(passes, value, ctx, stop_after)
-    k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), len(done.reports))
-    late = tuple(d for report in done.reports[k + 1 :] for d in report.diagnostics)
-    if not has_errors(late) or done.reports[k].output is done.reports[k - 1].output:
+    k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), 0)
+    outputs: list[Any] = [report.output for report in done.reports]
+    if not k or outputs[k] is None or outputs[k] is outputs[k - 1]:
         return done
-    convex, refined = (report.output for report in done.reports[k - 1 : k + 1])
-    again = run(passes[k + 1 :], convex, ctx, stop_after)
+    paths = outputs[k - 1], outputs[k]
+    late = tuple(d for report in done.reports[k + 1 :] for d in report.diagnostics)
+    if not has_errors(late):
+        return done._replace(diagnostics=still_true(paths, done.diagnostics))
+    again = run(passes[k + 1 :], outputs[k - 1], ctx, stop_after)
     if has_errors(again.diagnostics):
         return done
-    verdict = blame(seat, (convex, refined), tuple(d for d in late if has_errors([d])))
+    verdict = blame(seat, paths, tuple(d for d in late if has_errors([d])))
     early = tuple(d for report in done.reports[: k + 1] for d in report.diagnostics)
     if not verdict.convex:
         return Run(None, (*early, *verdict.diagnostics), done.reports)

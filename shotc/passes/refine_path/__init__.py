@@ -14,11 +14,11 @@ from typing import ClassVar
 from shotc.ir.path import PathIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path.ask import ask
-from shotc.passes.refine_path.blame import blame
+from shotc.passes.refine_path.blame import blame, still_true
 from shotc.passes.refine_path.seat import REFINER, KeepPath, Refiner, Seat, Unusable
 from shotc.passes.refine_path.settle import settle
 
-__all__ = ["REFINER", "KeepPath", "RefinePath", "Refiner", "Seat", "Unusable", "blame"]
+__all__ = ["REFINER", "KeepPath", "RefinePath", "Refiner", "Seat", "Unusable", "blame", "still_true"]
 
 
 @dataclass(frozen=True, slots=True)

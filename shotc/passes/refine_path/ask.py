@@ -12,6 +12,8 @@ from shotc.passes.refine_path.child import Failed, TooSlow, refined_within, told
 from shotc.passes.refine_path.finding import Fault, Finding, own, tell
 from shotc.passes.refine_path.seat import Seat
 
+LONGER = "give it a longer `--deadline`, or plan with `--refiner none`"
+
 
 class Answer(NamedTuple):
     """What a refiner said.
@@ -37,7 +39,8 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> A
         else:
             outcome = refined_within(deadline, seat.reference, path, ctx)
     except TooSlow:
-        return fault("R004", f"was stopped after {deadline:g} s", "that is what `--deadline` gives it")
+        late = Finding("R004", f"was stopped after {deadline:g} s, its deadline", help=LONGER)
+        return Answer(None, (tell(mission, seat, late),))
     except Failed as failed:
         return fault("R001", "failed", str(failed))
     except (Exception, SystemExit) as raised:  # noqa: BLE001  a plugin may raise anything

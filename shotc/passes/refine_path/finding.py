@@ -14,6 +14,7 @@ class Finding(NamedTuple):
 
     what : completes "refiner `x` of package y ..."
     shot : the one it is about, None where all are concerned; labels : places beside that of the shot
+    help : what to do, where the refiner's authors need not hear of it
     """
 
     code: str
@@ -21,6 +22,7 @@ class Finding(NamedTuple):
     notes: tuple[str, ...] = ()
     shot: str | None = None
     labels: tuple[Label, ...] = ()
+    help: str = ""
 
 
 class Fault(NamedTuple):
@@ -34,7 +36,7 @@ def tell(mission: MissionIR, seat: Seat, found: Finding) -> Fault:
     """Return a finding as the error that the user reads."""
     path = next((shot.path for shot in mission.shots if shot.id == found.shot), None)
     labels = (() if path is None else (mission.origins.key(path, "in this shot"),)) + found.labels
-    help_ = f"plan with `--refiner none`, and tell the authors of {seat.package}"
+    help_ = found.help or f"plan with `--refiner none`, and tell the authors of {seat.package}"
     return Fault(found.shot, Diagnostic(found.code, f"{seat.named} {found.what}", labels, found.notes, help_))
 
 

@@ -75,3 +75,31 @@ def test_a_shot_that_was_not_refined_need_not_accept_anything(planned):
 def test_what_no_path_can_meet_is_not_the_refiner_s_fault(planned):
     done = planned(detour, hurried(seconds=7))
     assert [d.code for d in done.diagnostics] == ["T001"]
+
+
+STEEP = """\
+  - id: under
+    kind: keyframes
+    drone: cam
+    target: mast
+    composition: center
+    keyframes:
+      - {at: [-20, 6, 16], look_at: mast}
+      - {at: [20, -6, 16], look_at: mast}
+"""
+"""The way from one keyframe to the other leads over the mast, too steep for the gimbal."""
+
+
+def said(planned, act):
+    return [d.code for d in planned(act, text() + STEEP).diagnostics]
+
+
+def test_what_the_convex_path_cannot_frame_is_told_where_it_is_flown(planned):
+    assert "Q007" in said(planned, Outcome)
+    assert "Q007" in said(planned, lambda ir: Outcome(bumped(ir, ROUND, along(2, 0.5))))
+
+
+def test_of_a_refined_path_verification_tells_what_is_not_framed(planned):
+    found = said(planned, lambda ir: Outcome(bumped(ir, "under", along(2, 0.5))))
+    assert "Q007" not in found
+    assert "V032" in found
