@@ -23,6 +23,7 @@ Solver = Literal["fatrop", "ipopt"]
 TOLERANCE = 1e-4
 FEASIBLE = 1e-3  # of a constraint's residual, each in its own unit
 ITERATIONS = 150
+NARROW = 1e-3  # least width of a state's bounds: without an interior fatrop does not end
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,18 +79,25 @@ class Solution:
 
 
 def solve(problem: Problem, solver: Solver) -> Solution:
-    """Solve a problem; what the solver says of itself is checked against the residuals."""
+    """Solve a problem; what the solver says of itself is checked against the residuals.
+
+    State bounds narrower than NARROW are opened to that about their middle.
+    """
     n, planes = problem.stages, problem.planes
+    start = _flat(problem.states, problem.inputs)
+    if not (np.isfinite(start).all() and np.isfinite(problem.parameters).all()):
+        # fatrop does not end on numbers that are none.
+        return Solution("nan", solver, problem.states, problem.inputs, np.nan, 0, 0.0, np.nan, 0, "")
     programme = _programme(n, planes, problem.visibility, solver)
     lower, upper = _constraint_bounds(problem)
-    start = _flat(problem.states, problem.inputs)
+    low, high = _opened(*problem.state_bounds)
     began = time.perf_counter()
     try:
         out = programme(
             x0=start,
             p=problem.parameters.ravel(),
-            lbx=_flat(problem.state_bounds[0], problem.input_bounds[0]),
-            ubx=_flat(problem.state_bounds[1], problem.input_bounds[1]),
+            lbx=_flat(low, problem.input_bounds[0]),
+            ubx=_flat(high, problem.input_bounds[1]),
             lbg=lower,
             ubg=upper,
         )
@@ -155,6 +163,11 @@ def _programme(stages: int, planes: int, visibility: Visibility, solver: Solver)
     }
     options: dict[str, Any] = {"print_time": False, "cache": laid_out(d, solver, stages, x, p)}
     return ca.nlpsol("framing", solver, nlp, options | (layout if solver == "fatrop" else quiet))
+
+
+def _opened(low: Array, high: Array) -> tuple[Array, Array]:
+    short = np.where(low <= high, np.maximum(0.0, 0.5 * (NARROW - (high - low))), 0.0)
+    return low - short, high + short
 
 
 def _constraint_bounds(problem: Problem) -> tuple[Array, Array]:
