@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import restrict, spline, subdivide
-from shotc.ir.mission import Drone
-from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg
-from shotc.solvers.conic import Status
-from shotc.solvers.spline_fit import Fit, fit
+from shotc.plugin_api import Leg, Piecewise
+from shotc.refiner_api import CAM_PITCH, CAM_YAW, Array, Drone, Fit, Status, fit, restrict, spline, subdivide
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import PITCH, YAW
 
@@ -32,7 +28,7 @@ def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, ends: Array) -
     breaks = _breaks(curve.breaks, stages)
     base = restrict(curve.channels(0, 1, 2, CAM_YAW, CAM_PITCH), breaks)
     change = states[:, [0, 1, 2, YAW, PITCH]] - base(stages.s)
-    pinned = stages.s[stages.bound]
+    pinned = stages.s[stages.pins]
     outer = np.array([curve.start, curve.end])
     at_ends = ends - base(outer)[:, 3:]
     low, high = drone.gimbal.pitch

@@ -8,8 +8,7 @@ from math import inf
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from shotc.geom.bernstein import Array
-from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.refiner_api import CAM_PITCH, CAM_YAW, Array
 from shotc_casadi.conditions import Condition
 from shotc_casadi.program import Problem
 from shotc_casadi.stages import Stages
@@ -172,8 +171,7 @@ def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> 
     rests = [stop.s for stop in leg.stops]
     times = {m.s: m.time for m in leg.marks if m.time is not None}
     for k in pins:
-        if k in stages.bound:
-            weight[k, POSITION] = hard[k] * 100
+        weight[k, POSITION] = hard[k] * 100
         if _among(s[k], rests):
             still = [*range(3, 9), YAW_RATE, YAW_ACCELERATION, PITCH_RATE, PITCH_ACCELERATION]
             value[k, still] = 0.0

@@ -6,15 +6,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import subdivide
-from shotc.geom.camera import View, frustum_margins
-from shotc.geom.corridor import shortfall
-from shotc.passes.parameterize_time.grid import rough_profile
-from shotc.passes.parameterize_time.leg import fastest_moves, plan_of
-from shotc.passes.parameterize_time.limits import Ceiling, ceiling_of
-from shotc.passes.parameterize_time.move import axes_of
-from shotc.passes.solve_path_qp.rejoin import with_camera
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import (
+    Array,
+    View,
+    frustum_margins,
+    rough_times,
+    shortest_time,
+    shortfall,
+    subdivide,
+    with_camera,
+)
 from shotc_casadi.conditions import Condition
 from shotc_casadi.problem import Margins
 from shotc_casadi.wishes import Subject, fields_of_view, wishes
@@ -71,20 +73,11 @@ def _late(subject: Subject, camera: Piecewise) -> float:
     """Return by how much of the duration asked for the fastest flight of this camera misses it."""
     if subject.leg.duration is None:
         return 0.0
-    leg = with_camera(subject.drone, subject.leg, camera)
-    plan, ceiling = plan_of(leg), ceiling_of(subject.drone)
-    available = subject.leg.duration - sum(stop.hold for stop in plan.stops)
-    if sum(_roughly(leg.curve, span, ceiling) for span in plan.spans) < AMPLE * available:
+    drone, leg = subject.drone, with_camera(subject.drone, subject.leg, camera)
+    available = subject.leg.duration - sum(stop.hold for stop in leg.stops)
+    if rough_times(drone, leg, 1.0)[1][-1] < AMPLE * available:
         return 0.0
-    needed = sum(move.duration for move in fastest_moves(leg, plan, ceiling))
-    return max(0.0, needed / available - 1.0)
-
-
-def _roughly(curve: Piecewise | None, span: tuple[float, float], ceiling: Ceiling) -> float:
-    assert curve is not None
-    s, b = rough_profile(curve, *span, axes_of(curve, span, ceiling))
-    root = np.sqrt(b)
-    return float(np.sum(2 * np.diff(s) / np.maximum(root[1:] + root[:-1], 1e-9)))
+    return max(0.0, shortest_time(drone, leg) / available - 1.0)
 
 
 def _cropped(subject: Subject, condition: Condition, camera: Piecewise) -> float:

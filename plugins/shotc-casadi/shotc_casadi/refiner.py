@@ -8,20 +8,19 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from shotc.diag.model import Diagnostic
-from shotc.geom.bernstein import Piecewise
-from shotc.ir.path import Deviation, PathIR
-from shotc.passes.base import Outcome, PassContext
-from shotc.passes.refine_path.faults import (
+from shotc.plugin_api import (
+    Diagnostic,
+    Outcome,
+    PassContext,
+    PathIR,
+    Piecewise,
     SolverState,
     fallback,
     impossible,
-    leg_of,
     solver_nan,
     stopped_early,
 )
-from shotc.passes.solve_path_qp.rejoin import rejoined
-from shotc.passes.solve_path_qp.room import flight_room
+from shotc.refiner_api import Deviation, flight_room, leg_of, rejoined
 from shotc_casadi import conditions
 from shotc_casadi.camera import camera
 from shotc_casadi.conditions import Condition

@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
-from shotc.geom.convex import distances
-from shotc.ir.keyframes import PlacedKeyframe
+from shotc.refiner_api import Array, PlacedKeyframe, distances
 
 if TYPE_CHECKING:
     from shotc_casadi.wishes import Subject

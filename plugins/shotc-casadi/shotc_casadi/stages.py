@@ -7,20 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from shotc.geom.bernstein import Array
-from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone
-from shotc.ir.path import Leg
-from shotc.passes.parameterize_time.grid import evened, rough_profile
-from shotc.passes.parameterize_time.leg import plan_of
-from shotc.passes.parameterize_time.limits import ceiling_of
-from shotc.passes.parameterize_time.move import axes_of
+from shotc.plugin_api import Leg
+from shotc.refiner_api import Array, Drone, PlacedShot, rough_times
 
 STAGES = 100
 PER_INTERVAL = 12
 MOST = 400
 APART = 1e-9  # of a path: places nearer to each other are one
-LEAST_SPEED = 1e-3  # m/s
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,26 +21,26 @@ class Stages:
     """Nodes of one shot.
 
     s, t : shape (N + 1,), path parameter and seconds (without holds) of the first guess
-    pins : indices of the nodes at keyframes and stops, ends included
-    bound : those of them at which the position binds: the author put it there, or the drone rests
+    pins : indices of the nodes where the position binds: the author put it there, or the drone rests
     """
 
     s: Array
     t: Array
     pins: np.ndarray
-    bound: np.ndarray
 
 
 def stages(leg: Leg, placed: PlacedShot, drone: Drone, count: int | None) -> Stages:
-    """Return nodes evenly in time under a simple speed profile, with one at every keyframe and stop.
+    """Return nodes evenly in time under a simple speed profile, with one at every place that binds.
 
-    count : how many stages, or None for as many as the keyframes need
+    count : how many stages, or None for as many as those places need
     """
     curve = leg.curve
     assert curve is not None
-    pins = _pins(leg)
+    pins = _pins(leg, placed)
     count = count or int(np.clip(PER_INTERVAL * (len(pins) - 1), STAGES, MOST))
-    fine, t = _profile(leg, drone)
+    fine, t = rough_times(drone, leg, leg.pace if leg.duration is None else 1.0)
+    if leg.duration is not None:
+        t = t * (leg.duration - sum(stop.hold for stop in leg.stops)) / t[-1]
     knots = np.interp(pins, fine, t)
     shares = _shares(knots, count)
     parts = [
@@ -57,16 +50,13 @@ def stages(leg: Leg, placed: PlacedShot, drone: Drone, count: int | None) -> Sta
     s = PchipInterpolator(t, fine)(at)
     index = np.concatenate([[0], np.cumsum(shares)])
     s[index] = pins
-    binding = {m.s for m in leg.marks if placed.keyframes[m.index].placed} | {stop.s for stop in leg.stops}
-    bound = np.array([any(abs(pin - b) <= APART * pins[-1] for b in binding) for pin in pins])
-    return Stages(s, at, index, index[bound])
+    return Stages(s, at, index)
 
 
-def _pins(leg: Leg) -> Array:
+def _pins(leg: Leg, placed: PlacedShot) -> Array:
     assert leg.curve is not None
-    every = sorted(
-        {m.s for m in leg.marks} | {stop.s for stop in leg.stops} | {leg.curve.start, leg.curve.end}
-    )
+    put = {m.s for m in leg.marks if placed.keyframes[m.index].placed}
+    every = sorted(put | {stop.s for stop in leg.stops} | {leg.curve.start, leg.curve.end})
     apart = APART * (every[-1] - every[0])
     return np.array([s for i, s in enumerate(every) if i == 0 or s > every[i - 1] + apart])
 
@@ -78,22 +68,3 @@ def _shares(knots: Array, count: int) -> np.ndarray:
     while shares.sum() < count:
         shares[int((wanted - shares).argmax())] += 1
     return np.asarray(shares)
-
-
-def _profile(leg: Leg, drone: Drone) -> tuple[Array, Array]:
-    """Return parameters and seconds: the time pass's own first guess, from stop to stop."""
-    curve = leg.curve
-    assert curve is not None
-    pace = leg.pace if leg.duration is None else 1.0
-    ceiling = ceiling_of(drone).scaled(pace)
-    at, times = [np.array([curve.start])], [np.zeros(1)]
-    for start, end in plan_of(leg).spans:
-        s, b = rough_profile(curve, start, end, axes_of(curve, (start, end), ceiling))
-        root = np.sqrt(evened(b))
-        t = np.cumsum(2 * np.diff(s) / np.maximum(root[1:] + root[:-1], LEAST_SPEED))
-        at.append(s[1:])
-        times.append(times[-1][-1] + t)
-    t = np.concatenate(times)
-    if leg.duration is not None:
-        t *= (leg.duration - sum(stop.hold for stop in leg.stops)) / t[-1]
-    return np.concatenate(at), t

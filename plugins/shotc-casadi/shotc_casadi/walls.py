@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.corridor import Room, corridor, kept
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import Array, Room, corridor, kept
 from shotc_casadi.stages import Stages
 
 REACH = 8.0  # metres beyond its clearance within which an obstacle counts

@@ -13,14 +13,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
-from shotc.geom.camera import aim_at
-from shotc.geom.corridor import Room
-from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, Leg
-from shotc.passes.solve_path_qp.angles import smoother
-from shotc.passes.solve_path_qp.turns import steady
+from shotc.plugin_api import Leg, MissionIR
+from shotc.refiner_api import (
+    CAM_PITCH,
+    CAM_YAW,
+    HFOV,
+    Array,
+    Drone,
+    PlacedKeyframe,
+    PlacedShot,
+    Room,
+    aim_at,
+    smoother,
+    steady,
+)
 from shotc_casadi.conditions import Condition
 from shotc_casadi.sight import sight_point
 

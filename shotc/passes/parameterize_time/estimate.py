@@ -1,0 +1,37 @@
+"""How long a leg takes, for whoever plans its geometry: roughly in a moment, or exactly."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import Drone
+from shotc.ir.path import Leg
+from shotc.passes.parameterize_time.grid import evened, rough_profile
+from shotc.passes.parameterize_time.leg import fastest_moves, plan_of
+from shotc.passes.parameterize_time.limits import ceiling_of
+from shotc.passes.parameterize_time.move import axes_of
+
+LEAST_SPEED = 1e-3  # m/s along the path, at rest
+
+
+def rough_times(drone: Drone, leg: Leg, pace: float) -> tuple[Array, Array]:
+    """Return parameters s and the seconds t at which a leg without its holds passes them; shapes (M,).
+
+    pace : share of the limits used. No jerk limit but at the ends: the flown time is a little longer.
+    """
+    assert leg.curve is not None
+    ceiling = ceiling_of(drone).scaled(pace)
+    places, times = [np.array([leg.curve.start])], [np.zeros(1)]
+    for start, end in plan_of(leg).spans:
+        s, b = rough_profile(leg.curve, start, end, axes_of(leg.curve, (start, end), ceiling))
+        speed = np.sqrt(evened(b))
+        steps = 2 * np.diff(s) / np.maximum(speed[1:] + speed[:-1], LEAST_SPEED)
+        places.append(s[1:])
+        times.append(times[-1][-1] + np.cumsum(steps))
+    return np.concatenate(places), np.concatenate(times)
+
+
+def shortest_time(drone: Drone, leg: Leg) -> float:
+    """Return the seconds of the fastest flight of a leg within full limits, without its holds."""
+    return sum(move.duration for move in fastest_moves(leg, plan_of(leg), ceiling_of(drone)))
