@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 Solver = Literal["fatrop", "ipopt"]
 TOLERANCE = 1e-4
 FEASIBLE = 1e-3  # of a constraint's residual, each in its own unit
-ITERATIONS = 150
+ITERATIONS = 300
 NARROW = 1e-3  # least width of a state's bounds: without an interior fatrop does not end
 
 
