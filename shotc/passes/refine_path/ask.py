@@ -48,7 +48,7 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> A
     if not isinstance(outcome, Outcome):
         return fault("R002", "returned no path", f"it returned a {type(outcome).__name__}, not an Outcome")
     if not _are_diagnostics(outcome.diagnostics):
-        return fault("R002", "returned no path", "its diagnostics are none, or have codes that are unknown")
+        return fault("R002", "returned no path", "its diagnostics are not Diagnostics, or have unknown codes")
     errors = [d for d in outcome.diagnostics if severity_of(d) is Severity.ERROR]
     warnings = tuple(d for d in outcome.diagnostics if severity_of(d) is not Severity.ERROR)
     if outcome.value is None and not errors:

@@ -46,7 +46,7 @@ def solver_nan(path: PathIR, state: SolverState) -> Diagnostic:
     """Return the error of a solver whose iterate is not a number; ``state`` is the last one that was."""
     return Diagnostic(
         "R010",
-        f"{_who(state)} came to numbers that are none in shot `{state.shot}`",
+        f"{_who(state)} reached values that are not numbers in shot `{state.shot}`",
         _labels(path, state),
         _notes(path, state),
         f"bring no keyframe straight above or below a target; or {NO_HELP}",

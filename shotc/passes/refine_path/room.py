@@ -84,7 +84,8 @@ def _clearance(mission: MissionIR, room: Room, leg: Leg, curve: Piecewise) -> It
     if near is None:
         return
     breach = breaches(room, near.point)[0]
-    keeps = f"its clearance of {breach.clearance:.2f} m" if breach.clearance > 0 else "its border"
+    clearance = f"short of its clearance of {breach.clearance:.2f} m"
+    lacks = clearance if breach.clearance > 0 else "beyond where the drone's centre must stay"
     x, y, z = near.point
     owner = owner_path(mission, breach.owner)
     find = mission.origins.value if owner[:1] == ("rules",) else mission.origins.key
@@ -92,7 +93,7 @@ def _clearance(mission: MissionIR, room: Room, leg: Leg, curve: Piecewise) -> It
         "R006",
         f"flies {_which(leg)} too near to {named(breach.owner)}",
         (
-            f"by {near.lack:.3g} m less than {keeps}, at ({x:.2f}, {y:.2f}, {z:.2f}) m",
+            f"{near.lack:.3g} m {lacks}, at ({x:.2f}, {y:.2f}, {z:.2f}) m",
             place(leg, near.s),
         ),
         leg.shot,
@@ -116,7 +117,7 @@ def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Ite
         if beyond > TOLERANCE:
             yield Finding(
                 "R008",
-                f"turns the gimbal beyond its {axis} in {_which(leg)}",
+                f"turns the gimbal beyond its {axis} range in {_which(leg)}",
                 (
                     f"by {degrees(beyond):.3g} deg, past {degrees(least):.1f} deg to {degrees(most):.1f} deg",
                     place(leg, at),
@@ -140,8 +141,8 @@ def _keyframes(path: PathIR) -> Iterator[Finding]:
             if keyframe.placed and away > ON_PLACE:
                 yield Finding(
                     "R007",
-                    f"passes keyframe {mark.index + 1} of shot `{leg.shot}` at a distance",
-                    (f"{away:.3g} m away from where the mission places it, {place(leg, mark.s)}",),
+                    f"misses keyframe {mark.index + 1} of shot `{leg.shot}`",
+                    (f"passes {away:.3g} m away from where the mission places it, {place(leg, mark.s)}",),
                     leg.shot,
                     (path.keyframes.mission.origins.key(keyframe.path, "this keyframe"),),
                 )

@@ -57,8 +57,8 @@ BREACHES = {
     "zone": (lambda ir: bumped(ir, PASS, along(1, -8), EARLY), "R006", "zone `tree`", "tree: {keep"),
     "target": (lambda ir: bumped(ir, ROUND, INWARDS), "R006", "target `mast`", "targets:"),
     "ground": (lambda ir: bumped(ir, ROUND, along(Z, -11)), "R006", "the ground", "shotc: 1"),
-    "pitch": (lambda ir: bumped(ir, PASS, along(CAM_PITCH, 1.0), EARLY), "R008", "its pitch", "gimbal"),
-    "yaw": (lambda ir: bumped(ir, PASS, along(BODY_YAW, 3.0), EARLY), "R008", "its yaw", "gimbal"),
+    "pitch": (lambda ir: bumped(ir, PASS, along(CAM_PITCH, 1.0), EARLY), "R008", "its pitch range", "gimbal"),
+    "yaw": (lambda ir: bumped(ir, PASS, along(BODY_YAW, 3.0), EARLY), "R008", "its yaw range", "gimbal"),
     "keyframe": (lambda ir: bumped(ir, PASS, along(Z, 0.5)), "R007", "keyframe 2", "{at: [0, -30, 12]"),
 }  # fmt: skip
 
