@@ -10,12 +10,13 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Frames
+from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.sampling import clock, framed, references, seen, subjects
 from shotc.ir.trajectory import Claim, Method, Phase, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 from shotc.passes.verify.close import errors_close, margins_close
-from shotc.passes.verify.reference import wanted_framing
+from shotc.passes.verify.reference import held, wanted_framing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +42,7 @@ def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
             continue
         yield from wanted_framing(flight, placed, flown[0])
         for target in subjects(flight.mission, flight.track, placed.shot.id):
-            view = _view(flight, placed.shot, target, flown[0])
+            view = _view(flight, placed, target, flown[0])
             if view is not None:
                 yield _in_frame(flight, view)
                 yield from _screen_error(flight, view)
@@ -49,13 +50,15 @@ def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
                 yield _visible(flight, view)
 
 
-def _view(flight: Flight, shot: Shot, target: str, phase: Phase) -> View | None:
+def _view(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> View | None:
+    shot = placed.shot
     ticks = clock(flight.mission.rate, phase.end)
     spans = [f for f in flight.track.framing if f.shot == shot.id and f.target == target]
     ends = [t for f in spans for t in (f.start, f.end)]
     times = np.unique(np.concatenate([ticks, np.array(ends)]))
     times = times[(times >= phase.start) & (times <= phase.end)]
     times = times[framed(flight.track, shot.id, target, times)]
+    times = times[held(flight, placed, phase, target, times)]
     if not len(times):
         return None
     frames = seen(flight.mission, flight.track, target, times)

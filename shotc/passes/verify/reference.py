@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
@@ -20,6 +21,7 @@ from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 OFF = 0.01
 """Screen units that a reference may leave the line between two keyframes' references."""
 
+Mask = NDArray[np.bool_]
 Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
 
 
@@ -54,6 +56,21 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
             "reference off its keyframes", OFF, "of half a frame", shot.path, hard=hard, shot=shot.id
         )
         yield claim(flight, limit, Worst(worst, time, "sampled"))
+
+
+def held(flight: Flight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:
+    """Tell at which times of a shot a target is held in the picture, not handed over to another.
+
+    While the camera swings from one target to the next neither can be whole in the frame; where a shot
+    never holds its target between two keyframes, all of its frames count.
+    """
+    at = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
+    if len(at) < len(placed.keyframes):
+        return np.ones(len(times), dtype=np.bool_)
+    kept = np.zeros(len(times), dtype=np.bool_)
+    for start, end, a, _ in _legs(placed, at, phase):
+        kept |= (times >= start) & (times <= end) & (a.target == target)
+    return kept if kept.any() else ~kept
 
 
 def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[Leg]:
