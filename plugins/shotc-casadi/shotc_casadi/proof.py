@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api import Piecewise
+from shotc.plugin_api import Leg, Piecewise
 from shotc.refiner_api import (
     Array,
     View,
@@ -27,6 +27,7 @@ FRAME_STEP = 1.5  # times what was missing
 LIMIT_STEP = 1.2  # times what was missing
 HOLD = 1e3
 GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
+HOPELESS = 1.1  # times a duration that a rough profile takes for no bend of the path to make up for it
 AMPLE = 0.8  # share of a duration that a rough profile may take for it to be met without a closer look
 
 
@@ -69,12 +70,25 @@ def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
     )
 
 
+def hopeless(subject: Subject) -> bool:
+    """Tell whether a shot's convex path is far from meeting the duration asked for."""
+    leg = subject.leg
+    if leg.duration is None:
+        return False
+    return bool(rough_times(subject.drone, leg, 1.0)[1][-1] > HOPELESS * _available(leg))
+
+
+def _available(leg: Leg) -> float:
+    """Return the seconds that a duration leaves for flying."""
+    return (leg.duration or 0.0) - sum(stop.hold for stop in leg.stops)
+
+
 def _late(subject: Subject, camera: Piecewise) -> float:
     """Return by how much of the duration asked for the fastest flight of this camera misses it."""
     if subject.leg.duration is None:
         return 0.0
     drone, leg = subject.drone, with_camera(subject.drone, subject.leg, camera)
-    available = subject.leg.duration - sum(stop.hold for stop in leg.stops)
+    available = _available(leg)
     if rough_times(drone, leg, 1.0)[1][-1] < AMPLE * available:
         return 0.0
     return max(0.0, shortest_time(drone, leg) / available - 1.0)

@@ -26,13 +26,13 @@ from shotc_casadi.camera import camera
 from shotc_casadi.conditions import Condition
 from shotc_casadi.problem import Margins, problem
 from shotc_casadi.program import Problem, Solution, Solver, solve
-from shotc_casadi.proof import Check, checked, tighter
+from shotc_casadi.proof import Check, checked, hopeless, tighter
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, TIME, YAW
 from shotc_casadi.walls import half_spaces
 from shotc_casadi.wishes import Subject, wishes
 
-SOLVERS: tuple[Solver, Solver] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
+SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
 ROUNDS = 6
 HOLD_AFTER = 3  # rounds, after which the convex path is all but held: it is known to be clear
 NOTICE = 0.1  # metres off the convex path that are worth telling
@@ -148,17 +148,22 @@ def refine_shot(subject: Subject, condition: Condition, count: int | None = None
     """Refine one shot, tightening what does not hold between the nodes until it does.
 
     count : stages, or None for as many as its keyframes need
-    A duration that cannot be met is left to the time pass, which says best what it lacks: it gets the
-    path of the least time.
+    A shot whose duration the solver does not meet is refined for the least time: the time pass slows it
+    down to its duration, or says best what it lacks.
     """
-    refined = _refine(subject, condition, count)
-    if refined.camera is None and subject.leg.duration is not None:
-        hasty = subject._replace(leg=replace(subject.leg, duration=None, pace=1.0))
-        return _refine(hasty, condition, count)
-    return refined
+    if subject.leg.duration is None:
+        return _refine(subject, condition, count, SOLVERS)[0]
+    if not hopeless(subject):
+        refined, check = _refine(subject, condition, count, SOLVERS[:1])
+        if refined.camera is not None and check.late <= 0:
+            return refined
+    hasty = subject._replace(leg=replace(subject.leg, duration=None, pace=1.0))
+    return _refine(hasty, condition, count, SOLVERS)[0]
 
 
-def _refine(subject: Subject, condition: Condition, count: int | None) -> Refined:
+def _refine(
+    subject: Subject, condition: Condition, count: int | None, solvers: tuple[Solver, ...]
+) -> tuple[Refined, Check]:
     leg = subject.leg
     assert leg.curve is not None
     assert leg.shot is not None
@@ -173,7 +178,7 @@ def _refine(subject: Subject, condition: Condition, count: int | None) -> Refine
     following = task
     for rounds in range(1, ROUNDS + 1):
         task = following
-        solution, failed = _solved(task)
+        solution, failed = _solved(task, solvers)
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
         first = first or failed
         if solution.status != "solved":
@@ -188,7 +193,7 @@ def _refine(subject: Subject, condition: Condition, count: int | None) -> Refine
         tightened = problem(subject, condition, nodes, wanted, walls, margins)
         following = replace(tightened, states=solution.states, inputs=solution.inputs)
     clear = best.camera if best.check.lack <= 0 else None
-    return Refined(leg.shot, clear, nodes, rounds, task, solution, seconds, first)
+    return Refined(leg.shot, clear, nodes, rounds, task, solution, seconds, first), best.check
 
 
 class _Tried(NamedTuple):
@@ -196,12 +201,12 @@ class _Tried(NamedTuple):
     check: Check
 
 
-def _solved(task: Problem) -> tuple[Solution, Solution | None]:
-    """Solve by fatrop, or else by IPOPT; the second value is fatrop's failure."""
-    solution = solve(task, SOLVERS[0])
-    if solution.status == "solved":
+def _solved(task: Problem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solution | None]:
+    """Solve by the first of the solvers, or else by the second; the second value is the first's failure."""
+    solution = solve(task, solvers[0])
+    if solution.status == "solved" or len(solvers) == 1:
         return solution, None
-    return solve(task, SOLVERS[1]), solution
+    return solve(task, solvers[1]), solution
 
 
 def _word(solution: Solution) -> str:
