@@ -16,7 +16,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, Deviation
 from shotc.passes.parameterize_time.estimate import rough_times, shortest_time
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
-from shotc.passes.solve_path_qp.rejoin import rejoined, with_camera
+from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
 from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.turns import steady
 from shotc.solvers.conic import Status
@@ -30,6 +30,7 @@ __all__ = [
     "Deviation",
     "Drone",
     "Fit",
+    "NoTransit",
     "PlacedKeyframe",
     "PlacedShot",
     "Room",

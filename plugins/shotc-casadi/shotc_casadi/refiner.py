@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, nan
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -20,7 +20,7 @@ from shotc.plugin_api import (
     solver_nan,
     stopped_early,
 )
-from shotc.refiner_api import Deviation, flight_room, leg_of, rejoined
+from shotc.refiner_api import Deviation, NoTransit, flight_room, leg_of, rejoined
 from shotc_casadi import conditions
 from shotc_casadi.camera import camera
 from shotc_casadi.conditions import Condition
@@ -79,9 +79,8 @@ class Refiner:
     def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
         """Return the path with every moving shot refined; a shot that cannot be keeps its convex path."""
         done = self.shots(path, ctx)
-        cameras = {r.shot: r.camera for r in done if r.camera is not None}
-        diagnostics = [d for r in done if (d := self._report(path, r)) is not None]
-        refined = rejoined(path, cameras)
+        refined, unreached = self._joined(path, done)
+        diagnostics = [*unreached, *(d for r in done if (d := self._report(path, r)) is not None)]
         stats = [entry for r in done for entry in _stats(r)]
         deviations = [d for r in done if r.camera is not None for d in _deviation(path, r)]
         return Outcome(
@@ -101,6 +100,26 @@ class Refiner:
             done.append(refine_shot(subject, self.condition))
         return done
 
+    def _joined(self, path: PathIR, done: list[Refined]) -> tuple[PathIR, list[Diagnostic]]:
+        """Put the shots back; one whose new ends cannot be reached keeps its convex path."""
+        cameras = {r.shot: r.camera for r in done if r.camera is not None}
+        try:
+            return rejoined(path, cameras), []
+        except NoTransit:
+            pass
+        kept: dict[str, Piecewise] = {}
+        unreached: list[Diagnostic] = []
+        for refined in done:
+            if refined.shot not in cameras:
+                continue
+            try:
+                rejoined(path, kept | {refined.shot: cameras[refined.shot]})
+            except NoTransit as fault:
+                unreached.append(impossible(path, self._state(refined, str(fault))))
+            else:
+                kept[refined.shot] = cameras[refined.shot]
+        return rejoined(path, kept), unreached
+
     def _report(self, path: PathIR, refined: Refined) -> Diagnostic | None:
         """Return what has to be said of one shot's solver."""
         solution = refined.solution
@@ -109,7 +128,16 @@ class Refiner:
                 return None
             why = _word(refined.first)
             return fallback(path, refined.shot, (refined.first.solver, solution.solver), why)
-        state = SolverState(
+        state = self._state(refined, solution.constraint or "the motion from stage to stage")
+        if solution.status == "nan":
+            return solver_nan(path, state)
+        if solution.status == "infeasible":
+            return impossible(path, state)
+        return stopped_early(path, state, _word(solution))
+
+    def _state(self, refined: Refined, constraint: str) -> SolverState:
+        solution = refined.solution
+        return SolverState(
             shot=refined.shot,
             refiner=self.name,
             solver=solution.solver,
@@ -117,15 +145,10 @@ class Refiner:
             stages=len(solution.inputs),
             s=float(refined.nodes.s[solution.stage]),
             time=float(solution.states[solution.stage, TIME]),
-            constraint=solution.constraint or "the motion from stage to stage",
-            excess=solution.residual,
-            unit=UNITS.get(solution.constraint, ""),
+            constraint=constraint,
+            excess=solution.residual if constraint == solution.constraint else nan,
+            unit=UNITS.get(constraint, ""),
         )
-        if solution.status == "nan":
-            return solver_nan(path, state)
-        if solution.status == "infeasible":
-            return impossible(path, state)
-        return stopped_early(path, state, _word(solution))
 
 
 def subjects(path: PathIR) -> list[Subject]:
