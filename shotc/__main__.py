@@ -20,9 +20,10 @@ def main() -> None:
 
     code = run(sys.argv[1:])
     gc.freeze()
-    if code == INTERRUPTED:
-        # `python -m` ends as if killed where the interrupt met code made at run time (a dataclass,
-        # say), caught or not.
+    if code == INTERRUPTED or "numpy" not in sys.modules:
+        # What needs no numpy leaves nothing to close, and taking a process apart takes as long as a
+        # pass. After an interrupt `python -m` would end as if killed, where that met code made at
+        # run time (a dataclass, say), caught or not.
         for stream in (sys.stdout, sys.stderr):
             with suppress(OSError, ValueError):
                 stream.flush()

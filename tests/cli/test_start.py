@@ -10,7 +10,8 @@ from importlib.metadata import entry_points
 import pytest
 
 SCRIPT = """
-import json, sys
+import json, os, sys
+os._exit = sys.exit
 sys.argv = ["shotc", *{arguments}]
 from shotc.__main__ import main
 try:
