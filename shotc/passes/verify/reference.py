@@ -68,8 +68,8 @@ def held(flight: Flight, placed: PlacedShot, phase: Phase, target: str, times: A
     if len(at) < len(placed.keyframes):
         return np.ones(len(times), dtype=np.bool_)
     kept = np.zeros(len(times), dtype=np.bool_)
-    for start, end, a, _ in _legs(placed, at, phase):
-        kept |= (times >= start) & (times <= end) & (a.target == target)
+    for start, end, a, b in _legs(placed, at, phase):
+        kept |= (times >= start - a.hold) & (times <= end + b.hold) & (a.target == target)
     return kept if kept.any() else ~kept
 
 
