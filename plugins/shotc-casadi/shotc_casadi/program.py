@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 
 from shotc_casadi.conditions import Visibility
 from shotc_casadi.derivatives import WIDTH, derived, laid_out
+from shotc_casadi.patience import PATIENCE, Endless, within
 from shotc_casadi.symbols import INPUTS, STATES, size
 
 Array = NDArray[np.float64]
 Solver = Literal["fatrop", "ipopt"]
+Status = Literal["solved", "stopped", "infeasible", "nan"]
 TOLERANCE = 1e-4
 FEASIBLE = 1e-3  # of a constraint's residual, each in its own unit
 ITERATIONS = 300
@@ -66,7 +68,7 @@ class Solution:
     seconds : of the solver alone
     """
 
-    status: Literal["solved", "stopped", "infeasible", "nan"]
+    status: Status
     solver: Solver
     states: Array
     inputs: Array
@@ -87,24 +89,27 @@ def solve(problem: Problem, solver: Solver) -> Solution:
     start = _flat(problem.states, problem.inputs)
     if not (np.isfinite(start).all() and np.isfinite(problem.parameters).all()):
         # fatrop does not end on numbers that are none.
-        return Solution("nan", solver, problem.states, problem.inputs, np.nan, 0, 0.0, np.nan, 0, "")
+        return _nothing("nan", problem, solver, 0.0)
     programme = _programme(n, planes, problem.visibility, solver)
     lower, upper = _constraint_bounds(problem)
     low, high = _opened(*problem.state_bounds)
     began = time.perf_counter()
+    given = {
+        "x0": start,
+        "p": problem.parameters.ravel(),
+        "lbx": _flat(low, problem.input_bounds[0]),
+        "ubx": _flat(high, problem.input_bounds[1]),
+        "lbg": lower,
+        "ubg": upper,
+    }
     try:
-        out = programme(
-            x0=start,
-            p=problem.parameters.ravel(),
-            lbx=_flat(low, problem.input_bounds[0]),
-            ubx=_flat(high, problem.input_bounds[1]),
-            lbg=lower,
-            ubg=upper,
-        )
+        out = within(PATIENCE, lambda: programme(**given))
     except RuntimeError:
         # CasADi raises where a solver gives up inside; there is no iterate to look at then.
-        seconds = time.perf_counter() - began
-        return Solution("nan", solver, problem.states, problem.inputs, np.nan, 0, seconds, np.nan, 0, "")
+        return _nothing("nan", problem, solver, time.perf_counter() - began)
+    except Endless:
+        _programme.cache_clear()  # the one left behind is still at work on its memory
+        return _nothing("stopped", problem, solver, time.perf_counter() - began)
     seconds = time.perf_counter() - began
     stats = programme.stats()
     x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
@@ -129,7 +134,12 @@ def solve(problem: Problem, solver: Solver) -> Solution:
     )
 
 
-def _status(stats: dict[str, Any], residual: float) -> Literal["solved", "stopped", "infeasible"]:
+def _nothing(status: Status, problem: Problem, solver: Solver, seconds: float) -> Solution:
+    """Return the first guess, where there is no iterate of the solver's own."""
+    return Solution(status, solver, problem.states, problem.inputs, np.nan, 0, seconds, np.nan, 0, "")
+
+
+def _status(stats: dict[str, Any], residual: float) -> Status:
     # A success flag alone is no evidence.
     if stats["success"] and residual < FEASIBLE:
         return "solved"
