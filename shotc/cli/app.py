@@ -33,6 +33,7 @@ COMMANDS = {
     "verify": _Command("shotc.cli.verify:verify", _PLAN),
     "emit": _Command("shotc.cli.emit:emit", _PLAN),
     "view": _Command("shotc.cli.view:view", _PLAN),
+    "compare": _Command("shotc.cli.compare:compare", _PLAN),
     "diff": _Command("shotc.cli.diff:diff", _PLAN),
 }
 _HELP = """Compile a YAML mission into verified, flyable camera motion.

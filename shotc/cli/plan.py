@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -13,6 +12,8 @@ from shotc import plugins
 from shotc.api import Compilation, PlanOptions, compile_source, crew, emit_plan
 from shotc.cli import console
 from shotc.cli.inputs import read_mission
+from shotc.cli.names import known, listed
+from shotc.cli.progress import Progress
 from shotc.cli.refiner import told
 from shotc.output import write
 from shotc.pipeline import PASS_NAMES
@@ -91,15 +92,15 @@ def plan(
 
         shotc plan tower.yaml -o out/tower --emit csv,mavlink
     """
-    emitters = _names(emit)
+    emitters = listed(emit)
     for name in emitters or ():
-        _known("--emit", name, plugins.names("emitters"))
-    _known("--refiner", refiner, plugins.names("refiners"))
-    _known("--stop-after", stop_after, list(PASS_NAMES))
-    _known("--dump-ir", dump_ir, list(PASS_NAMES))
+        known("--emit", name, plugins.names("emitters"))
+    known("--refiner", refiner, plugins.names("refiners"))
+    known("--stop-after", stop_after, list(PASS_NAMES))
+    known("--dump-ir", dump_ir, list(PASS_NAMES))
     source = read_mission(spec)
     stop = stop_after or dump_ir
-    with crew(1 if stop else jobs) as hands, _Progress() as progress:
+    with crew(1 if stop else jobs) as hands, Progress() as progress:
 
         def start(mission: MissionIR) -> None:
             hands.prepare(mission.emit if emitters is None else emitters)
@@ -150,40 +151,3 @@ def _dump(done: Compilation, name: str) -> None:
 def _print_times(done: Compilation) -> None:
     for report in done.reports:
         console.note(f"{report.seconds:8.3f} s  {report.name}")
-
-
-def _names(listed: str | None) -> list[str] | None:
-    if listed is None:
-        return None
-    return list(dict.fromkeys(name.strip() for name in listed.split(",") if name.strip()))
-
-
-def _known(option: str, name: str | None, known: list[str]) -> None:
-    """Reject an unknown name as a usage error with the nearest known one."""
-    if name is None or name in known:
-        return
-    near = get_close_matches(name, known, 1)
-    hint = f"did you mean `{near[0]}`?" if near else f"known: {', '.join(known)}"
-    raise typer.BadParameter(f"`{name}` is unknown; {hint}", param_hint=option)
-
-
-class _Progress:
-    """Show which pass is running on a terminal; say nothing elsewhere."""
-
-    def __init__(self) -> None:
-        self._status: Any = None
-
-    def __enter__(self) -> Any:
-        terminal = console.stderr_console()
-        if terminal.is_terminal and not console.is_quiet():
-            self._status = terminal.status("reading")
-            self._status.start()
-        return self._say
-
-    def __exit__(self, *_: object) -> None:
-        if self._status is not None:
-            self._status.stop()
-
-    def _say(self, message: str) -> None:
-        if self._status is not None:
-            self._status.update(message)

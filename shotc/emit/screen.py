@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
@@ -12,6 +13,9 @@ from shotc.geom.pieces import Mask
 from shotc.ir.mission import Composition
 from shotc.ir.sampling import clock, framed, references, seen
 from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
+
+TOPS = (0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0)
+"""Half frames: where plots of screen errors end. What is farther off is out of the frame by a whole one."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,6 +100,14 @@ def certified(certificate: tuple[Claim, ...], shot: str | None = None) -> Screen
         min((c.worst for c in said(" in frame")), default=None),
         min((c.worst for c in said(" visible")), default=None),
     )
+
+
+def error_top(errors: Sequence[Array]) -> float:
+    """Return where to end the axis of a plot of screen errors: all of them below it, if that can be shown."""
+    known = np.concatenate([np.empty(0), *errors])
+    known = known[np.isfinite(known)]
+    largest = float(known.max()) if len(known) else 0.0
+    return next((top for top in TOPS if largest <= top), TOPS[-1])
 
 
 def percent(share: float) -> str:

@@ -70,6 +70,31 @@ def frustum_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) 
     )
 
 
+def point_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> tuple[S, S, S, S]:
+    """Return how far inside each frustum plane the least of four points of a cylinder lies, metres.
+
+    Arguments and order as in ``frustum_margins``. The points are those of Gebhardt and Hilliges, Eq. 4-7:
+    the axis at top and bottom, and half-way up a radius to either side, square to the line of sight. World
+    up stands for the camera's, which is right at any pitch. The points lie within the outline of the
+    cylinder, mostly not on it, so that they may all be in a frame that crops the target.
+    """
+    x, y, z = offset
+    level = (x * x + y * y + 1e-18) ** 0.5
+    aside = (-y / level * radius, x / level * radius)
+    points = (
+        (x, y, z + height / 2),
+        (x, y, z - height / 2),
+        (x + aside[0], y + aside[1], z),
+        (x - aside[0], y - aside[1], z),
+    )
+    a, b, c, d = (frustum_margins(camera, point, 0.0, 0.0) for point in points)
+
+    def least(plane: int) -> S:
+        return _smaller(_smaller(a[plane], b[plane]), _smaller(c[plane], d[plane]))
+
+    return least(0), least(1), least(2), least(3)
+
+
 def silhouette_bounds(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> tuple[S, S, S, S]:
     """Return the exact screen box (u_min, u_max, v_min, v_max) of an upright cylinder.
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import View, frustum_margins, nearest_depth, silhouette_bounds
+from shotc.geom.camera import View, frustum_margins, nearest_depth, point_margins, silhouette_bounds
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.solids_array import blocks, signed_distance
@@ -85,6 +85,13 @@ def frames(cameras: Cameras, target: Cylinder, hiding: Sequence[Solid] = ()) -> 
         np.min(margins, axis=0),
         hidden(cameras.position, centre, hiding),
     )
+
+
+def points_in_frame(cameras: Cameras, target: Cylinder) -> Mask:
+    """Tell in which frames the four points of ``camera.point_margins`` are in the frame, shape (M,)."""
+    x, y, z = (_centre(target) - cameras.position).T
+    margins = point_margins(cameras.view, (x, y, z), target.radius, target.top - target.bottom)
+    return np.asarray(np.min(margins, axis=0) >= 0.0)
 
 
 def hidden(eyes: Array, point: Array, hiding: Sequence[Solid]) -> Mask:

@@ -60,15 +60,13 @@ def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Arra
 
 def seen(mission: MissionIR, drone: DroneTrajectory, target: str, t: Array) -> Frames:
     """Look through the drone's camera at a target at the given times, shape (M,)."""
-    pose = drone.curve(t)
-    cameras = Cameras(
-        pose[:, :3],
-        pose[:, CAM_YAW],
-        pose[:, CAM_PITCH],
-        pose[:, HFOV],
-        mission.drone(drone.drone).aspect,
-    )
-    return frames(cameras, cylinder(mission.target(target)), hiding(mission, target))
+    return frames(cameras(mission, drone, t), cylinder(mission.target(target)), hiding(mission, target))
+
+
+def cameras(mission: MissionIR, drone: DroneTrajectory, t: Array) -> Cameras:
+    """Return the drone's camera at the given times, shape (M,)."""
+    pose, aspect = drone.curve(t), mission.drone(drone.drone).aspect
+    return Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)
 
 
 def cylinder(target: Target) -> Cylinder:

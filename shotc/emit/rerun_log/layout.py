@@ -25,7 +25,9 @@ def blueprint(
     flown : for every drone its last instant (s) and its plots; bounds : the corners of the scene
     """
     drones = [mission.drone(name) for name in flown]
-    cameras = [_camera_view(drone, mission) for drone in drones]
+    cameras = [
+        camera_view(mission, drone, camera_entity(drone), f"What {drone.name} sees") for drone in drones
+    ]
     views = [
         _series(drone, plot, flown[drone.name][0], many=len(drones) > 1)
         for drone in drones
@@ -37,26 +39,38 @@ def blueprint(
     )
     return rrb.Blueprint(
         rrb.Vertical(
-            rrb.Horizontal(_world(bounds, drones), right, column_shares=[1.35, 1.0]),
+            rrb.Horizontal(
+                world_view(bounds, [camera_entity(drone) for drone in drones]),
+                right,
+                column_shares=[1.35, 1.0],
+            ),
             rrb.Grid(*views, grid_columns=4),
             row_shares=[2.3, 1.0],
         ),
-        rrb.TimePanel(
-            timeline="t", playback_speed=1.0, play_state="playing", loop_mode="all", state="collapsed"
-        ),
-        rrb.SelectionPanel(state="collapsed"),
-        rrb.BlueprintPanel(state="collapsed"),
+        *panels(),
         auto_layout=False,
         auto_views=False,
     )
 
 
-def _world(bounds: tuple[Array, Array], drones: list[Drone]) -> Any:
+def panels() -> tuple[Any, ...]:
+    """Return the panels round the views, all out of the way; the recording plays."""
+    return (
+        rrb.TimePanel(
+            timeline="t", playback_speed=1.0, play_state="playing", loop_mode="all", state="collapsed"
+        ),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.BlueprintPanel(state="collapsed"),
+    )
+
+
+def world_view(bounds: tuple[Array, Array], cameras: list[str]) -> Any:
+    """Return the view of the world from outside; cameras : entities whose overlays it leaves out."""
     low, high = bounds
     centre = (low + high) / 2
     reach = float(np.linalg.norm(high - low)) * 0.66 + 12.0
     eye = centre + reach * np.array([-0.62, -0.92, 0.72])
-    hidden = [f"- /{camera_entity(drone)}/screen/**" for drone in drones]
+    hidden = [f"- /{camera}/screen/**" for camera in cameras]
     return rrb.Spatial3DView(
         origin="world",
         name="World (East, North, Up)",
@@ -72,13 +86,14 @@ def _world(bounds: tuple[Array, Array], drones: list[Drone]) -> Any:
     )
 
 
-def _camera_view(drone: Drone, mission: MissionIR) -> Any:
+def camera_view(mission: MissionIR, drone: Drone, camera: str, name: str) -> Any:
+    """Return the view through a drone's camera, which is logged at the entity ``camera``."""
     hidden = [f"- /world/zones/{zone.name}/**" for zone in mission.zones if zone.keep == "in"]
-    shown = ("world/ground", "world/zones", "world/targets", f"{camera_entity(drone)}/screen")
+    shown = ("world/ground", "world/zones", "world/targets", f"{camera}/screen")
     width, height = frame_size(drone)
     return rrb.Spatial2DView(
-        origin=f"{camera_entity(drone)}/lens",
-        name=f"What {drone.name} sees",
+        origin=f"{camera}/lens",
+        name=name,
         contents=[*(f"/{path}/**" for path in shown), *hidden],
         background=SKY,
         visual_bounds=rrb.VisualBounds2D(x_range=[0, width], y_range=[0, height]),
@@ -86,12 +101,28 @@ def _camera_view(drone: Drone, mission: MissionIR) -> Any:
 
 
 def _series(drone: Drone, plot: Plot, end: float, *, many: bool) -> Any:
-    span = rr.TimeRange(
-        start=rr.TimeRangeBoundary.absolute(seconds=0.0), end=rr.TimeRangeBoundary.absolute(seconds=end)
-    )
     return rrb.TimeSeriesView(
         origin=f"plots/{drone.name}/{plot.name}",
         name=f"{drone.name}: {plot.title}" if many else plot.title,
-        axis_x=rrb.TimeAxis(view_range=span),
+        axis_x=time_axis(end),
         plot_legend=rrb.PlotLegend(visible=len(plot.lines) > 2, corner=rrb.Corner2D.RightTop),
     )
+
+
+def error_view(origin: str, end: float, top: float) -> Any:
+    """Return the plot of a screen error; end : of its time, seconds; top : of its axis."""
+    return rrb.TimeSeriesView(
+        origin=origin,
+        name="Screen error",
+        axis_x=time_axis(end),
+        axis_y=rrb.ScalarAxis(range=(0.0, top)),
+        plot_legend=rrb.PlotLegend(visible=False),
+    )
+
+
+def time_axis(end: float) -> Any:
+    """Return an axis over all of a recording, seconds."""
+    span = rr.TimeRange(
+        start=rr.TimeRangeBoundary.absolute(seconds=0.0), end=rr.TimeRangeBoundary.absolute(seconds=end)
+    )
+    return rrb.TimeAxis(view_range=span)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
 import numpy as np
@@ -11,6 +13,8 @@ from shotc.emit.rerun_log.layout import blueprint
 from shotc.emit.rerun_log.motion import log_motion
 from shotc.emit.rerun_log.text import phase_texts
 from shotc.emit.rerun_log.world import log_world, scene_bounds
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import VerifiedIR
 
 
@@ -19,17 +23,23 @@ def record(plan: VerifiedIR) -> bytes:
 
     Bad data raises instead of being dropped (strict mode).
     """
-    mission = plan.trajectory.keyframes.mission
-    identity = uuid5(NAMESPACE_URL, f"shotc:{mission.name}:{mission.source_sha256}")
+    return recorded(plan.trajectory.keyframes.mission, "", lambda stream: _fill(stream, plan))
+
+
+def recorded(mission: MissionIR, what: str, fill: Callable[[Any], None]) -> bytes:
+    """Return a recording of a mission that ``fill`` logs into a stream; what : of the mission, if not all."""
+    identity = uuid5(NAMESPACE_URL, f"shotc:{what}{mission.name}:{mission.source_sha256}")
     strict = rr.strict_mode()
     rr.set_strict_mode(True)
     try:
         # The viewer keeps one layout for every application id, so each mission has its own.
-        stream = rr.RecordingStream(f"shotc {mission.name}", recording_id=identity, send_properties=False)
+        stream = rr.RecordingStream(
+            f"shotc {what}{mission.name}", recording_id=identity, send_properties=False
+        )
         stream.set_log_time_enabled(False)
         stream.set_log_tick_enabled(False)
         memory = stream.memory_recording()
-        _fill(stream, plan)
+        fill(stream)
         return bytes(memory.drain_as_bytes())
     finally:
         rr.set_strict_mode(strict)
@@ -39,7 +49,7 @@ def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
     mission = plan.trajectory.keyframes.mission
     bounds = scene_bounds(plan)
     log_world(stream, plan)
-    frustum = float(np.clip(np.linalg.norm(bounds[1] - bounds[0]) / 14, 2.0, 40.0))
+    frustum = frustum_length(bounds)
     flown = {
         flight.drone: (flight.curve.end, log_motion(stream, plan, flight, frustum))
         for flight in plan.trajectory.drones
@@ -49,3 +59,8 @@ def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
             stream.set_time("t", duration=start)
             stream.log("summary", rr.TextDocument(text, media_type="text/markdown"))
     stream.send_blueprint(blueprint(mission, flown, bounds), make_active=True, make_default=True)
+
+
+def frustum_length(bounds: tuple[Array, Array]) -> float:
+    """Return how far from the camera its image is drawn in a scene with these corners, metres."""
+    return float(np.clip(np.linalg.norm(bounds[1] - bounds[0]) / 14, 2.0, 40.0))

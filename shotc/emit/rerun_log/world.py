@@ -33,6 +33,12 @@ PHASE_COLORS: dict[str, Rgb] = {
 
 def log_world(stream: Any, plan: VerifiedIR) -> None:
     """Log everything that does not move, without a time."""
+    log_scene(stream, plan)
+    log_flights(stream, plan)
+
+
+def log_scene(stream: Any, plan: VerifiedIR) -> None:
+    """Log what stands in the world; the ground goes as far as the plan's flights need."""
     mission = plan.trajectory.keyframes.mission
     stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     _ground(stream, plan)
@@ -47,6 +53,10 @@ def log_world(stream: Any, plan: VerifiedIR) -> None:
             show_labels=True,
         )
         stream.log(f"world/homes/{drone.name}", home, static=True)
+
+
+def log_flights(stream: Any, plan: VerifiedIR) -> None:
+    """Log the paths of all flights, and where their keyframes are."""
     for flight in plan.trajectory.drones:
         _flight(stream, plan, flight)
 

@@ -88,7 +88,7 @@ def _board(
         moments = tuple(_keyframe(plan, pair, k) for k in _spread(times, MOST_PLACED))
     else:
         even = np.linspace(start, end, most_generated)
-        moments = tuple(_passing(plan, pair, float(t), n) for n, t in enumerate(even, start=1))
+        moments = tuple(passing(plan, pair, float(t), n) for n, t in enumerate(even, start=1))
     deviations = [d for d in plan.trajectory.deviations if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(
@@ -128,7 +128,8 @@ def _keyframe(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: Ke
     )
 
 
-def _passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int) -> Moment:
+def passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int) -> Moment:
+    """Return the moment of a shot at some time, seconds."""
     placed, flight = pair
     shot = placed.shot
     spans = [f for f in flight.framing if f.shot == shot.id and f.start - SAME_TIME <= time]

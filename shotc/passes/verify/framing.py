@@ -42,7 +42,7 @@ def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
             continue
         yield from wanted_framing(flight, placed, flown[0])
         for target in subjects(flight.mission, flight.track, placed.shot.id):
-            view = _view(flight, placed, target, flown[0])
+            view = view_of(flight, placed, target, flown[0])
             if view is not None:
                 yield _in_frame(flight, view)
                 yield from _screen_error(flight, view)
@@ -50,7 +50,8 @@ def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
                 yield _visible(flight, view)
 
 
-def _view(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> View | None:
+def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> View | None:
+    """Return the samples of a target in a shot's phase, or None where the shot never frames it."""
     shot = placed.shot
     ticks = clock(flight.mission.rate, phase.end)
     spans = [f for f in flight.track.framing if f.shot == shot.id and f.target == target]

@@ -1,0 +1,117 @@
+"""``shotc compare``: one mission under several refiners, side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from enum import StrEnum
+from pathlib import Path
+from textwrap import wrap
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from shotc import plugins
+from shotc.cli import console
+from shotc.cli.inputs import read_mission
+from shotc.cli.names import known, listed
+from shotc.cli.progress import Progress
+from shotc.cli.table import table
+from shotc.output import write
+
+if TYPE_CHECKING:
+    from shotc.ir.comparison import Comparison
+
+
+WIDTH = 100
+
+
+class Format(StrEnum):
+    """How the table is printed."""
+
+    TEXT = "text"
+    JSON = "json"
+    MARKDOWN = "markdown"
+
+
+Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
+Refiners = Annotated[
+    str | None,
+    typer.Option(
+        metavar="LIST",
+        help="Refiners to compare, separated by commas [all: none, ang, look-at, ours-4pt, ours, others].",
+    ),
+]
+Output = Annotated[
+    Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION/compare].")
+]
+FormatOption = Annotated[Format, typer.Option("--format", help="How to print the table.")]
+
+
+def compare(
+    spec: Spec, refiners: Refiners = None, output: Output = None, format: FormatOption = Format.TEXT
+) -> None:
+    """Plan one mission under several refiners and show what each does to its framing.
+
+    All start from the same convex path, are held to the same limits and are measured alike: how far the
+    target is from its wanted place on screen, in how many frames it is whole, how smooth the flight is.
+    What a shot promises (`require`) refuses no plan here; a promise that is broken is told. A refiner that
+    fails is a row that says so. The files are compare.json and compare.md with the table, compare.png with
+    the worst frame of each, and compare.rrd with the camera views side by side, for the rerun viewer.
+    Nothing here is to be flown; `shotc plan --refiner NAME` plans with one of them. Example:
+
+        shotc compare tower.yaml --refiners none,ours
+    """
+    names = listed(refiners)
+    for name in names or ():
+        known("--refiners", name, plugins.names("refiners"))
+    if names == []:
+        raise typer.BadParameter("it names no refiner", param_hint="--refiners")
+    source = read_mission(spec)
+    from shotc.comparison import compare_source, ordered
+
+    asked = ordered(plugins.names("refiners")) if names is None else names
+    with Progress() as progress:
+        done = compare_source(source.data, source.name, source.folder, asked, progress)
+        found = done.comparison
+        if found is None:
+            console.report(done.diagnostics, done.sources)
+            raise typer.Exit(console.EXIT_REJECTED)
+        if not any(each.plan for each in found.conditions):
+            console.report([d for each in found.conditions for d in each.faults], done.sources)
+            raise typer.Exit(console.EXIT_REJECTED)
+        from shotc.comparison.outputs import artifacts
+
+        made = artifacts(found, progress)
+    folder = output or Path("out") / found.mission.name / "compare"
+    paths, faults = write(made.artifacts, folder)
+    console.report((*made.diagnostics, *faults), done.sources)
+    console.out(_printed(found, format, paths))
+    raise typer.Exit(console.exit_code(faults))
+
+
+def _printed(found: Comparison, format: Format, paths: Sequence[Path]) -> str:
+    from shotc.comparison.document import json_text
+    from shotc.comparison.table import markdown
+
+    if format is Format.JSON:
+        return json_text(found, seconds=True)
+    if format is Format.MARKDOWN:
+        return markdown(found, seconds=True)
+    return "\n".join(_text(found, paths))
+
+
+def _text(found: Comparison, paths: Sequence[Path]) -> Iterator[str]:
+    from shotc.comparison.table import LEGEND, counted, remarks, rows
+
+    shots, refiners = len(found.mission.shots), len(found.conditions)
+    yield f"{found.mission.name}: {counted(shots, 'shot')} under {counted(refiners, 'refiner')}"
+    yield ""
+    yield from (f"  {line}" for line in table(rows(found, seconds=True)))
+    yield ""
+    for line in (*remarks(found), *LEGEND):
+        first, *more = wrap(line, WIDTH - 4, break_long_words=False, break_on_hyphens=False)
+        yield f"  {first}"
+        yield from (f"    {rest}" for rest in more)
+    if paths:
+        names = ", ".join(path.name for path in paths)
+        yield from ("", f"  wrote     {paths[0].parent}/: {names}")

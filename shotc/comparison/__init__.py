@@ -1,0 +1,59 @@
+"""One mission planned under several refiners: each judged by the same measures, and shown side by side.
+
+The mission is compiled once up to its convex path; every refiner starts from that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from shotc import plugins
+from shotc.api import PlanOptions, compile_source
+from shotc.comparison.conditions import condition
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.comparison import Comparison
+from shotc.ir.path import PathIR
+from shotc.passes.base import PassContext
+from shotc.source.file import SourceFile
+
+USUAL = ("none", "ang", "look-at", "ours-4pt", "ours")
+"""The order of the framing paper, from the path as it is to the whole method."""
+
+
+class Report(NamedTuple):
+    """A comparison, or None where the mission was rejected before any refiner, with what there is to say."""
+
+    comparison: Comparison | None
+    diagnostics: tuple[Diagnostic, ...]
+    sources: dict[str, SourceFile]
+
+
+def ordered(names: Iterable[str]) -> list[str]:
+    """Return refiners in the order in which they are compared: the usual ones, then others by name."""
+    known = set(names)
+    return [name for name in USUAL if name in known] + sorted(known - set(USUAL))
+
+
+def compare_source(
+    data: bytes, name: str, folder: Path | None, refiners: Sequence[str], progress: Callable[[str], None]
+) -> Report:
+    """Plan one mission under some refiners.
+
+    data, name, folder : as in ``api.compile_source``; refiners : of ``plugins.names("refiners")``
+    A refiner without a plan is a condition that says so; only a mission that no refiner could plan is
+    rejected.
+    """
+    options = PlanOptions(plugins.NO_REFINER, stop_after="solve-path-qp", progress=progress)
+    done = compile_source(data, name, folder, options)
+    path = done.reports[-1].output if done.reports else None
+    if not isinstance(path, PathIR) or has_errors(done.diagnostics):
+        return Report(None, done.diagnostics, done.sources)
+
+    def compared(refiner: str) -> PassContext:
+        return PassContext(progress=lambda message: progress(f"{refiner}: {message}"))
+
+    conditions = tuple(condition(refiner, path, compared(refiner)) for refiner in refiners)
+    return Report(Comparison(path.keyframes.mission, conditions), (), done.sources)

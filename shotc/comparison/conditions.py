@@ -1,0 +1,66 @@
+"""One mission under one refiner: refined, timed, proved and measured."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from shotc import plugins
+from shotc.comparison.score import flown_shots, total
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.comparison import Condition
+from shotc.ir.mission import Promise, Shot
+from shotc.ir.path import PathIR
+from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
+from shotc.passes.base import PassContext
+from shotc.passes.parameterize_time import ParameterizeTime
+from shotc.passes.refine_path import RefinePath, Seat
+from shotc.passes.verify import Verify, judge
+from shotc.passes.verify.promises import PROMISES
+from shotc.pipeline import run
+
+KEPT_CONVEX = "R003"
+
+
+def condition(name: str, path: PathIR, ctx: PassContext) -> Condition:
+    """Return the mission under the refiner of this name, from its convex path on."""
+    found = plugins.one("refiners", name)
+    if found.plugin is None:
+        return Condition(name, found.package, None, found.diagnostics)
+    seat = Seat(found.plugin, found.package, found.reference)
+    done = run((RefinePath(seat), ParameterizeTime()), path, ctx)
+    seconds = done.reports[0].seconds
+    if done.value is None or has_errors(done.diagnostics):
+        return Condition(name, found.package, None, _errors(done.diagnostics), seconds=seconds)
+    plan, said = _proved(done.value, ctx)
+    broken = tuple(d for d in said if d.code in PROMISES)
+    if plan is None:
+        refused = tuple(d for d in said if d.code not in PROMISES)
+        return Condition(name, found.package, None, refused, broken, seconds=seconds)
+    shots = flown_shots(plan)
+    convex = tuple(d for d in done.diagnostics if d.code == KEPT_CONVEX)
+    return Condition(name, found.package, plan, (), broken, convex, shots, total(plan, shots), seconds)
+
+
+def _proved(ir: TrajectoryIR, ctx: PassContext) -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
+    """Return the plan where every limit holds, and what is broken of limits and promises."""
+    said = _errors(judge(ir, ctx).diagnostics)
+    if any(d.code not in PROMISES for d in said):
+        return None, said
+    return Verify().run(unpromised(ir), ctx).value, said
+
+
+def unpromised(ir: TrajectoryIR) -> TrajectoryIR:
+    """Return the trajectory of a mission whose shots promise nothing of their framing."""
+
+    def free(shot: Shot) -> Shot:
+        return shot._replace(promise=Promise())
+
+    keyframes = ir.keyframes
+    mission = keyframes.mission._replace(shots=tuple(map(free, keyframes.mission.shots)))
+    shots = tuple(placed._replace(shot=free(placed.shot)) for placed in keyframes.shots)
+    return replace(ir, keyframes=keyframes._replace(mission=mission, shots=shots))
+
+
+def _errors(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+    return tuple(d for d in diagnostics if has_errors([d]))

@@ -1,0 +1,59 @@
+"""A comparison as JSON; without clock readings it is the same for the same mission."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from shotc import __version__
+from shotc.diag.model import Diagnostic
+from shotc.ir.comparison import Comparison, Condition, FlownShot
+from shotc.planfile import layout
+from shotc.planfile.codec import encode
+
+FORMAT, VERSION = "shotc-compare", 1
+
+
+def json_text(found: Comparison, *, seconds: bool) -> str:
+    """Return the document; ``seconds``: with how long each refiner took.
+
+    An error on screen is "inf" where it counts frames with the target behind the camera.
+    """
+    mission = found.mission
+    return layout.text(
+        {
+            "format": FORMAT,
+            "version": VERSION,
+            "tool": {"name": "shotc", "version": __version__},
+            "source": {"file": mission.origins.file, "sha256": mission.source_sha256},
+            "mission": mission.name,
+            "refiners": [_condition(each, seconds=seconds) for each in found.conditions],
+        }
+    )
+
+
+def _condition(each: Condition, *, seconds: bool) -> dict[str, Any]:
+    return {
+        "refiner": each.refiner,
+        "package": each.package,
+        "planned": each.plan is not None,
+        "faults": _told(each.faults),
+        "broken_promises": _told(each.broken),
+        "left_convex": _told(each.convex),
+        "all": None if each.score is None else _encoded(each.score._asdict()),
+        "shots": [_shot(shot) for shot in each.shots],
+    } | ({"refine_seconds": each.seconds} if seconds else {})
+
+
+def _shot(shot: FlownShot) -> dict[str, Any]:
+    return {"shot": shot.id, "drone": shot.drone, "start": shot.start} | _encoded(shot.score._asdict())
+
+
+def _encoded(values: dict[str, Any]) -> dict[str, Any]:
+    return {name: encode(value) for name, value in values.items()}
+
+
+def _told(diagnostics: Sequence[Diagnostic]) -> list[dict[str, Any]]:
+    return [
+        {"code": d.code, "message": d.message, "notes": list(d.notes), "help": d.help} for d in diagnostics
+    ]

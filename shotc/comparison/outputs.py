@@ -1,0 +1,35 @@
+"""The files of a comparison: the table for machines and for people, the picture and the recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+
+from shotc import plugins
+from shotc.comparison.document import json_text
+from shotc.comparison.table import markdown
+from shotc.emit.base import Artifact, Emission
+from shotc.emit.storyboard.side_by_side import draw_comparison
+from shotc.ir.comparison import Comparison
+
+DPI = 110.0
+
+
+def artifacts(found: Comparison, progress: Callable[[str], None]) -> Emission:
+    """Return compare.json, compare.md, compare.png and compare.rrd; all but the last are the same every time.
+
+    Where rerun is not installed its recording is left out with a warning.
+    """
+    made = [
+        Artifact("compare.json", json_text(found, seconds=False).encode("ascii")),
+        Artifact("compare.md", markdown(found, seconds=False).encode("utf-8")),
+    ]
+    progress("drawing compare.png")
+    made.append(Artifact("compare.png", draw_comparison(found, DPI)))
+    if find_spec("rerun") is None:
+        return Emission(tuple(made), (plugins.not_installed("P005", "output `compare.rrd`", ["rerun"]),))
+    from shotc.emit.rerun_log.side_by_side import record_comparison
+
+    progress("recording compare.rrd")
+    made.append(Artifact("compare.rrd", record_comparison(found, markdown(found, seconds=False))))
+    return Emission(tuple(made))

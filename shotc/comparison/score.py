@@ -1,0 +1,100 @@
+"""The measures of a comparison: screen error, target in frame, jerk and duration of every shot.
+
+Framing is read off the samples that verification judges.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
+from shotc.geom.framing import points_in_frame
+from shotc.geom.pieces import cut
+from shotc.ir.comparison import FlownShot, Score, Trace
+from shotc.ir.path import X, Y, Z
+from shotc.ir.sampling import cameras, cylinder, subjects
+from shotc.ir.trajectory import DroneTrajectory, Phase, VerifiedIR
+from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.framing import view_of
+
+MOST = 0.95
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
+"""Exact for the square of a quintic's third derivative, which has degree four."""
+
+
+def flown_shots(plan: VerifiedIR) -> tuple[FlownShot, ...]:
+    """Return all shots of a plan, measured, in the order they are filmed."""
+    flown = [
+        _flown(plan, track, phase)
+        for track in plan.trajectory.drones
+        for phase in track.phases
+        if phase.shot is not None
+    ]
+    return tuple(sorted(flown, key=lambda shot: (shot.start, shot.id)))
+
+
+def total(plan: VerifiedIR, shots: Sequence[FlownShot]) -> Score:
+    """Return the score of all shots together: frames count alike, and so does every second filmed."""
+    tracks = {track.drone: track for track in plan.trajectory.drones}
+    squared = sum(_squared_jerk(tracks[shot.drone].curve, shot.start, shot.end) for shot in shots)
+    traces = [trace for shot in shots for trace in shot.traces]
+    return score(traces, squared, sum(shot.end - shot.start for shot in shots))
+
+
+def score(traces: Sequence[Trace], squared_jerk: float, duration: float) -> Score:
+    """Return the score of some traces; squared_jerk : its integral over the time filmed, m^2/s^5."""
+    margin = np.concatenate([np.empty(0), *(trace.margin for trace in traces)])
+    points = np.concatenate([np.empty(0), *(trace.points for trace in traces)])
+    error = np.concatenate([np.empty(0), *(trace.error for trace in traces)])
+    error = np.sort(error[~np.isnan(error)])
+    count = len(error)
+    return Score(
+        frames=len(margin),
+        error_mean=float(error.mean()) if count else None,
+        error_p95=float(error[int(np.ceil(MOST * count)) - 1]) if count else None,
+        error_worst=float(error[-1]) if count else None,
+        in_frame=float((margin >= 0.0).mean()) if len(margin) else None,
+        in_frame_four_points=float(points.mean()) if len(points) else None,
+        jerk_rms=float(np.sqrt(squared_jerk / duration)) if duration > 0 else 0.0,
+        duration=duration,
+    )
+
+
+def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
+    ir, shot = plan.trajectory, str(phase.shot)
+    traces = tuple(
+        trace
+        for target in subjects(ir.keyframes.mission, track, shot)
+        if (trace := _trace(plan, track, phase, target)) is not None
+    )
+    squared = _squared_jerk(track.curve, phase.start, phase.end)
+    found = score(traces, squared, phase.end - phase.start)
+    return FlownShot(shot, track.drone, phase.start, phase.end, traces, found)
+
+
+def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) -> Trace | None:
+    ir = plan.trajectory
+    mission = ir.keyframes.mission
+    (placed,) = (p for p in ir.keyframes.shots if p.shot.id == phase.shot)
+    view = view_of(Flight(mission, mission.drone(track.drone), track), placed, target, phase)
+    if view is None:
+        return None
+    t = view.times
+    share = (t - phase.start) / (phase.end - phase.start)
+    points = points_in_frame(cameras(mission, track, t), cylinder(mission.target(target)))
+    return Trace(target, t, share, view.error, view.frames.margin, points.astype(np.float64))
+
+
+def _squared_jerk(curve: Piecewise, start: float, end: float) -> float:
+    """Return the integral of the squared norm of jerk over a stretch of time, m^2/s^5."""
+    pieces = cut(curve, start, end).channels(X, Y, Z)
+    for _ in range(3):
+        pieces = pieces.derivative()
+    if not len(pieces):
+        return 0.0
+    basis = bernstein_basis(pieces.ctrl.shape[1] - 1, (_NODES + 1) / 2)
+    jerk: Array = np.einsum("gk,pkd->pgd", basis, pieces.ctrl)
+    widths = (pieces.high - pieces.low) / 2
+    return float(np.einsum("p,g,pgd->", widths, _WEIGHTS, jerk**2))

@@ -1,0 +1,94 @@
+"""A comparison as one table: a heading, a row a refiner, and with several shots a row for each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite
+
+from shotc.emit.screen import percent
+from shotc.ir.comparison import Comparison, Condition, Score
+
+HEADING = (
+    "refiner",
+    "shot",
+    "error mean",
+    "95 %",
+    "worst",
+    "whole in frame",
+    "four points",
+    "jerk RMS",
+    "filmed",
+    "refined in",
+)
+UNKNOWN, BEHIND, ALL = "-", "behind", "all"
+LEGEND = (
+    "error: from the wanted place on screen, in half frames, over all frames that the shot frames its target",
+    "whole in frame: share of frames with the whole target in the frame, by its exact silhouette; "
+    "four points: by the four points of Gebhardt and Hilliges",
+    "jerk RMS in m/s^3; filmed: how long the shots last",
+)
+
+
+def rows(found: Comparison, *, seconds: bool) -> list[tuple[str, ...]]:
+    """Return the heading and all rows; ``seconds``: with how long each refiner took, by the clock."""
+    several = len(found.mission.shots) > 1
+    table = [HEADING, *(row for each in found.conditions for row in _rows(each, several=several))]
+    keep = [i for i, name in enumerate(HEADING) if (several or name != "shot")]
+    keep = keep if seconds else keep[:-1]
+    return [tuple(row[i] for i in keep) for row in table]
+
+
+def remarks(found: Comparison) -> list[str]:
+    """Return a line for every refiner without a plan, broken promise and shot that stayed convex."""
+    lines = []
+    for each in found.conditions:
+        lines += [f"{each.refiner} gives no plan, {d.code}: {d.message}" for d in each.faults]
+        lines += [f"{each.refiner} breaks a promise, {d.code}: {d.message}" for d in each.broken]
+        lines += [f"{each.refiner} did not refine all, {d.code}: {d.message}" for d in each.convex]
+    return lines
+
+
+def markdown(found: Comparison, *, seconds: bool) -> str:
+    """Return the comparison as a section of Markdown."""
+    heading, *body = rows(found, seconds=seconds)
+    lines = [f"# {found.mission.name} under {counted(len(found.conditions), 'refiner')}", ""]
+    lines += [_piped(heading), _piped(("---",) * len(heading)), *map(_piped, body), ""]
+    lines += [f"- {line}" for line in (*remarks(found), *LEGEND)]
+    return "\n".join(lines) + "\n"
+
+
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun."""
+    return f"{number} {noun}{'s' * (number != 1)}"
+
+
+def _rows(each: Condition, *, several: bool) -> Iterator[tuple[str, ...]]:
+    seconds = UNKNOWN if each.seconds is None else f"{each.seconds:.3f} s"
+    if each.score is None:
+        why = each.faults[0].code if each.faults else UNKNOWN
+        yield (each.refiner, ALL, f"no plan ({why})", *(UNKNOWN,) * (len(HEADING) - 4), seconds)
+        return
+    yield (each.refiner, ALL, *_cells(each.score), seconds)
+    for shot in each.shots if several else ():
+        yield ("", shot.id, *_cells(shot.score), "")
+
+
+def _cells(score: Score) -> tuple[str, ...]:
+    errors = (score.error_mean, score.error_p95, score.error_worst)
+    shares = (score.in_frame, score.in_frame_four_points)
+    return (
+        *map(_error, errors),
+        *(UNKNOWN if share is None else percent(share) for share in shares),
+        f"{score.jerk_rms:.3f}",
+        f"{score.duration:.2f} s",
+    )
+
+
+def _error(value: float | None) -> str:
+    if value is None:
+        return UNKNOWN
+    return f"{value:.4f}" if isfinite(value) else BEHIND
+
+
+def _piped(cells: tuple[str, ...]) -> str:
+    return f"| {' | '.join(cells)} |"

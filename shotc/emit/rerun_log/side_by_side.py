@@ -1,0 +1,96 @@
+"""compare.rrd: the camera views of several refiners side by side, on one clock, over one world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from shotc.emit.rerun_log.layout import camera_view, error_view, panels, world_view
+from shotc.emit.rerun_log.motion import camera_entity, log_motion
+from shotc.emit.rerun_log.recording import frustum_length, recorded
+from shotc.emit.rerun_log.world import log_flights, log_scene, scene_bounds
+from shotc.emit.screen import error_top, percent
+from shotc.geom.bernstein import Array
+from shotc.ir.comparison import Comparison, Condition
+from shotc.ir.mission import Drone
+from shotc.ir.trajectory import VerifiedIR
+
+
+@dataclass(frozen=True, slots=True)
+class Within:
+    """A stream whose entities lie below a place of their own: ``world/a`` is ``world/<place>/a``."""
+
+    stream: Any
+    place: str
+
+    def log(self, entity: str, *values: Any, **more: Any) -> None:
+        """Log as the stream does."""
+        self.stream.log(within(self.place, entity), *values, **more)
+
+    def send_columns(self, entity: str, *values: Any, **more: Any) -> None:
+        """Send columns as the stream does."""
+        self.stream.send_columns(within(self.place, entity), *values, **more)
+
+
+def within(place: str, entity: str) -> str:
+    """Return the entity moved below a place, which itself stays below the entity's root."""
+    root, _, rest = entity.partition("/")
+    return f"{root}/{place}/{rest}"
+
+
+def record_comparison(found: Comparison, table: str) -> bytes:
+    """Return the recording; table : the comparison in Markdown. At least one condition has a plan."""
+    return recorded(found.mission, "compare ", lambda stream: _fill(stream, found, table))
+
+
+def _fill(stream: rr.RecordingStream, found: Comparison, table: str) -> None:
+    plans = [(each, each.plan) for each in found.conditions if each.plan is not None]
+    corners = [scene_bounds(plan) for _, plan in plans]
+    bounds = np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)
+    log_scene(stream, plans[0][1])
+    for each, plan in plans:
+        below = Within(stream, place_of(each.refiner))
+        log_flights(below, plan)
+        for flight in plan.trajectory.drones:
+            log_motion(below, plan, flight, frustum_length(bounds))
+    stream.log("summary", rr.TextDocument(table, media_type="text/markdown"), static=True)
+    stream.send_blueprint(_blueprint(found, plans, bounds), make_active=True, make_default=True)
+
+
+def _blueprint(
+    found: Comparison, plans: list[tuple[Condition, VerifiedIR]], bounds: tuple[Array, Array]
+) -> Any:
+    """Return the layout: a column a refiner of what its cameras see and how far off, the world below."""
+    end = max(flight.curve.end for _, plan in plans for flight in plan.trajectory.drones)
+    top = error_top([trace.error for each, _ in plans for shot in each.shots for trace in shot.traces])
+    columns = [_column(found, each, end, top) for each, _ in plans]
+    cameras = [_camera(each, drone) for each, _ in plans for drone in found.mission.drones]
+    facts = rrb.TextDocumentView(origin="summary", name="In numbers")
+    below = rrb.Horizontal(world_view(bounds, cameras), facts, column_shares=[1.0, 1.4])
+    whole = rrb.Vertical(rrb.Horizontal(*columns), below, row_shares=[1.3, 1.0])
+    return rrb.Blueprint(whole, *panels(), auto_layout=False, auto_views=False)
+
+
+def _column(found: Comparison, each: Condition, end: float, top: float) -> Any:
+    views = []
+    for name in dict.fromkeys(shot.drone for shot in each.shots):
+        drone = found.mission.drone(name)
+        title = each.refiner if len(found.mission.drones) == 1 else f"{each.refiner}: {name}"
+        if each.score is not None and each.score.in_frame is not None:
+            title += f" (whole in frame {percent(each.score.in_frame)})"
+        views.append(camera_view(found.mission, drone, _camera(each, drone), title))
+        views.append(error_view(within(place_of(each.refiner), f"plots/{name}/screen_error"), end, top))
+    return rrb.Vertical(*views, row_shares=[1.6, 1.0] * (len(views) // 2), name=each.refiner)
+
+
+def _camera(each: Condition, drone: Drone) -> str:
+    return within(place_of(each.refiner), camera_entity(drone))
+
+
+def place_of(refiner: str) -> str:
+    """Return the place of a refiner's entities; its name may hold any characters."""
+    return f"refiners/{rr.escape_entity_path_part(refiner)}"

@@ -1,0 +1,53 @@
+"""Screen error over a shot as a small plot; where a target is not whole in the frame, it is shaded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from shotc.emit.palette import CAMERA, FAINT, INK, KEEP_OUT, QUIET, WHITE
+from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
+from shotc.ir.comparison import FlownShot, Trace
+
+
+def draw_error(canvas: Canvas, box: Box, shot: FlownShot, what: tuple[float, float]) -> None:
+    """Draw the errors of a shot; what : the time of the frame to mark, seconds, and the error at the top."""
+    time, top = what
+    canvas.polygons([box.outline()], WHITE, FAINT, 0.6)
+    cropped = [
+        Box(box.x + a * box.width, box.y, (b - a) * box.width, box.height).outline()
+        for trace in shot.traces
+        for a, b in stretches(trace.share, trace.margin < 0.0)
+    ]
+    if cropped:
+        canvas.polygons(cropped, (*KEEP_OUT, 0.22), clip=box)
+    at = box.x + (time - shot.start) / (shot.end - shot.start) * box.width
+    canvas.lines([np.array([[at, box.y], [at, box.top]])], CAMERA, 1.2)
+    for trace in shot.traces:
+        for strip in _curves(box, trace, top):
+            canvas.lines([strip], INK, 1.3, box)
+    canvas.text(box.x - 0.05, box.top - 0.08, f"{top:g}", Type(7.5, QUIET, across="right"))
+    canvas.text(box.x - 0.05, box.y, "0", Type(7.5, QUIET, across="right"))
+    canvas.text(box.x, box.y - 0.14, "0 s", Type(7.5, QUIET))
+    canvas.text(box.right, box.y - 0.14, f"{shot.end - shot.start:.1f} s", Type(7.5, QUIET, across="right"))
+
+
+def stretches(share: Array, flags: Mask) -> Iterator[tuple[float, float]]:
+    """Yield from where to where the flags are true, each half-way to the neighbouring samples."""
+    edges = np.concatenate([share[:1], 0.5 * (share[1:] + share[:-1]), share[-1:]])
+    turns = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
+    for a, b in zip(turns[::2], turns[1::2], strict=True):
+        yield float(edges[a]), float(edges[b])
+
+
+def _curves(box: Box, trace: Trace, top: float) -> Iterator[Array]:
+    """Yield the line of an error in parts: where none is known it is broken, above the top it is cut."""
+    x = box.x + trace.share * box.width
+    y = box.y + np.minimum(trace.error, 2 * top) / top * box.height
+    known = ~np.isnan(y)
+    turns = np.flatnonzero(np.diff(np.concatenate([[0], known.astype(int), [0]])))
+    for a, b in zip(turns[::2], turns[1::2], strict=True):
+        yield np.stack([x[a:b], y[a:b]], axis=-1)

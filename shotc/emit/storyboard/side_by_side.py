@@ -1,0 +1,142 @@
+"""compare.png: every refiner's worst picture of each shot, above the screen error over the shot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from textwrap import wrap
+
+import numpy as np
+
+from shotc.emit.palette import FAINT, GROUND_FAR, INK, KEEP_OUT, PAPER, QUIET
+from shotc.emit.screen import error_top, percent
+from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.content import Moment, passing
+from shotc.emit.storyboard.error_plot import draw_error
+from shotc.emit.storyboard.frame import Cell, caption_height, draw_frame
+from shotc.emit.storyboard.furniture import round_length
+from shotc.ir.comparison import Comparison, Condition, FlownShot, Score
+from shotc.ir.mission import Shot
+from shotc.ir.trajectory import VerifiedIR
+
+MARGIN, GAP, CELL = 0.55, 0.32, 3.15
+HEADING, NAMES, PLOT, FACTS = 1.15, 0.42, 1.15, 0.72
+TALLEST = 3.0
+"""Height of the tallest picture, inches: of a camera held upright."""
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """Where one refiner's column of one shot goes: left edge, base line of its name, size of its picture."""
+
+    left: float
+    top: float
+    picture: tuple[float, float]
+
+
+def draw_comparison(found: Comparison, dpi: float) -> bytes:
+    """Return the page as PNG bytes, the same for the same comparison."""
+    with house_style():
+        return _page(found, dpi)
+
+
+def worst_frame(shot: FlownShot) -> float:
+    """Return when a shot shows its targets worst, seconds of mission time.
+
+    That is where one is cropped most; where none is, where one is farthest from its place; else half-way.
+    """
+    cropped = [(float(t.margin.min()), float(t.times[int(np.argmin(t.margin))])) for t in shot.traces]
+    if cropped and min(cropped)[0] < 0.0:
+        return min(cropped)[1]
+    off = [
+        (float(np.nanmax(t.error)), float(t.times[int(np.nanargmax(t.error))]))
+        for t in shot.traces
+        if not np.isnan(t.error).all()
+    ]
+    return max(off)[1] if off else 0.5 * (shot.start + shot.end)
+
+
+def _page(found: Comparison, dpi: float) -> bytes:
+    mission, count = found.mission, len(found.conditions)
+    sizes = [_picture(mission.drone(shot.drone).aspect) for shot in mission.shots]
+    heights = [_height(size) for size in sizes]
+    width = 2 * MARGIN + max(count, 2) * (CELL + GAP) - GAP
+    height = HEADING + sum(heights) + 0.2
+    canvas = Canvas(width, height, dpi)
+    canvas.text(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True))
+    told = (
+        "every refiner's worst frame (amber below), and its screen error over the shot, in half frames; "
+        "shaded where the target is not whole in the frame"
+    )
+    canvas.text(MARGIN, height - 0.95, told, canvas.fitted(told, Type(10, QUIET), width - 2 * MARGIN))
+    top = height - HEADING
+    for shot, size, used in zip(mission.shots, sizes, heights, strict=True):
+        canvas.lines([np.array([[MARGIN, top], [width - MARGIN, top]])], FAINT, 0.8)
+        _shot(canvas, found, shot, Panel(MARGIN, top, size))
+        top -= used
+    return canvas.png()
+
+
+def _picture(aspect: float) -> tuple[float, float]:
+    width = min(CELL, TALLEST * aspect)
+    return width, width / aspect
+
+
+def _height(picture: tuple[float, float]) -> float:
+    return NAMES + picture[1] + caption_height(CELL) + PLOT + FACTS
+
+
+def _shot(canvas: Canvas, found: Comparison, shot: Shot, first: Panel) -> None:
+    several = len(found.mission.shots) > 1
+    flown = [next((s for s in each.shots if s.id == shot.id), None) for each in found.conditions]
+    top = error_top([trace.error for s in flown if s is not None for trace in s.traces])
+    for i, (each, there) in enumerate(zip(found.conditions, flown, strict=True)):
+        panel = Panel(first.left + i * (CELL + GAP), first.top, first.picture)
+        name = f"{each.refiner}, {shot.id}" if several else each.refiner
+        style = canvas.fitted(name, Type(13, INK, bold=True), CELL)
+        canvas.text(panel.left, panel.top - 0.3, name, style)
+        if there is None or each.plan is None:
+            _no_plan(canvas, each, panel)
+        else:
+            _flown(canvas, each.plan, there, panel, (i + 1, top))
+
+
+def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what: tuple[int, float]) -> None:
+    """Draw the column of a shot that is flown; what : the number of the column and the top of its plot."""
+    number, top = what
+    width, height = panel.picture
+    moment = _moment(plan, shot, number)
+    picture = Box(panel.left, panel.top - NAMES - height, width, height)
+    grid = max(1.0, round_length(abs(float(moment.pose[2])) / 1.5))
+    draw_frame(canvas, Cell(picture, CELL), moment, plan.trajectory.keyframes.mission, grid)
+    plot = Box(panel.left + 0.34, picture.y - caption_height(CELL) - PLOT + 0.1, CELL - 0.34, PLOT - 0.22)
+    draw_error(canvas, plot, shot, (moment.time, top))
+    for i, text in enumerate(_facts(shot.score)):
+        lost = i == 1 and shot.score.in_frame not in (None, 1.0)
+        style = canvas.fitted(text, Type(8.5, KEEP_OUT if lost else INK), CELL)
+        canvas.text(panel.left, plot.y - 0.36 - i * 0.17, text, style)
+
+
+def _moment(plan: VerifiedIR, shot: FlownShot, number: int) -> Moment:
+    (placed,) = (p for p in plan.trajectory.keyframes.shots if p.shot.id == shot.id)
+    (flight,) = (f for f in plan.trajectory.drones if f.drone == shot.drone)
+    return passing(plan, (placed, flight), worst_frame(shot), number)
+
+
+def _facts(score: Score) -> list[str]:
+    lines = []
+    if score.error_mean is not None and score.error_p95 is not None:
+        lines.append(f"screen error mean {score.error_mean:.4f}, 95 % within {score.error_p95:.4f}")
+    if score.in_frame is not None and score.in_frame_four_points is not None:
+        points = percent(score.in_frame_four_points)
+        lines.append(f"whole in frame {percent(score.in_frame)}, by four points {points}")
+    return lines
+
+
+def _no_plan(canvas: Canvas, each: Condition, panel: Panel) -> None:
+    width, height = panel.picture
+    box = Box(panel.left, panel.top - NAMES - height, width, height)
+    canvas.polygons([box.outline()], GROUND_FAR, FAINT, 0.8)
+    canvas.text(box.x + 0.12, box.top - 0.3, "no plan", Type(11, KEEP_OUT, bold=True))
+    told = [line for d in each.faults for line in wrap(f"{d.code}: {d.message}", 44)]
+    for i, line in enumerate(told[: int((height - 0.5) / 0.17)]):
+        canvas.text(box.x + 0.12, box.top - 0.55 - i * 0.17, line, Type(8, INK, halo=PAPER))

@@ -1,0 +1,92 @@
+"""A mission under several refiners: what each of them shows, in numbers and as motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import MissionIR
+from shotc.ir.trajectory import VerifiedIR
+
+
+class Score(NamedTuple):
+    """What one shot, or all, of one refiner are worth.
+
+    frames : how many samples of a target the shares are of
+    error_... : to the wanted place on screen, half frames: the mean, what 95 % of the frames do not exceed,
+        and the largest; infinite where it counts frames with the target behind the camera; None where
+        nothing is wanted
+    in_frame, in_frame_four_points : share of frames with the whole target in the frame, by its exact
+        silhouette and by the four points of Gebhardt and Hilliges; None without frames
+    jerk_rms : over the time filmed, m/s^3; duration : time filmed, seconds
+    """
+
+    frames: int
+    error_mean: float | None
+    error_p95: float | None
+    error_worst: float | None
+    in_frame: float | None
+    in_frame_four_points: float | None
+    jerk_rms: float
+    duration: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trace:
+    """One target over one shot, every array of shape (M,).
+
+    times : seconds of mission time; share : how much of the shot's time is over, 0 to 1
+    error : half frames, infinite behind the camera, NaN where no place is wanted
+    margin : how far inside the frame's nearest edge the whole target lies, metres
+    points : whether its four points are in the frame
+    """
+
+    target: str
+    times: Array
+    share: Array
+    error: Array
+    margin: Array
+    points: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FlownShot:
+    """One shot as one refiner has it flown; start, end : seconds of mission time."""
+
+    id: str
+    drone: str
+    start: float
+    end: float
+    traces: tuple[Trace, ...]
+    score: Score
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Condition:
+    """A mission under one refiner.
+
+    plan : None where the refiner gives none that may be flown, and then ``faults`` say why; it is held to
+        every limit, but not to what shots promise
+    broken : promises that it breaks; convex : warnings of shots that fly the convex path instead
+    seconds : that the refiner took, by the clock
+    """
+
+    refiner: str
+    package: str
+    plan: VerifiedIR | None
+    faults: tuple[Diagnostic, ...] = ()
+    broken: tuple[Diagnostic, ...] = ()
+    convex: tuple[Diagnostic, ...] = ()
+    shots: tuple[FlownShot, ...] = ()
+    score: Score | None = None
+    seconds: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Comparison:
+    """One mission under several refiners, in the order they were asked for."""
+
+    mission: MissionIR
+    conditions: tuple[Condition, ...]
