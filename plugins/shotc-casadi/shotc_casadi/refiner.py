@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf, nan
+from math import inf, isfinite, isnan, nan
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -20,10 +20,11 @@ from shotc.plugin_api import (
     solver_nan,
     stopped_early,
 )
-from shotc.refiner_api import Deviation, NoTransit, flight_room, leg_of, rejoined
+from shotc.refiner_api import Array, Deviation, NoTransit, flight_room, leg_of, rejoined, shortfall
 from shotc_casadi import conditions
-from shotc_casadi.camera import camera
+from shotc_casadi.camera import NoFit, camera
 from shotc_casadi.conditions import Condition
+from shotc_casadi.patience import PATIENCE
 from shotc_casadi.problem import Margins, problem
 from shotc_casadi.program import Problem, Solution, Solver, solve
 from shotc_casadi.proof import Check, checked, hopeless, tighter
@@ -39,14 +40,25 @@ NOTICE = 0.1  # metres off the convex path that are worth telling
 UNITS = {"speed": "m^2/s^2", "acceleration": "m^2/s^4", "jerk": "m^2/s^6", "clearance": "m"}
 
 
+class Gap(NamedTuple):
+    """Where a camera is not proved to be clear, though its nodes are: path parameter, and by metres.
+
+    metres : NaN where no camera goes through the nodes within the gimbal's pitch range
+    """
+
+    s: float
+    metres: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Refined:
     """One shot refined.
 
     camera : x, y, z, yaw, pitch over the leg's s, or None where no solver found a way
     rounds : how often it was solved until it was proved between the nodes
-    problem, solution : the last one
-    seconds : of all solves; first : the solver that was tried and failed before, with its word
+    problem, solution : those of the camera, or the last ones; first : the solver that failed before
+    seconds : of all solves
+    gap : what stands against the camera of a problem that was solved
     """
 
     shot: str
@@ -57,6 +69,7 @@ class Refined:
     solution: Solution
     seconds: float
     first: Solution | None
+    gap: Gap | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +141,8 @@ class Refiner:
                 return None
             why = _word(refined.first)
             return fallback(path, refined.shot, (refined.first.solver, solution.solver), why)
+        if refined.gap is not None:
+            return impossible(path, self._between(refined, refined.gap))
         state = self._state(refined, solution.constraint or "the motion from stage to stage")
         if solution.status == "nan":
             return solver_nan(path, state)
@@ -135,8 +150,17 @@ class Refiner:
             return impossible(path, state)
         return stopped_early(path, state, _word(solution))
 
+    def _between(self, refined: Refined, gap: Gap) -> SolverState:
+        """Return the state of a problem whose solution does not hold between its nodes."""
+        k = min(int(np.searchsorted(refined.nodes.s, gap.s)), len(refined.nodes.s) - 1)
+        what = "the gimbal's pitch range" if isnan(gap.metres) else "the clearances between stages"
+        return self._state(refined, what)._replace(
+            stage=k, s=gap.s, time=float(refined.solution.states[k, TIME]), excess=gap.metres, unit="m"
+        )
+
     def _state(self, refined: Refined, constraint: str) -> SolverState:
         solution = refined.solution
+        time = float(solution.states[solution.stage, TIME])
         return SolverState(
             shot=refined.shot,
             refiner=self.name,
@@ -144,7 +168,7 @@ class Refiner:
             stage=solution.stage,
             stages=len(solution.inputs),
             s=float(refined.nodes.s[solution.stage]),
-            time=float(solution.states[solution.stage, TIME]),
+            time=time if isfinite(time) else None,
             constraint=constraint,
             excess=solution.residual if constraint == solution.constraint else nan,
             unit=UNITS.get(constraint, ""),
@@ -194,34 +218,68 @@ def _refine(
     wanted = wishes(subject, condition, nodes.s)
     walls = half_spaces(subject.room, leg.curve, nodes)
     margins = Margins()
-    task = problem(subject, condition, nodes, wanted, walls, margins)
-    ends = task.states[[0, -1]][:, [YAW, PITCH]]
-    best = _Tried(None, Check(inf, inf, inf))
-    seconds, first, rounds = 0.0, None, 0
-    following = task
+    following = problem(subject, condition, nodes, wanted, walls, margins)
+    ends = following.states[[0, -1]][:, [YAW, PITCH]]
+    done: list[_Tried] = []
     for rounds in range(1, ROUNDS + 1):
-        task = following
-        solution, failed = _solved(task, solvers)
-        seconds += solution.seconds + (failed.seconds if failed else 0.0)
-        first = first or failed
-        if solution.status != "solved":
-            break
-        found = camera(subject.drone, leg, nodes, solution.states, ends)
-        tried = _Tried(found, checked(subject, condition, found))
-        helped = tried.check.helped(best.check)
-        best = min(best, tried, key=lambda t: t.check)
-        if tried.check.holds or (best.check.lack <= 0 and not helped):
+        tried = _tried(subject, condition, nodes, following, _solved(following, solvers), ends)
+        helped = not done or tried.check.helped(min(t.check for t in done))
+        done.append(tried)
+        best = min(done, key=lambda t: t.check)
+        if tried.camera is None or tried.check.holds or (best.check.lack <= 0 and not helped):
             break
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
         tightened = problem(subject, condition, nodes, wanted, walls, margins)
-        following = replace(tightened, states=solution.states, inputs=solution.inputs)
-    clear = best.camera if best.check.lack <= 0 else None
-    return Refined(leg.shot, clear, nodes, rounds, task, solution, seconds, first), best.check
+        following = replace(tightened, states=tried.solution.states, inputs=tried.solution.inputs)
+    return _result(subject, nodes, done, best), best.check
 
 
 class _Tried(NamedTuple):
+    """One round: the camera, None where there is none; what is open; failed : a solver before this one."""
+
     camera: Piecewise | None
     check: Check
+    problem: Problem
+    solution: Solution
+    failed: Solution | None
+
+
+def _tried(
+    subject: Subject,
+    condition: Condition,
+    nodes: Stages,
+    task: Problem,
+    solved: tuple[Solution, Solution | None],
+    ends: Array,
+) -> _Tried:
+    nothing = _Tried(None, Check(inf, inf, inf), task, *solved)
+    if solved[0].status != "solved":
+        return nothing
+    try:
+        found = camera(subject.drone, subject.leg, nodes, solved[0].states, ends)
+        return nothing._replace(camera=found, check=checked(subject, condition, found))
+    except (NoFit, NoTransit):
+        return nothing
+
+
+def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:
+    """Return the best camera if it is clear, or else where the last round ended."""
+    leg = subject.leg
+    assert leg.shot is not None
+    kept = best if best.check.lack <= 0 else done[-1]._replace(camera=None)
+    seconds = sum(t.solution.seconds + (t.failed.seconds if t.failed else 0.0) for t in done)
+    gap = None
+    if kept.camera is None and kept.solution.status == "solved":
+        gap = Gap(float(nodes.s[0]), nan) if best.camera is None else _widest(subject, best.camera)
+    return Refined(
+        leg.shot, kept.camera, nodes, len(done), kept.problem, kept.solution, seconds, kept.failed, gap
+    )
+
+
+def _widest(subject: Subject, found: Piecewise) -> Gap:
+    lack = shortfall(subject.room, found.ctrl[:, :, :3])
+    k = int(lack.argmax())
+    return Gap(float(found.breaks[k]), float(lack[k]))
 
 
 def _solved(task: Problem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solution | None]:
@@ -235,6 +293,8 @@ def _solved(task: Problem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solut
 def _word(solution: Solution) -> str:
     if solution.status == "nan":
         return "numbers that are none"
+    if solution.iterations == 0:
+        return f"{PATIENCE:.0f} s without an end"
     return f"{solution.iterations} iterations"
 
 
