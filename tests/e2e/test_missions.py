@@ -23,6 +23,7 @@ SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
     "river-path": {},
     "rooftop-survey": {},
     "statue-moves": {"emit": [("E101", 1)]},
+    "tower-fly-past": {"plan": [("V030", 19)]},
     "tower-reveal": {"emit": [("E105", 22)]},
     "westerhever-lighthouse": {},
 }
