@@ -14,11 +14,13 @@ from shotc import plugins
 from shotc.cli import console
 from shotc.cli.inputs import read_mission
 from shotc.cli.names import known, listed
+from shotc.cli.plan import Deadline, Spec
 from shotc.cli.progress import Progress
 from shotc.cli.table import table
 from shotc.output import write
 
 if TYPE_CHECKING:
+    from shotc.comparison import Report
     from shotc.ir.comparison import Comparison
 
 
@@ -33,7 +35,6 @@ class Format(StrEnum):
     MARKDOWN = "markdown"
 
 
-Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
 Refiners = Annotated[
     str | None,
     typer.Option(
@@ -48,7 +49,11 @@ FormatOption = Annotated[Format, typer.Option("--format", help="How to print the
 
 
 def compare(
-    spec: Spec, refiners: Refiners = None, output: Output = None, format: FormatOption = Format.TEXT
+    spec: Spec,
+    refiners: Refiners = None,
+    output: Output = None,
+    format: FormatOption = Format.TEXT,
+    deadline: Deadline = None,
 ) -> None:
     """Plan one mission under several refiners and show what each does to its framing.
 
@@ -67,26 +72,29 @@ def compare(
     if names == []:
         raise typer.BadParameter("it names no refiner", param_hint="--refiners")
     source = read_mission(spec)
-    from shotc.comparison import compare_source, ordered
+    from shotc.comparison import Options, compare_source, ordered
 
     asked = ordered(plugins.names("refiners")) if names is None else names
     with Progress() as progress:
-        done = compare_source(source.data, source.name, source.folder, asked, progress)
-        found = done.comparison
-        if found is None:
-            console.report(done.diagnostics, done.sources)
-            raise typer.Exit(console.EXIT_REJECTED)
-        if not any(each.plan for each in found.conditions):
-            console.report([d for each in found.conditions for d in each.faults], done.sources)
-            raise typer.Exit(console.EXIT_REJECTED)
+        done = compare_source(source.data, source.name, source.folder, Options(asked, deadline, progress))
+        found = _shown(done)
         from shotc.comparison.outputs import artifacts
 
         made = artifacts(found, progress)
-    folder = output or Path("out") / found.mission.name / "compare"
-    paths, faults = write(made.artifacts, folder)
-    console.report((*made.diagnostics, *faults), done.sources)
+    paths, faults = write(made.artifacts, output or Path("out") / found.mission.name / "compare")
+    console.report((*done.diagnostics, *made.diagnostics, *faults), done.sources)
     console.out(_printed(found, format, paths))
     raise typer.Exit(console.exit_code(faults))
+
+
+def _shown(done: Report) -> Comparison:
+    """Return a comparison in which there is a plan to show; where there is none, say why and exit."""
+    found = done.comparison
+    if found is not None and any(each.plan is not None for each in found.conditions):
+        return found
+    faults = () if found is None else (fault for each in found.conditions for fault in each.faults)
+    console.report((*done.diagnostics, *faults), done.sources)
+    raise typer.Exit(console.EXIT_REJECTED)
 
 
 def _printed(found: Comparison, format: Format, paths: Sequence[Path]) -> str:

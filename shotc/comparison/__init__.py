@@ -14,9 +14,9 @@ from shotc.api import PlanOptions, compile_source
 from shotc.comparison.conditions import condition
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.ir.comparison import Comparison
+from shotc.ir.comparison import Comparison, Condition
 from shotc.ir.path import PathIR
-from shotc.passes.base import PassContext
+from shotc.passes.base import PassContext, silent
 from shotc.source.file import SourceFile
 
 USUAL = ("none", "ang", "look-at", "ours-4pt", "ours")
@@ -37,23 +37,33 @@ def ordered(names: Iterable[str]) -> list[str]:
     return [name for name in USUAL if name in known] + sorted(known - set(USUAL))
 
 
-def compare_source(
-    data: bytes, name: str, folder: Path | None, refiners: Sequence[str], progress: Callable[[str], None]
-) -> Report:
-    """Plan one mission under some refiners.
+class Options(NamedTuple):
+    """What to compare.
 
-    data, name, folder : as in ``api.compile_source``; refiners : of ``plugins.names("refiners")``
+    refiners : of ``plugins.names("refiners")``, in the order in which they are shown
+    deadline, progress : as in ``api.PlanOptions``
+    """
+
+    refiners: Sequence[str]
+    deadline: float | None = None
+    progress: Callable[[str], None] = silent
+
+
+def compare_source(data: bytes, name: str, folder: Path | None, options: Options) -> Report:
+    """Plan one mission under some refiners; data, name, folder : as in ``api.compile_source``.
+
     A refiner without a plan is a condition that says so; only a mission that no refiner could plan is
     rejected.
     """
-    options = PlanOptions(plugins.NO_REFINER, stop_after="solve-path-qp", progress=progress)
-    done = compile_source(data, name, folder, options)
+    convex = PlanOptions(plugins.NO_REFINER, stop_after="solve-path-qp", progress=options.progress)
+    done = compile_source(data, name, folder, convex)
     path = done.reports[-1].output if done.reports else None
     if not isinstance(path, PathIR) or has_errors(done.diagnostics):
         return Report(None, done.diagnostics, done.sources)
 
-    def compared(refiner: str) -> PassContext:
-        return PassContext(progress=lambda message: progress(f"{refiner}: {message}"))
+    def compared(refiner: str) -> Condition:
+        ctx = PassContext(progress=lambda message: options.progress(f"{refiner}: {message}"))
+        return condition(refiner, path, options.deadline, ctx)
 
-    conditions = tuple(condition(refiner, path, compared(refiner)) for refiner in refiners)
-    return Report(Comparison(path.keyframes.mission, conditions), (), done.sources)
+    conditions = tuple(map(compared, options.refiners))
+    return Report(Comparison(path.keyframes.mission, conditions), done.diagnostics, done.sources)

@@ -22,13 +22,13 @@ from shotc.pipeline import run
 KEPT_CONVEX = "R003"
 
 
-def condition(name: str, path: PathIR, ctx: PassContext) -> Condition:
-    """Return the mission under the refiner of this name, from its convex path on."""
+def condition(name: str, path: PathIR, deadline: float | None, ctx: PassContext) -> Condition:
+    """Return the mission under the refiner of this name, from its convex path on; deadline as in planning."""
     found = plugins.one("refiners", name)
     if found.plugin is None:
         return Condition(name, found.package, None, found.diagnostics)
     seat = Seat(found.plugin, found.package, found.reference)
-    done = run((RefinePath(seat), ParameterizeTime()), path, ctx)
+    done = run((RefinePath(seat, deadline), ParameterizeTime()), path, ctx)
     seconds = done.reports[0].seconds
     if done.value is None or has_errors(done.diagnostics):
         return Condition(name, found.package, None, _errors(done.diagnostics), seconds=seconds)

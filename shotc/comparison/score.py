@@ -38,7 +38,7 @@ def flown_shots(plan: VerifiedIR) -> tuple[FlownShot, ...]:
 def total(plan: VerifiedIR, shots: Sequence[FlownShot]) -> Score:
     """Return the score of all shots together: frames count alike, and so does every second filmed."""
     tracks = {track.drone: track for track in plan.trajectory.drones}
-    squared = sum(_squared_jerk(tracks[shot.drone].curve, shot.start, shot.end) for shot in shots)
+    squared = sum(squared_jerk(tracks[shot.drone].curve, shot.start, shot.end) for shot in shots)
     traces = [trace for shot in shots for trace in shot.traces]
     return score(traces, squared, sum(shot.end - shot.start for shot in shots))
 
@@ -62,6 +62,19 @@ def score(traces: Sequence[Trace], squared_jerk: float, duration: float) -> Scor
     )
 
 
+def squared_jerk(curve: Piecewise, start: float, end: float) -> float:
+    """Return the integral of the squared norm of jerk over a stretch of time, m^2/s^5."""
+    pieces = cut(curve, start, end).channels(X, Y, Z)
+    for _ in range(3):
+        pieces = pieces.derivative()
+    if not len(pieces):
+        return 0.0
+    basis = bernstein_basis(pieces.ctrl.shape[1] - 1, (_NODES + 1) / 2)
+    jerk: Array = np.einsum("gk,pkd->pgd", basis, pieces.ctrl)
+    widths = (pieces.high - pieces.low) / 2
+    return float(np.einsum("p,g,pgd->", widths, _WEIGHTS, jerk**2))
+
+
 def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
     ir, shot = plan.trajectory, str(phase.shot)
     traces = tuple(
@@ -69,7 +82,7 @@ def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
         for target in subjects(ir.keyframes.mission, track, shot)
         if (trace := _trace(plan, track, phase, target)) is not None
     )
-    squared = _squared_jerk(track.curve, phase.start, phase.end)
+    squared = squared_jerk(track.curve, phase.start, phase.end)
     found = score(traces, squared, phase.end - phase.start)
     return FlownShot(shot, track.drone, phase.start, phase.end, traces, found)
 
@@ -85,16 +98,3 @@ def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) 
     share = (t - phase.start) / (phase.end - phase.start)
     points = points_in_frame(cameras(mission, track, t), cylinder(mission.target(target)))
     return Trace(target, t, share, view.error, view.frames.margin, points.astype(np.float64))
-
-
-def _squared_jerk(curve: Piecewise, start: float, end: float) -> float:
-    """Return the integral of the squared norm of jerk over a stretch of time, m^2/s^5."""
-    pieces = cut(curve, start, end).channels(X, Y, Z)
-    for _ in range(3):
-        pieces = pieces.derivative()
-    if not len(pieces):
-        return 0.0
-    basis = bernstein_basis(pieces.ctrl.shape[1] - 1, (_NODES + 1) / 2)
-    jerk: Array = np.einsum("gk,pkd->pgd", basis, pieces.ctrl)
-    widths = (pieces.high - pieces.low) / 2
-    return float(np.einsum("p,g,pgd->", widths, _WEIGHTS, jerk**2))

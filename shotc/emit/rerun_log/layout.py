@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
+from rerun.encodings import AbsoluteTimeRange
 
 from shotc.emit.rerun_log.motion import camera_entity, frame_size
 from shotc.emit.rerun_log.series import Plot
@@ -53,11 +54,19 @@ def blueprint(
     )
 
 
-def panels() -> tuple[Any, ...]:
-    """Return the panels round the views, all out of the way; the recording plays."""
+def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
+    """Return the panels round the views, out of the way; the recording plays, or a span of it, seconds."""
+    part = None
+    if span is not None:
+        part = AbsoluteTimeRange(*(round(end * 1e9) for end in span))
     return (
         rrb.TimePanel(
-            timeline="t", playback_speed=1.0, play_state="playing", loop_mode="all", state="collapsed"
+            timeline="t",
+            playback_speed=1.0,
+            play_state="playing",
+            loop_mode="all" if part is None else "selection",
+            time_selection=part,
+            state="collapsed",
         ),
         rrb.SelectionPanel(state="collapsed"),
         rrb.BlueprintPanel(state="collapsed"),

@@ -19,6 +19,9 @@ from shotc.ir.comparison import Comparison, Condition
 from shotc.ir.mission import Drone
 from shotc.ir.trajectory import VerifiedIR
 
+PLOT, MOST = 0.22, 0.68
+"""Shares of a window's height: of a plot, and the most of the columns; a picture has what its width asks."""
+
 
 @dataclass(frozen=True, slots=True)
 class Within:
@@ -67,15 +70,19 @@ def _blueprint(
     """Return the layout: a column a refiner of what its cameras see and how far off, the world below."""
     end = max(flight.curve.end for _, plan in plans for flight in plan.trajectory.drones)
     top = error_top([trace.error for each, _ in plans for shot in each.shots for trace in shot.traces])
-    columns = [_column(found, each, end, top) for each, _ in plans]
+    columns = [_column(found, each, len(plans), (end, top)) for each, _ in plans]
     cameras = [_camera(each, drone) for each, _ in plans for drone in found.mission.drones]
     facts = rrb.TextDocumentView(origin="summary", name="In numbers")
     below = rrb.Horizontal(world_view(bounds, cameras), facts, column_shares=[1.0, 1.4])
-    whole = rrb.Vertical(rrb.Horizontal(*columns), below, row_shares=[1.3, 1.0])
-    return rrb.Blueprint(whole, *panels(), auto_layout=False, auto_views=False)
+    above = min(1.0 / len(columns) + PLOT, MOST)
+    whole = rrb.Vertical(rrb.Horizontal(*columns), below, row_shares=[above, 1.0 - above])
+    filmed = [(shot.start, shot.end) for each, _ in plans for shot in each.shots]
+    span = min(start for start, _ in filmed), max(end for _, end in filmed)
+    return rrb.Blueprint(whole, *panels(span), auto_layout=False, auto_views=False)
 
 
-def _column(found: Comparison, each: Condition, end: float, top: float) -> Any:
+def _column(found: Comparison, each: Condition, count: int, axes: tuple[float, float]) -> Any:
+    """Return one column of ``count``; axes : the ends of time, seconds, and of screen error."""
     views = []
     for name in dict.fromkeys(shot.drone for shot in each.shots):
         drone = found.mission.drone(name)
@@ -83,8 +90,9 @@ def _column(found: Comparison, each: Condition, end: float, top: float) -> Any:
         if each.score is not None and each.score.in_frame is not None:
             title += f" (whole in frame {percent(each.score.in_frame)})"
         views.append(camera_view(found.mission, drone, _camera(each, drone), title))
-        views.append(error_view(within(place_of(each.refiner), f"plots/{name}/screen_error"), end, top))
-    return rrb.Vertical(*views, row_shares=[1.6, 1.0] * (len(views) // 2), name=each.refiner)
+        views.append(error_view(within(place_of(each.refiner), f"plots/{name}/screen_error"), *axes))
+    shares = [1.0 / count, PLOT] * (len(views) // 2)
+    return rrb.Vertical(*views, row_shares=shares, name=each.refiner)
 
 
 def _camera(each: Condition, drone: Drone) -> str:
