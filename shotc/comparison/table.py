@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
 
-from shotc.emit.screen import percent
+from shotc.emit.screen import off_place, percent
 from shotc.ir.comparison import Comparison, Condition, Score
 
 HEADING = (
@@ -20,7 +19,7 @@ HEADING = (
     "filmed",
     "refined in",
 )
-UNKNOWN, BEHIND, ALL = "-", "behind", "all"
+UNKNOWN, ALL = "-", "all"
 LEGEND = (
     "error: from the wanted place on screen, in half frames, over all frames that the shot frames its target",
     "whole in frame: share of frames with the whole target in the frame, by its exact silhouette; "
@@ -42,7 +41,10 @@ def remarks(found: Comparison) -> list[str]:
     """Return a line for every refiner without a plan, broken promise and shot that stayed convex."""
     lines = []
     for each in found.conditions:
-        lines += [f"{each.refiner} gives no plan, {d.code}: {d.message}" for d in each.faults]
+        lines += [
+            f"{each.refiner} gives no plan, {d.code}: {'; '.join((d.message, *d.notes[:1]))}"
+            for d in each.faults
+        ]
         lines += [f"{each.refiner} breaks a promise, {d.code}: {d.message}" for d in each.broken]
         lines += [f"{each.refiner} did not refine all, {d.code}: {d.message}" for d in each.convex]
     return lines
@@ -77,17 +79,11 @@ def _cells(score: Score) -> tuple[str, ...]:
     errors = (score.error_mean, score.error_p95, score.error_worst)
     shares = (score.in_frame, score.in_frame_four_points)
     return (
-        *map(_error, errors),
+        *(UNKNOWN if error is None else off_place(error) for error in errors),
         *(UNKNOWN if share is None else percent(share) for share in shares),
         f"{score.jerk_rms:.3f}",
         f"{score.duration:.2f} s",
     )
-
-
-def _error(value: float | None) -> str:
-    if value is None:
-        return UNKNOWN
-    return f"{value:.4f}" if isfinite(value) else BEHIND
 
 
 def _piped(cells: tuple[str, ...]) -> str:

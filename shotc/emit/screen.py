@@ -110,6 +110,11 @@ def error_top(errors: Sequence[Array]) -> float:
     return next((top for top in TOPS if largest <= top), TOPS[-1])
 
 
+def off_place(error: float) -> str:
+    """Return a screen error with four digits, or where the target is if no number says it."""
+    return f"{error:.4f}" if isfinite(error) else "behind"
+
+
 def percent(share: float) -> str:
     """Return a share in percent, as everywhere with four digits; only the whole is called 100 %."""
     return "100 %" if share >= 1.0 else f"{min(100 * share, 99.99):.4g} %"

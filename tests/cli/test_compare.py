@@ -165,6 +165,13 @@ def test_a_shot_that_keeps_its_convex_path_is_told(install: Install) -> None:
     assert failing.score == none.score
 
 
+def test_a_refiner_that_takes_too_long_keeps_nobody_waiting(run: Run, good: Path, install: Install) -> None:
+    install("slow", "import time", "time.sleep(600)")
+    done = run("compare", str(good), "--refiners", "none,slow", "--deadline", "0.5")
+    assert done.code == 0
+    assert "slow gives no plan, R004" in done.out
+
+
 def test_a_plan_that_breaks_a_promise_is_not_one_that_makes_it(install: Install) -> None:
     install("bent", *BENT)
     mission = MISSION.replace(f"  - id: {PASS}\n", f"  - id: {PASS}\n{PROMISE}")

@@ -36,18 +36,31 @@ def draw_error(canvas: Canvas, box: Box, shot: FlownShot, what: tuple[float, flo
 
 
 def stretches(share: Array, flags: Mask) -> Iterator[tuple[float, float]]:
-    """Yield from where to where the flags are true, each half-way to the neighbouring samples."""
-    edges = np.concatenate([share[:1], 0.5 * (share[1:] + share[:-1]), share[-1:]])
-    turns = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
-    for a, b in zip(turns[::2], turns[1::2], strict=True):
-        yield float(edges[a]), float(edges[b])
+    """Yield from where to where the flags are true, each half-way to the neighbouring samples, if any."""
+    joined = np.concatenate([[False], joins(share), [False]])
+    for a, b in runs(share, flags):
+        low = 0.5 * (share[a - 1] + share[a]) if joined[a] else share[a]
+        high = 0.5 * (share[b - 1] + share[b]) if joined[b] else share[b - 1]
+        yield float(low), float(high)
+
+
+def runs(share: Array, flags: Mask) -> Iterator[tuple[int, int]]:
+    """Yield first and one past the last of the samples that follow one another with their flags true."""
+    joined = np.concatenate([[False], joins(share)])
+    (firsts,) = np.nonzero(flags & ~(joined & np.roll(flags, 1)))
+    (lasts,) = np.nonzero(flags & ~(np.roll(joined, -1) & np.roll(flags, -1)))
+    yield from zip(firsts.tolist(), (lasts + 1).tolist(), strict=True)
+
+
+def joins(share: Array) -> Mask:
+    """Tell which samples the next one follows on the clock; between others another target is filmed."""
+    steps = np.diff(share)
+    return np.asarray(steps <= 1.5 * float(np.median(steps))) if len(steps) else np.zeros(0, dtype=np.bool_)
 
 
 def _curves(box: Box, trace: Trace, top: float) -> Iterator[Array]:
     """Yield the line of an error in parts: where none is known it is broken, above the top it is cut."""
     x = box.x + trace.share * box.width
     y = box.y + np.minimum(trace.error, 2 * top) / top * box.height
-    known = ~np.isnan(y)
-    turns = np.flatnonzero(np.diff(np.concatenate([[0], known.astype(int), [0]])))
-    for a, b in zip(turns[::2], turns[1::2], strict=True):
+    for a, b in runs(trace.share, ~np.isnan(y)):
         yield np.stack([x[a:b], y[a:b]], axis=-1)

@@ -8,7 +8,7 @@ from textwrap import wrap
 import numpy as np
 
 from shotc.emit.palette import FAINT, GROUND_FAR, INK, KEEP_OUT, PAPER, QUIET
-from shotc.emit.screen import error_top, percent
+from shotc.emit.screen import error_top, off_place, percent
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard.content import Moment, passing
 from shotc.emit.storyboard.error_plot import draw_error
@@ -125,7 +125,9 @@ def _moment(plan: VerifiedIR, shot: FlownShot, number: int) -> Moment:
 def _facts(score: Score) -> list[str]:
     lines = []
     if score.error_mean is not None and score.error_p95 is not None:
-        lines.append(f"screen error mean {score.error_mean:.4f}, 95 % within {score.error_p95:.4f}")
+        lines.append(
+            f"screen error mean {off_place(score.error_mean)}, 95 % within {off_place(score.error_p95)}"
+        )
     if score.in_frame is not None and score.in_frame_four_points is not None:
         points = percent(score.in_frame_four_points)
         lines.append(f"whole in frame {percent(score.in_frame)}, by four points {points}")
