@@ -1,0 +1,36 @@
+"""The weights in the README are those of the problem."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from shotc_casadi import problem
+from shotc_casadi.patience import PATIENCE
+from shotc_casadi.refiner import ANG, LOOK_AT, OURS, OURS_4PT
+
+README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+WEIGHTS = {
+    "framing": problem.FRAMING,
+    "visibility": problem.VISIBILITY,
+    "aiming": problem.AIMING,
+    "position": problem.POSITION_ERROR,
+    "jerk": problem.JERK_SHARE,
+    "angular jerk": problem.ANGULAR_JERK_SHARE,
+    "time": 1.0,
+    "pace": problem.PACE,
+    "lag": problem.LAG,
+    "pins": problem.PIN,
+}
+
+
+@pytest.mark.parametrize("term", list(WEIGHTS))
+def test_a_weight_is_the_one_that_is_used(term):
+    (line,) = (row for row in README.splitlines() if row.startswith(f"| {term} | "))
+    assert float(line.split("|")[2]) == WEIGHTS[term]
+
+
+def test_every_condition_is_there():
+    for made in (OURS, OURS_4PT, LOOK_AT, ANG):
+        assert f"| `{made.name}` |" in README
+    assert PATIENCE == 30.0  # "half a minute"
