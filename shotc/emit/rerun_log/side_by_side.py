@@ -19,8 +19,8 @@ from shotc.ir.comparison import Comparison, Condition
 from shotc.ir.mission import Drone
 from shotc.ir.trajectory import VerifiedIR
 
-PLOT, MOST = 0.22, 0.68
-"""Shares of a window's height: of a plot, and the most of the columns; a picture has what its width asks."""
+HEAD, PLOT, MOST = 0.04, 0.16, 0.7
+"""Shares of a window's height: a view's title, a plot, and the most of the columns together."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ def _blueprint(
     cameras = [_camera(each, drone) for each, _ in plans for drone in found.mission.drones]
     facts = rrb.TextDocumentView(origin="summary", name="In numbers")
     below = rrb.Horizontal(world_view(bounds, cameras), facts, column_shares=[1.0, 1.4])
-    above = min(1.0 / len(columns) + PLOT, MOST)
+    above = min(1.0 / len(columns) + PLOT + 2 * HEAD, MOST)
     whole = rrb.Vertical(rrb.Horizontal(*columns), below, row_shares=[above, 1.0 - above])
     filmed = [(shot.start, shot.end) for each, _ in plans for shot in each.shots]
     span = min(start for start, _ in filmed), max(end for _, end in filmed)
@@ -91,7 +91,7 @@ def _column(found: Comparison, each: Condition, count: int, axes: tuple[float, f
             title += f" (whole in frame {percent(each.score.in_frame)})"
         views.append(camera_view(found.mission, drone, _camera(each, drone), title))
         views.append(error_view(within(place_of(each.refiner), f"plots/{name}/screen_error"), *axes))
-    shares = [1.0 / count, PLOT] * (len(views) // 2)
+    shares = [1.0 / count + HEAD, PLOT + HEAD] * (len(views) // 2)
     return rrb.Vertical(*views, row_shares=shares, name=each.refiner)
 
 
