@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import pi
 from typing import NamedTuple
 
@@ -11,21 +12,43 @@ from shotc_casadi.conditions import Condition
 from shotc_casadi.problem import Margins, problem
 from shotc_casadi.program import Problem
 from shotc_casadi.refiner import subjects
-from shotc_casadi.stages import stages
+from shotc_casadi.stages import Stages, stages
 from shotc_casadi.walls import half_spaces
 from shotc_casadi.wishes import Subject, wishes
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.geom.solids import Cylinder
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import Leg, PathIR
 from shotc.ir.trajectory import VerifiedIR
-from tests.path_scenes import planned
+from tests.path_scenes import TOWER, block, circle, mission, out, planned, shot
 
 
 def subject(made: MissionIR, shot: PlacedShot) -> Subject:
     """The one moving shot of a mission, on its convex path."""
     return subjects(planned(made, shot))[0]
+
+
+@cache
+def arc() -> Subject:
+    """A quarter turn round a tower."""
+    return subject(mission(targets=(TOWER,)), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
+
+
+@cache
+def walled() -> Subject:
+    """The same past a wall and a tank."""
+    zones = (
+        out("wall", block((28.0, 34.0), (-50.0, -38.0), (0.0, 40.0))),
+        out("tank", Cylinder((45.0, -32.0), 3.0, 0.0, 30.0)),
+    )
+    return subject(mission(*zones, targets=(TOWER,)), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
+
+
+def nodes_of(of: Subject, count: int | None = 24) -> Stages:
+    """The nodes of a shot, few unless told."""
+    return stages(of.leg, of.placed, of.drone, count)
 
 
 def task(
@@ -35,7 +58,7 @@ def task(
     margins: Margins = Margins(),  # noqa: B008
 ) -> Problem:
     """The optimal-control problem of a shot on few stages."""
-    nodes = stages(of.leg, of.placed, of.drone, count)
+    nodes = nodes_of(of, count)
     walls = half_spaces(of.room, of.leg.curve, nodes)
     return problem(of, condition, nodes, wishes(of, condition, nodes.s), walls, margins)
 

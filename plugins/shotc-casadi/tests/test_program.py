@@ -17,24 +17,15 @@ from shotc_casadi.patience import Endless, within
 from shotc_casadi.program import FEASIBLE, TOLERANCE, solve
 from shotc_casadi.symbols import INPUTS, LENGTH, PITCH, PITCH_RATE, STATES, TIME, size, stage
 
-from tests.path_scenes import TOWER, circle, mission, out, shot
-from tests.path_scenes import block as solid
-from tests.refiner_scenes import subject, task
+from tests.refiner_scenes import task, walled
 
 WIDTH = STATES + INPUTS
 SOLVERS = ("fatrop", "ipopt")
 
 
 @cache
-def arc():
-    """A quarter turn round a tower, past a wall."""
-    wall = out("wall", solid((28.0, 34.0), (-50.0, -38.0), (0.0, 40.0)))
-    return subject(mission(wall, targets=(TOWER,)), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
-
-
-@cache
 def solved(solver, condition=OURS):
-    return solve(task(arc(), condition), solver)
+    return solve(task(walled(), condition), solver)
 
 
 @pytest.mark.parametrize("condition", [OURS, OURS_4PT, LOOK_AT], ids=lambda c: c.name)
@@ -67,7 +58,7 @@ def plain(made):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_the_solution_meets_the_kkt_conditions(solver, monkeypatch):
-    made, seen = task(arc()), {}
+    made, seen = task(walled()), {}
     assert made.planes > 0
     nlp = program._programme(made.stages, made.planes, made.visibility, solver)
 
@@ -102,7 +93,7 @@ def test_the_solution_meets_the_kkt_conditions(solver, monkeypatch):
 
 def test_the_motion_keeps_the_limits_at_every_node():
     states, inputs = solved("fatrop").states, solved("fatrop").inputs
-    limits, pace = arc().drone.limits, arc().leg.pace
+    limits, pace = walled().drone.limits, walled().leg.pace
     assert np.hypot(states[:, 3], states[:, 4]).max() <= pace * limits.speed * (1 + 1e-3)
     assert np.linalg.norm(states[:, 6:9], axis=1).max() <= pace * limits.acceleration * (1 + 1e-3)
     assert np.linalg.norm(inputs[:, :3], axis=1).max() <= pace * limits.jerk * (1 + 1e-3)
@@ -121,21 +112,21 @@ def contradictory(made):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_what_nobody_can_meet_is_not_called_solved(solver):
-    solution = solve(contradictory(task(arc())), solver)
+    solution = solve(contradictory(task(walled())), solver)
     assert solution.status in {"infeasible", "stopped"}
     assert solution.constraint == "clearance"
     assert solution.residual > 100.0
 
 
 def test_ipopt_knows_what_is_infeasible():
-    assert solve(contradictory(task(arc())), "ipopt").status == "infeasible"
+    assert solve(contradictory(task(walled())), "ipopt").status == "infeasible"
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("spoilt", ["parameters", "states", "inputs"])
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_what_is_no_number_is_told_at_once(solver, spoilt, value):
-    made = task(arc())
+    made = task(walled())
     array = getattr(made, spoilt).copy()
     array.flat[7] = value
     began = time.perf_counter()
@@ -145,7 +136,7 @@ def test_what_is_no_number_is_told_at_once(solver, spoilt, value):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_bounds_that_cross_are_nobodys_solution(solver):
-    made = task(arc())
+    made = task(walled())
     low, high = (b.copy() for b in made.state_bounds)
     low[:, PITCH], high[:, PITCH] = 0.2, 0.1
     assert solve(replace(made, state_bounds=(low, high)), solver).status == "nan"
@@ -155,7 +146,7 @@ def test_bounds_that_cross_are_nobodys_solution(solver):
 @pytest.mark.parametrize("width", [0.0, 1e-9, 1e-6, 1e-4])
 @pytest.mark.parametrize(("which", "middle"), [(PITCH, -0.15), (PITCH_RATE, 0.0)])
 def test_a_state_that_may_not_move_is_held(solver, width, which, middle):
-    made = task(arc())
+    made = task(walled())
     low, high = (b.copy() for b in made.state_bounds)
     low[:, which], high[:, which] = middle - width / 2, middle + width / 2
     solution = solve(replace(made, state_bounds=(low, high)), solver)
@@ -164,7 +155,7 @@ def test_a_state_that_may_not_move_is_held(solver, width, which, middle):
 
 
 def test_more_stages_do_not_take_many_more_iterations():
-    counts = {n: solve(task(arc(), count=n), "fatrop") for n in (12, 24, 48, 96, 192)}
+    counts = {n: solve(task(walled(), count=n), "fatrop") for n in (12, 24, 48, 96, 192)}
     assert all(s.status == "solved" for s in counts.values())
     assert max(s.iterations for s in counts.values()) <= 80
 
@@ -200,7 +191,7 @@ def test_a_solver_that_does_not_end_is_left_behind(monkeypatch):
     slow = lru_cache(lambda *_: lambda **_: time.sleep(0.5))
     monkeypatch.setattr(program, "PATIENCE", 0.05)
     monkeypatch.setattr(program, "_programme", slow)
-    solution = solve(task(arc()), "fatrop")
+    solution = solve(task(walled()), "fatrop")
     assert (solution.status, solution.iterations) == ("stopped", 0)
     assert np.isnan(solution.residual)
     assert slow.cache_info().currsize == 0  # nobody else gets the one that is still at work
@@ -209,12 +200,10 @@ def test_a_solver_that_does_not_end_is_left_behind(monkeypatch):
 ENDLESS = """
 from dataclasses import replace
 from shotc_casadi import program
-from tests.path_scenes import TOWER, circle, mission, shot
-from tests.refiner_scenes import subject, task
+from tests.refiner_scenes import arc, task
 program.PATIENCE = 1.0
-arc = subject(mission(targets=(TOWER,)), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
-short = task(arc._replace(leg=replace(arc.leg, duration=0.5)))
-print(program.solve(short, "fatrop").status, program.solve(task(arc), "fatrop").status)
+short = task(arc()._replace(leg=replace(arc().leg, duration=0.5)))
+print(program.solve(short, "fatrop").status, program.solve(task(arc()), "fatrop").status)
 """
 
 

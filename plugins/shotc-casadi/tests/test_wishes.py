@@ -1,0 +1,84 @@
+"""What the camera is to show at every node."""
+
+from __future__ import annotations
+
+from math import cos, sin
+
+import numpy as np
+import pytest
+from shotc_casadi.conditions import ANG, LOOK_AT, OURS, OURS_4PT
+from shotc_casadi.wishes import own_angles, wishes
+
+from shotc.geom.camera import aim_at
+from shotc.ir.mission import Target
+from shotc.ir.path import CAM_PITCH, CAM_YAW
+from tests.path_scenes import ASPECT, HFOV, TOWER, framed, free, mission, shot
+from tests.records import replace as changed
+from tests.refiner_scenes import subject
+
+MAST = Target("mast", (30.0, 30.0, 5.0), 1.0, 10.0, ("targets", "mast"))
+
+
+def test_the_place_asked_is_that_of_the_leg():
+    keys = [
+        framed(i, (45 * cos(a), 45 * sin(a), 20.0), TOWER, uv=uv)
+        for i, (a, uv) in enumerate([(-1.5, (0, 0)), (-0.9, (-1 / 3, 1 / 3)), (-0.2, (1 / 3, 0))])
+    ]
+    of = subject(mission(targets=(TOWER,)), shot(keys))
+    (span,) = of.leg.framing
+    s = np.linspace(of.leg.curve.start, of.leg.curve.end, 57)
+    wanted = wishes(of, OURS, s)
+    assert wanted.place == pytest.approx(span.reference(s), abs=1e-9)
+    assert (wanted.framed == 1).all()
+    assert (wanted.whole == 1).all()
+    assert wanted.centre == pytest.approx(np.tile(TOWER.centre, (57, 1)))
+    assert set(wanted.radius) == {TOWER.radius}
+    assert wishes(of, OURS_4PT, s).place == pytest.approx(wanted.place)
+
+
+def test_between_two_targets_one_becomes_the_other():
+    keys = [framed(0, (-30, -40, 20), TOWER), framed(1, (10, -40, 15), TOWER), framed(2, (50, -10, 10), MAST)]
+    of = subject(mission(targets=(TOWER, MAST)), shot(keys))
+    first, middle, last = (m.s for m in of.leg.marks)
+    s = np.linspace(middle, last, 41)
+    wanted = wishes(of, OURS, s)
+    share = (wanted.centre - TOWER.centre)[:, 0] / (MAST.centre[0] - TOWER.centre[0])
+    assert share[[0, -1]] == pytest.approx([0, 1], abs=1e-12)
+    assert (np.diff(share) >= 0).all()
+    assert share[20] == pytest.approx(0.5)
+    assert wanted.radius == pytest.approx((1 - share) * TOWER.radius + share * MAST.radius)
+    assert wanted.height == pytest.approx((1 - share) * TOWER.height + share * MAST.height)
+    before = wishes(of, OURS, np.linspace(first, middle, 11)[:-1])
+    assert before.centre == pytest.approx(np.tile(TOWER.centre, (10, 1)))
+
+
+def test_what_frames_nothing_keeps_the_angles_of_the_convex_path():
+    keys = [framed(0, (-30, -40, 20), TOWER), framed(1, (0, -40, 20), TOWER), free(2, (40, -40, 20), yaw=1.0)]
+    of = subject(mission(targets=(TOWER,)), shot(keys))
+    middle = of.leg.marks[1].s
+    s = np.linspace(of.leg.curve.start, of.leg.curve.end, 60)
+    wanted = wishes(of, OURS, s)
+    assert ((wanted.framed == 1) == (s < middle)).all()
+    assert (wanted.whole == wanted.framed).all()
+    assert wanted.aim == pytest.approx(of.leg.curve(s)[:, [CAM_YAW, CAM_PITCH]])
+
+
+@pytest.mark.parametrize("condition", [ANG, LOOK_AT], ids=lambda c: c.name)
+def test_the_papers_conditions_pass_through_the_authors_own_angles(condition):
+    """Composition turned the camera; ANG and LOOK-AT know nothing of it."""
+    keys = [
+        changed(framed(i, (45 * cos(a), 45 * sin(a), 20.0), TOWER), asked=(0.2, -0.15))
+        for i, a in enumerate((-1.5, -0.9, -0.2))
+    ]
+    of = subject(mission(targets=(TOWER,)), shot(keys))
+    s = np.array([m.s for m in of.leg.marks])
+    wanted = wishes(of, condition, s)
+    for k, key in enumerate(keys):
+        d = tuple(c - p for c, p in zip(TOWER.centre, key.at, strict=True))
+        yaw, pitch = aim_at(d, (0.2, -0.15), HFOV, ASPECT)
+        assert own_angles(of, key) == pytest.approx((yaw, pitch))
+        assert np.exp(1j * wanted.aim[k, 0]) == pytest.approx(np.exp(1j * yaw), abs=1e-6)
+        assert wanted.aim[k, 1] == pytest.approx(pitch, abs=1e-6)
+    dense = wishes(of, condition, np.linspace(s[0], s[-1], 200)).aim
+    assert np.abs(np.diff(dense, axis=0)).max() < 0.1  # no whole turns
+    assert (wanted.whole == 0).all()
