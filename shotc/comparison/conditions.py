@@ -28,7 +28,9 @@ def condition(name: str, path: PathIR, deadline: float | None, ctx: PassContext)
     if found.plugin is None:
         return Condition(name, found.package, None, found.diagnostics)
     seat = Seat(found.plugin, found.package, found.reference)
-    done = run((RefinePath(seat, deadline), ParameterizeTime()), path, ctx)
+    # To keep a path takes no time, and to watch over it a new process.
+    limit = None if name == plugins.NO_REFINER else deadline
+    done = run((RefinePath(seat, limit), ParameterizeTime()), path, ctx)
     seconds = done.reports[0].seconds
     if done.value is None or has_errors(done.diagnostics):
         return Condition(name, found.package, None, _errors(done.diagnostics), seconds=seconds)
