@@ -20,7 +20,7 @@ from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
 from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.turns import steady
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_fit import Fit, fit
+from shotc.solvers.spline_fit import Fit, fit, within
 
 __all__ = [
     "CAM_PITCH",
@@ -54,4 +54,5 @@ __all__ = [
     "steady",
     "subdivide",
     "with_camera",
+    "within",
 ]

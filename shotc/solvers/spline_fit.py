@@ -16,6 +16,8 @@ from shotc.geom.bspline import Rows, control_rows, count, energy_rows, value_row
 from shotc.solvers.conic import Status, solve
 from shotc.solvers.spline_qp import scalar_map
 
+TOUCH = 3e-7  # a third of what verification lets a limit be missed by
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
@@ -47,7 +49,17 @@ def fit(task: Fit) -> tuple[Status, Array]:
     slack = np.minimum(points - task.low.ravel(), task.high.ravel() - points)
     if slack.min() >= -1e-9:
         return Status.SOLVED, coef
-    return _bounded(task)
+    return _bounded(task, coef)
+
+
+def within(points: Array, low: Array | float, high: Array | float) -> Array:
+    """Return Bernstein points moved into their bounds, where more than rounding took them out.
+
+    Every point that is moved costs the curve its smoothness at the breaks around it, and verification
+    allows for more than rounding.
+    """
+    inside = np.clip(points, low, high)
+    return np.asarray(np.where(np.abs(inside - points) > TOUCH, inside, points))
 
 
 def _least_squares(task: Fit) -> tuple[Any, Array]:
@@ -79,22 +91,26 @@ def _unbounded(task: Fit) -> Array:
     return np.asarray(spsolve(system, np.concatenate([matrix.T @ wanted, task.anchor]))[:size])
 
 
-def _bounded(task: Fit) -> tuple[Status, Array]:
+def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
+    """Solve for the change to the optimum without bounds: near it the numbers are small, and it costs nothing."""
     import cvxpy as cp
 
-    matrix, wanted = _least_squares(task)
+    matrix, _ = _least_squares(task)
+    matrix = matrix / max(float(abs(matrix).max()), 1e-12)
     size = matrix.shape[1]
-    x = cp.Variable(size)
+    change = cp.Variable(size)
     points = scalar_map(control_rows(task.breaks), size)
     assert task.low is not None
     assert task.high is not None
-    constraints = [points @ x >= task.low.ravel(), points @ x <= task.high.ravel()]
+    at = points @ free
+    constraints = [points @ change >= task.low.ravel() - at, points @ change <= task.high.ravel() - at]
     if len(task.anchor):
-        constraints.append(scalar_map(value_rows(task.breaks, task.anchor_at), size) @ x == task.anchor)
-    status = solve(cp.Problem(cp.Minimize(cp.sum_squares(matrix @ x - wanted)), constraints))
-    if x.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
+        constraints.append(scalar_map(value_rows(task.breaks, task.anchor_at), size) @ change == 0.0)
+    programme = cp.Problem(cp.Minimize(cp.sum_squares(matrix @ change)), constraints)
+    status = solve(programme)
+    if change.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
         return status, np.zeros(size)
-    return status, np.asarray(x.value)
+    return status, np.asarray(free + change.value)
 
 
 def _stiff(task: Fit, order: int, weight: float | Array) -> Rows:

@@ -1,4 +1,5 @@
 """Refiners for shotc: the framing problem of Gebhardt and Hilliges as an optimal-control problem.
 
-conditions -> wishes -> stages -> program -> camera -> refiner: each module uses those before it.
+conditions -> wishes -> stages -> program -> camera -> proof -> rounds -> refiner:
+each module uses those before it.
 """

@@ -5,7 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.plugin_api import Leg, Piecewise
-from shotc.refiner_api import CAM_PITCH, CAM_YAW, Array, Drone, Fit, Status, fit, restrict, spline, subdivide
+from shotc.refiner_api import (
+    CAM_PITCH,
+    CAM_YAW,
+    Array,
+    Drone,
+    Fit,
+    Status,
+    fit,
+    restrict,
+    spline,
+    subdivide,
+    within,
+)
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import PITCH, YAW
 
@@ -37,7 +49,7 @@ def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, ends: Array) -
     fits.append(_fit(breaks, stages, change[:, 3], (outer, at_ends[:, 0])))
     fits.append(_fit(breaks, stages, change[:, 4], (outer, at_ends[:, 1]), (low - pitch, high - pitch)))
     ctrl = base.ctrl + spline(breaks, np.column_stack(fits)).ctrl
-    ctrl[:, :, 4] = np.clip(ctrl[:, :, 4], low, high)
+    ctrl[:, :, 4] = within(ctrl[:, :, 4], low, high)
     return Piecewise(breaks, ctrl)
 
 

@@ -6,9 +6,10 @@ from functools import cache
 
 import numpy as np
 import pytest
-from shotc_casadi import refiner
+from shotc_casadi import rounds
 from shotc_casadi.conditions import OURS
-from shotc_casadi.refiner import ROUNDS
+from shotc_casadi.refiner import subjects
+from shotc_casadi.rounds import ROUNDS, refine_shot
 
 from shotc.api import emit_plan
 from shotc.diag.registry import has_errors
@@ -120,12 +121,12 @@ def test_where_framing_and_a_wall_conflict_the_wall_wins_and_the_loss_is_told():
 
 def test_what_the_nodes_do_not_keep_is_tightened_until_it_is_proved(monkeypatch):
     """A refiner that does not see the wall at its nodes finds it in the proof, and comes back."""
-    real = refiner.half_spaces
+    real = rounds.half_spaces
     monkeypatch.setattr(
-        refiner, "half_spaces", lambda room, curve, nodes: real(room.without("zone wall"), curve, nodes)
+        rounds, "half_spaces", lambda room, curve, nodes: real(room.without("zone wall"), curve, nodes)
     )
-    (subject,) = refiner.subjects(path_of(compiled(WALLED), "solve-path-qp"))
-    found = refiner.refine_shot(subject, OURS)
+    (subject,) = subjects(path_of(compiled(WALLED), "solve-path-qp"))
+    found = refine_shot(subject, OURS)
     assert 1 < found.rounds <= ROUNDS
     assert found.camera is not None
     assert shortfall(subject.room, found.camera.ctrl[:, :, :3]).max() <= 0.0

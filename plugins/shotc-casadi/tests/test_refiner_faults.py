@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shotc_casadi import program, refiner
+from shotc_casadi import program, refiner, rounds
 from shotc_casadi.camera import NoFit
 from shotc_casadi.proof import Check
-from shotc_casadi.refiner import ANG, LOOK_AT, OURS, OURS_4PT, ROUNDS, SOLVERS
+from shotc_casadi.refiner import ANG, LOOK_AT, OURS, OURS_4PT
+from shotc_casadi.rounds import ROUNDS, SOLVERS
 
 from shotc import plugins
 from shotc.diag.registry import has_errors
@@ -64,7 +65,7 @@ def test_without_a_fault_nothing_is_said():
 @pytest.mark.parametrize(("status", "code"), [("nan", "R010"), ("stopped", "R011"), ("infeasible", "R012")])
 def test_a_shot_that_no_solver_solves_is_an_error_with_its_stage(monkeypatch, status, code):
     only(PASS, monkeypatch)
-    monkeypatch.setattr(refiner, "solve", failing(*SOLVERS, status=status))
+    monkeypatch.setattr(rounds, "solve", failing(*SOLVERS, status=status))
     outcome = refined()
     (told,) = outcome.diagnostics
     assert told.code == code
@@ -84,7 +85,7 @@ def test_an_iterate_that_is_no_number_has_no_time(monkeypatch):
         solution = REAL(task, solver)
         return replace(solution, status="nan", states=np.full_like(solution.states, np.nan), residual=np.nan)
 
-    monkeypatch.setattr(refiner, "solve", solve)
+    monkeypatch.setattr(rounds, "solve", solve)
     (told,) = refined().diagnostics
     assert told.code == "R010"
     assert "nan" not in " ".join(told.notes)
@@ -92,7 +93,7 @@ def test_an_iterate_that_is_no_number_has_no_time(monkeypatch):
 
 def test_where_fatrop_fails_ipopt_is_used_and_announced(monkeypatch):
     only(ROUND, monkeypatch)
-    monkeypatch.setattr(refiner, "solve", failing("fatrop"))
+    monkeypatch.setattr(rounds, "solve", failing("fatrop"))
     outcome = refined()
     (told,) = outcome.diagnostics
     assert told.code == "R013"
@@ -109,7 +110,7 @@ def test_where_fatrop_fails_ipopt_is_used_and_announced(monkeypatch):
 
 def test_a_solver_that_did_not_end_is_called_so(monkeypatch):
     only(ROUND, monkeypatch)
-    monkeypatch.setattr(refiner, "solve", failing("fatrop", iterations=0))
+    monkeypatch.setattr(rounds, "solve", failing("fatrop", iterations=0))
     (told,) = refined().diagnostics
     assert told.notes == ("fatrop: 30 s without an end",)
 
@@ -121,7 +122,7 @@ def test_one_shot_that_fails_leaves_the_other_refined(monkeypatch):
         calls.append(task.stages)
         return failing(*SOLVERS)(task, solver) if len(calls) <= 2 else REAL(task, solver)
 
-    monkeypatch.setattr(refiner, "solve", solve)
+    monkeypatch.setattr(rounds, "solve", solve)
     outcome = refined(path(PASS))
     assert [d.code for d in outcome.diagnostics] == ["R011"]
     assert np.array_equal(leg(outcome.value, PASS).curve.ctrl, leg(path(PASS), PASS).curve.ctrl)
@@ -133,15 +134,15 @@ def test_one_shot_that_fails_leaves_the_other_refined(monkeypatch):
 
 def test_a_camera_that_is_never_clear_is_told_by_its_clearance(monkeypatch):
     only(PASS, monkeypatch)
-    rounds = []
+    seen = []
 
     def never(subject, condition, camera):
-        rounds.append(camera)
-        return Check(1.0 / len(rounds), 0.0, 0.0)
+        seen.append(camera)
+        return Check(1.0 / len(seen), 0.0, 0.0)
 
-    monkeypatch.setattr(refiner, "checked", never)
+    monkeypatch.setattr(rounds, "checked", never)
     outcome = refined()
-    assert len(rounds) == ROUNDS
+    assert len(seen) == ROUNDS
     (told,) = outcome.diagnostics
     assert told.code == "R012"
     assert "clearances between stages" in told.message
@@ -155,7 +156,7 @@ def test_nodes_that_no_camera_goes_through_are_told_by_the_gimbal(monkeypatch):
     def none(*_):
         raise NoFit
 
-    monkeypatch.setattr(refiner, "camera", none)
+    monkeypatch.setattr(rounds, "camera", none)
     (told,) = refined().diagnostics
     assert told.code == "R012"
     assert "gimbal" in told.message
@@ -164,17 +165,17 @@ def test_nodes_that_no_camera_goes_through_are_told_by_the_gimbal(monkeypatch):
 def test_the_best_round_is_kept_with_the_solver_that_made_it(monkeypatch):
     """The second round crops less but fails in both solvers: the first one's camera is flown."""
     only(PASS, monkeypatch)
-    rounds = []
+    seen = []
 
     def cropped(subject, condition, camera):
-        rounds.append(camera)
+        seen.append(camera)
         return Check(0.0, 0.0, 0.01)
 
     def solve(task, solver):
-        return failing(*SOLVERS)(task, solver) if rounds else REAL(task, solver)
+        return failing(*SOLVERS)(task, solver) if seen else REAL(task, solver)
 
-    monkeypatch.setattr(refiner, "checked", cropped)
-    monkeypatch.setattr(refiner, "solve", solve)
+    monkeypatch.setattr(rounds, "checked", cropped)
+    monkeypatch.setattr(rounds, "solve", solve)
     outcome = refined()
     assert outcome.diagnostics == ()
     stats = dict(outcome.value.stats)
@@ -182,7 +183,7 @@ def test_the_best_round_is_kept_with_the_solver_that_made_it(monkeypatch):
     assert stats[f"{PASS}.refine_status"] == "solved"
     assert stats[f"{PASS}.refine_rounds"] == 2.0
     assert leg(outcome.value, PASS).curve(leg(path(), PASS).curve.end)[:5] == pytest.approx(
-        rounds[0](rounds[0].end)
+        seen[0](seen[0].end)
     )
 
 

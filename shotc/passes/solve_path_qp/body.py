@@ -15,11 +15,12 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import spline
 from shotc.ir.mission import Drone
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_fit import Fit, fit
+from shotc.solvers.spline_fit import Fit, fit, within
 
 SAMPLES = 3  # per piece
 FAINT = 1e-4  # weight that keeps a body in place where nothing else does
 FREE_PULL = 1e-8  # 1/m: picks one of the headings that need no turn at all
+UPRIGHT = 0.02  # metres sideways for each metre of path, below which a flight has no course to point along
 SWITCH = 1.0  # rad^2: what it costs to change over from one gimbal stop to the other
 
 
@@ -71,7 +72,7 @@ def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
         )
     )
     curve = spline(breaks, coef[:, None])
-    ctrl = np.clip(curve.ctrl[:, :, 0], points - high, points - low)
+    ctrl = within(curve.ctrl[:, :, 0], points - high, points - low)
     return status, Piecewise(breaks, ctrl[:, :, None])
 
 
@@ -94,7 +95,7 @@ def _forward(drone: Drone, task: BodyTask, at: Array, cam: Array) -> tuple[Array
     rate = task.position.derivative()(at)[:, :2]
     flat = np.linalg.norm(rate, axis=1)
     weight = np.minimum(flat, 1.0) ** 2 + FAINT
-    course = np.where(flat > 1e-6, np.arctan2(rate[:, 1], rate[:, 0]), cam)
+    course = np.where(flat > UPRIGHT, np.arctan2(rate[:, 1], rate[:, 0]), cam)
     options = [_relatives(drone, float(c - t)) for c, t in zip(cam, course, strict=True)]
     first = None if task.start is None else float(cam[0]) - task.start
     return cam - _best_windings(options, weight, first), weight

@@ -26,7 +26,7 @@ SAME_END = 1e-9
 
 
 class NoTransit(Exception):
-    """The unfilmed legs cannot be led to a refined shot's ends; the text says to which."""
+    """A refined shot has no body or no way to it; the text says what cannot be kept."""
 
 
 def rejoined(path: PathIR, cameras: Mapping[str, Piecewise]) -> PathIR:
@@ -58,20 +58,27 @@ def with_camera(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
     old = leg.curve
     if old is None or abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
-    ends: tuple[float | None, float | None] = (None, None)
-    if _same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and _same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1]):
-        ends = float(old.ctrl[0, 0, BODY_YAW]), float(old.ctrl[-1, -1, BODY_YAW])
-    speed = leg.pace * drone.limits.speed
-    status, body = body_line(drone, BodyTask(camera.channels(0, 1, 2), camera.channels(3), *ends, speed))
-    if status not in {Status.SOLVED, Status.INACCURATE}:
-        raise NoTransit(f"no body yaw goes with the camera of shot {leg.shot}")
+    kept = _same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and _same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1])
+    body = _body(drone, leg, camera, old) if kept else None
+    kept = body is not None
+    body = body or _body(drone, leg, camera, None)
+    if body is None:
+        raise NoTransit("the gimbal's yaw range")
     curve = stack(camera, body, restrict(old.channels(HFOV), camera.breaks))
-    if ends[0] is not None:
+    if kept:
         # Fits are good to 1e-9; joints are to be equal.
         ctrl = curve.ctrl.copy()
         ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]
         curve = Piecewise(curve.breaks, ctrl)
     return replace(leg, curve=curve, pose=tuple(map(float, curve.ctrl[0, 0])))
+
+
+def _body(drone: Drone, leg: Leg, camera: Piecewise, ends: Piecewise | None) -> Piecewise | None:
+    """Return the body's yaw, with the ends of an earlier curve where there is one; None without a solution."""
+    start, end = (None, None) if ends is None else ends.ctrl[[0, -1], [0, -1], BODY_YAW].tolist()
+    task = BodyTask(camera.channels(0, 1, 2), camera.channels(3), start, end, leg.pace * drone.limits.speed)
+    status, body = body_line(drone, task)
+    return body if status in {Status.SOLVED, Status.INACCURATE} else None
 
 
 def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
@@ -89,7 +96,7 @@ def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
     if isinstance(joined[0], Leg):
         return joined
     before = joined[1]
-    raise NoTransit(f"no way leads to {'home' if before is None else f'shot {before.shot.shot.id}'}")
+    raise NoTransit("a way home" if before is None else f"a way to shot `{before.shot.shot.id}`")
 
 
 def _same_ends(old: Leg, new: Leg) -> bool:

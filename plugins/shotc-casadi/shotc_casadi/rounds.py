@@ -1,0 +1,154 @@
+"""A shot refined in rounds: solved, looked at between its nodes, tightened, and solved again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf, nan
+from typing import NamedTuple
+
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import Array, NoTransit, shortfall
+from shotc_casadi.camera import NoFit, camera
+from shotc_casadi.conditions import Condition
+from shotc_casadi.problem import Margins, problem
+from shotc_casadi.program import Problem, Solution, Solver, solve
+from shotc_casadi.proof import Check, checked, hopeless, tighter
+from shotc_casadi.stages import Stages, stages
+from shotc_casadi.symbols import PITCH, YAW
+from shotc_casadi.walls import half_spaces
+from shotc_casadi.wishes import Subject, wishes
+
+SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
+ROUNDS = 6
+HOLD_AFTER = 3  # rounds, after which the convex path is all but held: it is known to be clear
+
+
+class Gap(NamedTuple):
+    """Where a camera is not proved to be clear, though its nodes are: path parameter, and by metres.
+
+    metres : NaN where no camera goes through the nodes within the gimbal's pitch range
+    """
+
+    s: float
+    metres: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Refined:
+    """One shot refined.
+
+    camera : x, y, z, yaw, pitch over the leg's s, or None where no solver found a way
+    rounds : how often it was solved until it was proved between the nodes
+    problem, solution : those of the camera, or the last ones; first : the solver that failed before
+    seconds : of all solves
+    gap : what stands against the camera of a problem that was solved
+    """
+
+    shot: str
+    camera: Piecewise | None
+    nodes: Stages
+    rounds: int
+    problem: Problem
+    solution: Solution
+    seconds: float
+    first: Solution | None
+    gap: Gap | None
+
+
+def refine_shot(subject: Subject, condition: Condition, count: int | None = None) -> Refined:
+    """Refine one shot, tightening what does not hold between the nodes until it does.
+
+    count : stages, or None for as many as its keyframes need
+    A shot whose duration the solver does not meet is refined for the least time: the time pass slows it
+    down to its duration, or says best what it lacks.
+    """
+    if subject.leg.duration is None:
+        return _refine(subject, condition, count, SOLVERS)[0]
+    if not hopeless(subject):
+        refined, check = _refine(subject, condition, count, SOLVERS[:1])
+        if refined.camera is not None and check.late <= 0:
+            return refined
+    hasty = subject._replace(leg=replace(subject.leg, duration=None, pace=1.0))
+    return _refine(hasty, condition, count, SOLVERS)[0]
+
+
+def _refine(
+    subject: Subject, condition: Condition, count: int | None, solvers: tuple[Solver, ...]
+) -> tuple[Refined, Check]:
+    leg = subject.leg
+    assert leg.curve is not None
+    assert leg.shot is not None
+    nodes = stages(leg, subject.placed, subject.drone, count)
+    wanted = wishes(subject, condition, nodes.s)
+    walls = half_spaces(subject.room, leg.curve, nodes)
+    margins = Margins()
+    following = problem(subject, condition, nodes, wanted, walls, margins)
+    ends = following.states[[0, -1]][:, [YAW, PITCH]]
+    done: list[_Tried] = []
+    for rounds in range(1, ROUNDS + 1):
+        tried = _tried(subject, condition, nodes, following, _solved(following, solvers), ends)
+        helped = not done or tried.check.helped(min(t.check for t in done))
+        done.append(tried)
+        best = min(done, key=lambda t: t.check)
+        if tried.camera is None or tried.check.holds or (best.check.lack <= 0 and not helped):
+            break
+        margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
+        tightened = problem(subject, condition, nodes, wanted, walls, margins)
+        following = replace(tightened, states=tried.solution.states, inputs=tried.solution.inputs)
+    return _result(subject, nodes, done, best), best.check
+
+
+class _Tried(NamedTuple):
+    """One round: the camera, None where there is none; what is open; failed : a solver before this one."""
+
+    camera: Piecewise | None
+    check: Check
+    problem: Problem
+    solution: Solution
+    failed: Solution | None
+
+
+def _tried(
+    subject: Subject,
+    condition: Condition,
+    nodes: Stages,
+    task: Problem,
+    solved: tuple[Solution, Solution | None],
+    ends: Array,
+) -> _Tried:
+    nothing = _Tried(None, Check(inf, inf, inf), task, *solved)
+    if solved[0].status != "solved":
+        return nothing
+    try:
+        found = camera(subject.drone, subject.leg, nodes, solved[0].states, ends)
+        return nothing._replace(camera=found, check=checked(subject, condition, found))
+    except (NoFit, NoTransit):
+        return nothing
+
+
+def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:
+    """Return the best camera if it is clear, or else where the last round ended."""
+    leg = subject.leg
+    assert leg.shot is not None
+    kept = best if best.check.lack <= 0 else done[-1]._replace(camera=None)
+    seconds = sum(t.solution.seconds + (t.failed.seconds if t.failed else 0.0) for t in done)
+    gap = None
+    if kept.camera is None and kept.solution.status == "solved":
+        gap = Gap(float(nodes.s[0]), nan) if best.camera is None else _widest(subject, best.camera)
+    return Refined(
+        leg.shot, kept.camera, nodes, len(done), kept.problem, kept.solution, seconds, kept.failed, gap
+    )
+
+
+def _widest(subject: Subject, found: Piecewise) -> Gap:
+    lack = shortfall(subject.room, found.ctrl[:, :, :3])
+    k = int(lack.argmax())
+    return Gap(float(found.breaks[k]), float(lack[k]))
+
+
+def _solved(task: Problem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solution | None]:
+    """Solve by the first of the solvers, or else by the second; the second value is the first's failure."""
+    solution = solve(task, solvers[0])
+    if solution.status == "solved" or len(solvers) == 1:
+        return solution, None
+    return solve(task, solvers[1]), solution
