@@ -14,6 +14,8 @@ class PlacedKeyframe(NamedTuple):
     reference : (u, v) of the target's centre, or None
     asked : (u, v) that the user's own framing gave, or None
     hold, time, placed : as in Keyframe
+    turn : rad by which the camera's yaw turns from the keyframe before to this one, where the author
+        says how often it goes round; None where that is free
     """
 
     at: Vec3
@@ -27,6 +29,7 @@ class PlacedKeyframe(NamedTuple):
     time: float | None
     placed: bool
     path: KeyPath
+    turn: float | None = None
 
 
 class PlacedShot(NamedTuple):

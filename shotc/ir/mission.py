@@ -130,6 +130,7 @@ class Keyframe(NamedTuple):
     composition : the set this keyframe's target is placed on (shot's or own)
     hold : seconds at rest; time : seconds from the shot's start, if fixed
     placed : True where the user gave the position (it binds), False where a kind generated it
+    heading : compass heading as the user wrote it, rad, whole turns included; None where none is written
     """
 
     at: Vec3
@@ -141,6 +142,7 @@ class Keyframe(NamedTuple):
     time: float | None
     placed: bool
     path: KeyPath
+    heading: float | None = None
 
 
 class Timing(NamedTuple):

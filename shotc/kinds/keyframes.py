@@ -39,6 +39,7 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
         time=spec.time,
         placed=True,
         path=(*scene.path, *path),
+        heading=spec.heading,
     )
 
 

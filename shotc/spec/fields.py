@@ -26,6 +26,7 @@ __all__ = [
     "FieldOfView",
     "Frame",
     "Frequency",
+    "Heading",
     "Geodetic",
     "Jerk",
     "Length",
@@ -72,6 +73,8 @@ NonNegativeSpeed = Annotated[float, Quantity("NonNegativeSpeed", "speed", 0.0)]
 Acceleration = Annotated[float, Quantity("Acceleration", "acceleration", SMALLEST["acceleration"])]
 Jerk = Annotated[float, Quantity("Jerk", "jerk", SMALLEST["jerk"])]
 Angle = Annotated[float, _ANGLE]
+# Ten turns: more is a slip of the pen.
+Heading = Annotated[float, Quantity("Heading", "angle", -20 * pi, 20 * pi, noun="heading")]
 Pitch = Annotated[float, _PITCH]
 FieldOfView = Annotated[
     float,

@@ -11,10 +11,10 @@ from pydantic_core import CoreSchema
 
 from shotc.spec.faults import fault
 from shotc.spec.fields import (
-    Angle,
     CompositionSet,
     FieldOfView,
     Frame,
+    Heading,
     LookAt,
     Name,
     NonNegativeDuration,
@@ -129,7 +129,10 @@ class KeyframeSpec(Model):
     exclusive: ClassVar[tuple[OneOf, ...]] = (AIM,)
 
     at: Position = Field(description="position of the camera")
-    heading: Angle | None = Field(default=None, description="compass heading of the camera")
+    heading: Heading | None = Field(
+        default=None,
+        description="compass heading of the camera; 360 deg and more, either way, says how far to turn there",
+    )
     pitch: Pitch | None = Field(default=None, description="elevation of the camera, positive up")
     look_at: LookAt | None = Field(default=None, description="target or position to look at")
     frame: Frame | None = Field(

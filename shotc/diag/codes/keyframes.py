@@ -142,4 +142,13 @@ CODES: tuple[CodeInfo, ...] = (
         "fast as the drone, because the way grows with it. Let it drift more slowly, or take a faster drone.",
         ("drift: [1, 0, 0]", "drift: [12, 0, 0]"),
     ),
+    _code(
+        13,
+        "turns-while-following",
+        "a heading asks for a turn that would lose the target on the way",
+        "A heading of 360 deg or more says how far the camera turns to get there. Between two keyframes that "
+        "frame a target the camera follows the target, and cannot go round once more. Write the heading within "
+        "a whole turn, or let the camera turn between keyframes that frame nothing.",
+        ("{at: [45, -20, 15], look_at: tower}", "{at: [45, -20, 15], heading: 654 deg, pitch: -4 deg}"),
+    ),
 )

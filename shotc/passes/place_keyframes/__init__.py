@@ -20,6 +20,7 @@ from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
 from shotc.passes.place_keyframes.faults import Miss, does_not_fit, keeps, off_composition, report
 from shotc.passes.place_keyframes.flown_order import flown_order
+from shotc.passes.place_keyframes.turns import while_following, with_turns
 
 NORTH = pi / 2
 
@@ -38,6 +39,7 @@ class PlaceKeyframes:
             placed, misses = place_shot(ir, shot)
             shots.append(PlacedShot(shot, placed))
             diagnostics += report(ir, shot, misses)
+            diagnostics += while_following(ir, shot.keyframes, placed)
         value = None if has_errors(diagnostics) else KeyframeIR(ir, tuple(shots))
         return Outcome(value, tuple(diagnostics))
 
@@ -53,7 +55,7 @@ def place_shot(mission: MissionIR, shot: Shot) -> tuple[tuple[PlacedKeyframe, ..
         placed.append(done)
         if miss is not None:
             misses.append(miss)
-    return tuple(placed), tuple(misses)
+    return with_turns(shot.keyframes, tuple(placed)), tuple(misses)
 
 
 def _place(

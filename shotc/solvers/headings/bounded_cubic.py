@@ -78,7 +78,7 @@ def _rows(task: HeadingTask) -> tuple[Array, Array]:
 def _blossom(points: Array, a: float, b: float) -> tuple[Array, Array, Array]:
     """Return the Bernstein points of a quadratic's part from a to b of [0, 1]."""
     at = {t: (1 - t) * points[:-1] + t * points[1:] for t in (a, b)}
-    return tuple((1 - s) * at[t][0] + s * at[t][1] for t, s in ((a, a), (a, b), (b, b)))  # type: ignore[return-value]
+    return tuple((1 - s) * at[t][0] + s * at[t][1] for t, s in ((a, a), (a, b), (b, b)))
 
 
 def _least(base: Array, spread: Array, limits: Array) -> Array | None:

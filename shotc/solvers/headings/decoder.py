@@ -35,7 +35,7 @@ def decode(gram: Array, centre: Array, count: int, most_nodes: int = MOST_NODES)
 
     gram : shape (n, n), positive definite (LinAlgError otherwise); centre : shape (n,), n >= 1
     """
-    search = _Search(np.linalg.cholesky(gram).T, centre, count, most_nodes)
+    search = _Search(np.asarray(np.linalg.cholesky(gram), dtype=np.float64).T, centre, count, most_nodes)
     search.descend(len(centre) - 1, 0.0, [0] * len(centre))
     return Decoded(tuple(search.best), search.nodes, search.nodes >= most_nodes)
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,7 +28,7 @@ class Energy:
     pinned: tuple[float, float]
 
     @property
-    def free(self) -> Array:
+    def free(self) -> IntArray:
         """Indices in z of the free slopes, shape (K - 2,)."""
         count = len(self.at)
         return np.arange(count + 1, 2 * count - 1)

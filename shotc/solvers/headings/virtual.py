@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
-from shotc.geom.bspline import subdivide
+from shotc.geom.bspline import IntArray, subdivide
 from shotc.geom.pieces import Pieces
 from shotc.geom.proof import sup_norm
-from shotc.solvers.cone_rows import ConeRows
+from shotc.solvers.cone_rows import ConeRows, Term
 from shotc.solvers.conic import Status
 from shotc.solvers.headings.energy import cubic, energy
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, turned
@@ -42,7 +42,7 @@ class _Grid:
 
     knots: Array
     at: Array
-    piece: Array
+    piece: IntArray
     x: Array
     along: Array
     across: Array
@@ -131,7 +131,7 @@ def _bends(problem: ConeRows, grid: _Grid, bends: int) -> None:
             problem.zero([*_terms(piece, weight, axis, knots), (column, -np.ones(pieces))])
 
 
-def _samples(grid: _Grid, order: int) -> tuple[Array, Array]:
+def _samples(grid: _Grid, order: int) -> tuple[IntArray, Array]:
     return grid.piece, _weights(np.diff(grid.knots)[grid.piece], grid.x, order)
 
 
@@ -149,13 +149,13 @@ def _weights(h: Array, x: Array, order: int) -> Array:
     return np.asarray(weight)
 
 
-def _terms(piece: Array, weight: Array, axis: int, knots: int) -> list[tuple[Array, Array]]:
+def _terms(piece: IntArray, weight: Array, axis: int, knots: int) -> list[Term]:
     p, v = axis * knots + piece, (2 + axis) * knots + piece
     columns = (p, v, p + 1, v + 1)
     return [(column, weight[:, k]) for k, column in enumerate(columns)]
 
 
-def _dot(rows: tuple[Array, Array], direction: Array, knots: int) -> list[tuple[Array, Array]]:
+def _dot(rows: tuple[IntArray, Array], direction: Array, knots: int) -> list[Term]:
     """Return terms of a derivative's component along directions of shape (M, 2)."""
     piece, weight = rows
     return [

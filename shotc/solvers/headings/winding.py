@@ -42,8 +42,8 @@ def by_winding(task: HeadingTask) -> Headings:
 def _decoded(cost: Energy, shorter: Array, extra: Array) -> Decoded:
     matrix, linear, _ = cost.reduced()
     gram = extra.T @ matrix @ extra
-    centre = -np.linalg.solve(gram, extra.T @ (matrix @ shorter + linear))
-    return decode(gram, centre, LIST)
+    centre = np.linalg.solve(gram, -extra.T @ (matrix @ shorter + linear))
+    return decode(gram, np.asarray(centre, dtype=np.float64), LIST)
 
 
 def _judged(task: HeadingTask, cost: Energy, choices: list[Array], found: Decoded) -> Headings:
