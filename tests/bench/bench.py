@@ -151,7 +151,8 @@ def stages() -> None:
     """Print what refining one shot costs as its stages multiply, by fatrop and by IPOPT."""
     # Late, for a process that is started counts the memory of the one that starts it.
     from shotc_casadi.program import solve
-    from shotc_casadi.refiner import OURS, SOLVERS, refine_shot, subjects
+    from shotc_casadi.refiner import OURS, subjects
+    from shotc_casadi.rounds import SOLVERS, refine_shot
 
     path = compile_source(DEMO.read_bytes(), "demo.yaml", None, PlanOptions(stop_after="solve-path-qp"))
     subject = subjects(path.reports[-1].output)[0]
