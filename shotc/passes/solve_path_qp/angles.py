@@ -21,7 +21,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import FramingSpan
 from shotc.passes.solve_path_qp.turns import steady
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_fit import Fit, fit
+from shotc.solvers.spline_fit import Fit, fit, within
 
 PIECES = 3  # per stretch between keyframes, at least
 SAMPLES = 6  # per piece
@@ -219,7 +219,7 @@ def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> 
     pitch_status, pitch_coef = fit(Fit(breaks, at, pitch, weight, *ends, stiff, *bounds))
     curve = spline(breaks, np.column_stack([yaw_coef, pitch_coef]))
     ctrl = curve.ctrl.copy()
-    ctrl[:, :, 1] = np.clip(ctrl[:, :, 1], low, high)
+    ctrl[:, :, 1] = within(ctrl[:, :, 1], low, high)
     return yaw_status if yaw_status is not Status.SOLVED else pitch_status, Piecewise(breaks, ctrl)
 
 
