@@ -7,9 +7,12 @@ from math import hypot, pi, radians
 import numpy as np
 import pytest
 
+from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import view
 from shotc.ir.mission import Gimbal, Target
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
+from shotc.passes.solve_path_qp.body import BodyTask, body_line
+from shotc.solvers.conic import Status
 from tests.path_scenes import (
     ASPECT,
     FIELD,
@@ -26,6 +29,7 @@ from tests.path_scenes import (
     solve,
 )
 from tests.records import replace
+from tests.samples import orbit_mission
 
 
 def test_the_composition_is_kept_between_keyframes():
@@ -159,3 +163,16 @@ def test_many_cuts_of_one_shot_are_one_warning():
     outcome = solve(made, shot(ring))
     assert codes(outcome) == ["Q007"]
     assert any("stretches" in note for note in outcome.diagnostics[0].notes)
+
+
+def test_a_body_does_not_point_along_half_a_millimetre() -> None:
+    """An upright flight has no course, however a refiner ripples it."""
+    drone = replace(orbit_mission().drones[0], body="forward")
+    breaks = np.linspace(0.0, 20.0, 11)
+    points = np.repeat(np.linspace(0.0, 20.0, 51)[:, None], 3, axis=1) * np.array([0.0, 0.0, 1.0])
+    ctrl = np.stack([points[5 * i : 5 * i + 6] for i in range(10)])
+    ctrl[:, 2:4, 0] += 5e-4 * (-1.0) ** np.arange(10)[:, None]
+    task = BodyTask(Piecewise(breaks, ctrl), Piecewise(breaks, np.full((10, 6, 1), 0.7)), 0.7, 0.7, 2.0)
+    status, body = body_line(drone, task)
+    assert status is Status.SOLVED
+    assert np.abs(body.ctrl - 0.7).max() < 1e-3
