@@ -1,0 +1,1 @@
+"""The papers' experiments on missions of our own: `make papers`."""
