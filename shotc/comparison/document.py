@@ -46,7 +46,9 @@ def _condition(each: Condition, *, seconds: bool) -> dict[str, Any]:
 
 
 def _shot(shot: FlownShot) -> dict[str, Any]:
-    return {"shot": shot.id, "drone": shot.drone, "start": shot.start} | _encoded(shot.score._asdict())
+    return {"shot": shot.id, "drone": shot.drone, "start": shot.start, "rounds": shot.rounds} | _encoded(
+        shot.score._asdict()
+    )
 
 
 def _encoded(values: dict[str, Any]) -> dict[str, Any]:

@@ -6,6 +6,7 @@ Framing is read off the samples that verification judges.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.framing import view_of
 
 MOST = 0.95
+ROUNDS = "refine_rounds"
+"""Under SHOT.ROUNDS the statistics of a path say how often its refiner solved the shot."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 """Exact for the square of a quintic's third derivative, which has degree four."""
 
@@ -84,7 +87,12 @@ def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
     )
     squared = squared_jerk(track.curve, phase.start, phase.end)
     found = score(traces, squared, phase.end - phase.start)
-    return FlownShot(shot, track.drone, phase.start, phase.end, traces, found)
+    return FlownShot(shot, track.drone, phase.start, phase.end, traces, found, _rounds(plan, shot))
+
+
+def _rounds(plan: VerifiedIR, shot: str) -> int | None:
+    said = dict(plan.trajectory.stats).get(f"{shot}.{ROUNDS}")
+    return int(said) if isinstance(said, (int, float)) and isfinite(said) else None
 
 
 def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) -> Trace | None:

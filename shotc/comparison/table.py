@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from shotc.emit.screen import off_place, percent
-from shotc.ir.comparison import Comparison, Condition, Score
+from shotc.ir.comparison import Comparison, Condition, FlownShot, Score
 
 HEADING = (
     "refiner",
@@ -15,8 +15,9 @@ HEADING = (
     "worst",
     "whole in frame",
     "four points",
-    "jerk RMS",
+    "jerk RMS, m/s^3",
     "filmed",
+    "rounds",
     "refined in",
 )
 UNKNOWN, ALL = "-", "all"
@@ -24,7 +25,7 @@ LEGEND = (
     "error: from the wanted place on screen, in half frames, over all frames that the shot frames its target",
     "whole in frame: share of frames with the whole target in the frame, by its exact silhouette; "
     "four points: by the four points of Gebhardt and Hilliges",
-    "jerk RMS in m/s^3; filmed: how long the shots last",
+    "filmed: how long the shots last; rounds: how often the refiner solved them",
 )
 
 
@@ -70,9 +71,14 @@ def _rows(each: Condition, *, several: bool) -> Iterator[tuple[str, ...]]:
         why = each.faults[0].code if each.faults else UNKNOWN
         yield (each.refiner, ALL, f"no plan ({why})", *(UNKNOWN,) * (len(HEADING) - 4), seconds)
         return
-    yield (each.refiner, ALL, *_cells(each.score), seconds)
+    yield (each.refiner, ALL, *_cells(each.score), _rounds(each.shots), seconds)
     for shot in each.shots if several else ():
-        yield ("", shot.id, *_cells(shot.score), "")
+        yield ("", shot.id, *_cells(shot.score), _rounds([shot]), "")
+
+
+def _rounds(shots: Iterable[FlownShot]) -> str:
+    said = [shot.rounds for shot in shots if shot.rounds is not None]
+    return str(sum(said)) if said else UNKNOWN
 
 
 def _cells(score: Score) -> tuple[str, ...]:

@@ -53,7 +53,11 @@ class Trace:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FlownShot:
-    """One shot as one refiner has it flown; start, end : seconds of mission time."""
+    """One shot as one refiner has it flown.
+
+    start, end : seconds of mission time
+    rounds : how often the refiner solved it, None where it does not say
+    """
 
     id: str
     drone: str
@@ -61,6 +65,7 @@ class FlownShot:
     end: float
     traces: tuple[Trace, ...]
     score: Score
+    rounds: int | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

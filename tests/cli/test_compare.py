@@ -12,7 +12,8 @@ import pytest
 
 from shotc import plugins
 from shotc.comparison import Options, compare_source, ordered, outputs
-from shotc.ir.comparison import Condition
+from shotc.comparison.table import rows
+from shotc.ir.comparison import Comparison, Condition
 from tests.bad_refiners import MISSION, PASS, ROUND, text
 from tests.cli.conftest import Run
 from tests.distributions import lay, refiner
@@ -103,7 +104,7 @@ def shape(document: dict) -> None:
             "shots",
         ]
     assert list(none["all"]) == score
-    assert [list(shot) for shot in none["shots"]] == [["shot", "drone", "start", *score]] * 2
+    assert [list(shot) for shot in none["shots"]] == [["shot", "drone", "start", "rounds", *score]] * 2
     assert (none["planned"], none["faults"], none["broken_promises"]) == (True, [], [])
     assert [fault["code"] for fault in bent["broken_promises"]] == ["V020"]
     assert bent["planned"]
@@ -170,6 +171,18 @@ def test_a_refiner_that_takes_too_long_keeps_nobody_waiting(run: Run, good: Path
     done = run("compare", str(good), "--refiners", "none,slow", "--deadline", "0.5")
     assert done.code == 0
     assert "slow gives no plan, R004" in done.out
+
+
+def test_rounds_are_told_where_a_refiner_counts_them(install: Install) -> None:
+    install(
+        "counting",
+        "from dataclasses import replace",
+        f"return Outcome(replace(path, stats=(('{PASS}.refine_rounds', 3.0),)))",
+    )
+    (counting,) = conditions(MISSION, "counting")
+    assert [shot.rounds for shot in counting.shots] == [3, None]
+    found = Comparison(counting.plan.trajectory.keyframes.mission, (counting,))
+    assert [row[-1] for row in rows(found, seconds=False)] == ["rounds", "3", "3", "-"]
 
 
 def test_a_plan_that_breaks_a_promise_is_not_one_that_makes_it(install: Install) -> None:
