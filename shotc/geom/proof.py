@@ -99,26 +99,21 @@ def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) ->
     Where the curve enters the solid the value is negative: minus the depth at the deepest place found.
     ``gap`` as in ``sup_convex``, given the smallest distance found so far.
     """
-    best = Bound(np.inf, np.inf, 0.0)
-    for part in convex_parts(solid):
-        found = _inf_convex(pieces, part, gap)
-        best = Bound(
-            min(best.proven, found.proven),
-            *((found.attained, found.at) if found.attained < best.attained else (best.attained, best.at)),
-        )
+    best = _nearest(pieces, convex_parts(solid), gap)
     if best.attained > 0:
         return best
     deepest = _deepest(pieces, solid)
     return deepest if deepest.attained < 0 else best
 
 
-def _inf_convex(pieces: Pieces, part: Solid, gap: Callable[[float], float]) -> Bound:
+def _nearest(pieces: Pieces, parts: tuple[Solid, ...], gap: Callable[[float], float]) -> Bound:
     best, at, closed = np.inf, 0.0, np.inf
     rest = np.inf
     for _ in range(ROUNDS):
         if not len(pieces):
             break
-        lower, distance = _distances(pieces, part)
+        # Of all parts at once: near one part the curve may be in another.
+        lower, distance = np.min([_distances(pieces, part) for part in parts], axis=0)
         k = int(np.argmin(distance))
         if distance[k] < best:
             best, at = float(distance[k]), float(0.5 * (pieces.low[k] + pieces.high[k]))

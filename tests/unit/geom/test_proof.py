@@ -112,8 +112,16 @@ L_SHAPE = Prism(((0, 0), (10, 0), (10, 4), (4, 4), (4, 10), (0, 10)), 1.0, 8.0)
 SOLIDS = [Cylinder((3.0, -2.0), 5.0, -1.0, 12.0), box((20, 5, 4), (10, 8, 8), 0.5), L_SHAPE]
 
 
+# It ends on the solid's floor, and comes there along the seam of two of its convex parts.
+INTO_A_SEAM = Piecewise(
+    np.array([0.0, 1.0]),
+    np.array([[[1, 1, 0], [1, 1, 1], [0, 1, 1], [1, 1, 1], [1, 1, 1], [1, 1, 1]]], float),
+)
+
+
 @settings(deadline=None, max_examples=30)
 @given(curve=curves(), solid=st.sampled_from(SOLIDS))
+@example(curve=INTO_A_SEAM, solid=L_SHAPE)
 def test_distance_bound_holds_at_every_sample(curve: Piecewise, solid: Solid) -> None:
     bound = inf_distance(pieces(curve), solid, lambda _: 1e-4)
     sampled = min(distance(solid, tuple(p)) for p in dense(curve, 301))
