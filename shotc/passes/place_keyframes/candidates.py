@@ -147,20 +147,39 @@ def _along(setting: Setting, line: Line, asked: Vec2) -> Vec2 | None:
     foot = line.foot(setting, asked)
     if setting.slack(line.point(foot)) >= -TOUCH:
         return line.point(foot)
-    roomy = _best(setting, line)
-    if setting.slack(line.point(roomy)) < -TOUCH:
+    peaks = _peaks(setting, line)
+    if all(setting.slack(line.point(t)) < -TOUCH for t in peaks):
         return None
-    ends = [_first(setting, line, foot, end, roomy) for end in (-1.0, 1.0)]
+    ends = [_first(setting, line, (foot, end), peaks) for end in (-1.0, 1.0)]
     return _nearest(setting, asked, (line.point(t) for t in ends if t is not None))
 
 
 def _best(setting: Setting, line: Line) -> float:
-    """Return the t of the largest slack: the best of an even sample, then golden section about it."""
+    """Return the t of the largest slack."""
+    return max(_peaks(setting, line), key=lambda t: setting.slack(line.point(t)))
+
+
+def _peaks(setting: Setting, line: Line) -> list[float]:
+    """Return the t of every local maximum of the slack that an even sample shows.
+
+    Slack may have several, of equal height on a level line: each is a stretch where the target may fit.
+    """
+    steps = [-1.0 + 2.0 * i / STEPS for i in range(STEPS + 1)]
+    slacks = [-inf, *(setting.slack(line.point(t)) for t in steps), -inf]
+    tops = [
+        t
+        for t, left, here, right in zip(steps, slacks, slacks[1:], slacks[2:], strict=False)
+        if left <= here >= right and here > -inf
+    ]
+    return [_summit(setting, line, t) for t in tops] or [0.0]
+
+
+def _summit(setting: Setting, line: Line, middle: float) -> float:
+    """Return the t of the largest slack within a step of ``middle``, by golden section."""
 
     def slack(t: float) -> float:
         return setting.slack(line.point(t))
 
-    middle = max((-1.0 + 2.0 * i / STEPS for i in range(STEPS + 1)), key=slack)
     low, high = max(-1.0, middle - 2.0 / STEPS), min(1.0, middle + 2.0 / STEPS)
     left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_left, at_right = slack(left), slack(right)
@@ -176,11 +195,13 @@ def _best(setting: Setting, line: Line) -> float:
     return max(middle, (low + high) / 2, key=slack)
 
 
-def _first(setting: Setting, line: Line, foot: float, end: float, roomy: float) -> float | None:
-    """Walk from the foot to one end of the line; where candidates begin, bisect their border."""
+def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float | None:
+    """Walk the way from the foot to one end of the line; where candidates begin, bisect their border."""
+    foot, end = way
     steps = [foot + (end - foot) * i / STEPS for i in range(1, STEPS + 1)]
-    if (roomy - foot) * (end - foot) > 0:  # a stretch of candidates too short for the sample is found here
-        steps = sorted([*steps, roomy], key=lambda t: abs(t - foot))
+    # A stretch of candidates too short for the sample is found at its peak.
+    steps += [t for t in peaks if (t - foot) * (end - foot) > 0]
+    steps.sort(key=lambda t: abs(t - foot))
     outside = foot
     for step in steps:
         if setting.slack(line.point(step)) >= -TOUCH:

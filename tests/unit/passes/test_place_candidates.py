@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, hypot, pi, radians, sin, tan
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from shotc.geom.camera import silhouette_bounds, view
@@ -41,6 +41,8 @@ settings = st.builds(
     st.floats(0.2, 25),
     st.floats(radians(25), radians(100)),
 )
+# On the line v = 1/3 it fits on two short stretches, left and right, with nothing between them.
+TWO_STRETCHES = Setting((5.0, 0.0, -16.75), 0.8125, 9.0, 0.6875, 16 / 9, (radians(-90), radians(30)))
 places = st.tuples(st.floats(-1, 1), st.floats(-1, 1))
 
 
@@ -69,6 +71,8 @@ def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting: Se
 
 
 @given(settings, places)
+@example(TWO_STRETCHES, (1.0, 1.0))
+@example(TWO_STRETCHES, (-1.0, 1.0))
 def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_candidate(setting, LINES, asked)
     lines = [*(Line(c, True) for c in LINES.u_lines), *(Line(c, False) for c in LINES.v_lines)]
