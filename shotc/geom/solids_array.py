@@ -14,6 +14,11 @@ FAR = 1e7
 """Stands for an unlimited height, metres: beyond any flight, small enough for exact millimetres."""
 
 
+SEAM = 1e-9
+"""How far prisms reach beyond their walls against a sight line, metres: above the rounding of a flight's
+coordinates, so that no line slips between two convex parts of one solid."""
+
+
 def separation(part: Solid, points: Array) -> tuple[Array, Array]:
     """Return distances (M,) of points (M, 3) from a convex solid, 0 inside, and unit normals (M, 3).
 
@@ -88,7 +93,8 @@ def _in_convex(prism: Prism, flat: Array) -> Mask:
 def blocks(solid: Solid, eyes: Array, point: Array, least: float = 1e-6) -> Mask:
     """Tell which sight lines from eyes (M, 3) to one point (3,) run through the solid.
 
-    least : metres inside that count; a line that only touches is not blocked
+    least : metres inside that count; a line that only touches at a point is not blocked, one along a face
+    of a prism (within a nanometre of a wall) is
     """
     along = point - eyes
     length = np.sqrt(np.einsum("md,md->m", along, along))
@@ -109,7 +115,7 @@ def _overlap(part: Solid, eyes: Array, along: Array) -> tuple[Array, Array]:
         return _through_round(part, eyes, along, (enter, leave))
     for (ax, ay), (bx, by) in pairwise((*part.points, part.points[0])):
         normal = np.array([by - ay, ax - bx])
-        excess = (eyes[:, :2] - np.array([ax, ay])) @ normal
+        excess = (eyes[:, :2] - np.array([ax, ay])) @ normal - SEAM * np.hypot(*normal)
         enter, leave = _clip(enter, leave, excess, along[:, :2] @ normal)
     return enter, leave
 

@@ -11,7 +11,18 @@ from hypothesis.extra.numpy import arrays
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.geom.pieces import Pieces, cut, join, pieces
 from shotc.geom.proof import inf_channel, inf_distance, sup_channel, sup_norm, sup_outside
-from shotc.geom.solids import Cylinder, Prism, Solid, box, closest_on_segment, distance, edges, inside_polygon
+from shotc.geom.solids import (
+    Cylinder,
+    Prism,
+    Solid,
+    box,
+    closest_on_segment,
+    convex_parts,
+    depth,
+    distance,
+    edges,
+    inside_polygon,
+)
 from shotc.geom.solids_array import blocks, signed_distance
 
 coordinates = st.floats(-50, 50, allow_nan=False, width=32)
@@ -205,6 +216,8 @@ def inside(solid: Solid, p: np.ndarray) -> bool:
     st.tuples(coordinates, coordinates, coordinates),
 )
 @example(SOLIDS[1], (0.0, 0.0, 0.0), (14.0, 4.0, 0.0))
+@example(L_SHAPE, (2.0837100975335286e-19, 0.0, 2.0), (0.0, 0.0, 0.0))
+@example(L_SHAPE, (-2.0837100975335286e-19, 0.0, 2.0), (0.0, 0.0, 0.0))
 def test_sight_lines_against_marching(solid: Solid, a: tuple, b: tuple) -> None:  # type: ignore[type-arg]
     eye, point = np.array(a), np.array(b)
     march = [inside(solid, eye + (point - eye) * s) for s in np.linspace(0, 1, 801)]
@@ -212,9 +225,25 @@ def test_sight_lines_against_marching(solid: Solid, a: tuple, b: tuple) -> None:
     hidden = bool(blocks(solid, eye[None], point)[0])
     if sum(march) >= 3 and length > 0.1:
         assert hidden
-    if hidden and sum(march) == 0:
+    # Within nanometres of a wall, a line along it counts as inside.
+    near = (distance(solid, tuple(eye + (point - eye) * s)) <= 1e-8 for s in np.linspace(0, 1, 801))
+    if hidden and sum(march) == 0 and not any(near):
         # The run inside must then be shorter than a march step.
         assert not blocks(solid, eye[None], point, least=length / 400)[0]
+
+
+@given(st.floats(0.01, 0.99), st.floats(-9, 9))
+def test_no_sight_line_slips_through_between_two_parts(share: float, rise: float) -> None:
+    solid = Prism(tuple((x + 0.1, y + 0.7) for x, y in L_SHAPE.points), 1.0, 8.0)
+    for part in convex_parts(solid):
+        assert isinstance(part, Prism)
+        for (ax, ay), (bx, by) in edges(part.points):
+            x, y = ax + share * (bx - ax), ay + share * (by - ay)
+            if depth(solid, (x, y, 4.0)) > 0.01:  # a seam inside the solid, not one of its walls
+                assert blocks(solid, np.array([[x, y, -20.0]]), np.array([x, y, 20.0]))[0]
+                assert blocks(
+                    solid, np.array([[ax, ay, 4.0 + rise / 3]]), np.array([bx, by, 4.0 - rise / 3])
+                )[0]
 
 
 def test_a_sight_line_that_only_touches_is_free() -> None:
