@@ -20,6 +20,7 @@ class Group(StrEnum):
     REFINERS = "refiners"
     EMITTERS = "emitters"
     COMPOSITIONS = "compositions"
+    HEADINGS = "headings"
 
 
 DRONE_HEADING = (
@@ -36,7 +37,7 @@ GroupArgument = Annotated[Group, typer.Argument(help="What to list.")]
 
 
 def show(group: GroupArgument) -> None:
-    """List what a mission can name: kinds, drones, refiners, emitters or compositions.
+    """List what a mission can name: kinds, drones, refiners, emitters, compositions or headings.
 
     Example: `shotc list kinds`
     """
@@ -50,6 +51,8 @@ def _rows(group: Group) -> list[tuple[str, ...]]:
             return _drones()
         case Group.COMPOSITIONS:
             return _compositions()
+        case Group.HEADINGS:
+            return _headings()
         case _:
             return _plugins(group)
 
@@ -94,6 +97,12 @@ def _drones() -> list[tuple[str, ...]]:
             for name, preset in PRESETS.items()
         ),
     ]
+
+
+def _headings() -> list[tuple[str, ...]]:
+    from shotc.solvers.headings import DEFAULT, METHODS
+
+    return [(name, said + (" [default]" if name == DEFAULT else "")) for name, said in METHODS.items()]
 
 
 def _compositions() -> list[tuple[str, ...]]:

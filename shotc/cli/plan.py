@@ -17,6 +17,7 @@ from shotc.cli.progress import Progress
 from shotc.cli.refiner import told
 from shotc.output import write
 from shotc.pipeline import PASS_NAMES
+from shotc.solvers.headings import DEFAULT, METHODS
 
 if TYPE_CHECKING:
     from shotc.emission import Crew
@@ -50,6 +51,14 @@ Deadline = Annotated[
         callback=_positive,
     ),
 ]
+HeadingMethod = Annotated[
+    str,
+    typer.Option(
+        "--headings",
+        metavar="METHOD",
+        help="How the turns of a camera that follows nothing are chosen; see `shotc list headings`.",
+    ),
+]
 Autopilot = Annotated[
     Literal["px4", "ardupilot"] | None,
     typer.Option(help="Write for this autopilot, whatever the drone's model says."),
@@ -79,6 +88,7 @@ def plan(
     emit: Emit = None,
     refiner: RefinerName = None,
     deadline: Deadline = None,
+    headings: HeadingMethod = DEFAULT,
     autopilot: Autopilot = None,
     stop_after: StopAfter = None,
     dump_ir: DumpIr = None,
@@ -96,6 +106,7 @@ def plan(
     for name in emitters or ():
         known("--emit", name, plugins.names("emitters"))
     known("--refiner", refiner, plugins.names("refiners"))
+    known("--headings", headings, list(METHODS))
     known("--stop-after", stop_after, list(PASS_NAMES))
     known("--dump-ir", dump_ir, list(PASS_NAMES))
     source = read_mission(spec)
@@ -105,7 +116,7 @@ def plan(
         def start(mission: MissionIR) -> None:
             hands.prepare(mission.emit if emitters is None else emitters)
 
-        options = PlanOptions(refiner, deadline, autopilot, stop, seed, progress, start)
+        options = PlanOptions(refiner, deadline, autopilot, stop, seed, progress, start, headings)
         done = told(compile_source(source.data, source.name, source.folder, options), refiner)
         if dump_ir is not None:
             _dump(done, dump_ir)

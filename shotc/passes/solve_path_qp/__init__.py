@@ -78,7 +78,7 @@ def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext) -> _Planned:
     shots: list[ShotCurve] = []
     for placed in mine:
         ctx.progress(f"path of shot {placed.shot.id}")
-        result = shot_curve(mission, drone, room, placed)
+        result = shot_curve(mission, drone, room, placed, ctx.headings)
         if isinstance(result, ShotCurve):
             shots.append(result)
         else:

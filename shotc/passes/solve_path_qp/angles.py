@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,8 +20,11 @@ from shotc.geom.camera import aim_at
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import FramingSpan
+from shotc.passes.solve_path_qp.lines import SAME_PLACE
 from shotc.passes.solve_path_qp.turns import steady
+from shotc.passes.solve_path_qp.unwrapping import Known, shifts, turning
 from shotc.solvers.conic import Status
+from shotc.solvers.headings import DEFAULT
 from shotc.solvers.spline_fit import Fit, fit, within
 
 PIECES = 3  # per stretch between keyframes, at least
@@ -39,12 +43,15 @@ class Track:
     s      : shape (K,), path parameter, not decreasing
     exact  : whether the path passes the keyframe itself, so that its angles hold there
     position : p_WC over s
+    pace : share of the drone's limits; headings : method of ``solvers.headings`` that chooses turns
     """
 
     keyframes: tuple[PlacedKeyframe, ...]
     s: Array
     exact: tuple[bool, ...]
     position: Piecewise
+    pace: float = 1.0
+    headings: str = DEFAULT
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,6 +78,16 @@ class CameraLine:
     error: float
     worst: float
     cuts: tuple[Cut, ...]
+
+
+class _Known(NamedTuple):
+    """Angles at a path parameter; ``group`` as in ``unwrapping.Known``, ``keyframe`` its index or -1."""
+
+    s: float
+    yaw: float
+    pitch: float
+    group: int
+    keyframe: int = -1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -233,12 +250,12 @@ def _untracked(tracked: Array, breaks: Array) -> Array:
 
 def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov: Piecewise) -> _Samples:
     """Return the wanted angles inside tracked stretches and the binding ones, yaw unwrapped."""
-    s_all: list[float] = []
-    angles: list[tuple[float, float]] = []
-    anchors: list[tuple[float, float, float]] = []
+    samples: list[_Known] = []
+    anchors: list[_Known] = []
     cuts: list[Cut] = []
-    last_yaw = track.keyframes[0].yaw
-    for i in range(len(track.keyframes)):
+    last_yaw, group = track.keyframes[0].yaw, 0
+    for i, keyframe in enumerate(track.keyframes):
+        free = i > 0 and track.s[i] > track.s[i - 1] and (keyframe.placed or track.keyframes[i - 1].placed)
         if i > 0 and track.s[i] > track.s[i - 1]:
             at = _inner(breaks, float(track.s[i - 1]), float(track.s[i]))
             aims, cut = _aims(mission, drone, track, i - 1, at, hfov)
@@ -246,18 +263,44 @@ def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
                 cuts.append(cut)
             for s, aim in zip(at, aims, strict=True):
                 if aim is not None:
-                    last_yaw = _near(aim[0], last_yaw)
-                    s_all.append(float(s))
-                    angles.append((last_yaw, aim[1]))
+                    last_yaw, free = _near(aim[0], last_yaw), False
+                    samples.append(_Known(float(s), last_yaw, aim[1], group))
+        group += free
         anchor = _anchor(mission, drone, track, i)
-        if anchor is not None and not (anchors and track.s[i] <= anchors[-1][0]):
+        if anchor is not None and not (anchors and track.s[i] <= anchors[-1].s):
             last_yaw = _near(anchor[0], last_yaw)
-            anchors.append((float(track.s[i]), last_yaw, anchor[1]))
-    wanted = np.array(angles).reshape(-1, 2)
-    fixed = np.array(anchors).reshape(-1, 3)
+            anchors.append(_Known(float(track.s[i]), last_yaw, anchor[1], group, i))
+    if group:
+        shift = shifts(_places(track, samples, anchors), turning(drone, track.pace, track.headings))
+        samples, anchors = (
+            [k._replace(yaw=k.yaw + shift[k.group]) for k in part] for part in (samples, anchors)
+        )
+    wanted, fixed = (np.array([k[:3] for k in part]).reshape(-1, 3) for part in (samples, anchors))
     return _Samples(
-        np.array(s_all), wanted[:, 0], wanted[:, 1], fixed[:, 0], fixed[:, 1], fixed[:, 2], tuple(cuts)
+        wanted[:, 0], wanted[:, 1], wanted[:, 2], fixed[:, 0], fixed[:, 1], fixed[:, 2], tuple(cuts)
     )
+
+
+def _places(track: Track, samples: list[_Known], anchors: list[_Known]) -> list[Known]:
+    """Return what fixes the turns: the keyframes, and of what is followed the first and the last picture."""
+    ends: dict[int, list[_Known]] = {}
+    for k in samples:
+        ends[k.group] = [ends.get(k.group, [k])[0], k]
+    at = {k.s: k for k in (*(k for pair in ends.values() for k in pair), *anchors)}
+    places = []
+    for k in sorted(at.values()):
+        turn = track.keyframes[k.keyframe].turn if k.keyframe >= 0 else None
+        places.append(Known(k.s, k.yaw, k.group, turn, k.keyframe >= 0 and _rests(track, k.keyframe)))
+    return places
+
+
+def _rests(track: Track, i: int) -> bool:
+    """Tell whether the camera stands still at a keyframe: it holds there, or turns on the spot."""
+    near = [j for j in (i - 1, i + 1) if 0 <= j < len(track.s)]
+    ways = [
+        np.linalg.norm(track.position(float(track.s[j])) - track.position(float(track.s[i]))) for j in near
+    ]
+    return track.keyframes[i].hold > 0 or any(way < SAME_PLACE for way in ways)
 
 
 def _inner(breaks: Array, start: float, end: float) -> Array:

@@ -131,7 +131,7 @@ def _joined(
 
 
 def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:
-    turn = abs((b.yaw - a.yaw + pi) % (2 * pi) - pi)
+    turn = abs((b.yaw - a.yaw + pi) % (2 * pi) - pi if b.turn is None else b.turn)
     length = TURN_LENGTH * max(turn, abs(b.pitch - a.pitch), abs(b.hfov - a.hfov))
     return length if length >= SAME_PLACE else 0.0
 

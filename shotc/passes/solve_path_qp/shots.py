@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from shotc.passes.solve_path_qp.lines import SAME_PLACE, Line, NoWay, TooNear, s
 from shotc.passes.solve_path_qp.position import Solved, Stretch, solve_stretch
 from shotc.passes.solve_path_qp.swings import Swing, worst_swing
 from shotc.solvers.conic import Status
+from shotc.solvers.headings import DEFAULT
 
 NOTICE = 0.1  # metres off a generated keyframe that are worth telling
 LEFT = 0.02  # metres off that belong to a stretch worth telling
@@ -62,8 +63,10 @@ class AngleFailure:
 Failure = NoWay | TooNear | Stuck | AngleFailure
 
 
-def shot_curve(mission: MissionIR, drone: Drone, room: Room, placed: PlacedShot) -> ShotCurve | Failure:
-    """Return a shot's geometry, or what stands in its way."""
+def shot_curve(
+    mission: MissionIR, drone: Drone, room: Room, placed: PlacedShot, headings: str = DEFAULT
+) -> ShotCurve | Failure:
+    """Return a shot's geometry, or what stands in its way; ``headings`` is how turns are chosen."""
     line = shot_line(room, placed.keyframes)
     if not isinstance(line, Line):
         return line
@@ -73,7 +76,7 @@ def shot_curve(mission: MissionIR, drone: Drone, room: Room, placed: PlacedShot)
     if isinstance(position, Stuck):
         return position
     curve, solved = position
-    track = _track(placed, line, curve)
+    track = replace(_track(placed, line, curve), pace=placed.shot.pace, headings=headings)
     camera = camera_line(mission, drone, track)
     if camera.status not in {Status.SOLVED, Status.INACCURATE}:
         return AngleFailure("camera", camera.status)

@@ -35,36 +35,41 @@ def decode(gram: Array, centre: Array, count: int, most_nodes: int = MOST_NODES)
 
     gram : shape (n, n), positive definite (LinAlgError otherwise); centre : shape (n,), n >= 1
     """
-    search = _Search(np.asarray(np.linalg.cholesky(gram), dtype=np.float64).T, centre, count, most_nodes)
-    search.descend(len(centre) - 1, 0.0, [0] * len(centre))
-    return Decoded(tuple(search.best), search.nodes, search.nodes >= most_nodes)
+    # Plain lists: the vectors are too short for numpy to pay.
+    rows: list[list[float]] = np.linalg.cholesky(gram).T.tolist()
+    middle: list[float] = centre.tolist()
+    size, nodes, level = len(middle), 0, len(middle) - 1
+    best: list[tuple[float, tuple[int, ...]]] = []
+    spent, point = [0.0] * (size + 1), [0] * size
+    zigzag = [_ZigZag(middle[level])] * size
+    while level < size and nodes < most_nodes:
+        nodes += 1
+        point[level] = zigzag[level].value
+        total = spent[level + 1] + (rows[level][level] * (point[level] - zigzag[level].centre)) ** 2
+        if len(best) == count and total > best[-1][0] * (1 + SLACK):
+            level += 1
+            if level < size:
+                zigzag[level].step()
+        elif level == 0:
+            insort(best, (total, tuple(point)))
+            del best[count:]
+            zigzag[0].step()
+        else:
+            spent[level] = total
+            level -= 1
+            pull = sum(rows[level][j] * (point[j] - middle[j]) for j in range(level + 1, size))
+            zigzag[level] = _ZigZag(middle[level] - pull / rows[level][level])
+    return Decoded(tuple(best), nodes, level < size)
 
 
-class _Search:
-    def __init__(self, root: Array, centre: Array, count: int, most_nodes: int) -> None:
-        # Plain lists: the vectors are too short for numpy to pay.
-        self.rows: list[list[float]] = root.tolist()
-        self.centre: list[float] = centre.tolist()
-        self.count = count
-        self.most_nodes = most_nodes
-        self.best: list[tuple[float, tuple[int, ...]]] = []
-        self.nodes = 0
+class _ZigZag:
+    """The integers in the order of their distance from a centre."""
 
-    def descend(self, level: int, spent: float, point: list[int]) -> None:
-        row, size = self.rows[level], len(self.centre)
-        pull = sum(row[j] * (point[j] - self.centre[j]) for j in range(level + 1, size))
-        middle = self.centre[level] - pull / row[level]
-        value, step = round(middle), 1 if middle >= round(middle) else -1
-        while self.nodes < self.most_nodes:
-            self.nodes += 1
-            total = spent + (row[level] * (value - middle)) ** 2
-            if len(self.best) == self.count and total > self.best[-1][0] * (1 + SLACK):
-                return
-            point[level] = value
-            if level:
-                self.descend(level - 1, total, point)
-            else:
-                insort(self.best, (total, tuple(point)))
-                del self.best[self.count :]
-            value += step
-            step = -step - (1 if step > 0 else -1)
+    def __init__(self, centre: float) -> None:
+        self.centre = centre
+        self.value = round(centre)
+        self._next = 1 if centre >= self.value else -1
+
+    def step(self) -> None:
+        self.value += self._next
+        self._next = -self._next - (1 if self._next > 0 else -1)

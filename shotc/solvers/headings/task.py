@@ -33,7 +33,7 @@ class HeadingTask:
     rates: tuple[float, float] = (0.0, 0.0)
     rate: float = inf
     acceleration: float = inf
-    weight: float = 0.1
+    weight: float = 0.12
 
     def __post_init__(self) -> None:
         """Freeze the arrays and check them."""

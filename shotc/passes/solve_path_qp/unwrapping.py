@@ -1,0 +1,106 @@
+"""Which way round the camera turns where it follows nothing: the turns of a whole stretch together.
+
+Following a target fixes the turn between two keyframes, a heading of 360 deg or more states it; all others
+are chosen by a method of ``solvers.headings``, over the time that the stretch takes about. Only the choice
+is taken from there. The curve is the steady turn through the angles chosen (``turns.steady``): it is monotone
+from keyframe to keyframe, where a curve of least acceleration swings back before it turns.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import pi
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import Drone
+from shotc.solvers.headings import DEFAULT
+from shotc.solvers.headings.solve import solve_headings
+from shotc.solvers.headings.task import HeadingTask, nearest_turns
+
+EASE = 1.3  # times the shortest turn from rest to rest, which an interval takes at least
+LONGEST = 32  # keyframes that are decided together
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """How a shot's camera may turn.
+
+    method : of ``solvers.headings.METHODS``; speed : m/s along the path
+    rate, acceleration : rad/s and rad/s^2 of the camera over ground
+    """
+
+    method: str
+    speed: float
+    rate: float
+    acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """A yaw that is known: at a keyframe, or in a picture on the way that follows a target.
+
+    s : path parameter, increasing from one to the next; yaw : rad, any winding
+    group : known yaws of one group keep the turns between them
+    turn : stated from the known one before to this one, rad; None where it is free
+    rest : whether the camera stands still here
+    """
+
+    s: float
+    yaw: float
+    group: int
+    turn: float | None
+    rest: bool
+
+
+def turning(drone: Drone, pace: float, method: str = DEFAULT) -> Turning:
+    """Return how a drone's camera turns at a share of its limits."""
+    limits, gimbal = drone.limits, drone.gimbal
+    own = drone.body != "follow-camera"
+    rate = limits.yaw_rate + (gimbal.rate if own else 0.0)
+    acceleration = limits.yaw_acceleration + (gimbal.acceleration if own else 0.0)
+    return Turning(method, pace * limits.speed, pace * rate, pace * acceleration)
+
+
+def shifts(known: list[Known], how: Turning) -> list[float]:
+    """Return by how many rad each group is to be turned, whole turns all; groups count from 0."""
+    found = [0.0] * (known[-1].group + 1)
+    angle, start = known[0].yaw, 0
+    for i in range(1, len(known)):
+        if not (known[i].rest or i == len(known) - 1 or i - start == LONGEST):
+            continue
+        turns = np.diff(_chosen(known[start : i + 1], how))
+        for one, turn in zip(known[start + 1 : i + 1], turns, strict=True):
+            angle += float(turn)
+            found[one.group] = 2 * pi * round((angle - one.yaw) / (2 * pi))
+        start = i
+    return found
+
+
+def _chosen(known: list[Known], how: Turning) -> Array:
+    yaw = np.array([k.yaw for k in known])
+    stated = tuple(_fixed(a, b) for a, b in pairwise(known))
+    turns = np.abs([n if t is None else t for t, n in zip(stated, nearest_turns(yaw), strict=True)])
+    flown = np.diff([k.s for k in known]) / how.speed
+    at = np.concatenate([[0.0], np.cumsum(np.maximum(flown, EASE * _shortest(turns, how)))])
+    task = HeadingTask(at, yaw, stated, rate=how.rate, acceleration=how.acceleration)
+    # Without a solution the first choice is as good: the time pass gives the turn the time that it needs.
+    return solve_headings(task, how.method).angles
+
+
+def _fixed(a: Known, b: Known) -> float | None:
+    if a.group == b.group:
+        return b.yaw - a.yaw
+    if b.turn is None:
+        return None
+    # Yaws on the path are those of the keyframes but for what bending the path took.
+    return b.turn + (b.yaw - a.yaw - b.turn + pi) % (2 * pi) - pi
+
+
+def _shortest(turn: Array, how: Turning) -> Array:
+    """Return the times of turns from rest to rest at full acceleration, then full rate, seconds."""
+    full = how.rate**2 / how.acceleration
+    short = 2 * np.sqrt(turn / how.acceleration)
+    return np.asarray(np.where(turn < full, short, turn / how.rate + how.rate / how.acceleration))
