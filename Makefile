@@ -8,7 +8,7 @@ STAMP := $(VENV)/.installed
 PLUGINS := $(wildcard plugins/*/pyproject.toml)
 UV := $(shell command -v uv 2>/dev/null)
 
-.PHONY: help setup demo test test-fast check lint type fmt layers gen gen-check bless bench build clean
+.PHONY: help setup demo test test-fast check lint type fmt layers gen gen-check bless bench papers build clean
 
 help: ## List the tasks
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 14
@@ -64,6 +64,9 @@ bless: $(STAMP) ## Rewrite the golden files of the tests; read the diff before y
 
 bench: $(STAMP) ## Measure: ratios to bare imports, growth, memory
 	$(BIN)/python tests/bench/bench.py
+
+papers: $(STAMP) ## Run the papers' experiments; report in out/papers, tables in shotc/docs/papers.md
+	$(BIN)/python -m tests.papers --write-page
 
 build: $(STAMP) ## Build the wheel of shotc and of each plugin
 ifdef UV

@@ -93,7 +93,8 @@ def _solved_again(refiner: object, path: PathIR) -> Solve | None:
     condition = getattr(refiner, "condition", None)
     if condition is None:
         return None
-    from shotc_casadi.refiner import refine_shot, subjects
+    from shotc_casadi.refiner import subjects
+    from shotc_casadi.rounds import refine_shot
 
     (subject,) = subjects(path)
     began = time.perf_counter()

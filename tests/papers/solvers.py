@@ -13,6 +13,7 @@ from tests.papers import plots
 from tests.papers.missions import Draft, convex_path
 from tests.papers.report import Section, Table
 
+SOLVERS = ("fatrop", "ipopt")
 STAGES = (50, 100, 200, 400)
 GROWTH_MISSIONS = 5
 RATIO_MISSIONS = 10
@@ -26,7 +27,8 @@ def section(drafts: Sequence[Draft], say: Callable[[str], None]) -> Section:
 
 def growth(paths: Sequence[PathIR], say: Callable[[str], None]) -> Table:
     """Return solve times over the number of stages, condition ours, solvers warm."""
-    from shotc_casadi.refiner import OURS, refine_shot, subjects
+    from shotc_casadi.refiner import OURS, subjects
+    from shotc_casadi.rounds import refine_shot
 
     rows, line = [], []
     base = 0.0
@@ -73,7 +75,8 @@ def growth(paths: Sequence[PathIR], say: Callable[[str], None]) -> Table:
 def ratios(paths: Sequence[PathIR], say: Callable[[str], None]) -> Table:
     """Return the times of both solvers on identical problems, in this process and in fresh ones."""
     from shotc_casadi.program import solve
-    from shotc_casadi.refiner import OURS, SOLVERS, refine_shot, subjects
+    from shotc_casadi.refiner import OURS, subjects
+    from shotc_casadi.rounds import SOLVERS, refine_shot
 
     problems = [refine_shot(subjects(path)[0], OURS.condition).problem for path in paths]
     warm: dict[str, list[Any]] = {}
