@@ -19,7 +19,6 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.passes.base import PassContext, silent
 from shotc.pipeline import PassReport, default_passes, front_passes, run, run_refined
-from shotc.solvers.headings import DEFAULT
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import load
@@ -49,7 +48,8 @@ class PlanOptions(NamedTuple):
 
     refiner : its name; None means ``plugins.usual_refiner()``
     deadline : seconds that the refiner may take, in a process of its own then
-    headings : how a camera that follows nothing is turned, of ``solvers.headings.METHODS``
+    headings : how a camera that follows nothing is turned, of ``solvers.headings.METHODS``;
+        None means its ``DEFAULT``
     autopilot : "px4" or "ardupilot" instead of what the drone's model says
     stop_after : the name of the last pass to run; progress : called with each pass's name
     on_mission : called with the mission once it can be planned, before the solvers load
@@ -62,7 +62,7 @@ class PlanOptions(NamedTuple):
     seed: int = 0
     progress: Callable[[str], None] = silent
     on_mission: Callable[[MissionIR], None] = _ignore
-    headings: str = DEFAULT
+    headings: str | None = None
 
 
 class Compilation(NamedTuple):

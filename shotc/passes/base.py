@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from shotc.diag.model import Diagnostic
-from shotc.solvers.headings import DEFAULT
 
 In_contra = TypeVar("In_contra", contravariant=True)
 Out_co = TypeVar("Out_co", covariant=True)
@@ -19,12 +18,13 @@ class PassContext(NamedTuple):
     """What every pass may read besides its input.
 
     seed : for anything random; progress : call with a short text on long work
-    headings : how the turns of a camera that follows nothing are chosen, of ``solvers.headings.METHODS``
+    headings : how the turns of a camera that follows nothing are chosen, of ``solvers.headings.METHODS``;
+        None means its ``DEFAULT``
     """
 
     seed: int = 0
     progress: Callable[[str], None] = silent
-    headings: str = DEFAULT
+    headings: str | None = None
 
 
 class Outcome(NamedTuple, Generic[Value_co]):

@@ -29,6 +29,7 @@ from shotc.passes.solve_path_qp.legs import Flight, drone_legs
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
+from shotc.solvers.headings import DEFAULT
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +79,7 @@ def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext) -> _Planned:
     shots: list[ShotCurve] = []
     for placed in mine:
         ctx.progress(f"path of shot {placed.shot.id}")
-        result = shot_curve(mission, drone, room, placed, ctx.headings)
+        result = shot_curve(mission, drone, room, placed, ctx.headings or DEFAULT)
         if isinstance(result, ShotCurve):
             shots.append(result)
         else:
