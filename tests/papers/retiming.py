@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 from statistics import fmean, median
 
 import numpy as np
@@ -24,13 +25,16 @@ from tests.papers.report import Section, Table
 
 JERKS = (10.0, 20.0, 5.0)
 MISSIONS = 20
+FULL_SIZE = (300.0, 700.0)  # metres of path
 HALVINGS = 2  # of the time pass's first grid, for TOPP-RA to be measured finely
 
 
 def section(drafts: Sequence[Draft], say: Callable[[str], None]) -> Section:
-    """Time the shots of the first missions, on their convex and on their refined paths."""
+    """Time the shots of the first full-size missions, on their convex and on their refined paths."""
     rows = []
-    paths = [path for draft in drafts[:MISSIONS] if (path := convex_path(draft)) is not None]
+    paths = list(islice(_full_size(drafts), MISSIONS))
+    if not paths:
+        return Section("Retiming", (), ("none of the missions is of full size",))
     for refiner in ("none", "ours"):
         say(f"retiming: paths of {refiner}")
         refined = [out for path in paths if (out := _refined(refiner, path)) is not None]
@@ -53,12 +57,31 @@ def section(drafts: Sequence[Draft], say: Callable[[str], None]) -> Section:
         (
             "full limits of the x500 (8 m/s, 3 m/s^2, body and gimbal rates and accelerations, as norms); "
             "no pace; rest to rest",
+            f"the first {len(paths)} missions with {FULL_SIZE[0]:g} to {FULL_SIZE[1]:g} m of film",
             "TOPP-RA on the same path and limits without a jerk limit, on the first grid of the time pass "
             f"with every cell cut into {2**HALVINGS}; the flown profile also eases the camera's turns",
             "final scaling: the last slowdown that makes every limit hold between gridpoints",
         ),
     )
     return Section("Retiming", (table,))
+
+
+def _full_size(drafts: Sequence[Draft]) -> Iterator[PathIR]:
+    """Give the convex paths whose shot has the length of a real one."""
+    for draft in drafts:
+        path = convex_path(draft)
+        if path is not None and FULL_SIZE[0] <= _length(_filmed(path)) <= FULL_SIZE[1]:
+            yield path
+
+
+def _filmed(path: PathIR) -> Leg:
+    (leg,) = (leg for leg in path.drones[0].legs if leg.shot is not None)
+    return leg
+
+
+def _length(leg: Leg) -> float:
+    assert leg.curve is not None
+    return leg.curve.end - leg.curve.start
 
 
 def topp_time(leg: Leg, ceiling: Ceiling) -> float:
@@ -86,7 +109,7 @@ def _refined(name: str, path: PathIR) -> PathIR | None:
 def _row(refiner: str, paths: Sequence[PathIR], jerk: float, say: Callable[[str], None]) -> tuple[str, ...]:
     losses, lengths, fast, scales, seconds = [], [], [], [], []
     for path in paths:
-        (leg,) = (leg for leg in path.drones[0].legs if leg.shot is not None)
+        leg = _filmed(path)
         assert leg.curve is not None
         ceiling = replace(ceiling_of(path.keyframes.mission.drones[0]), jerk=jerk)
         quickest = topp_time(leg, ceiling)
@@ -94,7 +117,7 @@ def _row(refiner: str, paths: Sequence[PathIR], jerk: float, say: Callable[[str]
         move = time_move(leg.curve, (leg.curve.start, leg.curve.end), ceiling)
         seconds.append(time.perf_counter() - began)
         losses.append(100 * (move.duration / quickest - 1))
-        lengths.append(leg.curve.end - leg.curve.start)
+        lengths.append(_length(leg))
         fast.append(quickest)
         scales.append(move.scale)
     say(f"retiming: {refiner}, {jerk:g} m/s^3, {fmean(losses):.2f} % slower")

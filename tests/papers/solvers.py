@@ -13,10 +13,10 @@ from tests.papers import plots
 from tests.papers.missions import Draft, convex_path
 from tests.papers.report import Section, Table
 
-SOLVERS = ("fatrop", "ipopt")
 STAGES = (50, 100, 200, 400)
 GROWTH_MISSIONS = 5
 RATIO_MISSIONS = 10
+REPEATS = 3
 
 
 def section(drafts: Sequence[Draft], say: Callable[[str], None]) -> Section:
@@ -34,12 +34,8 @@ def growth(paths: Sequence[PathIR], say: Callable[[str], None]) -> Table:
     base = 0.0
     for count in STAGES:
         say(f"growth: {count} stages")
-        refined = []
-        for path in paths:
-            (subject,) = subjects(path)
-            refine_shot(subject, OURS.condition, count)  # builds what is not built yet
-            refined.append(refine_shot(subject, OURS.condition, count))
-        solutions = [r.solution for r in refined]
+        problems = [refine_shot(subjects(path)[0], OURS.condition, count).problem for path in paths]
+        solutions = [_quickest(problem) for problem in problems]
         seconds = median(s.seconds for s in solutions)
         step = fmean(s.seconds / max(1, s.iterations) for s in solutions)
         base = base or step / count
@@ -62,7 +58,10 @@ def growth(paths: Sequence[PathIR], say: Callable[[str], None]) -> Table:
         "an iteration and stage",
         f"against N = {STAGES[0]}",
     )
-    notes = (f"{len(paths)} missions under ours, solver warm, each one's last round; linear growth is x1.00",)
+    notes = (
+        f"{len(paths)} missions under ours, solver warm, each one's last round, the quickest of {REPEATS} "
+        "solves; linear growth is x1.00",
+    )
     return Table(
         "Growth with the number of stages",
         columns,
@@ -70,6 +69,13 @@ def growth(paths: Sequence[PathIR], say: Callable[[str], None]) -> Table:
         notes,
         plots.lines({"one solve, median": line}, "stages", "seconds"),
     )
+
+
+def _quickest(problem: Any) -> Any:
+    """Return the solution that took least time: what else runs only ever adds to it."""
+    from shotc_casadi.program import solve
+
+    return min((solve(problem, "fatrop") for _ in range(REPEATS)), key=lambda s: s.seconds)
 
 
 def ratios(paths: Sequence[PathIR], say: Callable[[str], None]) -> Table:
