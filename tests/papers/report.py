@@ -48,6 +48,8 @@ class Section:
 
 def text(table: Table) -> str:
     """Return a table for the terminal, columns aligned."""
+    if not table.rows:
+        return f"{table.title}: in the report\n"
     rows = [table.columns, *table.rows]
     widths = [max((len(row[i]) for row in rows), default=0) for i in range(len(table.columns))]
     lines = [
@@ -61,15 +63,14 @@ def text(table: Table) -> str:
 
 
 def markdown(sections: Sequence[Section], level: int = 2) -> str:
-    """Return sections as Markdown without their plots; level : of the sections' headings."""
+    """Return sections as Markdown without plots; level : of the headings. What is only a plot is left out."""
     lines: list[str] = []
     for section in sections:
         lines += ["#" * level + " " + section.title, "", *(f"- {fact}" for fact in section.facts), ""]
-        for table in section.tables:
+        for table in (table for table in section.tables if table.rows):
             lines += ["#" * (level + 1) + " " + table.title, ""]
-            if table.rows:
-                lines += [_piped(table.columns), "|---|" + "---:|" * (len(table.columns) - 1)]
-                lines += [*map(_piped, table.rows), ""]
+            lines += [_piped(table.columns), "|---|" + "---:|" * (len(table.columns) - 1)]
+            lines += [*map(_piped, table.rows), ""]
             lines += [*(f"- {note}" for note in table.notes), ""] if table.notes else []
     return "\n".join(lines).rstrip() + "\n"
 
