@@ -59,7 +59,7 @@ def task(
 ) -> Problem:
     """The optimal-control problem of a shot on few stages."""
     nodes = nodes_of(of, count)
-    walls = half_spaces(of.room, of.leg.curve, nodes)
+    walls = half_spaces(of.room, of.leg.curve, nodes, 0.5)
     return problem(of, condition, nodes, wishes(of, condition, nodes.s), walls, margins)
 
 

@@ -55,12 +55,14 @@ class Margins:
     frame : share of the frame that the target has to fit into
     room : metres kept from obstacles beyond what the convex path kept
     limits : share of the drone's and the gimbal's limits that may be used
+    comfort : share kept of the room that the convex path has beyond its clearances
     hold : factor on the price of leaving the convex path
     """
 
     frame: float = 0.97
     room: float = 0.0
     limits: float = 1.0
+    comfort: float = 0.5
     hold: float = 1.0
 
 

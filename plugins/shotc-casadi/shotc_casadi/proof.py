@@ -25,6 +25,7 @@ SAMPLES = 6  # a piece
 ROOM_STEP = 0.02  # metres added to what was missing
 FRAME_STEP = 1.5  # times what was missing
 LIMIT_STEP = 1.2  # times what was missing
+LITTLE = 0.02  # share of the room beyond the clearances that is kept where the picture needs the rest
 HOLD = 1e3
 GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
 HOPELESS = 1.1  # times a duration that a rough profile takes for no bend of the path to make up for it
@@ -66,6 +67,7 @@ def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
         frame=max(0.5, margins.frame - FRAME_STEP * check.cropped),
         room=margins.room + (check.lack + ROOM_STEP if check.lack > 0 else 0.0),
         limits=margins.limits / (1.0 + LIMIT_STEP * check.late),
+        comfort=LITTLE if check.cropped > 0 else margins.comfort,
         hold=HOLD if hold and check.lack > 0 else margins.hold,
     )
 

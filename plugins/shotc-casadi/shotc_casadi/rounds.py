@@ -80,8 +80,8 @@ def _refine(
     assert leg.shot is not None
     nodes = stages(leg, subject.placed, subject.drone, count)
     wanted = wishes(subject, condition, nodes.s)
-    walls = half_spaces(subject.room, leg.curve, nodes)
     margins = Margins()
+    walls = half_spaces(subject.room, leg.curve, nodes, margins.comfort)
     following = problem(subject, condition, nodes, wanted, walls, margins)
     ends = following.states[[0, -1]][:, [YAW, PITCH]]
     done: list[_Tried] = []
@@ -93,6 +93,7 @@ def _refine(
         if tried.camera is None or tried.check.holds or (best.check.lack <= 0 and not helped):
             break
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
+        walls = half_spaces(subject.room, leg.curve, nodes, margins.comfort)
         tightened = problem(subject, condition, nodes, wanted, walls, margins)
         following = replace(tightened, states=tried.solution.states, inputs=tried.solution.inputs)
     return _result(subject, nodes, done, best), best.check

@@ -9,15 +9,15 @@ from shotc.refiner_api import Array, Room, corridor, kept
 from shotc_casadi.stages import Stages
 
 REACH = 8.0  # metres beyond its clearance within which an obstacle counts
-SHARE = 0.5  # of the room that the reference path has, kept
 POINTS = 5  # of the reference, whose hull stands for a node and its neighbourhood
 COUNTS = (0, 2, 4, 8, 16)  # how many half-spaces a programme may have, so that few are built
 FREE = -1.0  # slack in metres of a half-space that means nothing
 
 
-def half_spaces(room: Room, reference: Piecewise, stages: Stages) -> Array:
+def half_spaces(room: Room, reference: Piecewise, stages: Stages, share: float) -> Array:
     """Return half-spaces n.p >= b that hold near every node, shape (N + 1, M, 4): normal and b.
 
+    share : of the room that the reference has beyond its clearances, kept (see ``corridor``)
     The nearest ones of each node; M is the same for all, and rows that mean nothing hold everywhere.
     """
     s = stages.s
@@ -25,12 +25,14 @@ def half_spaces(room: Room, reference: Piecewise, stages: Stages) -> Array:
     high = np.concatenate([s[1:], s[-1:]])
     hulls = reference(low[:, None] + np.linspace(0.0, 1.0, POINTS) * (high - low)[:, None])[:, :, :3]
     nodes: list[list[tuple[float, Array]]] = [[] for _ in s]
-    planes = corridor(room, hulls, REACH, SHARE)
+    planes = corridor(room, hulls, REACH, share)
     rows = np.column_stack([planes.normal, planes.offset])
     for k, row in zip(planes.piece, rows, strict=True):
         nodes[int(k)].append((_slack(hulls[k], row), row))
     for k, hull in enumerate(hulls):
-        nodes[k] += [(slack, row) for row in _bounds(room, hull) if (slack := _slack(hull, row)) < REACH]
+        nodes[k] += [
+            (slack, row) for row in _bounds(room, hull, share) if (slack := _slack(hull, row)) < REACH
+        ]
     most = max(len(found) for found in nodes)
     count = next((c for c in COUNTS if c >= most), COUNTS[-1])
     out = np.zeros((len(s), count, 4))
@@ -42,13 +44,13 @@ def half_spaces(room: Room, reference: Piecewise, stages: Stages) -> Array:
     return out
 
 
-def _bounds(room: Room, hull: Array) -> list[Array]:
+def _bounds(room: Room, hull: Array, share: float) -> list[Array]:
     """Return walls, and discs by their tangent planes, as rows."""
     rows = []
     for wall in room.walls:
         n = np.array(wall.normal)
         slack = float((hull @ n).min()) - wall.offset
-        rows.append(np.append(n, wall.offset + kept(np.array(slack), SHARE)))
+        rows.append(np.append(n, wall.offset + kept(np.array(slack), share)))
     for disc in room.discs:
         away = hull[:, :2].mean(axis=0) - np.array(disc.centre)
         distance = float(np.linalg.norm(away))
@@ -57,7 +59,7 @@ def _bounds(room: Room, hull: Array) -> list[Array]:
         n = np.append(-away / distance, 0.0)
         offset = float(n[:2] @ np.array(disc.centre)) - disc.radius
         slack = float((hull @ n).min()) - offset
-        rows.append(np.append(n, offset + kept(np.array(slack), SHARE)))
+        rows.append(np.append(n, offset + kept(np.array(slack), share)))
     return rows
 
 

@@ -99,7 +99,7 @@ def test_the_convex_path_crops_what_ours_shows():
 
 
 WALLED = NEAR.replace(
-    "zones: {", "zones: {wall: {keep: out, box: {center: [0, -38.2, 20], size: [30, 6, 40]}}, "
+    "zones: {", "zones: {wall: {keep: out, box: {center: [0, -37.6, 20], size: [30, 6, 40]}}, "
 )
 """The camera should step back from the tower, and cannot."""
 
@@ -122,9 +122,7 @@ def test_where_framing_and_a_wall_conflict_the_wall_wins_and_the_loss_is_told():
 def test_what_the_nodes_do_not_keep_is_tightened_until_it_is_proved(monkeypatch):
     """A refiner that does not see the wall at its nodes finds it in the proof, and comes back."""
     real = rounds.half_spaces
-    monkeypatch.setattr(
-        rounds, "half_spaces", lambda room, curve, nodes: real(room.without("zone wall"), curve, nodes)
-    )
+    monkeypatch.setattr(rounds, "half_spaces", lambda room, *rest: real(room.without("zone wall"), *rest))
     (subject,) = subjects(path_of(compiled(WALLED), "solve-path-qp"))
     found = refine_shot(subject, OURS)
     assert 1 < found.rounds <= ROUNDS
