@@ -154,7 +154,7 @@ def test_a_limit_on_the_rate_that_binds_is_met_by_the_best_curve() -> None:
             v for v in slopes if within(cubic(problem.at, problem.yaw, np.array([0.0, v, 0.0])), limit, 9.0)
         ]
         least = min(cost.of(problem.yaw, np.array([0.0, v, 0.0])) for v in fits)
-        assert effort(curve) == pytest.approx(least, rel=0.02)
+        assert effort(curve) == pytest.approx(least, rel=0.03)
 
 
 def test_too_little_time_is_told() -> None:
