@@ -73,6 +73,18 @@ def test_named_points_are_listed_with_the_compositions(run: Run) -> None:
     assert re.search(r"^left-third +\(-0\.333, 0\)$", run("list", "compositions").out, re.MULTILINE)
 
 
+def test_heading_methods_are_listed_and_one_is_the_default(run: Run) -> None:
+    lines = run("list", "headings").out.splitlines()
+    assert [line.split()[0] for line in lines] == list(METHODS)
+    assert [line.split()[0] for line in lines if line.endswith("[default]")] == [DEFAULT]
+
+
+def test_an_unknown_heading_method_names_the_known_ones(run: Run) -> None:
+    done = run("plan", "mission.yaml", "--headings", "windig")
+    assert done.code == 2
+    assert "winding" in done.err
+
+
 def test_help_of_plan_names_the_passes(run: Run) -> None:
     out = run("plan", "--help").out
     assert all(name in out for name in PASS_NAMES)
