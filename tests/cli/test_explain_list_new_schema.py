@@ -11,6 +11,7 @@ import pytest
 from shotc.cli import new
 from shotc.diag.registry import registry
 from shotc.pipeline import PASS_NAMES
+from shotc.solvers.headings import DEFAULT, METHODS
 from tests.cli.conftest import GOOD, Run
 
 
