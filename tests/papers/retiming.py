@@ -24,7 +24,7 @@ from tests.papers.missions import Draft, convex_path
 from tests.papers.report import Section, Table
 
 JERKS = (10.0, 20.0, 5.0)
-MISSIONS = 20
+MISSIONS = 12
 FULL_SIZE = (300.0, 700.0)  # metres of path
 HALVINGS = 2  # of the time pass's first grid, for TOPP-RA to be measured finely
 
