@@ -21,7 +21,7 @@ from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import HeadingTask, nearest_turns
 
 EASE = 1.3  # times the shortest turn from rest to rest, which an interval takes at least
-LONGEST = 32  # keyframes that are decided together
+LONGEST = 24  # keyframes that are decided together
 
 
 @dataclass(frozen=True, slots=True)

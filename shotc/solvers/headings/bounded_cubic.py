@@ -24,7 +24,7 @@ def bounded_cubic(task: HeadingTask, energy: Energy, angles: Array) -> Piecewise
     slope = energy.slopes(angles)
     if within_limits(task, angles, slope):
         return cubic(task.at, angles, slope)
-    if len(angles) < 3 or task.moves > 0:
+    if len(angles) < 3 or task.excess > 0:
         return None
     rows, limits = _rows(task)
     count = len(angles)

@@ -60,8 +60,8 @@ class HeadingTask:
         object.__setattr__(self, "stated", stated)
 
     @property
-    def moves(self) -> float:
-        """How far the two rates at the ends exceed the limit, if they do: then nothing is feasible."""
+    def excess(self) -> float:
+        """Rate at the ends beyond its limit; above 0 no curve is feasible."""
         return max(abs(r) for r in self.rates) - self.rate
 
 
