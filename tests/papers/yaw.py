@@ -45,7 +45,7 @@ PAPER = (
     "solved; `of nearest` compares on the instances that both solved. Solved means that rate and "
     "acceleration are proved within their limits over continuous time. Times are those of the process.",
     "`virtual` is Eq. 10 and 11 with half-planes, free radii and a free knot in each interval; as printed, "
-    "with radius 1, s passes near the origin on wide turns and the real heading breaks its limits.",
+    "with radius 1, a turn by d from rest to rest comes within cos(d / 2) of the origin.",
 )
 
 
