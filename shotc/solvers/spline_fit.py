@@ -92,7 +92,7 @@ def _unbounded(task: Fit) -> Array:
 
 
 def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
-    """Solve for the change to the optimum without bounds: near it the numbers are small, and it costs nothing."""
+    """Solve for the change to the optimum without bounds: near it the numbers are small."""
     import cvxpy as cp
 
     matrix, _ = _least_squares(task)

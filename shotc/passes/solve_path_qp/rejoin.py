@@ -74,7 +74,7 @@ def with_camera(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
 
 
 def _body(drone: Drone, leg: Leg, camera: Piecewise, ends: Piecewise | None) -> Piecewise | None:
-    """Return the body's yaw, with the ends of an earlier curve where there is one; None without a solution."""
+    """Return the body's yaw, with the ends of an earlier curve if there is one; None without a solution."""
     start, end = (None, None) if ends is None else ends.ctrl[[0, -1], [0, -1], BODY_YAW].tolist()
     task = BodyTask(camera.channels(0, 1, 2), camera.channels(3), start, end, leg.pace * drone.limits.speed)
     status, body = body_line(drone, task)
