@@ -65,8 +65,9 @@ def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
     if condition.aims == "framing":
         return _framed(subject, s)
     keys = _keys(subject)
-    angles = _unwrapped([own_angles(subject, k) for _, k in keys], subject)
     at = np.array([key_s for key_s, _ in keys])
+    assert subject.leg.curve is not None
+    angles = _unwrapped([own_angles(subject, k) for _, k in keys], subject.leg.curve(at)[:, CAM_YAW])
     turn = np.column_stack([steady(at, angles[:, i])(s)[:, 0] for i in (0, 1)])
     nothing = _nothing(subject, s)
     if condition.aims == "angles":
@@ -138,12 +139,10 @@ def _progress(at: Array, s: Array) -> tuple[Array, np.ndarray]:
     return smoother(x)[:, None], i
 
 
-def _unwrapped(angles: list[tuple[float, float]], subject: Subject) -> Array:
-    """Return angles as an array, yaw without jumps and starting near the convex path's own."""
+def _unwrapped(angles: list[tuple[float, float]], convex: Array) -> Array:
+    """Return angles as an array, each yaw on the convex path's winding there: stated turns stay."""
     rows = np.array(angles, dtype=np.float64)
-    start = subject.leg.pose[CAM_YAW]
-    rows[0, 0] += 2 * np.pi * np.round((start - rows[0, 0]) / (2 * np.pi))
-    rows[:, 0] = np.unwrap(rows[:, 0])
+    rows[:, 0] += 2 * np.pi * np.round((convex - rows[:, 0]) / (2 * np.pi))
     return rows
 
 

@@ -130,6 +130,17 @@ def test_what_the_nodes_do_not_keep_is_tightened_until_it_is_proved(monkeypatch)
     assert shortfall(subject.room, found.camera.ctrl[:, :, :3]).max() <= 0.0
 
 
+def test_a_stated_turn_stays_a_turn():
+    pan = (
+        "at: [0, -90, 15], heading: 200 deg, pitch: 0 deg",
+        "at: [60, -90, 15], heading: 1100 deg, pitch: -5 deg",
+    )
+    mission = HEAD + keyed(*pan).replace("    target: tower\n", "")
+    for name in ("ours", "ang"):
+        ctrl = leg_named(path_of(compiled(mission, name))).curve.ctrl[:, :, 3]
+        assert ctrl[-1, -1] - ctrl[0, 0] == pytest.approx(-np.radians(900.0), abs=1e-6)
+
+
 def test_angles_and_look_at_lead_through_the_authors_own_angles():
     convex = leg_named(path_of(planned("arc", "none")))
     for name in ("ang", "look-at"):
