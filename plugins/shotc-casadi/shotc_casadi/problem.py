@@ -45,6 +45,7 @@ ANGULAR_JERK_SHARE = 1.0  # per squared share of what reaches the gimbal's accel
 PACE = 0.3  # per squared relative change of a stage's length
 LAG = 10.0  # per squared share of the way to the neighbouring nodes, so that a node is where it says it is
 PIN = 1e4  # per squared share of the distance, or per rad^2, (m/s)^2 ...: values that are given
+KNOTS = 50  # of the motion that is the first guess, besides the places that bind
 SLOWEST, FASTEST = 5.0, 0.2  # bounds on a stage's length against the first guess
 
 
@@ -94,7 +95,9 @@ def _guess(subject: Subject, stages: Stages, wanted: Wishes, condition: Conditio
     angles = q[:, [CAM_YAW, CAM_PITCH]] if condition.aims == "framing" else wanted.aim
     values = np.column_stack([q[:, :3], angles])
     rest = ([(1, np.zeros(5)), (2, np.zeros(5))],) * 2
-    motion = make_interp_spline(stages.t, values, k=5, bc_type=rest)
+    # As coarse however many the stages: a finer guess only has sharper jerks for the solver to undo.
+    few = np.union1d(np.linspace(0, len(stages.s) - 1, KNOTS).astype(int), stages.pins)
+    motion = make_interp_spline(stages.t[few], values[few], k=5, bc_type=rest)
     x = np.zeros((len(stages.s), STATES))
     rows = [motion(stages.t, order) for order in range(3)]
     for order, (place, yaw, pitch) in enumerate(
