@@ -14,6 +14,7 @@ FAMILIES = {
     "U": ("units", "units"),
     "G": ("geometry", "geometry and framing"),
     "K": ("keyframes", "keyframes and kinds"),
+    "M": ("motion", "moving targets"),
     "Q": ("convex", "convex solve"),
     "R": ("refinement", "refinement"),
     "T": ("timing", "timing"),

@@ -7,6 +7,7 @@ the mission file (see ``OriginMap``).
 from typing import Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
+from shotc.geom.track import Track
 from shotc.ir.origin import KeyPath, OriginMap
 
 Vec2 = tuple[float, float]
@@ -36,13 +37,21 @@ class Zone(NamedTuple):
 
 
 class Target(NamedTuple):
-    """A standing camera target: an upright cylinder about its centre."""
+    """A camera target: an upright cylinder about its centre.
+
+    centre : where it stands, or is at mission time 0; track : how it moves, None where it stands
+    """
 
     name: str
     centre: Vec3
     radius: float
     height: float
     path: KeyPath
+    track: Track | None = None
+
+    def at(self, t: float) -> Vec3:
+        """Return its centre at a mission time, metres."""
+        return self.centre if self.track is None else self.track.at(t)
 
 
 class Limits(NamedTuple):
@@ -145,6 +154,38 @@ class Keyframe(NamedTuple):
     heading: float | None = None
 
 
+class Ideal(NamedTuple):
+    """Where the camera of a shot on its own clock would be, if nothing stood against it.
+
+    frame : what offsets count from. "world": W's origin. "target": the target's axis, East and North of
+        it, z in W. "heading": the same, ahead of the way the target faces and to the left of it.
+        "about": the target's centre, along W's axes
+    target : its name, None in the world
+    points : (share of the shot's time, offset in metres), shares rising from 0 to 1; even between them
+    placed : True where the user gave the positions, False where a kind generated them
+    """
+
+    frame: Literal["world", "target", "heading", "about"]
+    target: str | None
+    points: tuple[tuple[float, Vec3], ...]
+    placed: bool = False
+
+
+class Subject(NamedTuple):
+    """A target that a shot on its own clock frames, the first one foremost.
+
+    composition : the set of places its centre may have on screen
+    size : projected height over frame height to aim for, or None
+    view : (azimuth as a compass bearing from it to the camera, elevation), rad, or None
+    """
+
+    target: str
+    composition: Composition
+    size: float | None
+    view: Vec2 | None
+    path: KeyPath
+
+
 class Timing(NamedTuple):
     """When a shot is filmed; all None is ``auto``. Seconds; ``after`` names a shot."""
 
@@ -167,10 +208,12 @@ class Promise(NamedTuple):
 
 
 class Shot(NamedTuple):
-    """One shot of one drone as keyframes.
+    """One shot of one drone: keyframes, or an ideal where its targets move.
 
     pace : share of the limits used where the duration is not given, 0 to 1
     subject : the target as the shot names it, or None
+    ideal : of a shot on its own clock, whose timing has a duration; it has no keyframes then
+    subjects : whom it frames then
     """
 
     id: str
@@ -183,6 +226,8 @@ class Shot(NamedTuple):
     promise: Promise
     refine_optional: bool
     path: KeyPath
+    ideal: Ideal | None = None
+    subjects: tuple[Subject, ...] = ()
 
 
 class Rules(NamedTuple):

@@ -10,7 +10,19 @@ from typing import Any, NamedTuple, Protocol, Self
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
 from shotc.geom.geodetic import to_world
-from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Keyframe, Rules, Target, Vec2, Vec3
+from shotc.ir.mission import (
+    Composition,
+    Deferred,
+    Drone,
+    GeoOrigin,
+    Ideal,
+    Keyframe,
+    Rules,
+    Subject,
+    Target,
+    Vec2,
+    Vec3,
+)
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.files import FileFault
 from shotc.spec.fields import Geodetic
@@ -45,11 +57,16 @@ Aim = tuple[Vec2 | Vec3 | None, str | None]
 
 
 class Expansion(NamedTuple):
-    """What a shot expands to: keyframes in the order they are flown, or what stands against it."""
+    """What a shot expands to: keyframes in the order they are flown, or what stands against it.
+
+    ideal, subjects : instead of keyframes, where a target moves
+    """
 
     keyframes: tuple[Keyframe, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
     deferred: tuple[Deferred, ...] = ()
+    ideal: Ideal | None = None
+    subjects: tuple[Subject, ...] = ()
 
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Self:
@@ -66,7 +83,7 @@ class Scene(NamedTuple):
 
     drone : that films it; rules : of the mission
     composition : set on which the shot's target is placed
-    targets : by name; None where a target moves
+    targets : by name; None where a target's track cannot be used
     path : of the shot in the mission; origins : spans of the mission file
     origin : of W on the earth, if the mission gives one; geodetic positions need it
     read : bytes of a file that the mission names under a key path, or what is wrong with it
@@ -82,12 +99,19 @@ class Scene(NamedTuple):
     read: Callable[[str, KeyPath], bytes | Diagnostic]
     fleets: tuple[str, ...] = ()
 
-    def standing(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
+    def subject(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
         """Return the target called ``name``; ``path``, below the shot, is where the name is written."""
         where = (*self.path, *path)
         if name not in self.targets:
             return unknown_target(self.origins, where, name, self.targets)
-        return self.targets[name] or Deferred(MOVING, where)
+        return self.targets[name] or Deferred("a target whose track cannot be used", where)
+
+    def standing(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
+        """Return a target as ``subject`` does, if it stands: what moves has no keyframes yet."""
+        found = self.subject(name, *path)
+        if isinstance(found, Target) and found.track is not None:
+            return Deferred(f"this kind of shot of {MOVING}", (*self.path, *path))
+        return found
 
     def aim(self, shot: ShotBase, aimed: Aimed, *path: str | int) -> Aim | Diagnostic | Deferred:
         """Return (aim, target) of a camera that is aimed as ``aimed``, at ``path`` below the shot, says.
@@ -107,6 +131,11 @@ class Scene(NamedTuple):
         if aimed.heading is None or aimed.pitch is None:
             return (None, shot.target)
         return ((yaw_of(aimed.heading), aimed.pitch), shot.target)
+
+    def framed(self, shot: ShotBase, name: str) -> Subject:
+        """Return a target as the subject of a shot on its own clock."""
+        key = "target" if shot.target == name else "look_at"
+        return Subject(name, self.composition, shot.size, None, (*self.path, key))
 
     def place(self, position: Place) -> Vec3:
         """Return a position as a point of W; the mission has an origin wherever one is geodetic."""

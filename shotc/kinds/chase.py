@@ -1,10 +1,11 @@
-"""Chase: behind a moving target, the way it goes. Checked, but not planned yet."""
+"""Chase: behind a moving target, the way it goes."""
 
 from typing import Literal
 
 from pydantic import Field
 
-from shotc.kinds.base import Kind, postponed
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.moving import along
 from shotc.spec.fields import Length, Name, PositiveLength
 from shotc.spec.shot import ShotBase
 
@@ -18,4 +19,9 @@ class ChaseShot(ShotBase):
     altitude: Length = Field(description="z of the camera")
 
 
-KIND = Kind("chase", "follow a moving target from behind", ChaseShot, postponed("chase"), planned=False)
+def expand(shot: ChaseShot, scene: Scene) -> Expansion:
+    """Return the place behind the target, carried along by its motion."""
+    return along(shot, scene, [(-shot.distance, 0.0, shot.altitude)])
+
+
+KIND = Kind("chase", "follow a moving target from behind", ChaseShot, expand)

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from shotc.ir.mission import Target
 from shotc.kinds.base import Expansion, Kind, Scene
-from shotc.kinds.rounds import filmed, line
+from shotc.kinds.rounds import axis_of, filmed, line
 from shotc.spec.fields import Angle, LengthSpan, Name, PositiveLength
 from shotc.spec.shot import ShotBase
 
@@ -23,13 +23,13 @@ class ElevatorShot(ShotBase):
 
 def expand(shot: ElevatorShot, scene: Scene) -> Expansion:
     """Return keyframes along the line, dense enough that the framing holds between them."""
-    target = scene.standing(shot.target, "target")
+    target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
     points = line(
-        target.centre, shot.azimuth, (shot.distance, shot.distance), shot.altitude, target.centre[2]
+        axis_of(target), shot.azimuth, (shot.distance, shot.distance), shot.altitude, target.centre[2]
     )
-    return filmed(shot, scene, points)
+    return filmed(shot, scene, target, points)
 
 
 KIND = Kind("elevator", "rise or sink in front of the target", ElevatorShot, expand)

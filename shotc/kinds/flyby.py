@@ -1,10 +1,11 @@
-"""Flyby: past a moving target from behind to ahead. Checked, but not planned yet."""
+"""Flyby: past a moving target from behind to ahead."""
 
 from typing import Literal
 
 from pydantic import Field
 
-from shotc.kinds.base import Kind, postponed
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.moving import along
 from shotc.spec.fields import Length, Name, PositiveLength
 from shotc.spec.shot import ShotBase
 
@@ -22,6 +23,10 @@ class FlybyShot(ShotBase):
     )
 
 
-KIND = Kind(
-    "flyby", "pass a moving target from behind to ahead", FlybyShot, postponed("flyby"), planned=False
-)
+def expand(shot: FlybyShot, scene: Scene) -> Expansion:
+    """Return the way past the target, carried along by its motion."""
+    start, end = (-shot.behind, shot.offset, shot.altitude), (shot.ahead, shot.offset, shot.altitude)
+    return along(shot, scene, [start, end])
+
+
+KIND = Kind("flyby", "pass a moving target from behind to ahead", FlybyShot, expand)

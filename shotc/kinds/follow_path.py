@@ -1,18 +1,19 @@
 """Follow-path: the camera flies along points of the mission, or of a CSV or GPX file."""
 
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import atan2, dist, hypot
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred, Vec2, Vec3
+from shotc.ir.mission import Deferred, Ideal, Vec2, Vec3
 from shotc.kinds.base import Aim, Expansion, Kind, Part, Place, Scene
 from shotc.kinds.earth import stray
 from shotc.kinds.files import FileFault, Table, read_table
 from shotc.kinds.gpx import read_gpx
+from shotc.kinds.moving import timed
 from shotc.spec.fields import Geodetic, LookAt, Pitch, Position, RelativePath
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.model import OneOf
@@ -50,6 +51,8 @@ def expand(shot: FollowPathShot, scene: Scene) -> Expansion:
     points = _listed(shot, scene) if shot.points is not None else _from_file(shot, scene)
     if isinstance(points, Diagnostic):
         return Expansion.of([points])
+    if shot.heading is None and (followed := _moving(shot, scene)) is not None:
+        return timed(shot, scene, _paced([at for at, _ in points]), (scene.framed(shot, followed),))
     aims = _aims(shot, scene, [at for at, _ in points])
     if not isinstance(aims, list):
         return Expansion.of([aims])
@@ -58,6 +61,20 @@ def expand(shot: FollowPathShot, scene: Scene) -> Expansion:
         for (at, path), (aim, target) in zip(points, aims, strict=True)
     ]
     return Expansion.of(parts)
+
+
+def _moving(shot: FollowPathShot, scene: Scene) -> str | None:
+    """Return the name of the moving target that the camera looks at, if it is one."""
+    name = shot.target if shot.look_at is None else shot.look_at
+    target = scene.targets.get(name) if isinstance(name, str) else None
+    return target.name if target is not None and target.track is not None else None
+
+
+def _paced(points: list[Vec3]) -> Ideal:
+    """Return the way along points at one speed."""
+    way = list(accumulate((dist(a, b) for a, b in pairwise(points)), initial=0.0))
+    shares = ((s / way[-1], p) for s, p in zip(way, points, strict=True))
+    return Ideal("world", None, tuple(shares), placed=True)
 
 
 _Points = list[tuple[Vec3, tuple[str | int, ...]]]

@@ -1,10 +1,11 @@
-"""Lateral: beside a moving target. Checked, but not planned yet."""
+"""Lateral: beside a moving target."""
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from shotc.kinds.base import Kind, postponed
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.moving import along
 from shotc.spec.fields import Length, Name, PositiveLength
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.shot import ShotBase
@@ -22,6 +23,10 @@ class LateralShot(ShotBase):
     altitude: Length = Field(description="z of the camera")
 
 
-KIND = Kind(
-    "lateral", "accompany a moving target at its side", LateralShot, postponed("lateral"), planned=False
-)
+def expand(shot: LateralShot, scene: Scene) -> Expansion:
+    """Return the place beside the target, carried along by its motion."""
+    left = shot.distance if shot.side == "left" else -shot.distance
+    return along(shot, scene, [(0.0, left, shot.altitude)])
+
+
+KIND = Kind("lateral", "accompany a moving target at its side", LateralShot, expand)

@@ -1,10 +1,11 @@
-"""Lead: ahead of a moving target, looking back. Checked, but not planned yet."""
+"""Lead: ahead of a moving target, looking back."""
 
 from typing import Literal
 
 from pydantic import Field
 
-from shotc.kinds.base import Kind, postponed
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.moving import along
 from shotc.spec.fields import Length, Name, PositiveLength
 from shotc.spec.shot import ShotBase
 
@@ -18,4 +19,9 @@ class LeadShot(ShotBase):
     altitude: Length = Field(description="z of the camera")
 
 
-KIND = Kind("lead", "fly ahead of a moving target, looking back", LeadShot, postponed("lead"), planned=False)
+def expand(shot: LeadShot, scene: Scene) -> Expansion:
+    """Return the place ahead of the target, carried along by its motion."""
+    return along(shot, scene, [(shot.distance, 0.0, shot.altitude)])
+
+
+KIND = Kind("lead", "fly ahead of a moving target, looking back", LeadShot, expand)

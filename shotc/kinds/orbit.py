@@ -7,7 +7,7 @@ from pydantic import Field, field_validator
 
 from shotc.ir.mission import Target
 from shotc.kinds.base import Expansion, Kind, Scene
-from shotc.kinds.rounds import filmed, ring
+from shotc.kinds.rounds import axis_of, filmed, ring
 from shotc.spec.faults import fault
 from shotc.spec.fields import Angle, Length, Name, PositiveLength
 from shotc.spec.quantities import Quantity
@@ -40,12 +40,12 @@ class OrbitShot(ShotBase):
 
 def expand(shot: OrbitShot, scene: Scene) -> Expansion:
     """Return keyframes round the target, at most 15 deg apart."""
-    target = scene.standing(shot.target, "target")
+    target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
     radius, altitude = (shot.radius, shot.radius), (shot.altitude, shot.altitude)
-    points = ring(target.centre, shot.start_azimuth, shot.sweep, radius, altitude)
-    return filmed(shot, scene, points, turn="sweep")
+    points = ring(axis_of(target), shot.start_azimuth, shot.sweep, radius, altitude)
+    return filmed(shot, scene, target, points, turn="sweep")
 
 
 KIND = Kind("orbit", "turn about the target at one distance and altitude", OrbitShot, expand)

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from math import atan2, ceil, cos, hypot, pi, sin
 
-from shotc.ir.mission import Vec3
+from shotc.ir.mission import Ideal, Target, Vec3
 from shotc.kinds.base import Expansion, Scene
+from shotc.kinds.moving import evenly, timed
 from shotc.spec.shot import ShotBase
 
 Span = tuple[float, float]
@@ -51,12 +52,19 @@ def line(axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: flo
     ]
 
 
-def filmed(shot: ShotBase, scene: Scene, points: list[Vec3], turn: str = "") -> Expansion:
-    """Return ideal keyframes along ``points`` that frame the shot's target.
+def axis_of(target: Target) -> Vec3:
+    """Return the point that a ring or a line counts from: of a target that moves, its own axis."""
+    return target.centre if target.track is None else (0.0, 0.0, target.centre[2])
+
+
+def filmed(shot: ShotBase, scene: Scene, target: Target, points: list[Vec3], turn: str = "") -> Expansion:
+    """Return an ideal path along ``points`` about ``axis_of(target)`` that frames it.
 
     turn : the parameter that makes it move, where that is an angle and no pair [from, to]
     """
     if max(hypot(*(a - b for a, b in zip(p, points[0], strict=True))) for p in points) >= 1e-3:
+        if target.track is not None:
+            return timed(shot, scene, Ideal("target", target.name, evenly(points)))
         return Expansion.of(scene.keyframe(p, shot.target) for p in points)
     how = f"give `{turn}` an angle such as `180 deg`" if turn else "give what is to move as [from, to]"
     message = f"nothing moves in this {shot.kind}"

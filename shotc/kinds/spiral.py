@@ -8,7 +8,7 @@ from pydantic import Field
 from shotc.ir.mission import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.orbit import Sweep
-from shotc.kinds.rounds import filmed, ring
+from shotc.kinds.rounds import axis_of, filmed, ring
 from shotc.spec.fields import Angle, LengthSpan, Name, PositiveLengthSpan
 from shotc.spec.shot import ShotBase
 
@@ -28,11 +28,11 @@ class SpiralShot(ShotBase):
 
 def expand(shot: SpiralShot, scene: Scene) -> Expansion:
     """Return keyframes round the target, at most 15 deg apart."""
-    target = scene.standing(shot.target, "target")
+    target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
-    points = ring(target.centre, shot.start_azimuth, shot.sweep, shot.radius, shot.altitude)
-    return filmed(shot, scene, points, turn="sweep")
+    points = ring(axis_of(target), shot.start_azimuth, shot.sweep, shot.radius, shot.altitude)
+    return filmed(shot, scene, target, points, turn="sweep")
 
 
 KIND = Kind("spiral", "turn about the target while distance and altitude change", SpiralShot, expand)

@@ -17,6 +17,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder, Prism
+from shotc.geom.track import Track
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim
 
@@ -27,6 +28,7 @@ UNLIMITED = {
     (Prism, "top"),
     (Claim, "limit"),
     (Claim, "worst"),
+    (Track, "until"),
 }
 
 LARGEST = 1e12

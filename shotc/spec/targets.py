@@ -4,22 +4,25 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from shotc.spec.fields import Position, PositiveLength, RelativePath, Speed, Velocity
+from shotc.spec.fields import NonNegativeDuration, Position, PositiveLength, RelativePath, Speed, Velocity
 from shotc.spec.model import Model, OneOf
 
 
 class TrackSpec(Model):
-    """How a target moves: rows of a file, a constant velocity, or points at a constant speed."""
+    """How a target moves: rows of a file, a constant velocity, or points at one speed or at given times."""
 
-    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("file",), ("start", "velocity"), ("points", "speed"))),)
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("file",), ("start", "velocity"), ("points", "speed"), ("points", "times"))),)
 
     file: RelativePath | None = Field(default=None, description="CSV file of t,x,y,z and maybe heading")
     start: Position | None = Field(default=None, description="where the target is at time 0")
     velocity: Velocity | None = Field(default=None, description="[east, north, up]")
     points: tuple[Position, ...] | None = Field(
-        default=None, min_length=2, description="points passed in order, from time 0"
+        default=None, min_length=2, description="points passed in order"
     )
-    speed: Speed | None = Field(default=None, description="speed along the points")
+    speed: Speed | None = Field(default=None, description="speed along the points, from time 0")
+    times: tuple[NonNegativeDuration, ...] | None = Field(
+        default=None, min_length=2, description="when it is at each point, from mission start"
+    )
 
 
 class TargetSpec(Model):

@@ -22,10 +22,11 @@ from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.home import check_homes
+from shotc.passes.resolve.ideals import check_ideal
 from shotc.passes.resolve.names import check_names, once
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
-from shotc.passes.resolve.tracks import check_tracks
+from shotc.passes.resolve.tracks import read_tracks
 from shotc.passes.resolve.world import check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
@@ -55,9 +56,10 @@ class Resolve:
         put = partial(placed, origin or ANYWHERE)
         found_zones, zone_faults = zones(spec, put, origins)
         found_drones, drone_faults = drones(spec, put, origins)
-        found_targets = targets(spec, put)
         rules = Rules(spec.rules.separation, spec.rules.ground_clearance, spec.rules.target_clearance)
         read = partial(read_file, ir.folder, origins)
+        tracks = read_tracks(spec, put, origins, read)
+        found_targets = targets(spec, put, tracks.tracks)
         ctx.progress("expanding the shots")
         cast = Cast(
             self.kinds,
@@ -75,7 +77,7 @@ class Resolve:
                 *zone_faults,
                 *drone_faults,
                 *([] if astray else check_targets(found_targets, origins)),
-                *check_tracks(spec, origins, read),
+                *tracks.diagnostics,
                 *check_names(spec, origins, self.emitters),
                 *shots.diagnostics,
             ]
@@ -108,6 +110,7 @@ def _static_faults(mission: MissionIR, *, geometry: bool, timing: bool, order: b
     if not geometry:
         return []
     homes = check_homes(mission)
+    homes = [*homes, *(d for shot in mission.shots for d in check_ideal(mission, shot))]
     places = [(shot, path, d) for shot in mission.shots for path, d in check_places(mission, shot)]
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]

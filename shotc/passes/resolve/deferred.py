@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from shotc.ir.mission import Deferred
-from shotc.kinds.base import MOVING
 from shotc.passes.resolve.names import AUTO
 from shotc.spec.mission import MissionSpec
 
@@ -21,9 +20,6 @@ def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[D
 def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
     if spec.world.scene is not None:
         yield Deferred("a scene file (`world.scene`)", ("world", "scene"))
-    for name, target in spec.targets.items():
-        if target.track is not None:
-            yield Deferred(MOVING, ("targets", name, "track"))
     for name in spec.fleets:
         yield Deferred("a fleet", ("fleets", name))
 

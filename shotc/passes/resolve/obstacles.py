@@ -110,7 +110,7 @@ def signed_distance(solid: Solid, p: Vec3) -> float:
 
 
 def obstacles_of(mission: MissionIR, drone: Drone) -> list[Obstacle]:
-    """Return all that a drone keeps clear of, the ground excepted."""
+    """Return all that stands and that a drone keeps clear of, the ground excepted."""
     zones = [Obstacle(z.name, z.keep, z.solid, drone.radius, z.path) for z in mission.zones]
     room = mission.rules.target_clearance + drone.radius
     targets = [
@@ -124,6 +124,7 @@ def obstacles_of(mission: MissionIR, drone: Drone) -> list[Obstacle]:
             t.path,
         )
         for t in mission.targets
+        if t.track is None
     ]
     return [*zones, *targets]
 

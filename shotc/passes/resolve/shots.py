@@ -14,7 +14,7 @@ from shotc.spec.shot import ShotBase
 class Cast(NamedTuple):
     """What the shots of a mission are made with: everything a scene shows, without the shot.
 
-    drones : by name; targets : by name, None where one moves
+    drones : by name; targets : by name, None where a track cannot be used
     """
 
     kinds: Mapping[str, Kind]
@@ -47,7 +47,7 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> S
         expansion = _expand(spec, written, cast, cast.drones.get(written.drone) or spare(), path)
         diagnostics += expansion.diagnostics
         deferred += expansion.deferred
-        if expansion.keyframes and written.drone in cast.drones:
+        if (expansion.keyframes or expansion.ideal) and written.drone in cast.drones:
             shots.append(_shot(spec, written, expansion, path))
     return Shots(tuple(shots), tuple(diagnostics), tuple(deferred))
 
@@ -80,4 +80,6 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         promise=Promise(require.in_frame, require.screen_error, require.size),
         refine_optional=shot.refine.optional,
         path=path,
+        ideal=expansion.ideal,
+        subjects=expansion.subjects,
     )

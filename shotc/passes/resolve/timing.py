@@ -128,7 +128,7 @@ class _Moment(NamedTuple):
     """Where and when a drone is free: after ``shot``, or on its pad; take_off is the latest possible."""
 
     time: float
-    at: Vec3
+    at: Vec3 | None
     shot: Shot | None
     take_off: float
 
@@ -140,9 +140,11 @@ def _schedule(mission: MissionIR) -> list[Diagnostic]:
     ends: dict[str, float] = {}
     for shot in flown_order(mission.shots):
         drone, before = mission.drone(shot.drone), free[shot.drone]
-        if not shot.keyframes:
-            continue
-        there = before.time + least_travel([before.at, shot.keyframes[0].at], drone.limits)
+        # A shot of a moving target may leave its ideal, so no way to it or from it is sure.
+        first, last = (k.at for k in (shot.keyframes[0], shot.keyframes[-1])) if shot.keyframes else (None, None)
+        there = before.time
+        if first is not None and before.at is not None:
+            there += least_travel([before.at, first], drone.limits)
         waits = ends.get(shot.timing.after or "", 0.0)
         start = shot.timing.start
         faults += _late(mission, shot, before, there, waits)
@@ -151,7 +153,7 @@ def _schedule(mission: MissionIR) -> list[Diagnostic]:
         lasts = duration if duration is not None else least_shot(shot.keyframes, drone.limits)
         take_off = begin - there if before.shot is None else before.take_off
         ends[shot.id] = begin + lasts
-        free[drone.name] = _Moment(begin + lasts, shot.keyframes[-1].at, shot, take_off)
+        free[drone.name] = _Moment(begin + lasts, last, shot, take_off)
     return faults or [f for d in mission.drones for f in _endurance(mission, d, free[d.name])]
 
 
@@ -178,7 +180,8 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
 
 
 def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnostic]:
-    flight = last.time + least_travel([last.at, drone.home], drone.limits) - last.take_off
+    home = 0.0 if last.at is None else least_travel([last.at, drone.home], drone.limits)
+    flight = last.time + home - last.take_off
     if last.shot is None or flight <= drone.endurance:
         return []
     message = f"the shots of drone `{drone.name}` take longer than it can stay in the air"

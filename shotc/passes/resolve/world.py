@@ -10,6 +10,7 @@ from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
+from shotc.geom.track import Track
 from shotc.ir.mission import Drone, Gimbal, Limits, Target, Vec2, Vec3, Zone
 from shotc.ir.origin import OriginMap
 from shotc.spec.drones import DroneSpec
@@ -68,23 +69,26 @@ def _same(p: Vec2, q: Vec2) -> bool:
     return all(isclose(a, b, abs_tol=1e-6) for a, b in zip(p, q, strict=True))
 
 
-def targets(spec: MissionSpec, put: Put) -> dict[str, Target | None]:
-    """Return the targets by name; None for one that moves."""
-    return {
-        name: None
-        if target.at is None
-        else Target(name, put(target.at), target.radius, target.height, ("targets", name))
-        for name, target in spec.targets.items()
-    }
+def targets(spec: MissionSpec, put: Put, tracks: Mapping[str, Track]) -> dict[str, Target | None]:
+    """Return the targets by name; None for one whose track cannot be used."""
+    found: dict[str, Target | None] = {}
+    for name, target in spec.targets.items():
+        track = tracks.get(name)
+        centre = put(target.at) if target.at is not None else track.at(0.0) if track is not None else None
+        if centre is None:
+            found[name] = None
+        else:
+            found[name] = Target(name, centre, target.radius, target.height, ("targets", name), track)
+    return found
 
 
 def check_targets(found: Mapping[str, Target | None], origins: OriginMap) -> list[Diagnostic]:
-    """Warn of standing targets a good part of which is under the ground."""
+    """Warn of targets a good part of which is under the ground, where a moving one begins."""
     return [
         Diagnostic(
             "G018",
             f"target `{target.name}` reaches {target.height / 2 - target.centre[2]:.2f} m into the ground",
-            (origins.value((*target.path, "at")),),
+            (origins.value((*target.path, "at" if target.track is None else "track")),),
             (f"`at` is the middle of its {target.height:.2f} m, and the ground is z = 0",),
             f"if it stands on the ground, put its middle at z = {target.height / 2:g}",
         )

@@ -1,0 +1,90 @@
+"""The motion of a target: rows of time and place, straight and even between them. Plain Python."""
+
+from bisect import bisect_right
+from math import atan2, hypot, inf, pi
+from typing import NamedTuple
+
+Vec3 = tuple[float, float, float]
+
+AROUND = 1.0  # seconds before and after, over which a heading is taken from the motion
+MOVES = 0.1  # metres over that time; less is standing still
+
+
+class Track(NamedTuple):
+    """Where a target's centre is over mission time.
+
+    times : seconds, rising, one or more; points : p_WT at them, metres
+    headings : where it faces, rad counter-clockwise from East without jumps, or () where that is the
+        direction in which it moves
+    after : its velocity from the last row on, m/s
+    since, until : seconds between which anything is known; it stands at its first row before that
+    """
+
+    times: tuple[float, ...]
+    points: tuple[Vec3, ...]
+    headings: tuple[float, ...] = ()
+    after: Vec3 = (0.0, 0.0, 0.0)
+    since: float = 0.0
+    until: float = inf
+
+    def at(self, t: float) -> Vec3:
+        """Return the place at a time, metres."""
+        i, share = self._row(t)
+        if i == len(self.times) - 1:
+            late = max(0.0, t - self.times[-1])
+            x, y, z = (p + v * late for p, v in zip(self.points[-1], self.after, strict=True))
+            return (x, y, z)
+        x, y, z = (a + share * (b - a) for a, b in zip(self.points[i], self.points[i + 1], strict=True))
+        return (x, y, z)
+
+    def heading(self, t: float) -> float:
+        """Return where it faces at a time, rad; by its motion, of the second before and the one after.
+
+        While it stands it faces where it last went, and before it has moved where it will go first.
+        """
+        if self.headings:
+            i, share = self._row(t)
+            if i == len(self.times) - 1:
+                return self.headings[-1]
+            return self.headings[i] + share * (self.headings[i + 1] - self.headings[i])
+        a, b = self.at(t - AROUND), self.at(t + AROUND)
+        if hypot(b[0] - a[0], b[1] - a[1]) >= MOVES:
+            return atan2(b[1] - a[1], b[0] - a[0])
+        return self._course(t)
+
+    def speed(self, t: float) -> float:
+        """Return its speed at a time, m/s; at a row, of the stretch that begins there."""
+        i, _ = self._row(t)
+        if i == len(self.times) - 1:
+            return hypot(*self.after)
+        if t < self.times[0]:
+            return 0.0
+        way = hypot(*(b - a for a, b in zip(self.points[i], self.points[i + 1], strict=True)))
+        return way / (self.times[i + 1] - self.times[i])
+
+    def _row(self, t: float) -> tuple[int, float]:
+        """Return the row before a time, and how far it is to the next, 0 to 1."""
+        i = bisect_right(self.times, t) - 1
+        if i < 0:
+            return 0, 0.0
+        if i == len(self.times) - 1:
+            return i, 0.0
+        return i, (t - self.times[i]) / (self.times[i + 1] - self.times[i])
+
+    def _course(self, t: float) -> float:
+        legs = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(self.points, self.points[1:], strict=False)]
+        legs.append((self.after[0], self.after[1]))
+        i, _ = self._row(t)
+        for leg in (*legs[i::-1], *legs[i:]):
+            if hypot(*leg) > 1e-6:
+                return atan2(leg[1], leg[0])
+        return pi / 2
+
+
+def unwrapped(angles: list[float]) -> tuple[float, ...]:
+    """Return angles shifted by whole turns, so that none is more than half a turn from the one before."""
+    found: list[float] = []
+    for angle in angles:
+        turns = round((found[-1] - angle) / (2 * pi)) if found else 0
+        found.append(angle + 2 * pi * turns)
+    return tuple(found)

@@ -1,0 +1,35 @@
+"""Where the camera of a shot on its own clock would be: its ideal, put into the world. Plain Python."""
+
+from bisect import bisect_right
+from math import cos, sin
+
+from shotc.ir.mission import MissionIR, Shot, Vec3
+
+
+def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
+    """Return the place at a mission time, metres; before and after the shot its ends are carried on.
+
+    start : mission time of the shot's first frame
+    """
+    ideal, duration = shot.ideal, shot.timing.duration
+    assert ideal is not None
+    assert duration is not None
+    offset = _offset(ideal.points, min(1.0, max(0.0, (t - start) / duration)))
+    if ideal.target is None:
+        return offset
+    target = mission.target(ideal.target)
+    x, y, z = target.at(t)
+    if ideal.frame == "heading":
+        facing = 0.0 if target.track is None else target.track.heading(t)
+        c, s = cos(facing), sin(facing)
+        return (x + c * offset[0] - s * offset[1], y + s * offset[0] + c * offset[1], offset[2])
+    up = z + offset[2] if ideal.frame == "about" else offset[2]
+    return (x + offset[0], y + offset[1], up)
+
+
+def _offset(points: tuple[tuple[float, Vec3], ...], share: float) -> Vec3:
+    i = min(bisect_right([s for s, _ in points], share), len(points) - 1)
+    (low, a), (high, b) = points[max(i - 1, 0)], points[i]
+    x = (share - low) / (high - low) if high > low else 0.0
+    first, second, third = (p + x * (q - p) for p, q in zip(a, b, strict=True))
+    return (first, second, third)

@@ -1,0 +1,103 @@
+"""Shots of moving targets, judged by their ideal: is the target known then, can a drone keep up, is it too low.
+
+The ideal is where the camera would be; a plan may leave it, but not for the whole of a shot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import ceil, hypot
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.obstacles import ROUNDING
+from shotc.passes.resolve.timing import timing_label
+
+WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good
+STEPS = 200  # places at which an ideal is looked at
+
+
+def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Yield what is wrong with a shot on its own clock; one without a start is judged from time 0."""
+    if shot.ideal is None or shot.timing.duration is None:
+        return
+    outside = list(_outside(mission, shot))
+    yield from outside
+    yield from _low(mission, shot)
+    if not outside:
+        yield from _fast(mission, shot)
+
+
+def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell targets whose track ends before the shot does, or begins after it."""
+    duration, start = shot.timing.duration or 0.0, shot.timing.start
+    followed = () if shot.ideal is None or shot.ideal.target is None else (shot.ideal.target,)
+    for name in dict.fromkeys([*followed, *(s.target for s in shot.subjects)]):
+        track = mission.target(name).track
+        if track is None:
+            continue
+        begins = track.since if start is None else start
+        if begins >= track.since - ROUNDING and begins + duration <= track.until + ROUNDING:
+            continue
+        label = timing_label(mission, shot)
+        beside = mission.origins.value((*mission.target(name).path, "track"), "the track")
+        first = f"from {track.since:.1f} s to {track.until:.1f} s" if track.until < 1e9 else ""
+        known = first or f"from {track.since:.1f} s on"
+        note = (
+            f"`{name}` is known {known}; the shot "
+            + (f"is filmed from {start:.1f} s to {start + duration:.1f} s" if start is not None else f"lasts {duration:.1f} s")
+        )
+        yield Diagnostic(
+            "M004", f"shot `{shot.id}` reaches beyond the track of `{name}`", (label, beside), (note,),
+            "film it while its track lasts, or give the track more rows",
+        )
+
+
+def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell an altitude that is a number of the user's, and under the ground clearance."""
+    ideal = shot.ideal
+    if ideal is None or ideal.frame == "about":
+        return
+    need = mission.rules.ground_clearance + mission.drone(shot.drone).radius
+    lowest = min(offset[2] for _, offset in ideal.points)
+    if lowest >= need - ROUNDING:
+        return
+    key = "altitude" if (*shot.path, "altitude") in mission.origins.values else "kind"
+    yield Diagnostic(
+        "M006",
+        f"shot `{shot.id}` is too low: {lowest:.2f} m over the ground",
+        (mission.origins.value((*shot.path, key)),),
+        (f"the ground clearance and the body radius need {need:.2f} m",),
+        f"raise it to z = {ceil(need * 100) / 100:.2f}",
+    )
+
+
+def _fast(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell an ideal that is faster than the drone, on average over a window."""
+    duration, start = shot.timing.duration or 0.0, shot.timing.start or 0.0
+    limit = mission.drone(shot.drone).limits.speed
+    window = min(WINDOW, duration)
+    worst, when = 0.0, start
+    for i in range(STEPS + 1):
+        t = start + (duration - window) * i / STEPS
+        a, b = (ideal_place(mission, shot, start, u) for u in (t, t + window))
+        speed = hypot(b[0] - a[0], b[1] - a[1]) / window
+        if speed > worst:
+            worst, when = speed, t
+    if worst <= limit * (1 + 1e-6):
+        return
+    wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
+    yield Diagnostic(
+        "M005",
+        f"drone `{shot.drone}` cannot keep up in shot `{shot.id}`",
+        (
+            mission.origins.value((*shot.path, "kind")),
+            mission.origins.value((*mission.drone(shot.drone).path, "limits", "speed"), "the drone's speed"),
+        ),
+        (
+            f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
+            f"the drone flies {limit:.1f} m/s{wind}",
+        ),
+        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, or slow the target down",
+    )
