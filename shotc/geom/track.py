@@ -1,12 +1,15 @@
 """The motion of a target: rows of time and place, straight and even between them. Plain Python."""
 
 from bisect import bisect_right
+from functools import lru_cache
+from itertools import pairwise
 from math import atan2, hypot, inf, pi
 from typing import NamedTuple
 
 Vec3 = tuple[float, float, float]
 
 AROUND = 1.0  # seconds before and after, over which a heading is taken from the motion
+STILL = 1e-6  # metres or m/s that are rounding
 MOVES = 0.1  # metres over that time; less is standing still
 
 
@@ -72,13 +75,39 @@ class Track(NamedTuple):
         return i, (t - self.times[i]) / (self.times[i + 1] - self.times[i])
 
     def _course(self, t: float) -> float:
-        legs = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(self.points, self.points[1:], strict=False)]
-        legs.append((self.after[0], self.after[1]))
+        """Return the direction of the last stretch on which it moved by a time, or of the first one ever."""
         i, _ = self._row(t)
-        for leg in (*legs[i::-1], *legs[i:]):
-            if hypot(*leg) > 1e-6:
-                return atan2(leg[1], leg[0])
-        return pi / 2
+        carried = hypot(self.after[0], self.after[1]) > STILL
+        moving = _moving(_Rows(self.points))
+        if carried and (i == len(self.times) - 1 or not moving):
+            return atan2(self.after[1], self.after[0])
+        if not moving:
+            return pi / 2
+        a = moving[max(0, bisect_right(moving, i) - 1)]
+        b = a + 1
+        return atan2(self.points[b][1] - self.points[a][1], self.points[b][0] - self.points[a][0])
+
+
+class _Rows:
+    """The points of a track as a key: the same object, without a look at each of many thousand rows."""
+
+    __slots__ = ("points",)
+
+    def __init__(self, points: tuple[Vec3, ...]) -> None:
+        self.points = points
+
+    def __hash__(self) -> int:
+        return id(self.points)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Rows) and self.points is other.points
+
+
+@lru_cache(maxsize=64)
+def _moving(rows: _Rows) -> tuple[int, ...]:
+    """Return the rows at which a stretch begins that leads somewhere else on the map."""
+    legs = enumerate(pairwise(rows.points))
+    return tuple(i for i, (a, b) in legs if hypot(b[0] - a[0], b[1] - a[1]) > STILL)
 
 
 def unwrapped(angles: list[float]) -> tuple[float, ...]:

@@ -7,6 +7,7 @@ from shotc.geom.geodetic import to_world
 from shotc.ir.mission import GeoOrigin
 
 FARTHEST = 10_000.0  # metres; no camera drone flies so far, and there z = 0 is 8 m above the sea's curve
+NEAR = 0.05  # degrees; both that small are 8 km at most, and files have many places
 
 
 class Stray(NamedTuple):
@@ -19,6 +20,8 @@ class Stray(NamedTuple):
 
 def stray(origin: GeoOrigin, lat: float, lon: float) -> Stray | None:
     """Return what is wrong with a place that is too far from the origin; degrees."""
+    if abs(lat - origin.lat_deg) < NEAR and abs(lon - origin.lon_deg) < NEAR:
+        return None
     away = _away((origin.lat_deg, origin.lon_deg), (lat, lon))
     if away <= FARTHEST:
         return None

@@ -1,13 +1,21 @@
 """Tables that a mission names: text to rows of numbers, with the line of every fault."""
 
 from collections.abc import Sequence
-from math import isfinite
+from math import isfinite, pi
 from typing import NamedTuple
 
 LARGEST = 4_000_000  # bytes
 MOST_ROWS = 50_000
 FARTHEST = 1e7  # metres or seconds; beyond it no mission is meant
-BOUNDS = {"lat": 90.0, "lon": 180.0}
+BOUNDS = {"lat": 90.0, "lon": 180.0, "heading": 2 * pi, "heading_deg": 360.0}
+UNITS = {
+    "t": "`t` is in seconds from the start of the mission",
+    "lat": "`lat` is in degrees, negative in the south",
+    "lon": "`lon` is in degrees, negative in the west",
+    "heading": "`heading` is in rad; name the column `heading_deg` if it is in degrees",
+    "heading_deg": "`heading_deg` is in degrees, clockwise from north",
+}
+METRES, DEGREES = {"x", "y", "z"}, {"lat", "lon", "height"}
 
 
 class FileFault(NamedTuple):
@@ -19,10 +27,11 @@ class FileFault(NamedTuple):
 
 
 class Table(NamedTuple):
-    """Rows of finite numbers under the names of their columns."""
+    """Rows of finite numbers under the names of their columns; lines : of the file that they begin on."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[float, ...], ...]
+    lines: tuple[int, ...]
 
 
 def read_table(data: bytes, layouts: Sequence[tuple[str, ...]]) -> Table | FileFault:
@@ -37,23 +46,41 @@ def read_table(data: bytes, layouts: Sequence[tuple[str, ...]]) -> Table | FileF
     lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line[0] != "#"]
     if not lines:
         return FileFault("the file is empty", help=f"write a header `{','.join(layouts[0])}` and its rows")
-    if len(lines) > MOST_ROWS:
-        return FileFault(f"the file has {len(lines)} rows; at most {MOST_ROWS} are read")
-    cells = [(n, tuple(c.strip() for c in line.split(","))) for n, line in lines]
     foreign = _no_table(*lines[0])
     if foreign is not None:
         return foreign
-    columns = _columns(*cells[0], layouts)
+    number, first = lines[0]
+    cells = tuple(c.strip() for c in first.split(","))
+    columns = _columns(number, cells, layouts)
     if isinstance(columns, FileFault):
         return columns
-    body = cells if _is_number(cells[0][1][0]) else cells[1:]
+    body = lines if _is_number(cells[0]) else lines[1:]
+    if len(body) > MOST_ROWS:
+        return FileFault(f"the file has {len(body)} rows; at most {MOST_ROWS} are read", help="thin it")
+    rows = _rows(body, columns)
+    return rows if isinstance(rows, FileFault) else Table(columns, rows, tuple(n for n, _ in body))
+
+
+def _rows(
+    body: Sequence[tuple[int, str]], columns: tuple[str, ...]
+) -> tuple[tuple[float, ...], ...] | FileFault:
+    """Return the numbers of every row; the long way only where the short one meets something odd."""
+    bounds = [BOUNDS.get(column, FARTHEST) for column in columns]
     rows: list[tuple[float, ...]] = []
-    for number, row in body:
-        numbers = row_of(number, row, columns)
-        if isinstance(numbers, FileFault):
-            return numbers
-        rows.append(numbers)
-    return Table(columns, tuple(rows))
+    for number, line in body:
+        cells = line.split(",")
+        try:
+            row = tuple(map(float, cells))
+        except ValueError:
+            row = ()
+        plain = len(row) == len(bounds) and "_" not in line
+        if not plain or not all(-most <= value <= most for value, most in zip(row, bounds, strict=True)):
+            checked = row_of(number, tuple(c.strip() for c in cells), columns)
+            if isinstance(checked, FileFault):
+                return checked
+            row = checked
+        rows.append(row)
+    return tuple(rows)
 
 
 def _text(data: bytes) -> str | FileFault:
@@ -96,18 +123,26 @@ def _columns(
     header = tuple(c.lower() for c in first)
     if any(sorted(layout) == sorted(header) for layout in layouts):
         return header
-    return FileFault(f"the header `{','.join(first)[:60]}` names other columns", line, f"write {wanted}")
+    named = f"the header `{','.join(first)[:60]}` names"
+    twice = next((c for c in header if header.count(c) > 1), None)
+    if twice:
+        return FileFault(f"{named} `{twice[:30]}` twice", line, f"write {wanted}")
+    if METRES & set(header) and DEGREES & set(header):
+        return FileFault(f"{named} both metres and degrees", line, f"write {wanted}")
+    return FileFault(f"{named} other columns", line, f"write {wanted}")
 
 
 def row_of(line: int, cells: tuple[str, ...], columns: tuple[str, ...]) -> tuple[float, ...] | FileFault:
     """Return the numbers of one row under its columns, or what is wrong with it; line from 1."""
     if len(cells) != len(columns):
-        return FileFault(f"the row has {len(cells)} columns, not {len(columns)}", line)
+        help_ = f"every row has the columns {','.join(columns)}; decimals have a point"
+        return FileFault(f"the row has {len(cells)} columns, not {len(columns)}", line, help_)
     for cell, column in zip(cells, columns, strict=True):
+        unit = UNITS.get(column, f"`{column}` is in metres")
         if not _is_number(cell):
-            return FileFault(f"`{cell[:30]}` is not a number for `{column}`", line)
+            return FileFault(f"`{cell[:30]}` is not a number for `{column}`", line, f"{unit}, without a unit")
         if not isfinite(float(cell)) or abs(float(cell)) > BOUNDS.get(column, FARTHEST):
-            return FileFault(f"`{cell[:30]}` is out of bounds for `{column}`", line)
+            return FileFault(f"`{cell[:30]}` is out of bounds for `{column}`", line, unit)
     return tuple(float(cell) for cell in cells)
 
 

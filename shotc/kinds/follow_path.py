@@ -10,11 +10,11 @@ from pydantic import Field
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Deferred, Ideal, Vec2, Vec3
 from shotc.kinds.base import Aim, Expansion, Kind, Part, Place, Scene
-from shotc.kinds.earth import stray
-from shotc.kinds.files import FileFault, Table, read_table
+from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.gpx import read_gpx
+from shotc.kinds.located import in_world
 from shotc.kinds.moving import timed
-from shotc.spec.fields import Geodetic, LookAt, Pitch, Position, RelativePath
+from shotc.spec.fields import LookAt, Pitch, Position, RelativePath
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.model import OneOf
 from shotc.spec.shot import ShotBase
@@ -95,12 +95,10 @@ def _from_file(shot: FollowPathShot, scene: Scene) -> _Points | Diagnostic:
     table = read_gpx(data) if name.lower().endswith(".gpx") else read_table(data, LAYOUTS)
     if isinstance(table, FileFault):
         return scene.bad_file(name, table, "file")
-    lost = _lost(scene, name, table) if "lat" in table.columns else None
-    if lost is not None:
-        return lost
-    points = thin(
-        _distinct([_point(scene, dict(zip(table.columns, row, strict=True))) for row in table.rows])
-    )
+    places = in_world(table, name, scene.origin, scene.origins, (*scene.path, "file"))
+    if isinstance(places, Diagnostic):
+        return places
+    points = thin(_distinct(places))
     if len(points) < 2:
         fault = FileFault("the file has fewer than two different points", None, "give two or more")
         return scene.bad_file(name, fault, "file")
@@ -108,33 +106,6 @@ def _from_file(shot: FollowPathShot, scene: Scene) -> _Points | Diagnostic:
         fault = FileFault(f"thinned to {THINNED} m, the path has {len(points)} corners", None, "smooth it")
         return scene.bad_file(name, fault, "file")
     return [(p, ("file",)) for p in points]
-
-
-def _lost(scene: Scene, name: str, table: Table) -> Diagnostic | None:
-    """Return what keeps a file's places on the earth from being put into the world."""
-    if scene.origin is None:
-        message = f"`{name}` gives latitudes and longitudes, but the mission has no origin"
-        return scene.fault("G015", message, "add `world: {origin: {lat: ..., lon: ..., alt: ...}}`", "file")
-    if "ele" in table.columns and ("world", "origin", "alt") not in scene.origins.values:
-        message = f"`{name}` gives elevations above sea level, but the origin has no altitude"
-        return scene.fault(
-            "G015", message, "add `alt`, its height above sea level, to `world.origin`", "file"
-        )
-    where = [table.columns.index(name) for name in ("lat", "lon")]
-    for number, row in enumerate(table.rows, 1):
-        found = stray(scene.origin, *(row[i] for i in where))
-        if found is not None:
-            notes = (f"point {number} of {len(table.rows)} in `{name}`", found.note)
-            return scene.fault("G017", found.message, found.help, "file", notes=notes)
-    return None
-
-
-def _point(scene: Scene, row: dict[str, float]) -> Vec3:
-    if "x" in row:
-        return (row["x"], row["y"], row["z"])
-    if "ele" in row:
-        return scene.place_at(row["lat"], row["lon"], row["ele"])
-    return scene.place(Geodetic(lat=row["lat"], lon=row["lon"], height=row["height"]))
 
 
 def _distinct(points: list[Vec3]) -> list[Vec3]:

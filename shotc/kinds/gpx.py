@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from typing import Any
 from xml.parsers import expat
 
 from shotc.kinds.files import LARGEST, MOST_ROWS, FileFault, Table, row_of, too_large
 
+PLACE = ("lat", "lon", "ele")
 
-def read_gpx(data: bytes) -> Table | FileFault:
+
+def read_gpx(data: bytes, *, timed: bool = False) -> Table | FileFault:
     """Read the track points of a GPX file, or its route points if it has no track: lat, lon, ele.
 
     A document type declaration is refused, for entities could grow without bound.
+    timed : also read when the points were passed, as a first column t: seconds from the first point on
     """
     if len(data) > LARGEST:
         return too_large(data)
-    reader = _Gpx()
+    reader = _Gpx(timed)
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = reader.doctype
     parser.StartElementHandler = reader.start
@@ -29,10 +33,49 @@ def read_gpx(data: bytes) -> Table | FileFault:
         return reader.fault
     except expat.ExpatError as error:
         return FileFault(f"not well-formed XML: {expat.ErrorString(error.code)}", error.lineno)
+    except (LookupError, ValueError):  # what expat does not know it asks Python for
+        return FileFault("the XML is in an encoding that cannot be read", 1, "save it as UTF-8")
     points = reader.points["trkpt"] or reader.points["rtept"]
     if not points:
         return FileFault("the file has no track points", help="export a track (`trkpt`) or a route (`rtept`)")
-    return Table(("lat", "lon", "ele"), tuple(points))
+    lines = tuple(point.line for point in points)
+    if not timed:
+        return Table(PLACE, tuple(point.place for point in points), lines)
+    rows = _timed(points)
+    return rows if isinstance(rows, FileFault) else Table(("t", *PLACE), rows, lines)
+
+
+class _Point:
+    """A point of the file; place : lat, lon, ele; line : on which it begins; time : as written, if it is."""
+
+    __slots__ = ("line", "place", "time")
+
+    def __init__(self, place: tuple[float, ...], line: int, time: str | None) -> None:
+        self.place = place
+        self.line = line
+        self.time = time
+
+
+def _timed(points: list[_Point]) -> tuple[tuple[float, ...], ...] | FileFault:
+    """Return rows of t, lat, lon, ele; a time without a zone is UTC, as the format says."""
+    if all(point.time is None for point in points):
+        help_ = "export it with times, or write `points` with `speed` or `times`"
+        return FileFault("its points have no times", points[0].line, help_)
+    rows: list[tuple[float, ...]] = []
+    first: datetime | None = None
+    for point in points:
+        if point.time is None:
+            return FileFault("a point has no time", point.line, "give every point a `<time>`")
+        try:
+            passed = datetime.fromisoformat(point.time)
+            if passed.tzinfo is None:
+                passed = passed.replace(tzinfo=UTC)
+            first = first or passed
+            rows.append(((passed - first).total_seconds(), *point.place))
+        except (ValueError, OverflowError):
+            help_ = "write it as 2024-05-01T12:00:00Z"
+            return FileFault(f"`{point.time[:30]}` is not a time", point.line, help_)
+    return tuple(rows)
 
 
 class _Stop(Exception):
@@ -42,13 +85,15 @@ class _Stop(Exception):
 class _Gpx:
     """Expat's handlers; collects points until the first fault."""
 
-    def __init__(self) -> None:
+    def __init__(self, timed: bool) -> None:
         self.parser: Any = None
-        self.points: dict[str, list[tuple[float, ...]]] = {"trkpt": [], "rtept": []}
+        self.points: dict[str, list[_Point]] = {"trkpt": [], "rtept": []}
         self.fault: FileFault | None = None
+        self._wanted = {"ele", "time"} if timed else {"ele"}
         self._open: tuple[str, str, str, int] | None = None
-        self._ele: str | None = None
-        self._reading = False
+        self._texts: dict[str, str] = {}
+        self._depth = 0  # of elements inside the point: an extension may have a time of its own
+        self._reading = ""
 
     def doctype(self, *_: Any) -> None:
         self._stop("the file has a document type declaration", "remove the `<!DOCTYPE ...>`")
@@ -57,29 +102,34 @@ class _Gpx:
         name = tag.rsplit(":", 1)[-1]
         if name in self.points:
             lat, lon = attributes.get("lat", ""), attributes.get("lon", "")
-            self._open, self._ele = (name, lat, lon, self.parser.CurrentLineNumber), None
-        self._reading = name == "ele" and self._open is not None
+            self._open = (name, lat, lon, self.parser.CurrentLineNumber)
+            self._texts, self._depth, self._reading = {}, 0, ""
+            return
+        self._depth += 1
+        self._reading = name if name in self._wanted and self._open and self._depth == 1 else ""
         if self._reading:
-            self._ele = ""
+            self._texts[name] = ""
 
     def text(self, data: str) -> None:
         if self._reading:
-            self._ele = (self._ele or "") + data
+            self._texts[self._reading] += data
 
     def end(self, tag: str) -> None:
         name = tag.rsplit(":", 1)[-1]
-        self._reading = False
+        self._reading = ""
+        self._depth -= 1
         if self._open is None or name != self._open[0]:
             return
         kind, lat, lon, line = self._open
         self._open = None
-        if self._ele is None:
+        if "ele" not in self._texts:
             self._stop("a point has no elevation", "give every point an `<ele>`", line)
-        row = row_of(line, (lat, lon, (self._ele or "").strip()), ("lat", "lon", "ele"))
+        row = row_of(line, (lat, lon, self._texts["ele"].strip()), PLACE)
         if isinstance(row, FileFault):
             self._stop(row.message, row.help, line)
         else:
-            self.points[kind].append(row)
+            time = self._texts["time"].strip() if "time" in self._texts else None
+            self.points[kind].append(_Point(row, line, time))
         if len(self.points[kind]) > MOST_ROWS:
             self._stop(f"the file has more than {MOST_ROWS} points", "thin the track")
 

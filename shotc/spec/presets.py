@@ -16,6 +16,7 @@ COMPOSITION = "thirds"
 SEPARATION = 3.0
 GROUND_CLEARANCE = 2.0
 TARGET_CLEARANCE = 1.0
+TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racing cars do
 PACE = 0.75
 RATE = 50.0
 SHOW_RATE = 5.0

@@ -11,9 +11,15 @@ from shotc.spec.model import Model, OneOf
 class TrackSpec(Model):
     """How a target moves: rows of a file, a constant velocity, or points at one speed or at given times."""
 
-    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("file",), ("start", "velocity"), ("points", "speed"), ("points", "times"))),)
+    exclusive: ClassVar[tuple[OneOf, ...]] = (
+        OneOf((("file",), ("start", "velocity"), ("points", "speed"), ("points", "times"))),
+    )
 
-    file: RelativePath | None = Field(default=None, description="CSV file of t,x,y,z and maybe heading")
+    file: RelativePath | None = Field(
+        default=None,
+        description="CSV file of t,x,y,z or t,lat,lon,height and maybe heading (rad) or heading_deg; or a "
+        "GPX file with times, which count from its first point",
+    )
     start: Position | None = Field(default=None, description="where the target is at time 0")
     velocity: Velocity | None = Field(default=None, description="[east, north, up]")
     points: tuple[Position, ...] | None = Field(
@@ -34,3 +40,7 @@ class TargetSpec(Model):
     track: TrackSpec | None = Field(default=None, description="motion of the centre of a target that moves")
     radius: PositiveLength = Field(description="radius of its cylinder")
     height: PositiveLength = Field(description="height of its cylinder")
+    top_speed: Speed | None = Field(
+        default=None,
+        description="speed that it never exceeds: a track that does is a fault; 70 m/s if silent",
+    )

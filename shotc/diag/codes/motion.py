@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.codes._slips import slip
+from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
 
 _PASSING = """\
@@ -17,6 +18,7 @@ shots:
   - {id: side, kind: lateral, drone: cam1, target: runner, side: left, distance: 8, altitude: 4,
      timing: {start: 15, duration: 10}}
 """
+_BY_FILE = _PASSING.replace("points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]", "file: runner.csv")
 
 
 def _code(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
@@ -54,7 +56,10 @@ CODES: tuple[CodeInfo, ...] = (
         "a shot films its target before or after its track",
         "A track from a file, or with times, says where its target is from its first row to its last. A shot "
         "of it begins and ends within that. Start the shot at another time, shorten it, or give more rows.",
-        ("points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]", "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [17, 40]"),
+        (
+            "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]",
+            "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [17, 40]",
+        ),
     ),
     _code(
         5,
@@ -73,5 +78,27 @@ CODES: tuple[CodeInfo, ...] = (
         "`altitude` is the camera's z in the world, and the ground is z = 0. The drone's body keeps "
         "`rules.ground_clearance` from it. Raise the shot.",
         ("altitude: 4", "altitude: 1"),
+    ),
+    _code(
+        7,
+        "target-too-fast",
+        "a target would have to move faster than it can",
+        "Two rows of a track lie so far apart, or its speed is such, that the target would be faster than its "
+        "`top_speed`; 70 m/s where the mission gives none. In a recording this is a row with a wrong number, or "
+        "a receiver that lost its place. The note names both rows and their lines. Mend the row, or give the "
+        "target the `top_speed` that it has.",
+        ("times: [0, 40]", "times: [0, 0.5]"),
+    ),
+    CodeInfo(
+        "M008",
+        "track-gap",
+        Severity.WARNING,
+        "a recorded track has a gap",
+        "Two rows of a file are more than 3 s and ten times the usual time apart. A target is taken to go "
+        "straight and evenly from row to row, so across the gap it may be elsewhere, and the picture without it. "
+        "Give the rows that are missing, or film before or after the gap.",
+        _BY_FILE,
+        _PASSING,
+        phase="other",
     ),
 )

@@ -24,6 +24,7 @@ from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.ideals import check_ideal
 from shotc.passes.resolve.names import check_names, once
+from shotc.passes.resolve.recordings import Ground
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.tracks import read_tracks
@@ -58,7 +59,7 @@ class Resolve:
         found_drones, drone_faults = drones(spec, put, origins)
         rules = Rules(spec.rules.separation, spec.rules.ground_clearance, spec.rules.target_clearance)
         read = partial(read_file, ir.folder, origins)
-        tracks = read_tracks(spec, put, origins, read)
+        tracks = read_tracks(spec, put, Ground(origin, origins, read))
         found_targets = targets(spec, put, tracks.tracks)
         ctx.progress("expanding the shots")
         cast = Cast(
@@ -97,7 +98,9 @@ class Resolve:
             deferred=deferred_features(spec, shots.deferred),
             origins=origins,
         )
-        faults += _static_faults(mission, geometry=not astray, timing=not drone_faults, order=not faults)
+        faults += _static_faults(
+            mission, geometry=not astray, timing=not drone_faults, order=not has_errors(faults)
+        )
         return Outcome(None if stops(faults) else mission, tuple(faults))
 
 

@@ -1,4 +1,4 @@
-"""Shots of moving targets, judged by their ideal: is the target known then, can a drone keep up, is it too low.
+"""Shots of moving targets, judged by their ideal: is the target known then, can the drone keep up, is it low.
 
 The ideal is where the camera would be; a plan may leave it, but not for the whole of a shot.
 """
@@ -6,9 +6,10 @@ The ideal is where the camera would be; a plan may leave it, but not for the who
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, hypot
+from math import ceil, floor, hypot, inf
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.track import Track
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.obstacles import ROUNDING
@@ -30,28 +31,43 @@ def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 
 def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell targets whose track ends before the shot does, or begins after it."""
+    """Tell targets whose track ends before the shot does, or begins after it.
+
+    A shot without a start may begin at any time from 0 on, so only a track that is too short for it is sure.
+    """
     duration, start = shot.timing.duration or 0.0, shot.timing.start
     followed = () if shot.ideal is None or shot.ideal.target is None else (shot.ideal.target,)
     for name in dict.fromkeys([*followed, *(s.target for s in shot.subjects)]):
         track = mission.target(name).track
         if track is None:
             continue
-        begins = track.since if start is None else start
+        begins = max(0.0, track.since) if start is None else start
         if begins >= track.since - ROUNDING and begins + duration <= track.until + ROUNDING:
             continue
-        label = timing_label(mission, shot)
         beside = mission.origins.value((*mission.target(name).path, "track"), "the track")
-        first = f"from {track.since:.1f} s to {track.until:.1f} s" if track.until < 1e9 else ""
-        known = first or f"from {track.since:.1f} s on"
-        note = (
-            f"`{name}` is known {known}; the shot "
-            + (f"is filmed from {start:.1f} s to {start + duration:.1f} s" if start is not None else f"lasts {duration:.1f} s")
-        )
+        until = f"to {track.until:.2f} s" if track.until < inf else "on"
+        filmed = "" if start is None else f", from {start:.2f} s to {start + duration:.2f} s"
         yield Diagnostic(
-            "M004", f"shot `{shot.id}` reaches beyond the track of `{name}`", (label, beside), (note,),
-            "film it while its track lasts, or give the track more rows",
+            "M004",
+            f"shot `{shot.id}` reaches beyond the track of `{name}`",
+            (timing_label(mission, shot), beside),
+            (f"`{name}` is known from {track.since:.2f} s {until}; the shot lasts {duration:.2f} s{filmed}",),
+            _within(track, duration),
         )
+
+
+def _within(track: Track, duration: float) -> str:
+    """Say when a shot of a track can be filmed."""
+    first = max(0.0, ceil(track.since * 100) / 100)
+    if track.until == inf:
+        return f"start it at {first:.2f} s or later, or let the track begin earlier"
+    last = floor((track.until - duration) * 100) / 100
+    if last >= first:
+        return f"start it between {first:.2f} s and {last:.2f} s, or give the track more rows"
+    left = floor((track.until - first) * 100) / 100
+    if left > 0:
+        return f"shorten it to {left:.2f} s or less, or give the track more rows"
+    return "give the track rows after the start of the mission, which is time 0"
 
 
 def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
@@ -99,5 +115,6 @@ def _fast(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
             f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
             f"the drone flies {limit:.1f} m/s{wind}",
         ),
-        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, or slow the target down",
+        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, "
+        "or slow the target down",
     )

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
 from itertools import accumulate, pairwise
-from math import dist, inf
+from math import dist, hypot, inf
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import yaw_of
-from shotc.geom.track import Track, Vec3, unwrapped
+from shotc.geom.track import Track, Vec3
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.kinds.base import bad_file
-from shotc.kinds.files import FileFault, Table, read_table
+from shotc.passes.resolve.leaps import Course, check_gap, check_jump, check_velocity
+from shotc.passes.resolve.recordings import Ground, Recording, read_recording
 from shotc.passes.resolve.world import Put
 from shotc.spec.mission import MissionSpec
+from shotc.spec.presets import TOP_SPEED
 from shotc.spec.targets import TrackSpec
 
-LAYOUTS = (("t", "x", "y", "z"), ("t", "x", "y", "z", "heading"))
 SAME = 1e-6  # metres within which two points are one
-
-Read = Callable[[str, KeyPath], bytes | Diagnostic]
 
 
 class Tracks(NamedTuple):
@@ -30,30 +27,52 @@ class Tracks(NamedTuple):
     diagnostics: tuple[Diagnostic, ...]
 
 
-def read_tracks(spec: MissionSpec, put: Put, origins: OriginMap, read: Read) -> Tracks:
+def read_tracks(spec: MissionSpec, put: Put, ground: Ground) -> Tracks:
     """Return the motion of every target that moves."""
     found: dict[str, Track] = {}
     faults: list[Diagnostic] = []
     for name, target in spec.targets.items():
         if target.track is None:
             continue
-        track = _track(target.track, put, origins, read, ("targets", name, "track"))
-        if isinstance(track, Track):
-            found[name] = track
-        else:
+        path: KeyPath = ("targets", name, "track")
+        track = _track(target.track, put, ground, path)
+        if isinstance(track, Diagnostic):
             faults.append(track)
+            continue
+        course = Course(name, path, track.track, target.top_speed or TOP_SPEED)
+        if target.track.file is not None:
+            course = course._replace(file=target.track.file, lines=track.lines)
+        wrong = [fault for fault in _too_fast(target.track, course, ground.origins) if fault is not None]
+        faults += wrong
+        if not wrong:
+            found[name] = track.track
+            gap = check_gap(course, ground.origins) if course.file else None
+            faults += [] if gap is None else [gap]
     return Tracks(found, tuple(faults))
 
 
-def _track(spec: TrackSpec, put: Put, origins: OriginMap, read: Read, path: KeyPath) -> Track | Diagnostic:
+def _too_fast(spec: TrackSpec, course: Course, origins: OriginMap) -> Iterator[Diagnostic | None]:
+    if spec.velocity is not None:
+        yield check_velocity(course, hypot(*spec.velocity), origins, "velocity")
+    elif spec.speed is not None:
+        yield check_velocity(course, spec.speed, origins, "speed")
+    else:
+        yield check_jump(course, origins)
+
+
+def _track(spec: TrackSpec, put: Put, ground: Ground, path: KeyPath) -> Recording | Diagnostic:
+    """Return a track; only one from a file has lines."""
     if spec.file is not None:
-        return _from_file(spec.file, origins, read, (*path, "file"))
+        return read_recording(spec.file, ground, (*path, "file"))
     if spec.start is not None and spec.velocity is not None:
-        return Track((0.0,), (put(spec.start),), after=spec.velocity)
+        return Recording(Track((0.0,), (put(spec.start),), after=spec.velocity), ())
     points = [put(point) for point in spec.points or ()]
-    if spec.times is not None:
-        return _timed(points, spec.times, origins, path)
-    return _steady(points, spec.speed or inf, origins, path)
+    track = (
+        _timed(points, spec.times, ground.origins, path)
+        if spec.times is not None
+        else _steady(points, spec.speed or inf, ground.origins, path)
+    )
+    return Recording(track, ()) if isinstance(track, Track) else track
 
 
 def _steady(points: list[Vec3], speed: float, origins: OriginMap, path: KeyPath) -> Track | Diagnostic:
@@ -83,30 +102,3 @@ def _timed(
             help_ = f"set it later than {before:g} s"
             return Diagnostic("M001", "the times of the track do not rise", (label,), (note,), help_)
     return Track(times, tuple(points), since=times[0])
-
-
-def _from_file(file: str, origins: OriginMap, read: Read, path: KeyPath) -> Track | Diagnostic:
-    data = read(file, path)
-    if isinstance(data, Diagnostic):
-        return data
-    table = read_table(data, LAYOUTS)
-    wrong = table if isinstance(table, FileFault) else _fault(table)
-    if wrong is not None:
-        return bad_file(origins, path, file, wrong)
-    assert isinstance(table, Table)
-    column = {name: [row[i] for row in table.rows] for i, name in enumerate(table.columns)}
-    points = tuple(zip(column["x"], column["y"], column["z"], strict=True))
-    times = tuple(column["t"])
-    headings = unwrapped([yaw_of(h) for h in column["heading"]]) if "heading" in column else ()
-    return Track(times, points, headings, since=times[0], until=times[-1])
-
-
-def _fault(table: Table) -> FileFault | None:
-    if len(table.rows) < 2:
-        return FileFault("a track needs two rows or more", None, "or give the target a place with `at`")
-    clock = table.columns.index("t")
-    times = [row[clock] for row in table.rows]
-    for before, after in pairwise(times):
-        if after <= before:
-            return FileFault(f"its times do not rise: {after:g} s comes after {before:g} s", None, "sort it")
-    return None

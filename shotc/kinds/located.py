@@ -1,0 +1,43 @@
+"""Rows of places that a file gives, put into the world: for routes and for tracks alike."""
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.geodetic import to_world
+from shotc.ir.mission import GeoOrigin, Vec3
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.earth import stray
+from shotc.kinds.files import Table
+
+
+def in_world(
+    table: Table, name: str, origin: GeoOrigin | None, origins: OriginMap, path: KeyPath
+) -> list[Vec3] | Diagnostic:
+    """Return a table's places as points of W, or what keeps those on the earth from it.
+
+    A `height` counts from the origin's altitude, an `ele` from the sea.
+    name : of the file, which the mission names at ``path``
+    """
+    if "x" in table.columns:
+        i, j, k = (table.columns.index(column) for column in ("x", "y", "z"))
+        return [(row[i], row[j], row[k]) for row in table.rows]
+    label = (origins.value(path),)
+    if origin is None:
+        message = f"`{name}` gives latitudes and longitudes, but the mission has no origin"
+        return Diagnostic(
+            "G015", message, label, help="add `world: {origin: {lat: ..., lon: ..., alt: ...}}`"
+        )
+    above_sea = "ele" in table.columns
+    if above_sea and ("world", "origin", "alt") not in origins.values:
+        message = f"`{name}` gives elevations above sea level, but the origin has no altitude"
+        return Diagnostic(
+            "G015", message, label, help="add `alt`, its height above sea level, to `world.origin`"
+        )
+    i, j, k = (table.columns.index(column) for column in ("lat", "lon", "ele" if above_sea else "height"))
+    for number, row in enumerate(table.rows, 1):
+        found = stray(origin, row[i], row[j])
+        if found is not None:
+            line = table.lines[number - 1]
+            notes = (f"point {number} of {len(table.rows)} in `{name}`, line {line}", found.note)
+            return Diagnostic("G017", found.message, label, notes, found.help)
+    base = (origin.lat_deg, origin.lon_deg, origin.alt)
+    ground = 0.0 if above_sea else origin.alt
+    return [to_world((row[i], row[j], ground + row[k]), base) for row in table.rows]

@@ -1,0 +1,128 @@
+"""Tracks that no target can have moved along: jumps, and gaps over which nothing is known."""
+
+from itertools import pairwise
+from math import dist
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.track import Track
+from shotc.ir.origin import KeyPath, OriginMap
+
+GAP = 10.0  # times the usual time between rows; smart recorders leave out up to that much
+LEAST_GAP = 3.0  # seconds; over less a straight line is a fair guess
+ROUNDING = 1e-6  # of a speed
+
+
+class Course(NamedTuple):
+    """A track and what to say of it.
+
+    name : of the target; path : of its track in the mission; top_speed : m/s
+    file, lines : of the file and of its rows; empty where the mission itself gives the track
+    """
+
+    name: str
+    path: KeyPath
+    track: Track
+    top_speed: float
+    file: str = ""
+    lines: tuple[int, ...] = ()
+
+
+def check_jump(course: Course, origins: OriginMap) -> Diagnostic | None:
+    """Return the first two rows between which the target would have to be faster than it can be."""
+    track, top = course.track, course.top_speed * (1 + ROUNDING)
+    stretches = zip(pairwise(track.times), pairwise(track.points), strict=True)
+    jumps = [i for i, ((s, t), (p, q)) in enumerate(stretches) if dist(p, q) > top * (t - s)]
+    if not jumps:
+        return None
+    i = jumps[0]
+    way, lasts = dist(track.points[i], track.points[i + 1]), track.times[i + 1] - track.times[i]
+    notes = [f"{_rows(course, i)}: {way:.2f} m in {lasts:.3g} s, at t = {track.times[i]:.10g} s"]
+    if len(jumps) > 1:
+        notes.append(f"it does so {len(jumps)} times")
+    remedy = _remedy(course, i)
+    labels, raised = _labels(course, origins, _place(course, i))
+    return Diagnostic(
+        "M007",
+        f"target `{course.name}` jumps: {_speed(way / lasts)} is more than its top speed, "
+        f"{_speed(course.top_speed)}",
+        labels,
+        tuple(notes),
+        f"{remedy}, or {raised} `top_speed` if it is as fast as that",
+    )
+
+
+def check_velocity(course: Course, speed: float, origins: OriginMap, *key: str | int) -> Diagnostic | None:
+    """Return the fault of a speed, written at ``key`` below the track, that is above the target's own."""
+    if speed <= course.top_speed * (1 + ROUNDING):
+        return None
+    labels, raised = _labels(course, origins, (*course.path, *key))
+    return Diagnostic(
+        "M007",
+        f"target `{course.name}` moves at {_speed(speed)}; its top speed is {_speed(course.top_speed)}",
+        labels,
+        ("a bare number is in m/s",),
+        f"slow it down, or {raised} `top_speed` if it is as fast as that",
+    )
+
+
+def check_gap(course: Course, origins: OriginMap) -> Diagnostic | None:
+    """Return a warning of the longest gap of a recorded track, if it has one."""
+    times, points = course.track.times, course.track.points
+    spaces = [t - s for s, t in pairwise(times)]
+    usual = sorted(spaces)[(len(spaces) - 1) // 2]
+    least = max(LEAST_GAP, GAP * usual)
+    gaps = [i for i, space in enumerate(spaces) if space > least]
+    if not gaps:
+        return None
+    i = max(gaps, key=lambda k: spaces[k])
+    way = dist(points[i], points[i + 1])
+    more = f"; {len(gaps) - 1} more such gaps are shorter" if len(gaps) > 1 else ""
+    return Diagnostic(
+        "M008",
+        f"the track of `{course.name}` has a gap of {spaces[i]:.1f} s",
+        (origins.value((*course.path, "file")),),
+        (
+            f"{_rows(course, i)}: nothing from t = {times[i]:.10g} s to {times[i + 1]:.10g} s, "
+            f"where rows are {usual:.3g} s apart as a rule{more}",
+            f"a straight line of {way:.1f} m is assumed across it",
+        ),
+        "give the rows in between, or film before or after the gap",
+    )
+
+
+def _rows(course: Course, i: int) -> str:
+    if course.file:
+        return f"{course.file}, line {course.lines[i + 1]}, after line {course.lines[i]}"
+    return f"point {i + 2}, after point {i + 1}"
+
+
+def _place(course: Course, i: int) -> KeyPath:
+    return (*course.path, "file") if course.file else (*course.path, "times", i + 1)
+
+
+def _remedy(course: Course, i: int) -> str:
+    """Say which row to mend: the one without which the target would move at a speed that it has."""
+    times, points = course.track.times, course.track.points
+    for k in (i + 1, i):
+        if 0 < k < len(times) - 1:
+            speed = dist(points[k - 1], points[k + 1]) / (times[k + 1] - times[k - 1])
+            if speed <= course.top_speed:
+                row = f"line {course.lines[k]}" if course.file else f"point {k + 1}"
+                return f"mend or drop {row}: without it the target moves there at {_speed(speed)}"
+    row = (
+        f"lines {course.lines[i]} and {course.lines[i + 1]}" if course.file else f"points {i + 1} and {i + 2}"
+    )
+    return f"mend {row}, or the time between them"
+
+
+def _labels(course: Course, origins: OriginMap, path: KeyPath) -> tuple[tuple[Label, ...], str]:
+    """Return the place of a fault beside the top speed, where one is written, and what to do with it."""
+    written = (*course.path[:-1], "top_speed")
+    if written in origins.values:
+        return (origins.value(path), origins.value(written, "its top speed")), "raise"
+    return (origins.value(path),), "give it a"
+
+
+def _speed(speed: float) -> str:
+    return f"{speed:.1f} m/s" if speed < 1e6 else f"{speed:.1e} m/s"

@@ -1,0 +1,94 @@
+"""Tracks that were recorded: rows of a CSV or GPX file made the motion of a target."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from math import radians
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.camera import yaw_of
+from shotc.geom.track import Track, unwrapped
+from shotc.ir.mission import GeoOrigin
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.base import bad_file
+from shotc.kinds.files import FileFault, Table, read_table
+from shotc.kinds.gpx import read_gpx
+from shotc.kinds.located import in_world
+
+PLACES = (("t", "x", "y", "z"), ("t", "lat", "lon", "height"))
+FACING = ((), ("heading",), ("heading_deg",))
+LAYOUTS = tuple((*place, *facing) for place in PLACES for facing in FACING)
+
+Read = Callable[[str, KeyPath], bytes | Diagnostic]
+
+
+class Ground(NamedTuple):
+    """What a recording is read with.
+
+    origin : of W on the earth, if the mission gives one; read : the bytes of a file of the mission
+    """
+
+    origin: GeoOrigin | None
+    origins: OriginMap
+    read: Read
+
+
+class Recording(NamedTuple):
+    """A recorded track; lines : of the file, one a row."""
+
+    track: Track
+    lines: tuple[int, ...]
+
+
+def read_recording(file: str, ground: Ground, path: KeyPath) -> Recording | Diagnostic:
+    """Return the motion that a file tells, which the mission names at ``path``.
+
+    The times of a CSV file count from the start of the mission, those of a GPX file from its first point.
+    """
+    data = ground.read(file, path)
+    if isinstance(data, Diagnostic):
+        return data
+    gpx = file.lower().endswith(".gpx")
+    table = read_gpx(data, timed=True) if gpx else read_table(data, LAYOUTS)
+    wrong = table if isinstance(table, FileFault) else _fault(table)
+    if wrong is not None:
+        return bad_file(ground.origins, path, file, wrong)
+    assert isinstance(table, Table)
+    points = in_world(table, file, ground.origin, ground.origins, path)
+    if isinstance(points, Diagnostic):
+        return points
+    times = _column(table, "t")
+    track = Track(times, tuple(points), _headings(table), since=times[0], until=times[-1])
+    return Recording(track, table.lines)
+
+
+def _headings(table: Table) -> tuple[float, ...]:
+    if "heading_deg" in table.columns:
+        return unwrapped([yaw_of(radians(h)) for h in _column(table, "heading_deg")])
+    if "heading" in table.columns:
+        return unwrapped([yaw_of(h) for h in _column(table, "heading")])
+    return ()
+
+
+def _column(table: Table, name: str) -> tuple[float, ...]:
+    i = table.columns.index(name)
+    return tuple(row[i] for row in table.rows)
+
+
+def _fault(table: Table) -> FileFault | None:
+    """Tell too few rows, and the first that comes no later than the one before it."""
+    if len(table.rows) < 2:
+        line = table.lines[0] if table.lines else None
+        count = "one row" if table.rows else "no rows"
+        message = f"the file has {count}, and a track needs two rows or more"
+        return FileFault(message, line, "add rows, or give the target a place with `at`")
+    for i, (before, after) in enumerate(pairwise(_column(table, "t"))):
+        if after > before:
+            continue
+        earlier, line = table.lines[i], table.lines[i + 1]
+        if after == before:
+            message = f"its times do not rise: line {line} repeats the {after:.10g} s of line {earlier}"
+            return FileFault(message, line, "keep one of the two rows, or mend the time of one")
+        message = f"its times do not rise: line {line} says {after:.10g} s, line {earlier} {before:.10g} s"
+        return FileFault(message, line, "mend the time, or sort the rows by time")
+    return None
