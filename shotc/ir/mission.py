@@ -175,7 +175,7 @@ class Subject(NamedTuple):
     """A target that a shot on its own clock frames, the first one foremost.
 
     composition : the set of places its centre may have on screen
-    size : projected height over frame height to aim for, or None
+    size : projected height over frame height to aim for, above 1 where it is to be cropped; or None
     view : (azimuth as a compass bearing from it to the camera, elevation), rad, or None
     """
 

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from shotc.ir.mission import Deferred
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
-from shotc.spec.fields import Angle, Frame, Name, Pitch, PositiveShare
+from shotc.spec.fields import Angle, Frame, Name, Pitch, ShotSize
 from shotc.spec.model import Model
 from shotc.spec.shot import ShotBase
 
@@ -23,7 +23,9 @@ class SubjectSpec(Model):
 
     target: Name = Field(description="name of the target")
     frame: Frame | None = Field(default=None, description="where on screen its centre goes")
-    size: PositiveShare | None = Field(default=None, description="projected height over frame height")
+    size: ShotSize | None = Field(
+        default=None, description="projected height over frame height, or the name of a shot size"
+    )
     view: ViewSpec | None = Field(default=None, description="the side from which it is seen")
 
 

@@ -10,6 +10,7 @@ from shotc.spec.fieldtypes import Flag, Integer, NamedOr, Text
 from shotc.spec.places import NAME, Geodetic, LookAt, Position
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
+from shotc.spec.sizes import SIZES
 from shotc.units import SMALLEST
 
 __all__ = [
@@ -51,6 +52,7 @@ __all__ = [
     "ScreenPoint",
     "Share",
     "ShareRange",
+    "ShotSize",
     "Size3",
     "Speed",
     "Switch",
@@ -90,6 +92,7 @@ Duration = Annotated[float, Quantity("Duration", "duration", SMALLEST["duration"
 NonNegativeDuration = Annotated[float, Quantity("NonNegativeDuration", "duration", 0.0)]
 Share = Annotated[float, _SHARE]
 PositiveShare = Annotated[float, _POSITIVE_SHARE]
+ShotSize = Annotated[float, NamedOr("ShotSize", SIZES, "shot size", _POSITIVE_SHARE)]
 ScreenDistance = Annotated[float, Quantity("ScreenDistance", "ratio", 0.0, 3.0, noun="distance on screen")]
 Frequency = Annotated[float, Quantity("Frequency", "frequency", 1.0, 1000.0)]
 

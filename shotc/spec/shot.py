@@ -21,10 +21,10 @@ from shotc.spec.fields import (
     Pace,
     Pitch,
     Position,
-    PositiveShare,
     ScreenDistance,
     Share,
     ShareRange,
+    ShotSize,
     Switch,
 )
 from shotc.spec.fieldtypes import Hinted
@@ -116,8 +116,10 @@ class ShotBase(Model):
         "if silent; thirds includes the centre: to force a side, name a point such as left-third",
     )
     pace: Pace | None = Field(default=None, description="share of the limits used where timing is auto")
-    size: PositiveShare | None = Field(
-        default=None, description="projected height over frame height to aim for"
+    size: ShotSize | None = Field(
+        default=None,
+        description="projected height over frame height to aim for: a share, or a name from establishing to "
+        "extreme-close-up; from medium-full on the target is cropped",
     )
     require: RequireSpec = section("what the shot promises")
     refine: RefineSpec = section("how refinement is used")

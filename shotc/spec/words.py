@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 _LONGEST_WORD = 80
 _SHORTEST_PART = 3  # letters; shorter words are parts of too many others
-# What a key is called elsewhere, where no likeness of letters would tell.
+# What a key, or a name, is called elsewhere, where no likeness of letters would tell.
 _MEANT = {
     "alt": "height",
     "altitude": "height",
@@ -23,6 +23,9 @@ _MEANT = {
     "type": "kind",
     "subject": "target",
     "angle": "sweep",
+    "wide": "long",
+    "american": "medium-full",
+    "cowboy": "medium-full",
 }
 # Keys that people look for in a place where the language does not have them.
 _ELSEWHERE = {

@@ -77,7 +77,7 @@ def check_gap(course: Course, origins: OriginMap) -> Diagnostic | None:
         return None
     i = max(gaps, key=lambda k: spaces[k])
     way = dist(points[i], points[i + 1])
-    more = f"; {len(gaps) - 1} more such gaps are shorter" if len(gaps) > 1 else ""
+    more = f"; it is the longest of {len(gaps)} gaps" if len(gaps) > 1 else ""
     return Diagnostic(
         "M008",
         f"the track of `{course.name}` has a gap of {spaces[i]:.1f} s",
@@ -110,10 +110,8 @@ def _remedy(course: Course, i: int) -> str:
             if speed <= course.top_speed:
                 row = f"line {course.lines[k]}" if course.file else f"point {k + 1}"
                 return f"mend or drop {row}: without it the target moves there at {_speed(speed)}"
-    row = (
-        f"lines {course.lines[i]} and {course.lines[i + 1]}" if course.file else f"points {i + 1} and {i + 2}"
-    )
-    return f"mend {row}, or the time between them"
+    one, other = (course.lines[i], course.lines[i + 1]) if course.file else (i + 1, i + 2)
+    return f"mend {'line' if course.file else 'point'} {one} or {other}, or the time between them"
 
 
 def _labels(course: Course, origins: OriginMap, path: KeyPath) -> tuple[tuple[Label, ...], str]:

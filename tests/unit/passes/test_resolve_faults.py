@@ -66,9 +66,9 @@ def test_the_proposed_heading_looks_at_the_target() -> None:
 def test_features_of_later_versions_check_clean_and_are_recorded() -> None:
     text = mission(
         at(0, -50, 10),
-        "id: b, kind: chase, target: runner, distance: 8, altitude: 3",
-        "id: c, kind: static, at: [0, -40, 10], look_at: runner",
-        "id: d, kind: orbit, target: tower, radius: 50, altitude: 20, size: 0.5",
+        "id: b, kind: chase, target: runner, distance: 8, altitude: 3, timing: {duration: 9}",
+        "id: c, kind: framing, subjects: [{target: runner, size: medium}]",
+        "id: d, kind: orbit, target: tower, radius: 50, altitude: 20, size: full",
     ).replace(
         "drones:",
         "  runner: {track: {start: [0, 0, 1], velocity: [1, 0, 0]}, radius: 0.4, height: 1.8}\ndrones:",
@@ -77,11 +77,10 @@ def test_features_of_later_versions_check_clean_and_are_recorded() -> None:
     assert found == []
     assert value is not None
     assert [d.feature for d in value.deferred] == [
-        "a moving target",
-        "a shot of kind `chase`",
+        "a shot of kind `framing`",
         "aiming for a size on screen (`size`)",
     ]
-    assert [s.id for s in value.shots] == ["a", "d"]
+    assert [s.id for s in value.shots] == ["a", "b", "d"]
 
 
 def test_a_target_beside_the_camera_is_out_of_the_frame_though_it_has_no_outline() -> None:

@@ -14,6 +14,7 @@ from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
 from shotc.spec.drones import CameraSpec
 from shotc.spec.places import Geodetic
 from shotc.spec.shot import KeyframeSpec, RequireSpec, TimingSpec
+from shotc.spec.sizes import SIZES
 
 
 def read(annotation, value):
@@ -51,6 +52,10 @@ def slugs(annotation, value):
         (fields.Pace, "calm", 0.5),
         (fields.Pace, "60 %", 0.6),
         (fields.Pace, 1, 1.0),
+        (fields.ShotSize, "40 %", 0.4),
+        (fields.ShotSize, 1, 1.0),
+        (fields.ShotSize, "medium-full", 1.4),
+        (fields.ShotSize, "extreme-close-up", 10.0),
         (fields.Aspect, "16:9", 16 / 9),
         (fields.Aspect, "2.39:1", 2.39),
         (fields.Aspect, 1.5, 1.5),
@@ -89,6 +94,10 @@ def test_fields_read_what_people_write(annotation, value, expected):
         (fields.CompositionSet, [[0, 0], [0]], [("wrong-length", (1,))]),
         (fields.Pace, "fast", [("unknown-value", ())]),
         (fields.Pace, 0, [("out-of-range", ())]),
+        (fields.ShotSize, "giant", [("unknown-value", ())]),
+        (fields.ShotSize, 1.4, [("out-of-range", ())]),
+        (fields.ShotSize, "220 %", [("out-of-range", ())]),
+        (fields.ShotSize, 0, [("out-of-range", ())]),
         (fields.Pace, 60, [("out-of-range", ())]),
         (fields.Aspect, "16:0", [("impossible-camera", ())]),
         (fields.Aspect, "16/9", [("impossible-camera", ())]),
@@ -122,6 +131,24 @@ def test_named_points_are_where_the_language_says():
     assert NAMED_POINTS["right-third"] == (1 / 3, 0.0)
     for name, point in NAMED_POINTS.items():
         assert FRAMES[name].points == (point,)
+
+
+def test_the_sizes_rise_from_far_to_near():
+    assert list(SIZES) == [
+        "establishing", "long", "full", "medium-full", "medium", "close-up", "extreme-close-up",
+    ]  # fmt: skip
+    assert list(SIZES.values()) == sorted(SIZES.values())
+    assert [name for name, size in SIZES.items() if size <= 1] == ["establishing", "long", "full"]
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [("closeup", "close-up"), ("Medium", "medium"), ("wide", "long"), ("cowboy", "medium-full")],
+)
+def test_a_size_with_another_name_is_proposed(written, meant):
+    with pytest.raises(ValidationError) as caught:
+        read(fields.ShotSize, written)
+    assert caught.value.errors()[0]["ctx"]["help"] == f"did you mean `{meant}`?"
 
 
 @given(st.text(max_size=70))

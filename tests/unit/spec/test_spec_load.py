@@ -215,7 +215,7 @@ def test_the_whole_language_loads(loads, whole_language):
     assert spec.drones["cam3"].home == (0.0, 0.0, 0.0)
     assert spec.shots[0].require.in_frame == 1.0
     assert spec.shots[0].keyframes[1].frame.points == ((-1 / 3, 0.0),)
-    assert loaded.mission.origins.value(("shots", 1, "pitch")).span.line == 56
+    assert loaded.mission.origins.value(("shots", 1, "pitch")).span.line == 57
 
 
 def test_models_are_frozen(loads):
