@@ -1,13 +1,13 @@
 """Tables that a mission names: text to rows of numbers, with the line of every fault."""
 
 from collections.abc import Sequence
-from math import isfinite, pi
+from math import isfinite
 from typing import NamedTuple
 
 LARGEST = 4_000_000  # bytes
 MOST_ROWS = 50_000
 FARTHEST = 1e7  # metres or seconds; beyond it no mission is meant
-BOUNDS = {"lat": 90.0, "lon": 180.0, "heading": 2 * pi, "heading_deg": 360.0}
+BOUNDS = {"lat": 90.0, "lon": 180.0, "heading": 6.3, "heading_deg": 360.0}  # 6.3: a turn, rounded up
 UNITS = {
     "t": "`t` is in seconds from the start of the mission",
     "lat": "`lat` is in degrees, negative in the south",

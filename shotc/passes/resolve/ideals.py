@@ -63,7 +63,8 @@ def _within(track: Track, duration: float) -> str:
         return f"start it at {first:.2f} s or later, or let the track begin earlier"
     last = floor((track.until - duration) * 100) / 100
     if last >= first:
-        return f"start it between {first:.2f} s and {last:.2f} s, or give the track more rows"
+        times = f"between {first:.2f} s and {last:.2f} s" if last > first else f"at {first:.2f} s"
+        return f"start it {times}, or give the track more rows"
     left = floor((track.until - first) * 100) / 100
     if left > 0:
         return f"shorten it to {left:.2f} s or less, or give the track more rows"

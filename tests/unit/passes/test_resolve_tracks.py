@@ -279,6 +279,15 @@ def test_a_shot_beyond_a_recorded_track_is_told_with_numbers(
     assert help_ in d.help
 
 
+def test_a_warning_of_a_track_leaves_the_order_of_the_shots_to_be_judged(tmp_path: Path) -> None:
+    file = recorded(tmp_path, "t,x,y,z\n" + "".join(f"{t},{t},0,0.9\n" for t in (*range(9), 60)))
+    text = written(file, timing="start: 20, duration: 5")
+    text += (
+        f"  - {{drone: cam1, {SIDE.replace('id: side', 'id: again')}, timing: {{start: 22, duration: 5}}}}\n"
+    )
+    assert sorted(d.code for d in resolved(text, tmp_path)[1]) == ["K006", "M008"]
+
+
 def test_a_shot_without_a_start_may_begin_whenever_the_track_does(tmp_path: Path) -> None:
     file = recorded(tmp_path, "100,0,0,1\n130,60,0,1\n")
     assert resolved(written(file, timing="duration: 30"), tmp_path)[1] == []
