@@ -11,7 +11,9 @@ from shotc.spec.model import Model, OneOf
 class TrackSpec(Model):
     """How a target moves: rows of a file, a constant velocity, or points at one speed or at given times."""
 
-    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("file",), ("start", "velocity"), ("points", "speed"), ("points", "times"))),)
+    exclusive: ClassVar[tuple[OneOf, ...]] = (
+        OneOf((("file",), ("start", "velocity"), ("points", "speed"), ("points", "times"))),
+    )
 
     file: RelativePath | None = Field(default=None, description="CSV file of t,x,y,z and maybe heading")
     start: Position | None = Field(default=None, description="where the target is at time 0")

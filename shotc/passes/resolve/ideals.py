@@ -1,4 +1,4 @@
-"""Shots of moving targets, judged by their ideal: is the target known then, can a drone keep up, is it too low.
+"""Shots of moving targets, judged by their ideal: is the target known, can a drone keep up, is it too low.
 
 The ideal is where the camera would be; a plan may leave it, but not for the whole of a shot.
 """
@@ -44,12 +44,16 @@ def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         beside = mission.origins.value((*mission.target(name).path, "track"), "the track")
         first = f"from {track.since:.1f} s to {track.until:.1f} s" if track.until < 1e9 else ""
         known = first or f"from {track.since:.1f} s on"
-        note = (
-            f"`{name}` is known {known}; the shot "
-            + (f"is filmed from {start:.1f} s to {start + duration:.1f} s" if start is not None else f"lasts {duration:.1f} s")
+        note = f"`{name}` is known {known}; the shot " + (
+            f"is filmed from {start:.1f} s to {start + duration:.1f} s"
+            if start is not None
+            else f"lasts {duration:.1f} s"
         )
         yield Diagnostic(
-            "M004", f"shot `{shot.id}` reaches beyond the track of `{name}`", (label, beside), (note,),
+            "M004",
+            f"shot `{shot.id}` reaches beyond the track of `{name}`",
+            (label, beside),
+            (note,),
             "film it while its track lasts, or give the track more rows",
         )
 
@@ -99,5 +103,6 @@ def _fast(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
             f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
             f"the drone flies {limit:.1f} m/s{wind}",
         ),
-        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, or slow the target down",
+        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, or slow down "
+        "what it films",
     )

@@ -141,7 +141,9 @@ def _schedule(mission: MissionIR) -> list[Diagnostic]:
     for shot in flown_order(mission.shots):
         drone, before = mission.drone(shot.drone), free[shot.drone]
         # A shot of a moving target may leave its ideal, so no way to it or from it is sure.
-        first, last = (k.at for k in (shot.keyframes[0], shot.keyframes[-1])) if shot.keyframes else (None, None)
+        first, last = (
+            (k.at for k in (shot.keyframes[0], shot.keyframes[-1])) if shot.keyframes else (None, None)
+        )
         there = before.time
         if first is not None and before.at is not None:
             there += least_travel([before.at, first], drone.limits)

@@ -66,8 +66,8 @@ def test_the_proposed_heading_looks_at_the_target() -> None:
 def test_features_of_later_versions_check_clean_and_are_recorded() -> None:
     text = mission(
         at(0, -50, 10),
-        "id: b, kind: chase, target: runner, distance: 8, altitude: 3",
-        "id: c, kind: static, at: [0, -40, 10], look_at: runner",
+        "id: b, kind: framing, subjects: [{target: runner, size: 0.4}], timing: {duration: 5}",
+        "id: c, kind: top-down, target: runner, altitude: 20",
         "id: d, kind: orbit, target: tower, radius: 50, altitude: 20, size: 0.5",
     ).replace(
         "drones:",
@@ -77,8 +77,8 @@ def test_features_of_later_versions_check_clean_and_are_recorded() -> None:
     assert found == []
     assert value is not None
     assert [d.feature for d in value.deferred] == [
-        "a moving target",
-        "a shot of kind `chase`",
+        "a shot of kind `framing`",
+        "this kind of shot of a moving target",
         "aiming for a size on screen (`size`)",
     ]
     assert [s.id for s in value.shots] == ["a", "d"]
