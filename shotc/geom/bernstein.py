@@ -118,6 +118,12 @@ def quintic_hermite(breaks: Array, value: Array, rate: Array, acceleration: Arra
     return Piecewise(breaks, ctrl)
 
 
+def lift_off(curve: Piecewise) -> float:
+    """Return the parameter up to which a curve stays where it starts, its start where it moves at once."""
+    still = (curve.ctrl == curve.ctrl[0, 0]).all(axis=(1, 2))
+    return float(curve.breaks[int(np.argmin(still))] if not still.all() else curve.end)
+
+
 def concatenate(curves: list[Piecewise]) -> Piecewise:
     """Join curves of one degree whose ranges follow one another."""
     breaks = [curves[0].breaks, *(c.breaks[1:] for c in curves[1:])]

@@ -91,7 +91,7 @@ def _in_convex(prism: Prism, flat: Array) -> Mask:
 
 
 def blocks(solid: Solid, eyes: Array, point: Array, least: float = 1e-6) -> Mask:
-    """Tell which sight lines from eyes (M, 3) to one point (3,) run through the solid.
+    """Tell which sight lines from eyes (M, 3) to a point, (3,) or (M, 3), run through the solid.
 
     least : metres inside that count; a line that only touches at a point is not blocked, one along a face
     of a prism (within a nanometre of a wall) is

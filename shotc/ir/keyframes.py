@@ -32,11 +32,29 @@ class PlacedKeyframe(NamedTuple):
     turn: float | None = None
 
 
+class PlacedSubject(NamedTuple):
+    """A subject of a shot on its own clock, with the screen position it is to have all along.
+
+    target : its name; reference : (u, v) of its centre, or None where it is only watched
+    size, view : as in Subject
+    """
+
+    target: str
+    reference: Vec2 | None
+    size: float | None
+    view: Vec2 | None
+    path: KeyPath
+
+
 class PlacedShot(NamedTuple):
-    """A shot and its placed keyframes (at least one; one alone is a still camera)."""
+    """A shot and its placed keyframes: at least one, and one alone is a still camera.
+
+    subjects : of a shot on its own clock, which has no keyframes
+    """
 
     shot: Shot
     keyframes: tuple[PlacedKeyframe, ...]
+    subjects: tuple[PlacedSubject, ...] = ()
 
 
 class KeyframeIR(NamedTuple):

@@ -1,6 +1,7 @@
 """PathIR: the geometry of every leg as q(s), before time.
 
-s is path length in metres (turns on the spot count as length too); it is never a time.
+s is path length in metres (turns on the spot count as length too); it is never a time. A shot on its
+own clock is a ``TimedLeg``, the one kind of leg that is a curve over mission time already.
 """
 
 from __future__ import annotations
@@ -83,6 +84,28 @@ class Leg:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class TimedLeg:
+    """A shot on its own clock, with the way into its motion and out of it, from rest to rest.
+
+    curve : channels CHANNELS over mission time, piecewise quintic, at least C2
+    start, end : mission time of the first and the last filmed frame, seconds
+    framing : as in Leg, but over mission time
+    """
+
+    shot: str
+    curve: Piecewise
+    start: float
+    end: float
+    framing: tuple[FramingSpan, ...]
+    path: KeyPath
+
+    @property
+    def pose(self) -> tuple[float, ...]:
+        """Channels at the start of the leg, at rest."""
+        return tuple(map(float, self.curve.ctrl[0, 0]))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class DronePath:
     """All legs of one drone, in the order they are flown; each starts where the last one ended."""
 
@@ -90,9 +113,20 @@ class DronePath:
     legs: tuple[Leg, ...]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class TimedPath:
+    """All legs of one drone that films something on its own clock, joined as in DronePath."""
+
+    drone: str
+    legs: tuple[Leg | TimedLeg, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Deviation:
-    """How far a generated path left its ideal: metres, at path parameter s of a shot, and why."""
+    """How far a generated path left its ideal: metres, at path parameter s of a shot, and why.
+
+    Of a shot on its own clock s is mission time.
+    """
 
     shot: str
     distance: float
@@ -104,6 +138,7 @@ class Deviation:
 class PathIR:
     """The mission's geometry.
 
+    drones : those that film what stands, and nothing else; timed : the others
     stats : (name, value) pairs of what the solvers reported, in a fixed order
     """
 
@@ -111,17 +146,22 @@ class PathIR:
     drones: tuple[DronePath, ...]
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
+    timed: tuple[TimedPath, ...] = ()
 
     def check(self) -> None:
         """Raise ValueError unless legs join and stops lie on their curves."""
-        for drone in self.drones:
+        every: tuple[DronePath | TimedPath, ...] = (*self.drones, *self.timed)
+        for drone in every:
             end: Vec2 | tuple[float, ...] | None = None
             for leg in drone.legs:
+                name = leg.phase if isinstance(leg, Leg) else f"shot {leg.shot}"
                 if end is not None and max(abs(a - b) for a, b in zip(end, leg.pose, strict=True)) > 1e-6:
-                    raise ValueError(f"{drone.drone}: {leg.phase} does not start where the last leg ended")
+                    raise ValueError(f"{drone.drone}: {name} does not start where the last leg ended")
                 end = leg.pose if leg.curve is None else tuple(map(float, leg.curve(leg.curve.end)))
+                if isinstance(leg, TimedLeg):
+                    continue
                 if leg.curve is not None and (
                     abs(leg.stops[0].s - leg.curve.start) > 1e-9
                     or abs(leg.stops[-1].s - leg.curve.end) > 1e-9
                 ):
-                    raise ValueError(f"{drone.drone}: {leg.phase} does not begin and end at rest")
+                    raise ValueError(f"{drone.drone}: {name} does not begin and end at rest")

@@ -5,15 +5,17 @@ Verification and the tables read the same samples, so that what is written is wh
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.geom.bernstein import Array
-from shotc.geom.framing import Cameras, Frames, frames
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.framing import Cameras, Frames, frames, hidden
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.track_array import places, seen_from
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import DroneTrajectory, Phase
@@ -60,7 +62,52 @@ def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Arra
 
 def seen(mission: MissionIR, drone: DroneTrajectory, target: str, t: Array) -> Frames:
     """Look through the drone's camera at a target at the given times, shape (M,)."""
-    return frames(cameras(mission, drone, t), cylinder(mission.target(target)), hiding(mission, target))
+    filmed, eyes = mission.target(target), cameras(mission, drone, t)
+    if all(other.track is None for other in mission.targets):
+        return frames(eyes, cylinder(filmed), hiding(mission, target))
+    # From a camera that moves with the target, the target stands.
+    beside = replace(eyes, position=eyes.position - moved(filmed, t))
+    centres = np.array(filmed.centre) + moved(filmed, t)
+    return replace(
+        frames(beside, cylinder(filmed)), hidden=_hidden(mission, target, eyes.position, centres, t)
+    )
+
+
+def moved(target: Target, t: Array) -> Array:
+    """Return by how much a target is away from its centre at mission time 0, shape (M, 3)."""
+    if target.track is None:
+        return np.zeros((len(t), 3))
+    return np.asarray(places(target.track, t) - np.array(target.centre))
+
+
+def frozen(mission: MissionIR, time: float) -> MissionIR:
+    """Return the mission with every target standing where it is at a time, for pictures of that moment."""
+    if all(target.track is None for target in mission.targets):
+        return mission
+    return mission._replace(
+        targets=tuple(target._replace(centre=target.at(time), track=None) for target in mission.targets)
+    )
+
+
+def beside(curve: Piecewise, target: Target) -> Piecewise:
+    """Return a curve of channels x, y, z over mission time as it is where the target stands at its centre."""
+    if target.track is None:
+        return curve
+    seen_by = seen_from(curve, target.track)
+    return Piecewise(seen_by.breaks, seen_by.ctrl + np.array(target.centre))
+
+
+def _hidden(mission: MissionIR, target: str, eyes: Array, centres: Array, t: Array) -> Mask:
+    """Tell when something stands before the centre of a target, as ``geom.framing.hidden`` does."""
+    found = np.zeros(len(t), dtype=bool)
+    for zone in mission.zones:
+        if zone.keep == "out":
+            found |= hidden(eyes, centres, (zone.solid,))
+    for other in mission.targets:
+        if other.name != target:
+            away = moved(other, t)
+            found |= hidden(eyes - away, centres - away, (cylinder(other),))
+    return found
 
 
 def cameras(mission: MissionIR, drone: DroneTrajectory, t: Array) -> Cameras:
@@ -70,7 +117,7 @@ def cameras(mission: MissionIR, drone: DroneTrajectory, t: Array) -> Cameras:
 
 
 def cylinder(target: Target) -> Cylinder:
-    """Return the target as a solid."""
+    """Return the target as a solid, where it stands or is at mission time 0."""
     x, y, z = target.centre
     return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
 

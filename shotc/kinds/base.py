@@ -60,6 +60,7 @@ class Expansion(NamedTuple):
     """What a shot expands to: keyframes in the order they are flown, or what stands against it.
 
     ideal, subjects : instead of keyframes, where a target moves
+    lasts : seconds that such a shot takes where its timing does not say
     """
 
     keyframes: tuple[Keyframe, ...] = ()
@@ -67,6 +68,7 @@ class Expansion(NamedTuple):
     deferred: tuple[Deferred, ...] = ()
     ideal: Ideal | None = None
     subjects: tuple[Subject, ...] = ()
+    lasts: float | None = None
 
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Self:

@@ -24,19 +24,24 @@ def along(shot: ShotBase, scene: Scene, offsets: Sequence[Vec3]) -> Expansion:
 
 
 def timed(
-    shot: ShotBase, scene: Scene, ideal: Ideal, subjects: tuple[Subject, ...] | None = None
+    shot: ShotBase,
+    scene: Scene,
+    ideal: Ideal,
+    subjects: tuple[Subject, ...] | None = None,
+    lasts: float | None = None,
 ) -> Expansion:
     """Return the expansion of a shot on its own clock; it has to say how long it lasts.
 
-    subjects : None for the shot's own target
+    subjects : None for the shot's own target; lasts : seconds where the timing does not say, if there is
+    a usual time
     """
-    if shot.timing.duration is None:
+    if shot.timing.duration is None and lasts is None:
         message = f"how long does this {shot.kind} last? its target moves, so its time is the mission's"
         help_ = "add `timing: {duration: ...}`"
         return Expansion.of([scene.fault("M003", message, help_, "kind")])
     if subjects is None:
         subjects = () if shot.target is None else (scene.framed(shot, shot.target),)
-    return Expansion(ideal=ideal, subjects=subjects)
+    return Expansion(ideal=ideal, subjects=subjects, lasts=lasts)
 
 
 def evenly(points: Sequence[Vec3]) -> tuple[tuple[float, Vec3], ...]:

@@ -27,14 +27,12 @@ class StaticShot(ShotBase):
 
 def expand(shot: StaticShot, scene: Scene) -> Expansion:
     """Return one keyframe, held for the shot's duration; of a target that moves, the place to watch from."""
-    followed = (
-        shot.look_at if isinstance(shot.look_at, str) else shot.target if shot.look_at is None else None
-    )
-    if followed is not None and shot.heading is None:
+    followed = shot.target if shot.look_at is None else shot.look_at
+    if isinstance(followed, str) and shot.heading is None:
         target = scene.targets.get(followed)
         if target is not None and target.track is not None:
             ideal = Ideal("world", None, evenly([scene.place(shot.at)]), placed=True)
-            return timed(shot, scene, ideal, (scene.framed(shot, followed),))
+            return timed(shot, scene, ideal, (scene.framed(shot, followed),), lasts=STILL)
     aim = scene.aim(shot, shot)
     if isinstance(aim, Diagnostic | Deferred):
         return Expansion.of([aim])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
+from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.path import Deviation
@@ -181,15 +181,19 @@ def _decode(document: Any, decoder: Decoder) -> tuple[TrajectoryIR, tuple[Claim,
 
 def _placed(value: Any, mission: MissionIR, decoder: Decoder) -> tuple[PlacedShot, ...]:
     shots = {shot.id: shot for shot in mission.shots}
-    kinds = {"shot": str, "keyframes": tuple[PlacedKeyframe, ...]}
+    kinds = {"shot": str, "keyframes": tuple[PlacedKeyframe, ...], "subjects": tuple[PlacedSubject, ...]}
     if not isinstance(value, list):
         decoder.fault("keyframes", f"{show(value)} is not a list")
         return ()
     found: list[PlacedShot] = []
     for i, item in enumerate(value):
         fields = decoder.fields(kinds, item, f"keyframes[{i}]")
-        if fields.get("shot") in shots and fields.get("keyframes"):
-            found.append(PlacedShot(shots[fields["shot"]], fields["keyframes"]))
+        shot = shots.get(fields.get("shot", ""))
+        if shot is not None and bool(fields.get("keyframes")) == (shot.ideal is None):
+            found.append(PlacedShot(shot, fields["keyframes"], fields.get("subjects", ())))
         elif len(fields) == len(kinds):
-            decoder.fault(f"keyframes[{i}]", "names no shot of the mission, or has no keyframes")
+            decoder.fault(
+                f"keyframes[{i}]",
+                "names no shot of the mission, or has no keyframes (or has some on its own clock)",
+            )
     return tuple(found)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from itertools import chain
+from itertools import chain, pairwise
 from math import pi
 
 from shotc.geom.solids import Cylinder, Solid, is_simple, signed_area
-from shotc.ir.mission import Drone, MissionIR
+from shotc.geom.track import Track
+from shotc.ir.mission import Drone, Ideal, MissionIR
 from shotc.ir.path import CHANNELS
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 
@@ -41,8 +42,31 @@ def _mission(mission: MissionIR) -> Iterator[Fault]:
     for i, target in enumerate(mission.targets):
         if target.radius < 0 or target.height < 0:
             yield f"mission.targets[{i}]", "a radius or height is negative"
+        text = "" if target.track is None else _motion(target.track)
+        if text:
+            yield f"mission.targets[{i}].track", text
     if mission.origin is not None and abs(mission.origin.lat_deg) > 90:
         yield "mission.origin.lat_deg", f"{mission.origin.lat_deg:g} is no latitude"
+
+
+def _motion(track: Track) -> str:
+    if not track.times or len(track.times) != len(track.points):
+        return "it does not have a point for every time"
+    if track.headings and len(track.headings) != len(track.times):
+        return "it does not have a heading for every time"
+    if any(after <= before for before, after in pairwise(track.times)):
+        return "its times do not rise"
+    return ""
+
+
+def _ideal(ideal: Ideal, targets: set[str]) -> str:
+    known = ideal.target is None if ideal.frame == "world" else ideal.target in targets
+    if not known:
+        return "it is about no target of the mission"
+    shares = [share for share, _ in ideal.points]
+    if len(shares) < 2 or any(b < a for a, b in pairwise(shares)):
+        return "it has no points in order of time"
+    return ""
 
 
 def _solid(solid: Solid) -> str:
@@ -85,8 +109,13 @@ def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:
     for i, shot in enumerate(mission.shots):
         if shot.drone not in drones:
             yield f"mission.shots[{i}].drone", f"there is no drone `{shot.drone}`"
-        for target in {shot.subject, *(k.target for k in shot.keyframes)} - {None, *targets}:
+        named = {shot.subject, *(k.target for k in shot.keyframes), *(s.target for s in shot.subjects)}
+        for target in named - {None, *targets}:
             yield f"mission.shots[{i}]", f"there is no target `{target}`"
+        if shot.ideal is not None and (text := _ideal(shot.ideal, targets)):
+            yield f"mission.shots[{i}].ideal", text
+        if shot.ideal is not None and shot.timing.duration is None:
+            yield f"mission.shots[{i}].timing", "a shot on its own clock needs a duration"
     missing = {shot.id for shot in mission.shots} - {placed.shot.id for placed in ir.keyframes.shots}
     for name in sorted(missing):
         yield "keyframes", f"those of shot `{name}` are missing"

@@ -34,7 +34,12 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
             k: v for k, v in encode_mission(mission).items() if k not in ("origins", "source_sha256")
         },
         "keyframes": [
-            {"shot": placed.shot.id, "keyframes": encode(placed.keyframes)} for placed in ir.keyframes.shots
+            {
+                "shot": placed.shot.id,
+                "keyframes": encode(placed.keyframes),
+                "subjects": encode(placed.subjects),
+            }
+            for placed in ir.keyframes.shots
         ],
         "certificate": encode(plan.certificate),
         "deviations": encode(ir.deviations),

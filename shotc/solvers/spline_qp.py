@@ -16,16 +16,18 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import DEGREE, IntArray, Rows
 from shotc.solvers.conic import Status, solve
 
+EVERY = (0, 1, 2)
 MISS = 1e-6  # metres that a solution may miss an equality by
 POINT_PRICE = 1.01  # of a metre that a point gives way: where a floor gives as little, the point stays
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Goal:
-    """A term of the objective: sum over rows of |rows - value|^2; value of shape (R, 3)."""
+    """A term of the objective: sum over rows of |rows - value|^2 over ``axes``; value of shape (R, 3)."""
 
     rows: Rows
     value: Array
+    axes: tuple[int, ...] = EVERY
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -133,15 +135,23 @@ def _unbounded(problem: SplineProblem) -> Array | None:
     from scipy.sparse import bmat, vstack
     from scipy.sparse.linalg import splu
 
-    maps = vstack([scalar_map(goal.rows, problem.size) for goal in problem.goals], format="csr")
     through = scalar_map(problem.equalities.rows, problem.size)
-    system = bmat([[maps.T @ maps, through.T], [through, None]], format="csc")
-    wanted = maps.T @ np.concatenate([goal.value for goal in problem.goals])
-    try:
-        solved = splu(system).solve(np.concatenate([wanted, problem.equalities.value]))
-    except RuntimeError:  # singular: goals and equalities leave a direction free
-        return None
-    coef = np.asarray(solved[: problem.size])
+    coef = np.zeros((problem.size, 3))
+    left = list(EVERY)
+    while left:
+        mine = [goal for goal in problem.goals if left[0] in goal.axes]
+        alike = [k for k in left if all((k in goal.axes) == (left[0] in goal.axes) for goal in problem.goals)]
+        left = [k for k in left if k not in alike]
+        if not mine:
+            return None
+        maps = vstack([scalar_map(goal.rows, problem.size) for goal in mine], format="csr")
+        system = bmat([[maps.T @ maps, through.T], [through, None]], format="csc")
+        wanted = maps.T @ np.concatenate([goal.value[:, alike] for goal in mine])
+        try:
+            solved = splu(system).solve(np.concatenate([wanted, problem.equalities.value[:, alike]]))
+        except RuntimeError:  # singular: goals and equalities leave a direction free
+            return None
+        coef[:, alike] = solved[: problem.size]
     return coef if _keeps(problem, coef) else None
 
 
@@ -160,7 +170,8 @@ def _keeps(problem: SplineProblem, coef: Array) -> bool:
 
 
 def _energy(problem: SplineProblem, coef: Array) -> float:
-    return float(sum(((goal.rows.apply(coef) - goal.value) ** 2).sum() for goal in problem.goals))
+    off = ((goal.rows.apply(coef) - goal.value)[:, list(goal.axes)] for goal in problem.goals)
+    return float(sum((part**2).sum() for part in off))
 
 
 def _dearest(problem: SplineProblem) -> float:
@@ -232,7 +243,7 @@ def _moved(problem: SplineProblem, by: Array) -> SplineProblem:
 
     return SplineProblem(
         problem.size,
-        tuple(Goal(g.rows, g.value + shift(g.rows)) for g in problem.goals),
+        tuple(replace(g, value=g.value + shift(g.rows)) for g in problem.goals),
         Equalities(problem.equalities.rows, problem.equalities.value + shift(problem.equalities.rows)),
         tuple(replace(f, offset=f.offset + (shift(f.rows) * f.normal).sum(axis=1)) for f in problem.floors),
         tuple(replace(c, centre=c.centre + shift(c.rows)[:, list(c.axes)]) for c in problem.cones),
@@ -277,8 +288,17 @@ def _cone(cone: Cones, size: int, x: Any, bound: Any) -> Any:
 def _stack(problem: SplineProblem, x: Any) -> Any:
     from scipy.sparse import vstack
 
-    maps = vstack([_block(goal.rows, problem.size) for goal in problem.goals], format="csr")
-    return maps @ x - np.concatenate([goal.value.T.ravel() for goal in problem.goals])
+    maps = vstack([_parts(goal, problem.size) for goal in problem.goals], format="csr")
+    return maps @ x - np.concatenate([goal.value.T[list(goal.axes)].ravel() for goal in problem.goals])
+
+
+def _parts(goal: Goal, size: int) -> Any:
+    """Return the goal's rows as a sparse matrix over all coefficients, for its axes alone."""
+    from scipy.sparse import bmat, csr_matrix
+
+    one = scalar_map(goal.rows, size)
+    empty = csr_matrix(one.shape)
+    return bmat([[one if axis == i else empty for i in EVERY] for axis in goal.axes], format="csr")
 
 
 def _coef(x: Any, size: int) -> Array:

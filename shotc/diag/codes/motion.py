@@ -21,8 +21,19 @@ shots:
 _BY_FILE = _PASSING.replace("points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]", "file: runner.csv")
 
 
+_WARNINGS = (7, 8)
+_PLANNED = (8, 9)
+
+
 def _code(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
-    return slip(f"M{number:03}", slug, summary, explanation, _PASSING, *changes)
+    made = slip(f"M{number:03}", slug, summary, explanation, _PASSING, *changes)
+    severity = Severity.WARNING if number in _WARNINGS else Severity.ERROR
+    return made._replace(severity=severity, phase="plan" if number in _PLANNED else "check")
+
+
+def _needs_a_file(number: int, slug: str, summary: str, explanation: str) -> CodeInfo:
+    """Return the code of a fault that a mission cannot show without a file beside it."""
+    return CodeInfo(f"M{number:03}", slug, Severity.ERROR, summary, explanation, "", "", "other")
 
 
 CODES: tuple[CodeInfo, ...] = (
@@ -54,8 +65,9 @@ CODES: tuple[CodeInfo, ...] = (
         4,
         "outside-track",
         "a shot films its target before or after its track",
-        "A track from a file, or with times, says where its target is from its first row to its last. A shot "
-        "of it begins and ends within that. Start the shot at another time, shorten it, or give more rows.",
+        "A track from a file says where its target is from its first row to its last, one with `times` from its "
+        "first. A shot of it begins and ends within that. Start the shot at another time, shorten it, or give "
+        "more rows.",
         (
             "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]",
             "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [17, 40]",
@@ -81,6 +93,45 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     _code(
         7,
+        "subject-cropped",
+        "a moving target is cropped at its place on screen",
+        "The camera keeps its place beside the target, and from there the target does not fit the frame at any "
+        "place of the composition. It is filmed at the nearest place on the set's vertical lines that shows it "
+        "whole, or cropped where there is none. Film it from farther away, or with a wider field of view.",
+        ("distance: 8, altitude: 4", "distance: 1.9, altitude: 2.7"),
+    ),
+    _code(
+        8,
+        "leaves-its-place",
+        "a shot cannot keep its place beside a moving target",
+        "The place that a chase, a lateral or another kind asks for is an ideal. Where the drone's limits, a zone, "
+        "the ground or another target stand against it, the plan leaves it by as little as it can, and says by how "
+        "much and when. Give the shot more room, or the drone higher limits.",
+        ("home: [0, -30, 0], limits: {speed: 8 m/s}", "home: [0, -30, 0], limits: {speed: 1.6 m/s}"),
+    ),
+    _code(
+        9,
+        "no-way-beside",
+        "no motion keeps a shot of a moving target clear of everything",
+        "A shot on its own clock is flown from rest to rest, inside the keep-in zones, out of the keep-out zones, "
+        "clear of targets and over the ground, at every instant. Here no such motion was found. The notes say what "
+        "would have to give way, and by how much.",
+        (
+            "drones:",
+            "world: {zones: {cage: {keep: in, box: {center: [0, -30, 5], size: [10, 10, 12]}},"
+            " bar: {keep: in, box: {center: [0, 30, 5], size: [90, 60, 12]}}}}\ndrones:",
+        ),
+    ),
+    _needs_a_file(
+        10,
+        "track-too-short",
+        "the track of a target ends before its shot does",
+        "A track from a file ends with its last row. A shot without a `start` begins when its drone is in place, "
+        "and then its target has to be known until it ends. Shorten the shot, give the track more rows, or have "
+        "the drone start nearer to it.",
+    ),
+    _code(
+        21,
         "target-too-fast",
         "a target would have to move faster than it can",
         "Two rows of a track lie so far apart, or its speed is such, that the target would be faster than its "
@@ -90,7 +141,7 @@ CODES: tuple[CodeInfo, ...] = (
         ("times: [0, 40]", "times: [0, 0.5]"),
     ),
     CodeInfo(
-        "M008",
+        "M022",
         "track-gap",
         Severity.WARNING,
         "a recorded track has a gap",

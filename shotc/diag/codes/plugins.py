@@ -20,13 +20,13 @@ shots:
       - {at: [12, -20, 10], look_at: mast}
 """
 
-_MOVING = """\
+_FRAMING = """\
 shotc: 1
 mission: pan
-targets: {runner: {track: {start: [0, 0, 0.9], velocity: [1.5, 0, 0]}, radius: 0.4, height: 1.8}}
+targets: {mast: {at: [0, 0, 6], radius: 0.5, height: 12}}
 drones: {cam: {model: x500, home: [0, -30, 0]}}
 shots:
-  - {id: side, kind: lateral, drone: cam, target: runner, side: left, distance: 8, altitude: 4, timing: {duration: 10}}
+  - {id: mid, kind: framing, drone: cam, subjects: [{target: mast, size: 0.4}], timing: {duration: 10}}
 """
 
 CODES: tuple[CodeInfo, ...] = (
@@ -91,10 +91,10 @@ CODES: tuple[CodeInfo, ...] = (
         "not-planned-yet",
         Severity.ERROR,
         "the mission uses a part of the language that this version checks but cannot plan",
-        "The whole language is parsed and validated, so that missions can be written and reviewed today. Moving "
-        "targets, several cameras in one mission, scenes and drone shows are planned by later versions; until then "
+        "The whole language is parsed and validated, so that missions can be written and reviewed today. Scenes, "
+        "framings by size and drone shows are planned by later versions; until then "
         "`shotc plan` refuses the mission instead of flying a part of it.",
-        _MOVING,
+        _FRAMING,
         _PASSING,
         "plan",
     ),

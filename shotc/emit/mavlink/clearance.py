@@ -23,7 +23,7 @@ class Obstacle:
 
 
 def obstacles_of(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
-    """Return the keep-out zones and the targets, with the clearances that verification holds them to."""
+    """Return keep-out zones and standing targets, with the clearances that verification holds them to."""
     zones = [Obstacle(f"zone {z.name}", z.solid, drone.radius) for z in mission.zones if z.keep == "out"]
     clearance = drone.radius + mission.rules.target_clearance
     targets = [
@@ -35,6 +35,7 @@ def obstacles_of(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
             clearance,
         )
         for t in mission.targets
+        if t.track is None
     ]
     return (*zones, *targets)
 

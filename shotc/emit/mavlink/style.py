@@ -73,7 +73,8 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style
             continue
         inside = (track.time >= phase.start) & (track.time <= phase.end)
         target = _lone_target(flight, phase)
-        if target is not None and _is_centred(select(poses, inside), track.subject[inside], drone):
+        stands = target is not None and mission.target(target).track is None
+        if target is not None and stands and _is_centred(select(poses, inside), track.subject[inside], drone):
             followed[phase.shot] = mission.target(target).centre
         elif swivels(drone) and _gains(select(poses, inside), track.subject[inside]):
             aimed.add(phase.shot)

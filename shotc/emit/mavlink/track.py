@@ -17,6 +17,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import View
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.sampling import moved
 from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
@@ -94,7 +95,8 @@ def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: 
     subject: Array = poses.position + FAR * np.stack(ahead, axis=1)
     for span in flight.framing:
         inside = (time >= span.start) & (time <= span.end)
-        subject[inside] = mission.target(span.target).centre
+        filmed = mission.target(span.target)
+        subject[inside] = filmed.centre + moved(filmed, time[inside])
     return subject
 
 

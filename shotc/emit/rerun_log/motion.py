@@ -14,11 +14,11 @@ from shotc.emit.palette import CAMERA, KEEP_OUT, SUBJECT, WHITE, rgba8, shade
 from shotc.emit.rerun_log.series import Line, Plot, clearance_plot, motion_plots, sample_times
 from shotc.emit.screen import guide_lines, screen_track
 from shotc.geom.bernstein import Array
-from shotc.geom.framing import Cameras, Frames, frames
+from shotc.geom.framing import Cameras, Frames
 from shotc.geom.silhouette import cylinder_contour, project_loops
 from shotc.ir.mission import Composition, Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.sampling import cylinder, framed
+from shotc.ir.sampling import framed, moved, seen
 from shotc.ir.trajectory import DroneTrajectory, Phase, Reference, VerifiedIR
 
 WIDTH = 1280
@@ -158,13 +158,13 @@ def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Refer
     entity = f"{camera_entity(drone)}/screen/{span.target}"
     pose = flight.curve(ticks)
     cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], drone.aspect)
-    away = np.array(target.centre) - cameras.position
+    away = np.array(target.centre) + moved(target, ticks) - cameras.position
     contours = cylinder_contour(away, target.radius, target.height, count=25)
     polygons = project_loops(cameras.view, contours)
     outlines = [np.clip(np.concatenate([loop, loop[:1]]), -9, 9) for loop in polygons if len(loop)]
     _strips(stream, f"{entity}/outline", ticks, outlines, [int(len(loop) > 0) for loop in polygons])
     _style(stream, f"{entity}/outline", rgba8(shade(SUBJECT, 1.75)), 1.2)
-    _centre(stream, f"{entity}/centre", ticks, frames(cameras, cylinder(target)))
+    _centre(stream, f"{entity}/centre", ticks, seen(mission, flight, target.name, ticks))
     if span.reference is not None:
         cross = _cross(drone.aspect)
         wanted = [part + point for point in span.reference(ticks) for part in cross]

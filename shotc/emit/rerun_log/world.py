@@ -12,14 +12,15 @@ from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTI
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid, triangles
-from shotc.ir.mission import MissionIR
-from shotc.ir.sampling import cylinder
+from shotc.ir.mission import MissionIR, Target
+from shotc.ir.sampling import cylinder, moved
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 SIDES = 48
 LIGHT = np.radians(215.0)
 """Where the light comes from, an angle of W."""
 MANY = 12
+TRACK_RATE = 10.0  # places a second of a target that moves
 """From more keyframes than this on, only the shot is named."""
 
 PHASE_COLORS: dict[str, Rgb] = {
@@ -43,7 +44,7 @@ def log_scene(stream: Any, plan: VerifiedIR) -> None:
     stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     _ground(stream, plan)
     _zones(stream, mission)
-    _targets(stream, mission)
+    _targets(stream, mission, scene_time(plan))
     for drone in mission.drones:
         home = rr.Points3D(
             [drone.home],
@@ -67,7 +68,10 @@ def scene_bounds(plan: VerifiedIR) -> tuple[Array, Array]:
     points = [f.curve(np.linspace(f.curve.start, f.curve.end, 400))[:, :3] for f in plan.trajectory.drones]
     for target in mission.targets:
         reach = np.array([target.radius, target.radius, target.height / 2])
-        points.append(np.array([np.array(target.centre) - reach, np.array(target.centre) + reach]))
+        last = max((f.curve.end for f in plan.trajectory.drones), default=0.0)
+        for t in np.linspace(0.0, last, 2 if target.track is None else 60):
+            centre = np.array(target.at(float(t)))
+            points.append(np.array([centre - reach, centre + reach]))
     cloud = np.concatenate([np.zeros((1, 3)), *points]) if not points else np.concatenate(points)
     return cloud.min(axis=0), cloud.max(axis=0)
 
@@ -112,8 +116,16 @@ def _zones(stream: Any, mission: MissionIR) -> None:
         )
 
 
-def _targets(stream: Any, mission: MissionIR) -> None:
+def scene_time(plan: VerifiedIR) -> float:
+    """Return when the last flight ends, seconds."""
+    return max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
+
+
+def _targets(stream: Any, mission: MissionIR, last: float) -> None:
+    """Log the targets; one that moves is a body about its first place, carried along over time."""
     for target in mission.targets:
+        if target.track is not None:
+            _motion(stream, target, last)
         solid = cylinder(target)
         points, faces, light = solid_mesh(solid)
         colors = [rgba8(shade(SUBJECT, float(value))) for value in light]
@@ -121,6 +133,22 @@ def _targets(stream: Any, mission: MissionIR) -> None:
         stream.log(f"world/targets/{target.name}/body", mesh, static=True)
         name = _name(_top(solid), target.name, shade(SUBJECT, 1.6))
         stream.log(f"world/targets/{target.name}/name", name, static=True)
+
+
+def _motion(stream: Any, target: Target, last: float) -> None:
+    times = np.linspace(0.0, last, int(np.clip(last * TRACK_RATE, 2, 6000)))
+    away = moved(target, times)
+    stream.send_columns(
+        f"world/targets/{target.name}",
+        indexes=[rr.TimeColumn("t", duration=times)],
+        columns=rr.Transform3D.columns(translation=away),
+    )
+    way = rr.LineStrips3D(
+        [away + np.array(target.centre)],
+        radii=rr.Radius.ui_points(0.8),
+        colors=[rgba8(shade(SUBJECT, 1.2), 0.6)],
+    )
+    stream.log(f"world/tracks/{target.name}", way, static=True)
 
 
 def _flight(stream: Any, plan: VerifiedIR, flight: DroneTrajectory) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from shotc.emit.screen import ScreenSummary, certified
 from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Composition, Drone, Shot, Vec2
+from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Target, Vec2
 from shotc.ir.sampling import SAME_TIME, references, seen
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
 
@@ -84,7 +84,7 @@ def _board(
     times = [k for k in flight.keyframes if k.shot == shot.id]
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
     # One or two generated keyframes are the whole shot; more only sample a curve.
-    if by_hand or len(times) <= 2:
+    if shot.ideal is None and (by_hand or len(times) <= 2):
         moments = tuple(_keyframe(plan, pair, k) for k in _spread(times, MOST_PLACED))
     else:
         even = np.linspace(start, end, most_generated)
@@ -97,7 +97,7 @@ def _board(
         start=start,
         end=end,
         moments=moments,
-        total=len(times) if by_hand else None,
+        total=len(times) if by_hand and shot.ideal is None else None,
         path=flight.curve(np.linspace(start, end, 200))[:, :3],
         flight=flight.curve(np.linspace(flight.curve.start, flight.curve.end, 600))[:, :3],
         framing=certified(plan.certificate, shot.id),
@@ -147,9 +147,24 @@ def passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: fl
         target=target,
         reference=wanted,
         asked=None,
-        composition=shot.keyframes[passed[-1] if passed else 0].composition,
+        composition=_composition(shot, passed[-1] if passed else 0),
         fault=_fault(plan, flight, target, time),
     )
+
+
+def _composition(shot: Shot, keyframe: int) -> Composition:
+    if shot.ideal is None:
+        return shot.keyframes[keyframe].composition
+    return shot.subjects[0].composition if shot.subjects else Composition("none")
+
+
+def standing(mission: MissionIR, board: ShotBoard) -> MissionIR:
+    """Return the mission with a moving target standing wherever it is at one of a shot's moments."""
+    found: list[Target] = []
+    for target in mission.targets:
+        places = dict.fromkeys(target.at(moment.time) for moment in board.moments)
+        found += [target] if target.track is None else [target._replace(centre=p, track=None) for p in places]
+    return mission._replace(targets=tuple(found))
 
 
 def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str | None, time: float) -> str:

@@ -16,6 +16,7 @@ from shotc.emit.storyboard.scene import Picture, draw_scene, name_places, pictur
 from shotc.geom.camera import heading_of
 from shotc.ir.mission import Composition, MissionIR, Vec2, Vec3
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.sampling import frozen
 
 LINE = 0.165
 """Height of a line of a caption, inches."""
@@ -39,7 +40,7 @@ class Cell:
 
 def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, grid: float) -> None:
     """Draw a panel: the picture, and its caption under it; grid is the width of a ground square, metres."""
-    box = cell.picture
+    box, mission = cell.picture, frozen(mission, moment.time)
     shown = picture(moment.pose, box.width / box.height, box)
     draw_scene(canvas, shown, mission, moment.target, grid)
     if moment.target is not None:

@@ -21,7 +21,7 @@ from shotc.emit.palette import (
     shade,
 )
 from shotc.emit.storyboard.canvas import Box, Canvas, Type
-from shotc.emit.storyboard.content import Moment, ShotBoard
+from shotc.emit.storyboard.content import Moment, ShotBoard, standing
 from shotc.emit.storyboard.furniture import height_marks, north_arrow, scale_bar, view_name
 from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
@@ -37,12 +37,14 @@ NUMBER = 0.095
 
 def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, grid: float) -> None:
     """Draw the map of one shot into ``box``; grid is the width of a ground square, metres."""
+    whole, mission = mission, standing(mission, board)
     sheet = sheet_of(box, board, mission)
     _ground(canvas, sheet, grid)
     _zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
     for moment in board.moments:
         _frustum(canvas, sheet, moment, board.drone.aspect)
+    _tracks(canvas, sheet, board, whole)
     _targets(canvas, sheet, mission)
     _path(canvas, sheet, board)
     taken = _furniture(canvas, sheet, board, mission)
@@ -84,6 +86,15 @@ def _zones(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
             closed = np.concatenate([shape, shape[:1]])
             canvas.lines([closed], (*KEEP_IN, 0.25), 3.5, sheet.box)
             canvas.lines([closed], KEEP_IN, 1.0, sheet.box, dash=(5.0, 2.0))
+
+
+def _tracks(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) -> None:
+    """Draw the way that moving targets go while the shot is filmed."""
+    times = np.linspace(board.start, board.end, 60)
+    for target in mission.targets:
+        if target.track is not None:
+            way = sheet.place(np.array([target.at(float(t)) for t in times]))
+            canvas.lines([way], (*shade(SUBJECT, 0.75), 0.9), 1.1, sheet.box, dash=(1.5, 1.5))
 
 
 def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
@@ -186,7 +197,7 @@ def _square(at: Array, half: float) -> Box:
 
 def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> None:
     labels = []
-    for target in mission.targets:
+    for target in {t.name: t for t in mission.targets}.values():
         seen = sheet.visible(_body(sheet, target))
         if seen is not None:
             labels.append(Label(target.name, shade(SUBJECT, 0.75), seen))

@@ -112,7 +112,8 @@ def outline(axes: Array, solid: Solid) -> Array:
 
 def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, Array]:
     """Return the lower left and upper right corner of what is to be shown, metres."""
-    subjects = [mission.target(name) for name in sorted({m.target for m in board.moments if m.target})]
+    framed = {m.target for m in board.moments if m.target}
+    subjects = [target for target in mission.targets if target.name in framed]
     shapes = [board.path @ axes.T, *(outline(axes, cylinder(subject)) for subject in subjects)]
     low, high = _corners(shapes)
     if axes[1, 2] != 0 and 0 < low[1] < high[1] - low[1]:

@@ -8,13 +8,14 @@ fast as its pace of the limits allows. What cannot be met is an error that says 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import concatenate, lift_off
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import DronePath, Leg, PathIR
+from shotc.ir.path import DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.parameterize_time.binding import binding
@@ -29,7 +30,7 @@ from shotc.passes.parameterize_time.faults import (
 from shotc.passes.parameterize_time.flight import Flight
 from shotc.passes.parameterize_time.leg import TINY, LegMotion, Plan, assemble, fastest_moves, plan_of
 from shotc.passes.parameterize_time.limits import Ceiling, ceiling_of
-from shotc.passes.parameterize_time.marks import TimedLeg, TooFast, has_times
+from shotc.passes.parameterize_time.marks import DueLeg, TooFast, has_times
 from shotc.passes.parameterize_time.move import Move
 
 Stats = list[tuple[str, float | str]]
@@ -46,7 +47,8 @@ class ParameterizeTime:
 
         A shot that waits for one of another drone is timed after it, so drones take turns.
         """
-        pilots = [_Pilot(ir.keyframes.mission, path, ctx) for path in ir.drones]
+        paths: tuple[DronePath | TimedPath, ...] = (*ir.drones, *ir.timed)
+        pilots = [_Pilot(ir.keyframes.mission, path, ctx) for path in paths]
         ends: dict[str, float] = {}
         while any(pilot.advance(ends) for pilot in pilots):
             pass
@@ -66,7 +68,7 @@ class _Pilot:
     """Times the legs of one drone in order, as far as the shots it waits for are known."""
 
     mission: MissionIR
-    path: DronePath
+    path: DronePath | TimedPath
     ctx: PassContext
     faults: list[Diagnostic] = field(default_factory=list)
     warnings: list[Diagnostic] = field(default_factory=list)
@@ -87,15 +89,30 @@ class _Pilot:
             waits = self._waits(leg)
             if waits is not None and waits not in ends:
                 break
-            self._fly(leg, ends.get(waits or "", 0.0))
-            if leg.shot is not None:
-                ends[leg.shot] = self.flight.clock
+            if isinstance(leg, TimedLeg):
+                self._film(leg, ends.get(waits or "", 0.0))
+                ends[leg.shot] = leg.end
+            else:
+                self._fly(leg, ends.get(waits or "", 0.0))
+                if leg.shot is not None:
+                    ends[leg.shot] = self.flight.clock
             self.done += 1
             if self.done == len(self.path.legs) and not self.faults:
                 self._check_endurance()
         return self.done > before
 
-    def _waits(self, leg: Leg) -> str | None:
+    def _film(self, leg: TimedLeg, ready: float) -> None:
+        """Fly a shot on its own clock, if the drone is there in time."""
+        begins = float(leg.curve.start)
+        earliest = max(self.flight.clock, ready - (leg.start - begins))
+        if begins < earliest - TINY and not self.faults:
+            lead = leg.start - begins
+            before = tuple(self.flight.phases)
+            self.faults.append(start_too_early(self.mission, leg, leg.start, earliest + lead, before))
+        self.flight.wait(begins, leg.pose)
+        self.flight.film(leg)
+
+    def _waits(self, leg: Leg | TimedLeg) -> str | None:
         return next((s.timing.after for s in self.mission.shots if s.id == leg.shot), None)
 
     def _fly(self, leg: Leg, ready: float) -> None:
@@ -120,8 +137,10 @@ class _Pilot:
             ]
 
     def _check_endurance(self) -> None:
-        if self.flight.clock > self.drone.endurance:
-            phases = tuple(self.flight.phases)
+        waited = lift_off(concatenate(self.flight.curves))
+        if self.flight.clock - waited > self.drone.endurance:
+            first, *others = self.flight.phases
+            phases = (replace(first, start=first.start + waited), *others)
             self.faults.append(endurance_exceeded(self.mission, self.drone, phases))
 
 
@@ -152,9 +171,9 @@ def time_leg(
     return motion, fault
 
 
-def _timed_leg(leg: Leg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> TimedLeg:
+def _timed_leg(leg: Leg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> DueLeg:
     paced = fast if leg.duration is not None else fastest_moves(leg, plan, ceiling.scaled(leg.pace))
-    return TimedLeg(leg, plan, fast, paced, ceiling)
+    return DueLeg(leg, plan, fast, paced, ceiling)
 
 
 def _explain(

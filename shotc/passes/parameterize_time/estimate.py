@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import Drone
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Leg
+from shotc.passes.parameterize_time import time_leg
 from shotc.passes.parameterize_time.grid import evened, rough_profile
-from shotc.passes.parameterize_time.leg import fastest_moves, plan_of
+from shotc.passes.parameterize_time.leg import LegMotion, fastest_moves, plan_of
 from shotc.passes.parameterize_time.limits import ceiling_of
 from shotc.passes.parameterize_time.move import axes_of
 
@@ -30,6 +31,20 @@ def rough_times(drone: Drone, leg: Leg, pace: float) -> tuple[Array, Array]:
         places.append(s[1:])
         times.append(times[-1][-1] + np.cumsum(steps))
     return np.concatenate(places), np.concatenate(times)
+
+
+def leg_motion(mission: MissionIR, drone: Drone, leg: Leg) -> LegMotion | None:
+    """Return a leg as the time pass will fly it, from time 0; what that refuses as fast as it may be.
+
+    None where it takes no time.
+    """
+    return time_leg(mission, drone, leg, ceiling_of(drone))[0]
+
+
+def leg_time(mission: MissionIR, drone: Drone, leg: Leg) -> float:
+    """Return the seconds of ``leg_motion``."""
+    motion = leg_motion(mission, drone, leg)
+    return 0.0 if motion is None else motion.duration
 
 
 def shortest_time(drone: Drone, leg: Leg) -> float:

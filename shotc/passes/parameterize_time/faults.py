@@ -9,7 +9,7 @@ from math import ceil
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import Leg
+from shotc.ir.path import Leg, TimedLeg
 from shotc.ir.trajectory import Phase
 from shotc.passes.parameterize_time.binding import (
     Holdup,
@@ -67,7 +67,7 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
 
 
 def start_too_early(
-    mission: MissionIR, leg: Leg, asked: float, earliest: float, phases: tuple[Phase, ...]
+    mission: MissionIR, leg: Leg | TimedLeg, asked: float, earliest: float, phases: tuple[Phase, ...]
 ) -> Diagnostic:
     """Return T003: the drone is not yet there at the shot's start.
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
-from shotc.ir.path import FramingSpan, Leg
+from shotc.ir.path import FramingSpan, Leg, TimedLeg
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Phase, Reference
 from shotc.passes.parameterize_time.leg import TINY, LegMotion, rest
 from shotc.passes.parameterize_time.profile import Profile
@@ -28,13 +28,18 @@ class Flight:
     framing: list[Reference] = field(default_factory=list)
 
     def wait(self, until: float, pose: tuple[float, ...]) -> None:
-        """Hover until a mission time; the wait belongs to the transit before it, or is one."""
+        """Hover until a mission time; the wait belongs to the transit before it, or is one.
+
+        A drone that has not left its pad waits there.
+        """
         if until - self.clock < TINY:
             return
         here = self.curves[-1].ctrl[-1, -1] if self.curves else np.array(pose)
         self.curves.append(rest(here, np.array([self.clock, until])))
         if self.phases and self.phases[-1].name == "transit":
             self.phases[-1] = Phase("transit", None, self.phases[-1].start, until)
+        elif not self.phases:
+            self.phases.append(Phase("takeoff", None, self.clock, until))
         else:
             self.phases.append(Phase("transit", None, self.clock, until))
         self.clock = until
@@ -45,7 +50,11 @@ class Flight:
         t = start + motion.profile.t
         t[-1] = end
         self.curves.append(Piecewise(t, motion.curve.ctrl))
-        self.phases.append(Phase(leg.phase, leg.shot, start, end))
+        if leg.phase == "takeoff" and self.phases:
+            waited = self.phases.pop()
+            self.phases.append(Phase("takeoff", None, waited.start, end))
+        else:
+            self.phases.append(Phase(leg.phase, leg.shot, start, end))
         self.clock = end
         if leg.shot is None:
             return
@@ -54,6 +63,18 @@ class Flight:
             self.keyframes.append(KeyframeTime(leg.shot, mark.index, start + at))
         for span in leg.framing:
             self.framing.append(_reference(leg.shot, span, leg, motion, start))
+
+    def film(self, leg: TimedLeg) -> None:
+        """Add a shot on its own clock, which begins now; the ways into and out of its motion are transits."""
+        self.curves.append(leg.curve)
+        if self.phases and self.phases[-1].name == "transit":
+            self.phases[-1] = Phase("transit", None, self.phases[-1].start, leg.start)
+        else:
+            self.phases.append(Phase("transit", None, self.clock, leg.start))
+        self.phases.append(Phase("shot", leg.shot, leg.start, leg.end))
+        self.phases.append(Phase("transit", None, leg.end, leg.curve.end))
+        self.framing += [Reference(leg.shot, s.target, s.start, s.end, s.reference) for s in leg.framing]
+        self.clock = float(leg.curve.end)
 
     def trajectory(self) -> DroneTrajectory:
         """Return the finished flight."""

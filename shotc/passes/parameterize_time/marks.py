@@ -81,7 +81,7 @@ class _Late:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class TimedLeg:
+class DueLeg:
     """A leg with times to meet.
 
     fast : its moves at full limits, which are ``ceiling``; paced : at its pace, for what has no time
@@ -142,7 +142,7 @@ def _anchors(leg: Leg, plan: Plan) -> list[_Anchor]:
     return anchors
 
 
-def _attempt(timed: TimedLeg, anchors: list[_Anchor]) -> Timed | _Late:
+def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
     parts: list[_Part] = []
     plan = timed.plan.leaving({a.s: a.leaves - a.arrives for a in anchors})
     for i, (a, b) in enumerate(pairwise(anchors)):
@@ -176,7 +176,7 @@ def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> lis
     return found
 
 
-def _made(timed: TimedLeg, fast: Move, parts: list[_Part]) -> Move | None:
+def _made(timed: DueLeg, fast: Move, parts: list[_Part]) -> Move | None:
     if len(parts) == 1:
         return fast.stretched(max(1.0, parts[0].seconds / fast.duration))
     span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))
@@ -185,7 +185,7 @@ def _made(timed: TimedLeg, fast: Move, parts: list[_Part]) -> Move | None:
     return windowed_move(fast.path, span, timed.ceiling, ends, seconds)
 
 
-def _least_delay(timed: TimedLeg, anchors: list[_Anchor], late: _Late, shifts_rest: bool) -> float | None:
+def _least_delay(timed: DueLeg, anchors: list[_Anchor], late: _Late, shifts_rest: bool) -> float | None:
     """Return by how much the late anchor (and all after it) has to move at least, or None."""
 
     def enough(delay: float) -> bool:

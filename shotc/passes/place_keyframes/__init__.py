@@ -20,6 +20,7 @@ from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
 from shotc.passes.place_keyframes.faults import Miss, does_not_fit, keeps, off_composition, report
 from shotc.passes.place_keyframes.flown_order import flown_order
+from shotc.passes.place_keyframes.subjects import place_subjects
 from shotc.passes.place_keyframes.turns import while_following, with_turns
 
 NORTH = pi / 2
@@ -36,6 +37,11 @@ class PlaceKeyframes:
         diagnostics: list[Diagnostic] = []
         for shot in flown_order(ir.shots):
             ctx.progress(f"placing the keyframes of {shot.id}")
+            if shot.ideal is not None:
+                subjects, found = place_subjects(ir, shot)
+                shots.append(PlacedShot(shot, (), subjects))
+                diagnostics += found
+                continue
             placed, misses = place_shot(ir, shot)
             shots.append(PlacedShot(shot, placed))
             diagnostics += report(ir, shot, misses)

@@ -1,4 +1,4 @@
-"""Shots of moving targets, judged by their ideal: is the target known then, can the drone keep up, is it low.
+"""Shots of moving targets, judged by their ideal: is the target known, can a drone keep up, is it too low.
 
 The ideal is where the camera would be; a plan may leave it, but not for the whole of a shot.
 """
@@ -116,6 +116,6 @@ def _fast(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
             f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
             f"the drone flies {limit:.1f} m/s{wind}",
         ),
-        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, "
-        "or slow the target down",
+        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, or slow down "
+        "what it films",
     )

@@ -43,7 +43,7 @@ def check_jump(course: Course, origins: OriginMap) -> Diagnostic | None:
     remedy = _remedy(course, i)
     labels, raised = _labels(course, origins, _place(course, i))
     return Diagnostic(
-        "M007",
+        "M021",
         f"target `{course.name}` jumps: {_speed(way / lasts)} is more than its top speed, "
         f"{_speed(course.top_speed)}",
         labels,
@@ -58,7 +58,7 @@ def check_velocity(course: Course, speed: float, origins: OriginMap, *key: str |
         return None
     labels, raised = _labels(course, origins, (*course.path, *key))
     return Diagnostic(
-        "M007",
+        "M021",
         f"target `{course.name}` moves at {_speed(speed)}; its top speed is {_speed(course.top_speed)}",
         labels,
         ("a bare number is in m/s",),
@@ -79,7 +79,7 @@ def check_gap(course: Course, origins: OriginMap) -> Diagnostic | None:
     way = dist(points[i], points[i + 1])
     more = f"; it is the longest of {len(gaps)} gaps" if len(gaps) > 1 else ""
     return Diagnostic(
-        "M008",
+        "M022",
         f"the track of `{course.name}` has a gap of {spaces[i]:.1f} s",
         (origins.value((*course.path, "file")),),
         (

@@ -75,7 +75,7 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         drone=shot.drone,
         subject=shot.target,
         keyframes=expansion.keyframes,
-        timing=Timing(timing.start, timing.after, timing.duration),
+        timing=Timing(timing.start, timing.after, timing.duration or expansion.lasts),
         pace=shot.pace or spec.rules.pace,
         promise=Promise(require.in_frame, require.screen_error, require.size),
         refine_optional=shot.refine.optional,

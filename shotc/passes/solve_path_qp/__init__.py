@@ -13,9 +13,9 @@ from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone
-from shotc.ir.path import Deviation, DronePath, Leg, PathIR
+from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.solve_path_qp.faults import (
     cut_framing,
@@ -26,9 +26,13 @@ from shotc.passes.solve_path_qp.faults import (
     swings,
 )
 from shotc.passes.solve_path_qp.legs import Flight, drone_legs
+from shotc.passes.solve_path_qp.on_clock import Flown, OutsideTrack
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
+from shotc.passes.timed_route.faults import left_place, stopped_on_clock
+from shotc.passes.timed_route.moving import moving_targets
+from shotc.passes.timed_route.shot import NoMotion
 from shotc.solvers.headings import DEFAULT
 
 
@@ -36,7 +40,7 @@ from shotc.solvers.headings import DEFAULT
 class _Planned:
     """One drone's share of the result; ``legs`` is empty where an error stopped it."""
 
-    legs: tuple[Leg, ...]
+    legs: tuple[Leg | TimedLeg, ...]
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
     diagnostics: tuple[Diagnostic, ...]
@@ -51,22 +55,45 @@ class SolvePathQp:
     def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[PathIR]:
         """Plan every drone's path, in order of priority."""
         paths: list[DronePath] = []
+        timed: list[TimedPath] = []
+        ends: dict[str, float] = {}
         deviations: list[Deviation] = []
         stats: list[tuple[str, float | str]] = []
         diagnostics: list[Diagnostic] = []
-        for drone in sorted(ir.mission.drones, key=lambda d: (d.priority, d.name)):
-            planned = _plan(ir, drone, ctx)
+        for drone in _by_need(ir):
+            planned = _plan(ir, drone, ctx, ends)
             diagnostics += planned.diagnostics
             deviations += planned.deviations
             stats += planned.stats
-            if planned.legs:
-                paths.append(DronePath(drone.name, planned.legs))
+            standing = [leg for leg in planned.legs if isinstance(leg, Leg)]
+            if planned.legs and len(standing) == len(planned.legs):
+                paths.append(DronePath(drone.name, tuple(standing)))
+            elif planned.legs:
+                timed.append(TimedPath(drone.name, planned.legs))
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
-        return Outcome(PathIR(ir, tuple(paths), tuple(deviations), tuple(stats)), tuple(diagnostics))
+        path = PathIR(ir, tuple(paths), tuple(deviations), tuple(stats), tuple(timed))
+        return Outcome(path, tuple(diagnostics))
 
 
-def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext) -> _Planned:
+def _by_need(ir: KeyframeIR) -> list[Drone]:
+    """Return the drones in order of priority, each after those whose shots its own wait for."""
+    left = sorted(ir.mission.drones, key=lambda d: (d.priority, d.name))
+    owner = {placed.shot.id: placed.shot.drone for placed in ir.shots}
+    needs: dict[str, set[str]] = {drone.name: set() for drone in left}
+    for placed in ir.shots:
+        needs[placed.shot.drone].add(owner.get(placed.shot.timing.after or "", placed.shot.drone))
+    done: list[Drone] = []
+    while left:
+        names = {drone.name for drone in done}
+        ready = next((d for d in left if needs[d.name] <= names | {d.name}), left[0])
+        left.remove(ready)
+        done.append(ready)
+    return done
+
+
+def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext, ends: dict[str, float]) -> _Planned:
+    """Plan one drone's legs; ends : of the shots planned so far on the mission's clock, added to."""
     mission = ir.mission
     mine = [placed for placed in ir.shots if placed.shot.drone == drone.name]
     if not mine:
@@ -78,6 +105,8 @@ def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext) -> _Planned:
     faults = [pad_blocked(mission, drone, top)] if isinstance(top, PadBlocked) else []
     shots: list[ShotCurve] = []
     for placed in mine:
+        if placed.shot.ideal is not None:
+            continue
         ctx.progress(f"path of shot {placed.shot.id}")
         result = shot_curve(mission, drone, room, placed, ctx.headings or DEFAULT)
         if isinstance(result, ShotCurve):
@@ -92,12 +121,43 @@ def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext) -> _Planned:
         *(swings(mission, s.shot, s.swing) for s in shots if s.swing is not None),
     ]
     ctx.progress(f"way of {drone.name}")
+    if any(p.shot.ideal is not None for p in ir.shots):
+        curves = {s.shot.shot.id: s for s in shots}
+        flown = Flown(mission, Flight(drone, room, top), moving_targets(mission, drone), ends)
+        return _on_clock(flown, [curves.get(p.shot.id, p) for p in mine], tuple(warnings), ctx)
     joined = drone_legs(Flight(drone, room, top), shots)
     if not isinstance(joined[0], Leg):
         what, before = joined
         return _stopped(*warnings, failure(mission, drone, room, before.shot if before else None, what))
     deviations = tuple(d for s in shots for d in s.deviations)
     return _Planned(joined, deviations, tuple(x for s in shots for x in s.stats), tuple(warnings))
+
+
+def _on_clock(
+    flown: Flown, shots: list[ShotCurve | PlacedShot], warnings: tuple[Diagnostic, ...], ctx: PassContext
+) -> _Planned:
+    """Plan the legs of a drone in a mission where something is filmed on its own clock."""
+    mission, flight = flown.mission, flown.flight
+    for shot in shots:
+        placed = shot.shot if isinstance(shot, ShotCurve) else shot
+        ctx.progress(f"way to and through shot {placed.shot.id}")
+        trouble = flown.film(shot)
+        if isinstance(trouble, NoMotion | OutsideTrack):
+            return _stopped(*warnings, stopped_on_clock(mission, placed.shot, trouble))
+        if trouble is not None:
+            return _stopped(*warnings, failure(mission, flight.drone, flight.room, placed, trouble))
+    trouble = flown.home()
+    if trouble is not None:
+        return _stopped(*warnings, failure(mission, flight.drone, flight.room, None, trouble))
+    away = (
+        d
+        for d in flown.deviations
+        if d.shot not in {s.shot.shot.id for s in shots if isinstance(s, ShotCurve)}
+    )
+    left = tuple(left_place(mission, d) for d in away)
+    deviations = (*(d for s in shots if isinstance(s, ShotCurve) for d in s.deviations), *flown.deviations)
+    stats = (*(x for s in shots if isinstance(s, ShotCurve) for x in s.stats), *flown.stats)
+    return _Planned(tuple(flown.legs), deviations, stats, (*warnings, *left))
 
 
 def _stopped(*diagnostics: Diagnostic) -> _Planned:

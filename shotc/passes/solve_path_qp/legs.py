@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import atan2, hypot, pi
 
@@ -12,7 +13,7 @@ from shotc.geom.bspline import restrict, subdivide
 from shotc.geom.corridor import Room
 from shotc.ir.mission import Drone
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop, TimedLeg
 from shotc.passes.solve_path_qp.body import BodyTask, allowed_body, body_line
 from shotc.passes.solve_path_qp.lines import SAME_PLACE, TURN_LENGTH, Line, straight_line
 from shotc.passes.solve_path_qp.position import Stretch, solve_stretch
@@ -39,42 +40,65 @@ def drone_legs(flight: Flight, shots: list[ShotCurve]) -> tuple[Leg, ...] | tupl
 
     Returns the legs, or what stands in the way together with the shot that it leads to (None: home).
     """
-    drone = flight.drone
-    pose = _at_pad(flight, shots[0])
-    legs = [_lift(flight, pose, "takeoff")]
-    pose = (*map(float, flight.top), *pose[3:])
+    legs = [take_off(flight, shots[0].pose)]
     for shot in shots:
-        placed = _turned(drone, shot, pose)
-        transit = _transit(flight, pose, placed.pose, "transit", shot.shot.shot.path)
-        if isinstance(transit, Failure):
-            return transit, shot
-        legs += transit
-        legs.append(_shot_leg(placed))
-        pose = _end(legs[-1])
+        placed = turned(flight.drone, shot, end_of(legs))
+        way = way_to(flight, end_of(legs), placed.pose, shot.shot.shot.path)
+        if isinstance(way, Failure):
+            return way, shot
+        legs += [*way, shot_leg(placed)]
+    back = way_home(flight, end_of(legs))
+    return (back, None) if isinstance(back, Failure) else (*legs, *back)
+
+
+def take_off(flight: Flight, goal: Pose) -> Leg:
+    """Return the leg up from the pad, on the way to a shot that begins at ``goal``."""
+    lift = _lift(flight, _at_pad(flight, goal), "takeoff")
+    assert lift.curve is not None
+    ctrl = lift.curve.ctrl.copy()
+    ctrl[-1, -1, :3] = flight.top
+    return replace(lift, curve=Piecewise(lift.curve.breaks, ctrl))
+
+
+def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[Leg] | Failure:
+    """Return the unfilmed leg from a pose to a shot's first one, none where they are the same.
+
+    path : of the shot
+    """
+    return _transit(flight, pose, goal, "transit", path)
+
+
+def way_home(flight: Flight, pose: Pose) -> list[Leg] | Failure:
+    """Return the legs from the end of the last shot to the pad."""
+    drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
     goal = (*map(float, flight.top), pose[CAM_YAW], level, pose[BODY_YAW], pose[HFOV])
     back = _transit(flight, pose, goal, "return", drone.path)
     if isinstance(back, Failure):
-        return back, None
-    legs += back
-    pose = _end(legs[-1])
-    return (*legs, _lift(flight, pose, "land"))
+        return back
+    pose = end_of(back) if back else pose
+    return [*back, _lift(flight, pose, "land")]
 
 
-def _at_pad(flight: Flight, first: ShotCurve) -> Pose:
+def _at_pad(flight: Flight, first: Pose) -> Pose:
     """Return the pad's pose: heading of the first frame, or, flying nose first, of the way there."""
     drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
-    yaw = first.pose[CAM_YAW]
-    way = (first.pose[0] - flight.top[0], first.pose[1] - flight.top[1])
+    yaw = first[CAM_YAW]
+    way = (first[0] - flight.top[0], first[1] - flight.top[1])
     wanted = atan2(way[1], way[0]) if drone.body == "forward" and hypot(*way) > 1.0 else yaw
     body = yaw if drone.body == "follow-camera" else allowed_body(drone, yaw, wanted)
-    return (*map(float, drone.home), yaw, level, body, first.pose[HFOV])
+    return (*map(float, drone.home), yaw, level, body, first[HFOV])
 
 
-def _turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
+def turns_to(goal: Pose, pose: Pose) -> float:
+    """Return the whole turns, rad, that bring a pose's camera nearest to another's."""
+    return 2 * pi * round((pose[CAM_YAW] - goal[CAM_YAW]) / (2 * pi))
+
+
+def turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
     """Shift a shot's yaws by whole turns, so that its start is nearest to where the last leg ended."""
-    turns = 2 * pi * round((pose[CAM_YAW] - shot.pose[CAM_YAW]) / (2 * pi))
+    turns = turns_to(shot.pose, pose)
     start = list(shot.pose)
     start[CAM_YAW] += turns
     start[BODY_YAW] += turns
@@ -91,7 +115,8 @@ def _turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
     return replace(shot, pose=tuple(start), curve=Piecewise(shot.curve.breaks, ctrl))
 
 
-def _shot_leg(shot: ShotCurve) -> Leg:
+def shot_leg(shot: ShotCurve) -> Leg:
+    """Return the leg of a shot whose curve is planned."""
     timing = shot.shot.shot.timing
     return Leg(
         phase="shot",
@@ -184,5 +209,7 @@ def _plain(phase: PhaseName, curve: Piecewise, path: KeyPath) -> Leg:
     return Leg(phase, None, curve, pose, stops, (), (), 1.0, None, None, path)
 
 
-def _end(leg: Leg) -> Pose:
+def end_of(legs: Sequence[Leg | TimedLeg]) -> Pose:
+    """Return the pose at the end of the last of some legs."""
+    leg = legs[-1]
     return leg.pose if leg.curve is None else tuple(map(float, leg.curve.ctrl[-1, -1]))

@@ -14,9 +14,9 @@ GROUND = "ground"
 
 
 def flight_room(mission: MissionIR, drone: Drone) -> Room:
-    """Return the room of every phase but take-off and landing."""
+    """Return the room of every phase but take-off and landing, as far as it stands."""
     obstacles = _keep_outs(mission, drone)
-    for target in mission.targets:
+    for target in (t for t in mission.targets if t.track is None):
         half = target.height / 2
         x, y, z = target.centre
         part = Cylinder((x, y), target.radius, z - half, z + half)
@@ -33,7 +33,7 @@ def pad_room(mission: MissionIR, drone: Drone) -> Room:
     Zones and the targets' own bodies still bind.
     """
     obstacles = _keep_outs(mission, drone)
-    for target in mission.targets:
+    for target in (t for t in mission.targets if t.track is None):
         half = target.height / 2
         x, y, z = target.centre
         part = Cylinder((x, y), target.radius, z - half, z + half)

@@ -16,7 +16,7 @@ from shotc.geom.framing import margin_rate
 from shotc.geom.pieces import Mask, Pieces, cut
 from shotc.geom.proof import inf_channel, norm, sup_convex, sup_norm
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.sampling import references, seen
+from shotc.ir.sampling import beside, references, seen
 from shotc.passes.verify.claims import Flight
 
 HALVINGS = 10
@@ -27,7 +27,7 @@ HALVINGS = 10
 class Rates:
     """Bounds over one shot: metres, m/s, rad/s.
 
-    far : distance of the camera from the target's centre; speed : of the camera
+    far : distance of the camera from the target's centre; speed : of the camera as the target sees it
     turn : yaw rate plus pitch rate; zoom : rate of hfov; narrow, wide : tan of half the hfov
     """
 
@@ -42,13 +42,15 @@ class Rates:
 def rates(flight: Flight, target: str, start: float, end: float) -> Rates:
     """Return bounds that hold at every instant between two times."""
     pieces = cut(flight.track.curve, start, end)
-    centre = np.array(flight.mission.target(target).centre)
-    far = sup_convex(pieces.channels(0, 1, 2), lambda c: norm(c - centre), _roughly).proven
+    filmed = flight.mission.target(target)
+    centre = np.array(filmed.centre)
+    near = cut(beside(flight.track.curve.channels(0, 1, 2), filmed), start, end)
+    far = sup_convex(near, lambda c: norm(c - centre), _roughly).proven
     rate = pieces.derivative()
     lens = pieces.channels(HFOV)
     return Rates(
         far=far,
-        speed=sup_norm(rate.channels(0, 1, 2), _roughly).proven,
+        speed=sup_norm(near.derivative(), _roughly).proven,
         turn=_sup(rate, CAM_YAW) + _sup(rate, CAM_PITCH),
         zoom=_sup(rate, HFOV),
         narrow=float(np.tan(0.5 * inf_channel(lens, 0, _finely).proven)),

@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees, isfinite, pi
 
+import numpy as np
+
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import depth, distance
 from shotc.ir.mission import Drone, MissionIR, Vec3
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
-from shotc.ir.sampling import cylinder
+from shotc.ir.sampling import cylinder, moved
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.numbers import measure
 from shotc.passes.verify.promises import bends
@@ -101,7 +103,11 @@ def _space(mission: MissionIR, drone: Drone, track: DroneTrajectory, time: float
         if room < drone.radius + AT_EDGE:
             yield f"zone `{zone.name}`"
     for target in mission.targets:
-        if distance(cylinder(target), p) < drone.radius + rules.target_clearance + AT_EDGE:
+        away = moved(target, np.array([time]))[0]
+        if (
+            distance(cylinder(target), (x - away[0], y - away[1], z - away[2]))
+            < drone.radius + rules.target_clearance + AT_EDGE
+        ):
             yield f"the clearance of target `{target.name}` ({measure(rules.target_clearance, 'm')})"
     if z < drone.radius + rules.ground_clearance + AT_EDGE:
         yield f"ground clearance ({measure(rules.ground_clearance, 'm')})"

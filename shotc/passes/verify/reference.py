@@ -32,6 +32,9 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
     are hard where the shot promises something, else soft.
     """
     shot, hard = placed.shot, placed.shot.promise != Promise()
+    if shot.ideal is not None:
+        yield from _all_along(flight, placed, phase, hard=hard)
+        return
     times = {k.index: k.time for k in flight.track.keyframes if k.shot == shot.id}
     if len(times) < len(placed.keyframes):
         limit = Limit("keyframes without a time", 0.0, "", shot.path, hard=hard, shot=shot.id)
@@ -56,6 +59,31 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
             "reference off its keyframes", OFF, "of half a frame", shot.path, hard=hard, shot=shot.id
         )
         yield claim(flight, limit, Worst(worst, time, "sampled"))
+
+
+def _all_along(flight: Flight, placed: PlacedShot, phase: Phase, *, hard: bool) -> Iterator[Claim]:
+    """Claim that the subjects of a shot on its own clock are framed throughout, where they were placed."""
+    shot = placed.shot
+    ticks = clock(flight.mission.rate, phase.end)
+    t = np.union1d(ticks[(ticks > phase.start) & (ticks < phase.end)], [phase.start, phase.end])
+    missing, off, when = 0.0, 0.0, phase.start
+    for subject in placed.subjects:
+        missing += float((~framed(flight.track, shot.id, subject.target, t)).sum())
+        if subject.reference is None:
+            continue
+        away = np.linalg.norm(
+            references(flight.track, shot.id, subject.target, t) - subject.reference, axis=1
+        )
+        away = np.where(np.isnan(away), np.inf, away)
+        k = int(np.argmax(away))
+        if away[k] > off:
+            off, when = float(away[k]), float(t[k])
+    for name, limit, worst, unit in (
+        ("frames without their target", 0.0, missing, ""),
+        ("reference off its composition", OFF, off, "of half a frame"),
+    ):
+        found = Limit(name, limit, unit, shot.path, hard=hard, shot=shot.id)
+        yield claim(flight, found, Worst(worst, when, "sampled"))
 
 
 def held(flight: Flight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:

@@ -9,7 +9,7 @@ from math import factorial, isfinite
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bernstein import Array, Piecewise, lift_off
 from shotc.ir.path import CHANNELS
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Flight, Limit, Worst, claim
@@ -111,7 +111,7 @@ def shape(flight: Flight) -> Iterator[Claim]:
     rest = Limit("rate at start and end", AT_REST, "m/s", drone.path)
     yield claim(flight, rest, Worst(float(still[k]), float(ends[k]), "exact"))
     endurance = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
-    yield claim(flight, endurance, Worst(curve.end - curve.start, curve.end, "exact"))
+    yield claim(flight, endurance, Worst(curve.end - lift_off(curve), curve.end, "exact"))
 
 
 def largest_jump(curve: Piecewise, order: int) -> Worst:

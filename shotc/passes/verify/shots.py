@@ -9,9 +9,11 @@ import numpy as np
 
 from shotc.geom.pieces import cut
 from shotc.geom.proof import norm, sup_convex
+from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.path import HFOV
+from shotc.ir.sampling import clock
 from shotc.ir.trajectory import Claim, Phase, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
 
@@ -34,6 +36,7 @@ def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
         if len(flown) == 1:
             yield from _timing(flight, placed.shot, flown[0], ends)
             yield from _keyframes(flight, placed, flown[0])
+            yield from _place(flight, placed.shot, flown[0])
 
 
 def _timing(flight: Flight, shot: Shot, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
@@ -71,6 +74,19 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
         if found:
             worst, keyframe = max(found, key=lambda pair: pair[0].value)
             yield claim(flight, Limit(name, limit, unit, keyframe.path, shot=placed.shot.id), worst)
+
+
+def _place(flight: Flight, shot: Shot, phase: Phase) -> Iterator[Claim]:
+    """Tell how far a shot of a moving target is from its ideal place, which it may leave."""
+    if shot.ideal is None:
+        return
+    ticks = clock(flight.mission.rate, phase.end)
+    t = np.union1d(ticks[(ticks > phase.start) & (ticks < phase.end)], [phase.start, phase.end])
+    ideal = np.array([ideal_place(flight.mission, shot, phase.start, float(u)) for u in t])
+    away = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)
+    k = int(np.argmax(away))
+    limit = Limit("distance from its place", inf, "m", shot.path, hard=False, shot=shot.id)
+    yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "sampled"))
 
 
 def _miss(flight: Flight, keyframe: PlacedKeyframe, phase: Phase, time: float | None) -> Worst:

@@ -14,8 +14,8 @@ import numpy as np
 from shotc.geom.pieces import Pieces, cut, join
 from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solids import Solid, distance
-from shotc.ir.mission import Zone
-from shotc.ir.sampling import cylinder
+from shotc.ir.mission import Target, Zone
+from shotc.ir.sampling import beside, cylinder
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
@@ -42,15 +42,19 @@ def space(flight: Flight) -> Iterator[Claim]:
     if len(free):
         yield bounded(flight, ground, _less(low, flight.drone.radius))
     for target in flight.mission.targets:
-        parts = (free, upright, rules.target_clearance)
+        near = (free, upright) if target.track is None else _split(flight, target)
+        parts = (*near, rules.target_clearance)
         path = ("rules", "target_clearance")
         yield from _keep_out(flight, f"target {target.name}", cylinder(target), parts, path)
     if len(upright):
         yield from _vertical(flight, upright)
 
 
-def _split(flight: Flight) -> tuple[Pieces, Pieces]:
+def _split(flight: Flight, target: Target | None = None) -> tuple[Pieces, Pieces]:
+    """Return the flight apart from take-off and landing, and those; as a target sees them where one moves."""
     curve = flight.track.curve.channels(0, 1, 2)
+    if target is not None:
+        curve = beside(curve, target)
     empty = [cut(curve, curve.start, curve.start)]
     phases = flight.track.phases
     free = [cut(curve, p.start, p.end) for p in phases if p.name not in UPRIGHT]

@@ -182,7 +182,7 @@ def runs(*jumps: int, of: int = 60, rate: float = 10.0) -> str:
 
 def test_a_jump_names_both_lines_and_the_row_to_mend(tmp_path: Path) -> None:
     d = only(written(recorded(tmp_path, runs(40))), tmp_path)
-    assert (d.code, d.labels[0].span.line) == ("M007", LINE)
+    assert (d.code, d.labels[0].span.line) == ("M021", LINE)
     assert "300.0 m/s" in d.message
     assert "70.0 m/s" in d.message
     assert d.notes == ("t.csv, line 42, after line 41: 30.00 m in 0.1 s, at t = 3.9 s", "it does so 2 times")
@@ -202,11 +202,11 @@ def test_a_first_or_last_row_that_jumps_is_told_with_its_neighbour(tmp_path: Pat
 def test_a_runner_at_200_km_per_hour_is_told_by_his_top_speed(tmp_path: Path) -> None:
     fast = recorded(tmp_path, "t,x,y,z\n0,0,0,0.9\n1,5,0,0.9\n2,60.6,0,0.9\n3,65,0,0.9\n8,90,0,0.9\n")
     d = only(written(fast, ", top_speed: 45 km/h"), tmp_path)
-    assert (d.code, len(d.labels)) == ("M007", 2)
+    assert (d.code, len(d.labels)) == ("M021", 2)
     assert "55.6 m/s is more than its top speed, 12.5 m/s" in d.message
     assert d.notes[0].startswith("t.csv, line 4, after line 3: 55.60 m in 1 s")
     assert "raise `top_speed`" in d.help
-    assert "M007" not in {d.code for d in resolved(written(fast), tmp_path)[1]}
+    assert "M021" not in {d.code for d in resolved(written(fast), tmp_path)[1]}
 
 
 @pytest.mark.parametrize(
@@ -221,16 +221,16 @@ def test_a_speed_of_the_mission_itself_is_held_to_the_top_speed(track: str, colu
     text = written(track)
     d = only(text)
     span = d.labels[0].span
-    assert (d.code, "200.0 m/s" in d.message) == ("M007", True)
+    assert (d.code, "200.0 m/s" in d.message) == ("M021", True)
     assert text.splitlines()[span.line - 1][span.column - 1 :].startswith(column)
-    assert "M007" not in {d.code for d in resolved(written(track, ", top_speed: 200"))[1]}
+    assert "M021" not in {d.code for d in resolved(written(track, ", top_speed: 200"))[1]}
 
 
 def test_a_gap_is_a_warning_with_its_lines(tmp_path: Path) -> None:
     rows = [i / 10 for i in range(50)] + [9 + i / 10 for i in range(50)] + [20.0]
     text = "t,x,y,z\n" + "".join(f"{t},{t},0,0.9\n" for t in rows)
     d = only(written(recorded(tmp_path, text)), tmp_path)
-    assert (d.code, d.labels[0].span.line) == ("M008", LINE)
+    assert (d.code, d.labels[0].span.line) == ("M022", LINE)
     assert d.message == "the track of `runner` has a gap of 6.1 s"
     assert d.notes == (
         "t.csv, line 102, after line 101: nothing from t = 13.9 s to 20 s, where rows are 0.1 s apart "
@@ -285,7 +285,7 @@ def test_a_warning_of_a_track_leaves_the_order_of_the_shots_to_be_judged(tmp_pat
     text += (
         f"  - {{drone: cam1, {SIDE.replace('id: side', 'id: again')}, timing: {{start: 22, duration: 5}}}}\n"
     )
-    assert sorted(d.code for d in resolved(text, tmp_path)[1]) == ["K006", "M008"]
+    assert sorted(d.code for d in resolved(text, tmp_path)[1]) == ["K006", "M022"]
 
 
 def test_a_shot_without_a_start_may_begin_whenever_the_track_does(tmp_path: Path) -> None:

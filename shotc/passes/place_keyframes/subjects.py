@@ -1,0 +1,84 @@
+"""Subjects of shots on their own clock: the place on screen that each is to keep.
+
+Nobody has framed them by hand, so the camera looks at them, and the nearest place of the composition
+to the middle is taken at which the target is whole, half way through the shot.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.ideal import ideal_place
+from shotc.ir.keyframes import PlacedSubject
+from shotc.ir.mission import Composition, MissionIR, Shot, Subject, Vec2
+from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
+
+MIDDLE = (0.0, 0.0)
+
+
+def place_subjects(
+    mission: MissionIR, shot: Shot
+) -> tuple[tuple[PlacedSubject, ...], tuple[Diagnostic, ...]]:
+    """Return where each subject of a shot is to be on screen, and what its composition could not give."""
+    placed: list[PlacedSubject] = []
+    diagnostics: list[Diagnostic] = []
+    for subject in shot.subjects:
+        reference, said = _reference(mission, shot, subject)
+        placed.append(PlacedSubject(subject.target, reference, subject.size, subject.view, subject.path))
+        diagnostics += said
+    return tuple(placed), tuple(diagnostics)
+
+
+def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 | None, list[Diagnostic]]:
+    composition = subject.composition
+    if composition.watches:
+        return None, []
+    if composition.keep:
+        return MIDDLE, []
+    setting = setting_at(mission, shot, subject.target)
+    place = nearest_candidate(setting, composition, MIDDLE)
+    if place is not None:
+        return place, []
+    instead = nearest_on_verticals(setting, composition, MIDDLE)
+    wanted = _nearest_of_all(setting, composition)
+    return instead or wanted, [_cropped(mission, shot, subject, wanted, instead)]
+
+
+def setting_at(mission: MissionIR, shot: Shot, target: str) -> Setting:
+    """Return what the camera sees of a target half way through a shot, at its ideal place."""
+    start, duration = shot.timing.start or 0.0, shot.timing.duration or 0.0
+    t = start + 0.5 * duration
+    drone, subject = mission.drone(shot.drone), mission.target(target)
+    eye, centre = ideal_place(mission, shot, start, t), subject.at(t)
+    x, y, z = (c - e for c, e in zip(centre, eye, strict=True))
+    return Setting(
+        (x, y, z), subject.radius, subject.height, drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2
+    )
+
+
+def _nearest_of_all(setting: Setting, composition: Composition) -> Vec2:
+    points = [
+        *composition.points,
+        *((u, 0.0) for u in composition.u_lines),
+        *((0.0, v) for v in composition.v_lines),
+    ]
+    return min(points, key=lambda p: setting.apart(p, MIDDLE))
+
+
+def _cropped(
+    mission: MissionIR, shot: Shot, subject: Subject, wanted: Vec2, instead: Vec2 | None
+) -> Diagnostic:
+    label = mission.origins.value(subject.path)
+    where = f"({wanted[0]:.2f}, {wanted[1]:.2f})"
+    if instead is not None:
+        note = f"it is filmed at ({instead[0]:.2f}, {instead[1]:.2f}) instead, where it is whole"
+    else:
+        note = "no place on screen shows it whole from there"
+    return Diagnostic(
+        "M007",
+        f"target `{subject.target}` is cropped at {where} in shot `{shot.id}`",
+        (label,),
+        (note,),
+        "film it from farther away, or with a wider field of view",
+    )

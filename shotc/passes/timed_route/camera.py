@@ -1,0 +1,152 @@
+"""Where the camera looks and the body heads: as near to its subjects as the gimbal and the body turn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
+from shotc.geom.camera import aim_at
+from shotc.ir.keyframes import PlacedSubject
+from shotc.ir.mission import Drone, MissionIR
+from shotc.passes.timed_route.clock import Clock
+from shotc.passes.timed_route.position import NEARLY, at_rest
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_qp import Equalities, Floors, Goal, SplineProblem, minimise
+
+SAMPLES = 4  # of the aim, a piece
+FAINT = 1e-2  # weight of the aim beyond the film's ends, against that in the film
+SMOOTH = (0.12, 0.12, 0.6)  # seconds below which wiggles of the camera's yaw, its pitch and the body vanish
+FOLLOW = 0.05  # weight of the body's wish against the camera's aim
+LEVEL = 0.5  # m/s below which a motion has no course
+YAW, PITCH, BODY = range(3)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Turned:
+    """Camera yaw, pitch and body yaw over mission time, or None and the solver's word."""
+
+    curve: Piecewise | None
+    status: Status
+
+
+def turn(
+    mission: MissionIR, drone: Drone, subject: PlacedSubject | None, clock: Clock, position: Piecewise
+) -> Turned:
+    """Return the camera's angles along a position curve."""
+    breaks = clock.breaks
+    inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
+    rows = value_rows(breaks, times)
+    aims = _aims(mission, drone, subject, times, position)
+    step = np.diff(breaks)[rows.piece] / SAMPLES
+    filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT) * step
+    across = np.maximum(np.cos(aims[:, 1]), 0.03)
+    wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
+    weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
+    goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(breaks)
+    rest = at_rest(breaks)
+    problem = SplineProblem(
+        count(breaks), goals, Equalities(rest, np.zeros((len(rest.piece), 3))), _bounds(drone, breaks), ()
+    )
+    solved = minimise(problem)
+    if solved.coef is None:
+        return Turned(None, solved.status)
+    coef = solved.coef.copy()
+    if drone.body == "follow-camera":
+        coef[:, BODY] = coef[:, YAW]
+    return Turned(spline(breaks, coef), solved.status)
+
+
+def _aims(
+    mission: MissionIR, drone: Drone, subject: PlacedSubject | None, times: Array, position: Piecewise
+) -> Array:
+    """Return the yaw and the pitch that put the subject in its place, unwrapped; shape (M, 2)."""
+    places = position(times)[:, :3]
+    velocity = position.derivative()(times)[:, :2]
+    if subject is None:
+        yaw = _motion(velocity)
+        return np.column_stack([yaw, np.zeros(len(times))])
+    target = mission.target(subject.target)
+    uv = subject.reference or (0.0, 0.0)
+    found = np.zeros((len(times), 2))
+    last = (0.0, 0.0)
+    for i, t in enumerate(times):
+        x, y, z = (c - p for c, p in zip(target.at(float(t)), places[i], strict=True))
+        last = aim_at((x, y, z), uv, drone.hfov, drone.aspect, last[0]) or last
+        found[i] = last
+    low, high = drone.gimbal.pitch
+    return np.column_stack([np.unwrap(found[:, 0]), np.clip(found[:, 1], low, high)])
+
+
+def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Array:
+    """Return where the body would head, within what the gimbal reaches from there."""
+    if drone.body != "forward":
+        return yaw
+    course = _motion(position.derivative()(times)[:, :2])
+    low, high = drone.gimbal.yaw
+    relative = yaw - course
+    relative -= 2 * np.pi * np.round((relative - 0.5 * (low + high)) / (2 * np.pi))
+    return np.asarray(yaw - np.clip(np.unwrap(relative), low, high))
+
+
+def _motion(velocity: Array) -> Array:
+    """Return the course of a motion, unwrapped; while it hardly moves, that of the nearest time it did."""
+    moves = np.flatnonzero(np.linalg.norm(velocity, axis=1) >= LEVEL)
+    if not len(moves):
+        return np.full(len(velocity), np.pi / 2)
+    course = np.unwrap(np.arctan2(velocity[moves, 1], velocity[moves, 0]))
+    return np.asarray(np.interp(np.arange(len(velocity)), moves, course))
+
+
+def _goals(rows: Rows, root: Array, wanted: Array) -> tuple[Goal, ...]:
+    """Return one goal a channel, weighted by the squares of ``root``, shape (M, 3)."""
+    goals = []
+    for channel in range(3):
+        value = np.zeros_like(wanted)
+        value[:, channel] = root[:, channel] * wanted[:, channel]
+        goals.append(Goal(_scaled(rows, root[:, channel]), value, (channel,)))
+    return tuple(goals)
+
+
+def _smooth(breaks: Array) -> tuple[Goal, ...]:
+    energy = energy_rows(breaks, 3)
+    none = np.zeros((len(energy.piece), 3))
+    return tuple(
+        Goal(_scaled(energy, np.full(len(energy.piece), s**3)), none, (c,)) for c, s in enumerate(SMOOTH)
+    )
+
+
+def _bounds(drone: Drone, breaks: Array) -> tuple[Floors, ...]:
+    """Return the ranges, rates and accelerations of gimbal and body as half-spaces of control points."""
+    limits, gimbal = drone.limits, drone.gimbal
+    found = []
+
+    def keep(order: int, along: tuple[float, float, float], low: float, high: float) -> None:
+        rows = control_rows(breaks, order)
+        number = len(rows.piece)
+        normal = np.tile(np.array(along), (number, 1))
+        owner = np.zeros(number, dtype=np.intp)
+        found.append(Floors(rows, normal, np.full(number, low), owner))
+        found.append(Floors(rows, -normal, np.full(number, -high), owner))
+
+    keep(0, (0.0, 1.0, 0.0), *gimbal.pitch)
+    for order, body, axis in (
+        (1, limits.yaw_rate, gimbal.rate),
+        (2, limits.yaw_acceleration, gimbal.acceleration),
+    ):
+        keep(order, (0.0, 1.0, 0.0), -NEARLY * axis, NEARLY * axis)
+        if drone.body == "follow-camera":
+            keep(order, (1.0, 0.0, 0.0), -NEARLY * body, NEARLY * body)
+            continue
+        keep(order, (0.0, 0.0, 1.0), -NEARLY * body, NEARLY * body)
+        keep(order, (1.0, 0.0, -1.0), -NEARLY * axis, NEARLY * axis)
+    if drone.body != "follow-camera":
+        keep(0, (1.0, 0.0, -1.0), *gimbal.yaw)
+    return tuple(found)
+
+
+def _scaled(rows: Rows, factor: Array) -> Rows:
+    return Rows(rows.piece, rows.weight * factor[:, None])

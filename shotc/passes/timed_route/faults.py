@@ -1,0 +1,73 @@
+"""What a shot on its own clock could not do, told in the author's terms."""
+
+from __future__ import annotations
+
+from math import ceil
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.path import Deviation
+from shotc.passes.solve_path_qp.room import named, owner_path
+from shotc.passes.timed_route.shot import LIMITS, NoMotion
+
+
+def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
+    """Warn of a stretch on which a shot leaves its place beside its target."""
+    shot = next(s for s in mission.shots if s.id == deviation.shot)
+    labels: tuple[Label, ...] = (mission.origins.value((*shot.path, "kind")),)
+    if deviation.cause != LIMITS:
+        labels = (*labels, mission.origins.key(owner_path(mission, deviation.cause), "what stands there"))
+    cause = deviation.cause if deviation.cause == LIMITS else named(deviation.cause)
+    return Diagnostic(
+        "M008",
+        f"shot `{shot.id}` leaves its place by {deviation.distance:.2f} m at t = {deviation.s:.1f} s",
+        labels,
+        (f"what stands against it: {cause}, and that it is flown smoothly",),
+        "give the shot more room, or the drone higher limits",
+    )
+
+
+def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: object) -> Diagnostic:
+    """Say why a shot on its own clock has no motion."""
+    label = mission.origins.value((*shot.path, "kind"))
+    if not isinstance(trouble, NoMotion):
+        return _outside(mission, shot, trouble)
+    if not trouble.lacks:
+        message = f"no motion was found for the {trouble.what} of shot `{shot.id}`"
+        notes: tuple[str, ...] = (f"the solver says: {trouble.status}",)
+        return Diagnostic("M009", message, (label,), notes, "give the shot more room or more time")
+    most = max(trouble.lacks, key=lambda pair: pair[1])
+    labels = (label, mission.origins.key(owner_path(mission, most[0]), "what is most in the way"))
+    notes = tuple(
+        f"{named(owner)} would have to give way by {ceil(lack * 100) / 100:.2f} m"
+        for owner, lack in trouble.lacks
+    )
+    return Diagnostic(
+        "M009",
+        f"shot `{shot.id}` cannot be flown clear of {named(most[0])}",
+        labels,
+        notes,
+        "move the shot or what is in its way by so much",
+    )
+
+
+def _outside(mission: MissionIR, shot: Shot, found: object) -> Diagnostic:
+    target, start = str(getattr(found, "target", "")), float(getattr(found, "start", 0.0))
+    track = mission.target(target).track
+    until = track.until if track is not None else 0.0
+    end = start + (shot.timing.duration or 0.0)
+    labels = (
+        mission.origins.value((*shot.path, "id")),
+        mission.origins.value((*mission.target(target).path, "track"), "the track"),
+    )
+    return Diagnostic(
+        "M010",
+        f"the track of `{target}` ends before shot `{shot.id}` does",
+        labels,
+        (
+            f"the drone is in place at {start:.1f} s at the earliest, so the shot ends at {end:.1f} s; "
+            f"the track ends at {until:.1f} s",
+        ),
+        f"shorten the shot by {ceil((end - until) * 10) / 10:.1f} s, give the track more rows, or have the "
+        "drone start nearer",
+    )

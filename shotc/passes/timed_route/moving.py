@@ -1,0 +1,128 @@
+"""What moves while a shot is flown: targets, and the drones whose flight is known.
+
+On each piece of a spline its motion is taken as even; by how much it leaves that is added to the
+clearance, so that a plane beside the even motion keeps clear of the true one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.convex import separate
+from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.track_array import places
+from shotc.ir.mission import Drone, MissionIR
+
+SAMPLES = 8  # a piece, at which motion is compared with even motion
+REACH = 4.0  # metres beyond its clearance within which something that moves counts
+COMFORT = 0.3  # metres kept beyond a clearance where there is room
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """A convex solid about the origin of a motion, kept ``clearance`` metres away from.
+
+    owner : as in geom.corridor; at : places p_W (M, 3) at times (M,)
+    always : whether it is kept away from while a drone rises from its pad or sinks to it, too
+    """
+
+    owner: str
+    part: Solid
+    clearance: float
+    at: Callable[[Array], Array]
+    always: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Even:
+    """A motion made even on each piece: its ends (P, 2, 3), and how far the true one strays (P,)."""
+
+    what: Moving
+    ends: Array
+    stray: Array
+
+
+def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
+    """Return the targets that move, each a cylinder about its centre."""
+    clearance = drone.radius + mission.rules.target_clearance
+    return tuple(
+        Moving(
+            f"target {t.name}",
+            Cylinder((0.0, 0.0), t.radius, -t.height / 2, t.height / 2),
+            clearance,
+            partial(places, t.track),
+        )
+        for t in mission.targets
+        if t.track is not None
+    )
+
+
+def evened(what: Moving, breaks: Array) -> Even:
+    """Make a motion even on the pieces between breaks."""
+    share = np.linspace(0.0, 1.0, SAMPLES + 1)
+    times = breaks[:-1, None] + np.diff(breaks)[:, None] * share
+    at = what.at(times.ravel()).reshape(*times.shape, 3)
+    ends = at[:, [0, -1]]
+    even = ends[:, :1] + share[:, None] * (ends[:, 1:] - ends[:, :1])
+    # A track may have a corner between two samples: at most its neighbours' distance from the line.
+    stray = np.linalg.norm(at - even, axis=2).max(axis=1)
+    return Even(what, ends, 1.2 * stray)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sides:
+    """Half-spaces for the control points of pieces, relative to a motion: n . (p - even) >= offset.
+
+    piece : shape (R,); normal : (R, 3); offset : (R, 6), for each of a piece's six points, in W
+    owner : shape (R,), index of the motion
+    """
+
+    piece: IntArray
+    normal: Array
+    offset: Array
+    owner: IntArray
+
+
+def sides(motions: Sequence[Even], hulls: Array) -> Sides:
+    """Put a plane between every piece and everything that comes near it.
+
+    hulls : shape (P, m, 3), points whose hull holds each piece, evenly in time from its start to its end
+    """
+    rows = []
+    for index, motion in enumerate(motions):
+        share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
+        relative = hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1]))
+        need = motion.what.clearance + motion.stray
+        normal, gap = separate(motion.what.part, relative)
+        near = np.flatnonzero(gap < need + REACH)
+        if not len(near):
+            continue
+        points = np.einsum("nmd,nd->nm", relative[near], normal[near]).min(axis=1)
+        keep = need[near] + np.minimum(COMFORT, 0.5 * np.maximum(gap[near] - need[near], 0.0))
+        border = points - gap[near] + keep
+        even = np.linspace(0.0, 1.0, 6)[None, :, None]
+        carried = motion.ends[near][:, :1] + even * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
+        offset = border[:, None] + np.einsum("nmd,nd->nm", carried, normal[near])
+        rows.append((near, normal[near], offset, np.full(len(near), index)))
+    if not rows:
+        none = np.zeros(0, dtype=np.intp)
+        return Sides(none, np.zeros((0, 3)), np.zeros((0, 6)), none)
+    pieces, normals, offsets, owners = zip(*rows, strict=True)
+    return Sides(*map(np.concatenate, (pieces, normals, offsets, owners)))
+
+
+def shortfalls(motions: Sequence[Even], hulls: Array) -> Array:
+    """Return by how much each piece fails to prove its clearances, metres; shape (P,), <= 0 is proved."""
+    worst = np.full(len(hulls), -np.inf)
+    for motion in motions:
+        share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
+        relative = hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1]))
+        _, gap = separate(motion.what.part, relative)
+        worst = np.maximum(worst, motion.what.clearance + motion.stray - gap)
+    return worst

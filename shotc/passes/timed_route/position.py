@@ -1,0 +1,188 @@
+"""Where the camera is: the spline over time nearest to the ideal that the limits and the room allow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
+from shotc.geom.corridor import Room, shortfall
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import Drone, Limits, MissionIR, Shot
+from shotc.passes.solve_path_qp.corridor import Around, with_corridor
+from shotc.passes.timed_route.clock import Clock
+from shotc.passes.timed_route.moving import Even, Sides, shortfalls, sides
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_qp import (
+    Cones,
+    Equalities,
+    Floors,
+    Goal,
+    Relaxation,
+    SplineProblem,
+    SplineSolution,
+    minimise,
+    relax,
+)
+
+SMOOTH = 0.5  # seconds: shorter wiggles of the ideal are smoothed away
+SAMPLES = 3  # of the ideal, a piece
+FAINT = 1e-3  # weight of the ideal's course beyond the film's ends, against that in the film
+UNSEEN = 0.1  # weight of jerk beyond the film's ends, against that in the film
+NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
+ROUNDS = 6
+REACH = 4.0  # metres beyond its clearance within which something that stands counts
+SHARES = (0.5, 0.95)  # as in solve_path_qp.position
+PROVED = 1e-6  # metres
+GAIN = 0.01
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Task:
+    """One shot to be flown.
+
+    room : what stands; motions : what moves, even on the clock's pieces
+    """
+
+    mission: MissionIR
+    drone: Drone
+    shot: Shot
+    clock: Clock
+    room: Room
+    motions: tuple[Even, ...]
+
+    @property
+    def owners(self) -> tuple[str, ...]:
+        """Everything that may stop the motion, by index."""
+        return (*self.room.owners, *(m.what.owner for m in self.motions))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flown:
+    """The position over mission time, or why there is none.
+
+    objective : m^2 s; rounds : programmes solved
+    """
+
+    curve: Piecewise | None
+    status: Status
+    objective: float
+    rounds: int
+    relaxation: Relaxation | None = None
+
+
+def fly(task: Task) -> Flown:
+    """Return the position curve of a shot, proved clear by its hulls."""
+    breaks = task.clock.breaks
+    base = _base(task)
+    ideal = _ideal(task, breaks)
+    chords = np.stack([ideal[:-1], ideal[1:]], axis=1)
+    hulls, share = chords, SHARES[0]
+    best: SplineSolution | None = None
+    problem = base
+    reach = REACH
+    status, relaxation = Status.INFEASIBLE, None
+    for rounds in range(1, ROUNDS + 1):
+        problem = _walled(task, base, hulls, reach, share)
+        solution = minimise(problem)
+        status = solution.status
+        if solution.coef is None:
+            # Planes about a course that runs through something may contradict each other; about the
+            # curve that breaks them least there are better ones.
+            relaxation = relax(problem, len(task.owners)) if status is Status.INFEASIBLE else None
+            if best is not None or relaxation is None or relaxation.coef is None:
+                break
+            hulls, share = control_rows(breaks).apply(relaxation.coef).reshape(-1, 6, 3), SHARES[0]
+            continue
+        points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
+        lacking = np.maximum(shortfall(task.room, points), shortfalls(task.motions, points))
+        if lacking.max() > PROVED:
+            reach *= 2.0
+            hulls, share = points if rounds % 2 else chords, SHARES[0]
+            continue
+        done = best is not None and solution.objective > (1 - GAIN) * best.objective
+        best = solution if best is None or not done else best
+        if done or not problem.floors:
+            break
+        hulls, share = points, SHARES[1]
+    if best is None:
+        return Flown(None, status, float("nan"), rounds, relaxation)
+    assert best.coef is not None
+    return Flown(spline(breaks, best.coef), best.status, best.objective, rounds)
+
+
+def _ideal(task: Task, times: Array) -> Array:
+    return np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
+
+
+def _base(task: Task) -> SplineProblem:
+    breaks = task.clock.breaks
+    step = np.diff(breaks)
+    inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    times = (breaks[:-1, None] + step[:, None] * inner).ravel()
+    rows = value_rows(breaks, times)
+    weight = np.sqrt(np.where(task.clock.filmed, 1.0, FAINT) * step / SAMPLES)[rows.piece]
+    jerk = energy_rows(breaks, 3)
+    gentle = np.sqrt(np.where(task.clock.filmed, 1.0, UNSEEN))
+    goals = (
+        Goal(_scaled(rows, weight), weight[:, None] * _ideal(task, times)),
+        Goal(_scaled(jerk, SMOOTH**3 * gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
+    )
+    rest = at_rest(breaks)
+    still = Equalities(rest, np.zeros((len(rest.piece), 3)))
+    return SplineProblem(count(breaks), goals, still, (), limits_of(task.drone.limits, breaks))
+
+
+def at_rest(breaks: Array) -> Rows:
+    """Return the rows of a spline's first and second derivative at both ends, by mission time in seconds."""
+    parts = []
+    for order in (1, 2):
+        rows = control_rows(breaks, order)
+        parts.append((rows.piece[[0, -1]], rows.weight[[0, -1]]))
+    return Rows(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
+
+
+def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
+    """Return the norms that a drone's motion keeps, at the control points of its derivatives."""
+    cones = []
+    for order, axes, bound in (
+        (1, (0, 1), limits.speed),
+        (2, (0, 1, 2), limits.acceleration),
+        (3, (0, 1, 2), limits.jerk),
+    ):
+        rows = control_rows(breaks, order)
+        number = len(rows.piece)
+        owner = np.zeros(number, dtype=np.intp)
+        cones.append(
+            Cones(rows, axes, np.zeros((number, len(axes))), np.full(number, NEARLY * bound), None, owner)
+        )
+    up = control_rows(breaks, 1)
+    middle = 0.5 * NEARLY * (limits.climb - limits.descent)
+    half = 0.5 * NEARLY * (limits.climb + limits.descent)
+    number = len(up.piece)
+    owner = np.zeros(number, dtype=np.intp)
+    cones.append(Cones(up, (2,), np.full((number, 1), middle), np.full(number, half), None, owner))
+    return tuple(cones)
+
+
+def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: float) -> SplineProblem:
+    breaks = task.clock.breaks
+    problem = with_corridor(base, Around(task.room, breaks, hulls, reach, share))
+    beside = sides(task.motions, hulls)
+    if not len(beside.piece):
+        return problem
+    return replace(problem, floors=(*problem.floors, _floors(breaks, beside, len(task.room.owners))))
+
+
+def _floors(breaks: Array, beside: Sides, first: int) -> Floors:
+    every = control_rows(breaks).weight.reshape(-1, 6, 6)
+    rows = Rows(np.repeat(beside.piece, 6), every[beside.piece].reshape(-1, 6))
+    return Floors(
+        rows, np.repeat(beside.normal, 6, axis=0), beside.offset.ravel(), first + np.repeat(beside.owner, 6)
+    )
+
+
+def _scaled(rows: Rows, factor: Array) -> Rows:
+    return Rows(rows.piece, rows.weight * factor[:, None])

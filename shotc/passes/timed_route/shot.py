@@ -1,0 +1,118 @@
+"""A shot on its own clock, planned: its leg from rest to rest, and how far it leaves its ideal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.convex import distances
+from shotc.geom.corridor import Room, breaches
+from shotc.ir.ideal import ideal_place
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import Deviation, FramingSpan, TimedLeg
+from shotc.passes.timed_route.camera import turn
+from shotc.passes.timed_route.clock import clock_of
+from shotc.passes.timed_route.moving import Moving, evened
+from shotc.passes.timed_route.position import Flown, Task, fly
+from shotc.solvers.conic import Status
+
+NOTICE = 0.5  # metres off the ideal that are worth telling
+LEFT = 0.1  # metres off that belong to a stretch worth telling
+STEP = 0.1  # seconds between the places that are compared with the ideal
+LIMITS = "the drone's limits"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimedShot:
+    """A planned shot, what of its ideal was given up, and what the solvers reported."""
+
+    leg: TimedLeg
+    deviations: tuple[Deviation, ...]
+    stats: tuple[tuple[str, float | str], ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NoMotion:
+    """Why a shot has no motion: the solver's word, and by how much each owner would have to give way."""
+
+    status: Status
+    lacks: tuple[tuple[str, float], ...]
+    what: str = "position"
+
+
+def timed_shot(
+    mission: MissionIR, drone: Drone, room: Room, moving: tuple[Moving, ...], placed: PlacedShot, start: float
+) -> TimedShot | NoMotion:
+    """Return the motion of a shot whose first frame is at mission time ``start``."""
+    shot = placed.shot
+    clock = clock_of(mission, drone, shot, start)
+    task = Task(mission, drone, shot, clock, room, tuple(evened(m, clock.breaks) for m in moving))
+    flown = fly(task)
+    if flown.curve is None:
+        return NoMotion(flown.status, _lacks(task, flown))
+    subject = placed.subjects[0] if placed.subjects else None
+    turned = turn(mission, drone, subject, clock, flown.curve)
+    if turned.curve is None:
+        return NoMotion(turned.status, (), "camera")
+    lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)
+    curve = Piecewise(clock.breaks, np.concatenate([flown.curve.ctrl, turned.curve.ctrl, lens], axis=2))
+    leg = TimedLeg(
+        shot.id, curve, clock.start, clock.end, _framing(placed, clock.start, clock.end), shot.path
+    )
+    stats = (
+        (f"{shot.id}.pieces", float(len(curve.ctrl))),
+        (f"{shot.id}.qp_objective", flown.objective),
+        (f"{shot.id}.qp_rounds", float(flown.rounds)),
+        (f"{shot.id}.qp_status", str(flown.status)),
+    )
+    return TimedShot(leg, _deviations(task, flown.curve), stats)
+
+
+def _lacks(task: Task, flown: Flown) -> tuple[tuple[str, float], ...]:
+    if flown.relaxation is None:
+        return ()
+    found = zip(task.owners, flown.relaxation.floor_lack, strict=True)
+    return tuple((owner, float(lack)) for owner, lack in found if lack > 1e-3)
+
+
+def _framing(placed: PlacedShot, start: float, end: float) -> tuple[FramingSpan, ...]:
+    spans = []
+    for subject in placed.subjects:
+        wanted = None
+        if subject.reference is not None:
+            wanted = Piecewise(np.array([start, end]), np.tile(np.array(subject.reference), (1, 6, 1)))
+        spans.append(FramingSpan(subject.target, start, end, wanted))
+    return tuple(spans)
+
+
+def _deviations(task: Task, curve: Piecewise) -> tuple[Deviation, ...]:
+    """Return, for each stretch on which the motion leaves the ideal, the worst of it."""
+    times = np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
+    ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
+    away = np.linalg.norm(curve(times) - ideal, axis=1)
+    runs: list[list[int]] = []
+    for i in np.flatnonzero(away > LEFT):
+        if runs and runs[-1][-1] == i - 1:
+            runs[-1].append(int(i))
+        else:
+            runs.append([int(i)])
+    worst = [max(run, key=lambda i: float(away[i])) for run in runs]
+    return tuple(
+        Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, ideal[i], float(times[i])))
+        for i in worst
+        if away[i] > NOTICE
+    )
+
+
+def _cause(task: Task, ideal: Array, t: float) -> str:
+    near = breaches(task.room, ideal)
+    if near:
+        return near[0].owner
+    for motion in task.motions:
+        relative = ideal[None] - motion.what.at(np.array([t]))
+        if float(distances(motion.what.part, relative)[0]) < motion.what.clearance:
+            return motion.what.owner
+    return LIMITS
