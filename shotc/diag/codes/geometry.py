@@ -35,6 +35,11 @@ _ON_EARTH = _PASSING.replace("world:\n", "world:\n  origin: {lat: 47.3769, lon: 
 )
 
 
+_TWO = _PASSING.replace(
+    "home: [0, -60, 0]}\n", "home: [0, -60, 0]}\n  cam2: {model: x500, home: [8, -60, 0]}\n"
+).replace("kind: orbit, drone: cam1", "kind: orbit, drone: cam2")
+
+
 _WARNINGS = {11, 12, 16, 18}
 
 
@@ -203,5 +208,14 @@ CODES: tuple[CodeInfo, ...] = (
         "middle at z = 12. A target that lies a good deal under the ground is framed where nobody sees it. "
         "Give its middle.",
         ("tower: {at: [0, 0, 12]", "tower: {at: [0, 0, 0]"),
+    ),
+    _code(
+        19,
+        "homes-too-near",
+        "two drones have their homes nearer to each other than they may fly",
+        "`rules.separation` holds from the first second to the last, on the ground too, centre to centre: two "
+        "drones that lift off side by side start apart. Move one of the homes.",
+        ("home: [8, -60, 0]", "home: [1, -60, 0]"),
+        base=_TWO,
     ),
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,7 +88,12 @@ def fastest_moves(leg: Leg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...]:
     """Return every move of the leg as fast as the ceiling allows."""
     if leg.curve is None:
         return ()
-    return tuple(time_move(leg.curve, span, ceiling) for span in plan.spans)
+    return tuple(_timed(leg.curve, span, ceiling) for span in plan.spans)
+
+
+# Where shots have their own clock, the legs between them are timed when they are laid out, and again
+# when they are flown.
+_timed = lru_cache(maxsize=256)(time_move)
 
 
 def assemble(leg: Leg, plan: Plan, moves: tuple[Move, ...], duration: float | None) -> LegMotion | None:

@@ -29,11 +29,6 @@ def _of_shots(spec: MissionSpec) -> Iterator[Deferred]:
     for i, drone in filming:
         if drone == AUTO:
             yield Deferred("choosing the drone of a shot (`drone: auto`)", ("shots", i, "drone"))
-        elif drone != filming[0][1]:
-            yield Deferred("a flight of more than one drone", ("shots", i, "drone"))
-    visibility = spec.rules.mutual_visibility
-    if visibility is not None and visibility.strength != "off" and len({d for _, d in filming}) > 1:
-        yield Deferred("keeping drones out of each other's pictures", ("rules", "mutual_visibility"))
     for i, shot in enumerate(spec.shots):
         if shot.size is not None:
             yield Deferred("aiming for a size on screen (`size`)", ("shots", i, "size"))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import combinations
 from math import dist, inf
 
 from shotc.diag.model import Diagnostic
@@ -33,7 +35,25 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
                 faults.append(
                     Diagnostic("G005", said[0], labels, (said[1],), _remedy(mission, drone, obstacle))
                 )
-    return faults
+    return [*faults, *_too_near(mission)]
+
+
+def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
+    """Yield the pairs of drones that film something and whose homes are nearer than the separation."""
+    filming = {shot.drone for shot in mission.shots}
+    least = mission.rules.separation
+    for one, other in combinations([d for d in mission.drones if d.name in filming], 2):
+        away = dist(one.home, other.home)
+        if away >= least - ROUNDING:
+            continue
+        labels = (
+            mission.origins.value((*other.path, "home")),
+            mission.origins.value((*one.path, "home"), "the other home"),
+        )
+        note = f"they are {away:.2f} m apart; `rules.separation` asks for {least:.2f} m, centre to centre"
+        help_ = f"move one of them by {least - away:.2f} m"
+        message = f"the homes of `{one.name}` and `{other.name}` are too near"
+        yield Diagnostic("G019", message, labels, (note,), help_)
 
 
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[str, str] | None:

@@ -13,6 +13,7 @@ from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
+from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
@@ -32,6 +33,7 @@ from shotc.passes.solve_path_qp.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
 from shotc.passes.timed_route.faults import left_place, stopped_on_clock
 from shotc.passes.timed_route.moving import moving_targets
+from shotc.passes.timed_route.others import other_drones
 from shotc.passes.timed_route.shot import NoMotion
 from shotc.solvers.headings import DEFAULT
 
@@ -57,23 +59,30 @@ class SolvePathQp:
         paths: list[DronePath] = []
         timed: list[TimedPath] = []
         ends: dict[str, float] = {}
+        flights: dict[str, Piecewise] = {}
         deviations: list[Deviation] = []
         stats: list[tuple[str, float | str]] = []
         diagnostics: list[Diagnostic] = []
         for drone in _by_need(ir):
-            planned = _plan(ir, drone, ctx, ends)
+            planned = _plan(ir, drone, ctx, ends, flights)
             diagnostics += planned.diagnostics
             deviations += planned.deviations
             stats += planned.stats
             standing = [leg for leg in planned.legs if isinstance(leg, Leg)]
-            if planned.legs and len(standing) == len(planned.legs):
-                paths.append(DronePath(drone.name, tuple(standing)))
-            elif planned.legs:
+            if planned.legs and on_clock(ir):
                 timed.append(TimedPath(drone.name, planned.legs))
+            elif planned.legs:
+                paths.append(DronePath(drone.name, tuple(standing)))
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
         path = PathIR(ir, tuple(paths), tuple(deviations), tuple(stats), tuple(timed))
         return Outcome(path, tuple(diagnostics))
+
+
+def on_clock(ir: KeyframeIR) -> bool:
+    """Tell whether legs have to know their mission time: a target moves, or several drones fly."""
+    moving = any(placed.shot.ideal is not None for placed in ir.shots)
+    return moving or len({placed.shot.drone for placed in ir.shots}) > 1
 
 
 def _by_need(ir: KeyframeIR) -> list[Drone]:
@@ -92,8 +101,18 @@ def _by_need(ir: KeyframeIR) -> list[Drone]:
     return done
 
 
-def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext, ends: dict[str, float]) -> _Planned:
-    """Plan one drone's legs; ends : of the shots planned so far on the mission's clock, added to."""
+def _plan(
+    ir: KeyframeIR,
+    drone: Drone,
+    ctx: PassContext,
+    ends: dict[str, float],
+    flights: dict[str, Piecewise],
+) -> _Planned:
+    """Plan one drone's legs.
+
+    ends : of the shots planned so far on the mission's clock; flights : of the drones planned so far,
+        channels x, y, z over it; both are added to
+    """
     mission = ir.mission
     mine = [placed for placed in ir.shots if placed.shot.drone == drone.name]
     if not mine:
@@ -121,10 +140,14 @@ def _plan(ir: KeyframeIR, drone: Drone, ctx: PassContext, ends: dict[str, float]
         *(swings(mission, s.shot, s.swing) for s in shots if s.swing is not None),
     ]
     ctx.progress(f"way of {drone.name}")
-    if any(p.shot.ideal is not None for p in ir.shots):
+    if on_clock(ir):
         curves = {s.shot.shot.id: s for s in shots}
-        flown = Flown(mission, Flight(drone, room, top), moving_targets(mission, drone), ends)
-        return _on_clock(flown, [curves.get(p.shot.id, p) for p in mine], tuple(warnings), ctx)
+        moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, flights))
+        flown = Flown(mission, Flight(drone, room, top), moving, ends)
+        planned = _on_clock(flown, [curves.get(p.shot.id, p) for p in mine], tuple(warnings), ctx)
+        if planned.legs:
+            flights[drone.name] = flown.track()
+        return planned
     joined = drone_legs(Flight(drone, room, top), shots)
     if not isinstance(joined[0], Leg):
         what, before = joined

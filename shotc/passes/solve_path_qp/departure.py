@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
@@ -33,12 +34,20 @@ Ways = Callable[[float], list[Leg] | None]
 class Way:
     """Unfilmed legs, the first of which waits for its time.
 
-    end : mission time at which the last one ends; free : whether nothing is met on it
+    end : mission time at which the last one ends; room : least distance on it beyond a clearance, metres
     """
 
     legs: tuple[Leg, ...]
     end: float
-    free: bool
+    room: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Then:
+    """A leg that is flown after a way, from mission time ``ready`` on at the earliest."""
+
+    leg: Leg
+    ready: float
 
 
 def choose(
@@ -47,22 +56,25 @@ def choose(
     moving: Sequence[Moving],
     ways: Ways,
     span: tuple[float, float | None],
+    then: Then | None = None,
 ) -> Way | None:
-    """Return the first way on which nothing is met, or else the plainest; None where there is none at all.
+    """Return the first way in time on which nothing is met, else the roomiest; None where there is none.
 
     ways : the legs that go over a height by so many metres more than they need, if there are any
     span : mission times from which the drone may leave, and by which it has to be there, if it has to
+    then : what it flies next, which is not to meet anything either
     """
-    plainest: Way | None = None
+    tried: list[Way] = []
     for legs in (found for lift in LIFTS if (found := ways(lift)) is not None):
-        for way in _tries(mission, drone, moving, legs, span):
+        for way in _tries(mission, drone, moving, legs, span, then):
             in_time = span[1] is None or way.end <= span[1]
-            if way.free and (in_time or plainest is None):
+            if way.room >= COMFORT and (in_time or not tried):
                 return way
-            plainest = plainest or way
+            tried.append(way)
         if not moving:
             break
-    return plainest
+    due = inf if span[1] is None else span[1]
+    return max(tried, key=lambda way: (way.end <= due, way.room), default=None)
 
 
 def _tries(
@@ -71,23 +83,29 @@ def _tries(
     moving: Sequence[Moving],
     legs: list[Leg],
     span: tuple[float, float | None],
+    then: Then | None,
 ) -> Iterator[Way]:
     begin, due = span
     curves = [motion.curve for leg in legs if (motion := leg_motion(mission, drone, leg)) is not None]
     lasts = sum(float(curve.end) for curve in curves)
+    next_motion = None if then is None else leg_motion(mission, drone, then.leg)
     spare = 0.0 if due is None else max(0.0, due - EARLY - begin - lasts)
     delays = DELAYS if due is None else tuple(dict.fromkeys(share * spare for share in SHARES))
     for delay in delays:
         leaves = begin + delay
         started = [replace(leg, start=leaves) if i == 0 else leg for i, leg in enumerate(legs)]
         if not moving:
-            yield Way(tuple(started), leaves + lasts, free=True)
+            yield Way(tuple(started), leaves + lasts, inf)
             return
-        until = max(leaves + lasts, due or 0.0)
-        times = np.arange(begin, until + STEP, STEP)
+        until = max(leaves + lasts, due or 0.0, 0.0 if then is None else then.ready)
+        film = [] if next_motion is None else [next_motion.curve.channels(0, 1, 2)]
+        times = np.arange(begin, until + sum(float(c.end) for c in film) + STEP, STEP)
         places = _places(legs, [c.channels(0, 1, 2) for c in curves], times - leaves)
+        for curve in film:
+            inside = times >= until
+            places[inside] = curve(np.minimum(times[inside] - until, float(curve.end)))
         upright = _upright(legs, [float(c.end) for c in curves], times - leaves)
-        yield Way(tuple(started), leaves + lasts, free=not _meets(moving, times, places, upright))
+        yield Way(tuple(started), leaves + lasts, _room(moving, times, places, upright))
 
 
 def _places(legs: list[Leg], curves: Sequence[Piecewise], clock: Array) -> Array:
@@ -115,10 +133,11 @@ def _upright(legs: list[Leg], lasts: list[float], clock: Array) -> Mask:
     return found
 
 
-def _meets(moving: Sequence[Moving], times: Array, places: Array, upright: Mask) -> bool:
+def _room(moving: Sequence[Moving], times: Array, places: Array, upright: Mask) -> float:
+    """Return the least distance from what moves beyond the clearance from it, metres."""
+    least = inf
     for what in moving:
         counts = np.ones(len(times), dtype=bool) if what.always else ~upright
         away = distances(what.part, places[counts] - what.at(times[counts]))
-        if len(away) and float(away.min()) < what.clearance + COMFORT:
-            return True
-    return False
+        least = min(least, float(away.min(initial=inf)) - what.clearance)
+    return least

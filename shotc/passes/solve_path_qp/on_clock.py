@@ -12,8 +12,9 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg
-from shotc.passes.parameterize_time.estimate import leg_time
-from shotc.passes.solve_path_qp.departure import Way, choose
+from shotc.passes.parameterize_time.estimate import leg_motion, leg_time
+from shotc.passes.parameterize_time.flight import Flight as Timed
+from shotc.passes.solve_path_qp.departure import Then, Way, choose
 from shotc.passes.solve_path_qp.legs import (
     Flight,
     Pose,
@@ -31,6 +32,7 @@ from shotc.passes.timed_route.moving import Moving
 from shotc.passes.timed_route.shot import NoMotion, TimedShot, timed_shot
 
 TRIES = 6
+LATE = 1e-6  # seconds
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
 
 
@@ -92,6 +94,23 @@ class Flown:
         self._take(way)
         return None
 
+    def track(self) -> Piecewise:
+        """Return where the drone is over mission time, channels x, y, z: as the time pass will fly it."""
+        flight = Timed(self.drone.name)
+        for leg in self.legs:
+            if isinstance(leg, TimedLeg):
+                if flight.clock > leg.curve.start + LATE:
+                    break  # the time pass will refuse it
+                flight.wait(float(leg.curve.start), leg.pose)
+                flight.film(leg)
+                continue
+            motion = leg_motion(self.mission, self.drone, leg)
+            waits = next((s.timing.after for s in self.mission.shots if s.id == leg.shot), None)
+            flight.wait(max(flight.clock, leg.start or 0.0, self.ends.get(waits or "", 0.0)), leg.pose)
+            if motion is not None:
+                flight.fly(leg, motion)
+        return flight.trajectory().curve.channels(0, 1, 2)
+
     def _back(self, pose: Pose, lift: float) -> list[Leg] | None:
         """Return the way home, over a height that is so many metres more than its ends'."""
         legs: list[Leg] = []
@@ -106,25 +125,34 @@ class Flown:
 
     def _path(self, shot: ShotCurve) -> Trouble | None:
         timing = shot.shot.shot.timing
-        way = self._way(shot.pose, shot, timing.start)
+        ready = max(timing.start or 0.0, self.ends.get(timing.after or "", 0.0))
+        way = self._way(shot.pose, shot, timing.start, ready)
         if not isinstance(way, Way):
             return way
         pose = end_of(way.legs) if way.legs else end_of(self.legs)
         placed = turned(self.drone, shot, pose)
         self._take(way)
         leg = shot_leg(placed)
-        self.clock = max(self.clock, timing.start or 0.0, self.ends.get(timing.after or "", 0.0))
+        self.clock = max(self.clock, ready)
         self.legs.append(leg)
         self.clock += leg_time(self.mission, self.drone, leg)
         self.ends[shot.shot.shot.id] = self.clock
         return None
 
-    def _way(self, goal: Pose, shot: ShotCurve | PlacedShot, due: float | None) -> Way | Failure:
-        """Return the unfilmed legs from here, or from the pad, to a shot's first pose."""
+    def _way(
+        self, goal: Pose, shot: ShotCurve | PlacedShot, due: float | None, ready: float = 0.0
+    ) -> Way | Failure:
+        """Return the unfilmed legs from here, or from the pad, to a shot's first pose.
+
+        due : when the drone has to be there, if it has to; ready : when a shot on a path may begin
+        """
         lift = [] if self.legs else [take_off(self.flight, goal)]
         pose = end_of(lift or self.legs)
         path = (shot.shot.shot if isinstance(shot, ShotCurve) else shot.shot).path
-        near = turned(self.drone, shot, pose).pose if isinstance(shot, ShotCurve) else _near(goal, pose)
+        near, then = _near(goal, pose), None
+        if isinstance(shot, ShotCurve):
+            placed = turned(self.drone, shot, pose)
+            near, then = placed.pose, Then(shot_leg(placed), ready)
         direct = way_to(self.flight, pose, near, path)
         if not isinstance(direct, list):
             return direct
@@ -137,7 +165,7 @@ class Flown:
             down = way_to(self.flight, top, near, path)
             return [*lift, *up, *down] if isinstance(up, list) and isinstance(down, list) else None
 
-        found = choose(self.mission, self.drone, self.moving, over, (self.clock, due))
+        found = choose(self.mission, self.drone, self.moving, over, (self.clock, due), then)
         assert found is not None
         return found
 

@@ -49,13 +49,22 @@ def owner_path(mission: MissionIR, owner: str) -> KeyPath:
     for target in mission.targets:
         if owner == f"target {target.name}":
             return target.path
+    for drone in mission.drones:
+        if owner == f"drone {drone.name}":
+            return drone.path
     return ("rules", "ground_clearance")
 
 
 def named(owner: str) -> str:
     """Write an owner for people: zone `tree` instead of zone tree."""
     kind, _, name = owner.partition(" ")
-    return f"{kind} `{name}`" if kind in {"zone", "target"} else owner if owner != GROUND else "the ground"
+    return (
+        f"{kind} `{name}`"
+        if kind in {"zone", "target", "drone"}
+        else owner
+        if owner != GROUND
+        else "the ground"
+    )
 
 
 def _keep_outs(mission: MissionIR, drone: Drone) -> list[Obstacle]:

@@ -1,4 +1,4 @@
-"""What moves while a shot is flown: targets, and the drones whose flight is known.
+"""What a shot is flown clear of: targets and drones that move, and everything that stands.
 
 On each piece of a spline its motion is taken as even; by how much it leaves that is added to the
 clearance, so that a plane beside the even motion keeps clear of the true one.
@@ -14,13 +14,16 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.convex import separate
+from shotc.geom.convex import separate, support
+from shotc.geom.corridor import Room
+from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.track_array import places
 from shotc.ir.mission import Drone, MissionIR
 
 SAMPLES = 8  # a piece, at which motion is compared with even motion
 REACH = 4.0  # metres beyond its clearance within which something that moves counts
+TOUCH = 1e-3  # metres by which a proved piece may seem too near
 COMFORT = 0.3  # metres kept beyond a clearance where there is room
 
 
@@ -37,6 +40,15 @@ class Moving:
     clearance: float
     at: Callable[[Array], Array]
     always: bool = False
+
+
+def standing(room: Room) -> tuple[Moving, ...]:
+    """Return the obstacles of a room, as motions that stay where they are."""
+    return tuple(Moving(o.owner, o.part, o.clearance, _nowhere) for o in room.obstacles)
+
+
+def _nowhere(times: Array) -> Array:
+    return np.zeros((len(times), 3))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,13 +105,16 @@ def sides(motions: Sequence[Even], hulls: Array) -> Sides:
     """Put a plane between every piece and everything that comes near it.
 
     hulls : shape (P, m, 3), points whose hull holds each piece, evenly in time from its start to its end
+    Where a run of pieces comes too near, all of them pass on one side.
     """
     rows = []
     for index, motion in enumerate(motions):
-        share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
-        relative = hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1]))
+        relative = _relative(motion, hulls)
         need = motion.what.clearance + motion.stray
         normal, gap = separate(motion.what.part, relative)
+        for run in _runs(gap < need - TOUCH):
+            normal[run] = _way_round(motion.what.part, relative[run], need[run])
+            gap[run] = -_push(motion.what.part, relative[run], np.zeros(len(run)), normal[run])
         near = np.flatnonzero(gap < need + REACH)
         if not len(near):
             continue
@@ -121,8 +136,41 @@ def shortfalls(motions: Sequence[Even], hulls: Array) -> Array:
     """Return by how much each piece fails to prove its clearances, metres; shape (P,), <= 0 is proved."""
     worst = np.full(len(hulls), -np.inf)
     for motion in motions:
-        share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
-        relative = hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1]))
-        _, gap = separate(motion.what.part, relative)
+        _, gap = separate(motion.what.part, _relative(motion, hulls))
         worst = np.maximum(worst, motion.what.clearance + motion.stray - gap)
     return worst
+
+
+def _relative(motion: Even, hulls: Array) -> Array:
+    share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
+    return np.asarray(hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1])))
+
+
+def _runs(too_near: Mask) -> list[IntArray]:
+    """Return the pieces that are too near, in runs without a gap of more than one piece."""
+    found = np.flatnonzero(too_near)
+    if not len(found):
+        return []
+    return np.split(found, np.flatnonzero(np.diff(found) > 2) + 1)
+
+
+def _way_round(part: Solid, relative: Array, need: Array) -> Array:
+    """Return the direction in which a run of pieces is pushed out of a solid by the least, shape (3,).
+
+    Over it, or to either side of the way past it.
+    """
+    way = relative[-1, -1] - relative[0, 0]
+    across = np.array([-way[1], way[0], 0.0])
+    if np.linalg.norm(across) < 1e-6:
+        across = np.array([1.0, 0.0, 0.0])
+    across /= np.linalg.norm(across)
+    options = [across, -across, np.array([0.0, 0.0, 1.0])]
+    costs = [float(np.maximum(_push(part, relative, need, n), 0.0).sum()) for n in options]
+    return options[int(np.argmin(costs))]
+
+
+def _push(part: Solid, relative: Array, need: Array, normal: Array) -> Array:
+    """Return by how much pieces have to be moved along a direction to be clear; negative is clear."""
+    n = np.broadcast_to(normal, (len(relative), 3))
+    reach = np.einsum("pmd,pd->pm", relative, n).min(axis=1)
+    return np.asarray(support(part, n) + need - reach)

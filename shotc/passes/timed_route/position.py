@@ -43,7 +43,7 @@ GAIN = 0.01
 class Task:
     """One shot to be flown.
 
-    room : what stands; motions : what moves, even on the clock's pieces
+    room : what stands; motions : its obstacles and what moves, even on the clock's pieces
     """
 
     mission: MissionIR
@@ -55,8 +55,13 @@ class Task:
 
     @property
     def owners(self) -> tuple[str, ...]:
-        """Everything that may stop the motion, by index."""
-        return (*self.room.owners, *(m.what.owner for m in self.motions))
+        """Everything that may stop the motion, by index: the walls' owners, then the motions'."""
+        return (*self.walls.owners, *(m.what.owner for m in self.motions))
+
+    @property
+    def walls(self) -> Room:
+        """The room without its obstacles."""
+        return Room((), self.room.walls, self.room.discs)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +102,7 @@ def fly(task: Task) -> Flown:
             hulls, share = control_rows(breaks).apply(relaxation.coef).reshape(-1, 6, 3), SHARES[0]
             continue
         points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
-        lacking = np.maximum(shortfall(task.room, points), shortfalls(task.motions, points))
+        lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
         if lacking.max() > PROVED:
             reach *= 2.0
             hulls, share = points if rounds % 2 else chords, SHARES[0]
@@ -169,11 +174,11 @@ def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
 
 def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: float) -> SplineProblem:
     breaks = task.clock.breaks
-    problem = with_corridor(base, Around(task.room, breaks, hulls, reach, share))
+    problem = with_corridor(base, Around(task.walls, breaks, hulls, reach, share))
     beside = sides(task.motions, hulls)
     if not len(beside.piece):
         return problem
-    return replace(problem, floors=(*problem.floors, _floors(breaks, beside, len(task.room.owners))))
+    return replace(problem, floors=(*problem.floors, _floors(breaks, beside, len(task.walls.owners))))
 
 
 def _floors(breaks: Array, beside: Sides, first: int) -> Floors:

@@ -15,7 +15,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.passes.timed_route.camera import turn
 from shotc.passes.timed_route.clock import clock_of
-from shotc.passes.timed_route.moving import Moving, evened
+from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly
 from shotc.solvers.conic import Status
 
@@ -49,7 +49,9 @@ def timed_shot(
     """Return the motion of a shot whose first frame is at mission time ``start``."""
     shot = placed.shot
     clock = clock_of(mission, drone, shot, start)
-    task = Task(mission, drone, shot, clock, room, tuple(evened(m, clock.breaks) for m in moving))
+    task = Task(
+        mission, drone, shot, clock, room, tuple(evened(m, clock.breaks) for m in (*standing(room), *moving))
+    )
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))

@@ -1,0 +1,40 @@
+"""The other drones, as what a drone keeps away from: in flight, and on their pads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.solids import Cylinder
+from shotc.ir.mission import MissionIR
+from shotc.passes.timed_route.moving import Moving
+
+POINT = Cylinder((0.0, 0.0), 0.0, 0.0, 0.0)
+
+
+def other_drones(mission: MissionIR, name: str, flights: Mapping[str, Piecewise]) -> tuple[Moving, ...]:
+    """Return every drone but one that films something.
+
+    flights : channels x, y, z over mission time, by drone, of those that are planned; the others count as
+        standing on their pads
+    """
+    filming = {shot.drone for shot in mission.shots}
+    found = []
+    for drone in mission.drones:
+        if drone.name == name or drone.name not in filming:
+            continue
+        flight = flights.get(drone.name)
+        at = partial(_standing, np.array(drone.home)) if flight is None else partial(_flying, flight)
+        found.append(Moving(f"drone {drone.name}", POINT, mission.rules.separation, at, always=True))
+    return tuple(found)
+
+
+def _standing(place: Array, times: Array) -> Array:
+    return np.tile(place, (len(times), 1))
+
+
+def _flying(flight: Piecewise, times: Array) -> Array:
+    return np.asarray(flight(np.clip(times, flight.start, flight.end))[:, :3])
