@@ -17,12 +17,21 @@ from shotc.passes.timed_route.camera import turn
 from shotc.passes.timed_route.clock import clock_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly
+from shotc.passes.timed_route.sights import Looker, Sights
 from shotc.solvers.conic import Status
 
 NOTICE = 0.5  # metres off the ideal that are worth telling
 LEFT = 0.1  # metres off that belong to a stretch worth telling
 STEP = 0.1  # seconds between the places that are compared with the ideal
 LIMITS = "the drone's limits"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Around:
+    """What goes on around a shot: what moves, and whose pictures count."""
+
+    moving: tuple[Moving, ...]
+    sights: Sights
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,18 +53,17 @@ class NoMotion:
 
 
 def timed_shot(
-    mission: MissionIR, drone: Drone, room: Room, moving: tuple[Moving, ...], placed: PlacedShot, start: float
+    mission: MissionIR, drone: Drone, room: Room, around: Around, placed: PlacedShot, start: float
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``."""
     shot = placed.shot
     clock = clock_of(mission, drone, shot, start)
-    task = Task(
-        mission, drone, shot, clock, room, tuple(evened(m, clock.breaks) for m in (*standing(room), *moving))
-    )
+    subject = placed.subjects[0] if placed.subjects else None
+    motions = tuple(evened(m, clock.breaks) for m in (*standing(room), *around.moving))
+    task = Task(Looker(mission, drone, subject), shot, clock, room, motions, around.sights)
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
-    subject = placed.subjects[0] if placed.subjects else None
     turned = turn(mission, drone, subject, clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
