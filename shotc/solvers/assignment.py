@@ -38,5 +38,6 @@ def least_cost(programme: Programme) -> Array | None:
             LinearConstraint(programme.once, 1.0, 1.0),
             LinearConstraint(programme.rows, -np.inf, programme.most),
         ],
+        options={"mip_rel_gap": 0.0},
     )
     return None if found.x is None else np.asarray(found.x)
