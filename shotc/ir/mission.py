@@ -231,11 +231,18 @@ class Shot(NamedTuple):
 
 
 class Rules(NamedTuple):
-    """Mission-wide rules, metres."""
+    """Mission-wide rules, metres.
+
+    visibility : how strictly drones keep out of each other's pictures
+    half_angle : half the opening of the cone about a camera's axis that they keep out of, rad; None for
+        the frame itself
+    """
 
     separation: float
     ground_clearance: float
     target_clearance: float
+    visibility: Literal["require", "prefer", "off"] = "prefer"
+    half_angle: float | None = None
 
 
 class Deferred(NamedTuple):
