@@ -13,6 +13,7 @@ from shotc.ir.trajectory import Claim, Phase, VerifiedIR
 
 WIDTH = 100
 GLUE = "\N{NO-BREAK SPACE}"
+APART, OUT = "separation from ", " out of the picture"
 LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
 
 
@@ -76,6 +77,7 @@ def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
 def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
+    facts += [("drones", text) for text in _together(plan)]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
     facts.append(
@@ -105,7 +107,14 @@ def _used(certificate: Iterable[Claim]) -> list[str]:
 
 def _closest(certificate: Iterable[Claim]) -> list[str]:
     near = [
-        c for c in certificate if c.unit == "m" and not c.upper and isfinite(c.worst) and isfinite(c.limit)
+        c
+        for c in certificate
+        if c.unit == "m"
+        and not c.upper
+        and isfinite(c.worst)
+        and isfinite(c.limit)
+        and not c.constraint.startswith(APART)
+        and not c.constraint.endswith(OUT)
     ]
     near.sort(key=lambda c: c.worst - c.limit)
     return [
@@ -113,6 +122,33 @@ def _closest(certificate: Iterable[Claim]) -> list[str]:
         + ("" if c.time is None else f" at {clock(c.time)}")
         for c in near[:2]
     ]
+
+
+def _together(plan: VerifiedIR) -> list[str]:
+    """Tell, where several drones fly, how near two of them come, and who is in whose picture."""
+    apart = [c for c in plan.certificate if c.constraint.startswith(APART)]
+    if not apart:
+        return []
+    near = min(apart, key=lambda c: c.worst)
+    other = near.constraint.removeprefix(APART)
+    text = f"{near.subject} and {other} come nearest, {near.worst:.2f} m, {near.limit:.2f} m needed"
+    return [text + ("" if near.time is None else f", at {clock(near.time)}") + f"; {_pictures(plan)}"]
+
+
+def _pictures(plan: VerifiedIR) -> str:
+    rules = plan.trajectory.keyframes.mission.rules
+    if rules.visibility == "off":
+        return "pictures are not judged"
+    whose = (
+        "another's picture"
+        if rules.half_angle is None
+        else f"the {degrees(rules.half_angle):.3g} deg about another's optical axis"
+    )
+    seen = [c for c in plan.certificate if c.constraint.endswith(OUT) and not c.holds]
+    if not seen:
+        return f"none is in {whose}"
+    said = [f"{c.constraint.removesuffix(OUT)} in that of {c.subject} (shot {c.shot})" for c in seen]
+    return f"in {whose}: {', '.join(said)}"
 
 
 def _files(paths: Sequence[Path]) -> list[str]:
