@@ -83,6 +83,7 @@ class Flown:
     """The position over mission time, or why there is none.
 
     objective : m^2 s; rounds : programmes solved
+    freed : whether it gives way to keep pictures free
     """
 
     curve: Piecewise | None
@@ -90,6 +91,7 @@ class Flown:
     objective: float
     rounds: int
     relaxation: Relaxation | None = None
+    freed: bool = False
 
 
 def fly(task: Task) -> Flown:
@@ -107,7 +109,7 @@ def fly(task: Task) -> Flown:
         later = _kept(task, freer.curve)
         if later.worst <= kept.worst + PROVED:
             break
-        best, kept = replace(freer, rounds=best.rounds + freer.rounds), later
+        best, kept = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
     return best
 
 

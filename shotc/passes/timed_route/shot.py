@@ -24,6 +24,7 @@ NOTICE = 0.5  # metres off the ideal that are worth telling
 LEFT = 0.1  # metres off that belong to a stretch worth telling
 STEP = 0.1  # seconds between the places that are compared with the ideal
 LIMITS = "the drone's limits"
+PICTURES = "the pictures of other drones"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +79,7 @@ def timed_shot(
         (f"{shot.id}.qp_rounds", float(flown.rounds)),
         (f"{shot.id}.qp_status", str(flown.status)),
     )
-    return TimedShot(leg, _deviations(task, flown.curve), stats)
+    return TimedShot(leg, _deviations(task, flown), stats)
 
 
 def _lacks(task: Task, flown: Flown) -> tuple[tuple[str, float], ...]:
@@ -98,11 +99,12 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[FramingSpan,
     return tuple(spans)
 
 
-def _deviations(task: Task, curve: Piecewise) -> tuple[Deviation, ...]:
+def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
     """Return, for each stretch on which the motion leaves the ideal, the worst of it."""
     times = np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
     ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
-    away = np.linalg.norm(curve(times) - ideal, axis=1)
+    assert flown.curve is not None
+    away = np.linalg.norm(flown.curve(times) - ideal, axis=1)
     runs: list[list[int]] = []
     for i in np.flatnonzero(away > LEFT):
         if runs and runs[-1][-1] == i - 1:
@@ -111,13 +113,15 @@ def _deviations(task: Task, curve: Piecewise) -> tuple[Deviation, ...]:
             runs.append([int(i)])
     worst = [max(run, key=lambda i: float(away[i])) for run in runs]
     return tuple(
-        Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, ideal[i], float(times[i])))
+        Deviation(
+            task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, ideal[i], float(times[i]))
+        )
         for i in worst
         if away[i] > NOTICE
     )
 
 
-def _cause(task: Task, ideal: Array, t: float) -> str:
+def _cause(task: Task, flown: Flown, ideal: Array, t: float) -> str:
     near = breaches(task.room, ideal)
     if near:
         return near[0].owner
@@ -125,4 +129,4 @@ def _cause(task: Task, ideal: Array, t: float) -> str:
         relative = ideal[None] - motion.what.at(np.array([t]))
         if float(distances(motion.what.part, relative)[0]) < motion.what.clearance:
             return motion.what.owner
-    return LIMITS
+    return PICTURES if flown.freed else LIMITS

@@ -14,8 +14,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import value_rows
-from shotc.geom.camera import View, aim_at, frustum_margins
+from shotc.geom.camera import aim_at
 from shotc.geom.framing import Cameras
+from shotc.geom.sight import off_axis, outside
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
@@ -90,14 +91,12 @@ def _camera(curve: Piecewise, aspect: float, times: Array) -> Cameras:
     return Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)
 
 
-def outside(view: View, away: tuple[Array, Array, Array], half_angle: float | None) -> Array:
-    """Return how far points are outside a picture, metres; negative inside. away : from the camera, W."""
+def _out(camera: Cameras, places: Array, radius: float, half_angle: float | None) -> Array:
+    """Return how far balls are out of a picture, metres: beyond its edges, or along the arc out of a cone."""
     if half_angle is None:
-        return np.asarray(-np.min(frustum_margins(view, away, 0.0, 0.0), axis=0))
-    right, down, forward = view.to_camera(away)
-    far = np.sqrt(right**2 + down**2 + forward**2)
-    beyond = np.arctan2(np.hypot(right, down), forward) - half_angle
-    return np.asarray(np.where(beyond > np.pi / 2, far, far * np.sin(beyond)))
+        return outside(camera, places, radius)
+    far = np.linalg.norm(places - camera.position, axis=1)
+    return np.asarray((off_axis(camera, places, radius) - half_angle) * far)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,9 +159,7 @@ def _linear(found: Outside, times: Array, breaks: Array, course: Callable[[Array
 def _in_theirs(
     watcher: Watcher, radius: float, half_angle: float | None, times: Array, places: Array
 ) -> Array:
-    camera = watcher.camera(times)
-    x, y, z = (places - camera.position).T
-    return np.asarray(outside(camera.view, (x, y, z), half_angle) - radius)
+    return _out(watcher.camera(times), places, radius, half_angle)
 
 
 def _in_own(looker: Looker, body: Body, half_angle: float | None, times: Array, places: Array) -> Array:
@@ -174,5 +171,4 @@ def _in_own(looker: Looker, body: Body, half_angle: float | None, times: Array, 
         x, y, z = (c - e for c, e in zip(target.at(float(t)), p, strict=True))
         aims[i] = aim_at((x, y, z), uv, drone.hfov, drone.aspect) or (0.0, 0.0)
     camera = Cameras(places, aims[:, 0], aims[:, 1], np.full(len(times), drone.hfov), drone.aspect)
-    dx, dy, dz = (body.at(times) - places).T
-    return np.asarray(outside(camera.view, (dx, dy, dz), half_angle) - body.radius)
+    return _out(camera, body.at(times), body.radius, half_angle)
