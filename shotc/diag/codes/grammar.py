@@ -20,6 +20,18 @@ shots:
      timing: {start: 20, duration: 5}}
 """
 
+_STILL = """\
+shotc: 1
+mission: watch
+targets:
+  runner: {track: {points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]}, radius: 0.4, height: 1.8}
+drones:
+  cam1: {model: x500, home: [0, 30, 0], camera: {hfov: 70 deg, aspect: "16:9"}}
+shots:
+  - {id: watch, kind: static, drone: cam1, target: runner, at: [30, 20, 4], heading: 180 deg, pitch: -5 deg,
+     timing: {start: 15, duration: 10}}
+"""
+
 _PAN = """\
 shotc: 1
 mission: pan
@@ -82,6 +94,18 @@ CODES: tuple[CodeInfo, ...] = (
         "films. Give the shot 2 s or more." + _ALLOW.format("short-shot"),
         _PASSING,
         ("{start: 20, duration: 5}", "{start: 20, duration: 1.5}"),
+    ),
+    _code(
+        4,
+        "walks-out-of-frame",
+        "a subject is not in the picture of a camera that does not turn",
+        "A static shot with `heading` and `pitch`, or with a point to look at, keeps its camera still while its target "
+        "moves through the picture. Told where no part of the target is in the frame for half a second or more of "
+        "the shot, however it comes about; the time is known from the shot's `start`. An empty frame may be what is "
+        "wanted. Where it is not, let the camera follow (`look_at` and the target's name), stand farther away, take "
+        "a wider lens, or film while the target passes." + _ALLOW.format("walks-out-of-frame"),
+        _STILL,
+        ("{start: 15, duration: 10}", "{start: 15, duration: 20}"),
     ),
     _code(
         5,

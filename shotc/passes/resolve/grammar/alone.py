@@ -1,4 +1,4 @@
-"""A shot by itself: is it long enough to be read."""
+"""A shot by itself, whose time is known: is it long enough to be read, does its camera turn too fast."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.grammar.leaving import check_leaving
 from shotc.passes.resolve.grammar.pans import check_pans
 from shotc.passes.resolve.grammar.places import lasting
 
@@ -16,6 +17,8 @@ def check_alone(mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bo
     """Yield what is wrong with a shot whose time is known, whatever stands beside it in the film."""
     if judged("short-shot", shot):
         yield from check_length(mission, shot)
+    if judged("walks-out-of-frame", shot):
+        yield from check_leaving(mission, shot)
     if judged("fast-pan", shot):
         yield from check_pans(mission, shot)
 

@@ -75,7 +75,7 @@ def between(left: Sight, right: Sight) -> float:
 
 
 def carries_on(left: Sight, right: Sight) -> bool:
-    """Tell whether a shot begins with the picture that the one before it ends with, so that no cut is seen."""
+    """Tell whether a shot begins with the picture that the last one ends with, so that no cut is seen."""
     if dist(left.eye, right.eye) > SAME_PLACE * hypot(*left.offset):
         return False
     if not 1 / SAME_LENS < left.half / right.half < SAME_LENS:

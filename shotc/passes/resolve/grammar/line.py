@@ -19,7 +19,7 @@ STEPS = 24  # places at which a shot is looked at for going over the line
 
 
 def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right: Sight) -> Diagnostic | None:
-    """Return the warning about a cut across the line, from the last frame of a shot to the first of the next."""
+    """Return the warning about a cut across the line, from a shot's last frame to the next one's first."""
     pair = len(left.names) > 1 and set(left.names[:2]) == set(right.names[:2])
     if not pair and left.names[0] != right.names[0]:
         return None

@@ -63,8 +63,8 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` pans too fast for the eye",
         (lasting(mission, shot),),
         (
-            f"a frame width goes by in {worst.lasts / worst.widths:.1f} s{when}; {who} it takes {least:.0f} s "
-            "or more, at 24 frames a second, not to judder",
+            f"a frame width goes by in {worst.lasts / worst.widths:.1f} s{when}; {who} it takes {least:.0f} "
+            "s or more, at 24 frames a second, not to judder",
         ),
         f"{help_}, or write `allow: [fast-pan]` in it",
     )
@@ -73,7 +73,8 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
     """Yield the pans of a camera that follows a moving subject, over a second each."""
     start, duration = begins(mission, shot), shot.timing.duration
-    if start is None or duration is None or not shot.subjects:
+    kept = shot.ideal is not None and shot.ideal.aim is not None
+    if start is None or duration is None or kept or not shot.subjects:
         return
     pieces = max(2, min(STEPS, ceil(4 * duration)))
     ahead = min(pieces, max(1, round(WINDOW * pieces / duration)))

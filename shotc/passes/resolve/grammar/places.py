@@ -23,3 +23,9 @@ def lasting(mission: MissionIR, shot: Shot) -> Label:
     """Return a label on how long a shot lasts, or on its kind where it does not say."""
     duration = (*shot.path, "timing", "duration")
     return mission.origins.value(duration if duration in mission.origins.values else (*shot.path, "kind"))
+
+
+def framing(mission: MissionIR, shot: Shot) -> Label:
+    """Return a label on what says where the camera of a shot looks."""
+    found = (key for key in ("heading", "look_at") if (*shot.path, key) in mission.origins.values)
+    return mission.origins.value((*shot.path, next(found, "kind")))

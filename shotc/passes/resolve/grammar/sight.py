@@ -43,7 +43,7 @@ class Sight(NamedTuple):
 
 
 def sight(mission: MissionIR, shot: Shot, share: float) -> Sight | None:
-    """Return what a shot shows at its start (0), its end (1) or between, if it films a target at a known time.
+    """Return what a shot shows at its start (0), its end (1) or between; None without a target or a time.
 
     Of a shot of keyframes only start and end are told.
     """
