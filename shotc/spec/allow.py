@@ -6,6 +6,6 @@ from shotc.spec.fieldtypes import NamedOr
 
 GRAMMAR = ("crossing-the-line", "jump-cut", "short-shot", "walks-out-of-frame", "fast-pan")
 
-_SLUG = NamedOr("AllowedWarning", {slug: slug for slug in GRAMMAR}, "warning that can be allowed")
+_SLUG = NamedOr("AllowedWarning", {slug: slug for slug in GRAMMAR}, "warning")
 
 Allowed = tuple[Annotated[str, _SLUG], ...]
