@@ -175,7 +175,7 @@ def test_a_curve_seen_from_a_target_is_the_curve_less_its_motion(steps, gaps, af
 
 
 def test_a_camera_that_keeps_its_aim_does_not_turn_to_its_target() -> None:
-    plan = planned(text("kind: static, target: runner, at: [58, -25, 5], heading: 0 deg, pitch: -5 deg"))
+    plan = planned(text("kind: static, at: [58, -25, 5], heading: 0 deg, pitch: -5 deg"))
     yaw = plan.trajectory.drones[0].curve(np.linspace(15.0, 27.0, 50))[:, CAM_YAW]
     assert np.abs(yaw - pi / 2).max() < 1e-6
     assert claim(plan, "distance from its place") < 0.02
