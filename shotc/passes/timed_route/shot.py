@@ -65,7 +65,8 @@ def timed_shot(
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
-    turned = turn(mission, drone, subject, clock, flown.curve)
+    kept = None if shot.ideal is None else shot.ideal.aim
+    turned = turn(mission, drone, kept or subject, clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
     lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)
