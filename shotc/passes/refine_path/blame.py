@@ -7,7 +7,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Shot
 from shotc.ir.path import PathIR
-from shotc.passes.refine_path.faults import leg_of
+from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.finding import Fault
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept, same
@@ -61,4 +61,4 @@ def still_true(paths: tuple[PathIR, PathIR], said: tuple[Diagnostic, ...]) -> tu
 def _refined(paths: tuple[PathIR, PathIR]) -> list[Shot]:
     before, after = paths
     shots = before.keyframes.mission.shots
-    return [s for s in shots if not same(leg_of(before, s.id), leg_of(after, s.id))]
+    return [s for s in shots if not same(filmed(before, s.id), filmed(after, s.id))]
