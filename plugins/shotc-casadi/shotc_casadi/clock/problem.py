@@ -112,7 +112,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
     values = {
         "length": length,
         "ideal": wanted.ideal,
-        "place": weights.PLACE * near * place,
+        "place": (weights.PLACED if wanted.placed else weights.PLACE) * near * place,
         "target": wanted.target,
         "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
         "turn": turn if wanted.watches else np.zeros((n + 1, 6)),

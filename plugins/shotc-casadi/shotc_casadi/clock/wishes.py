@@ -42,12 +42,14 @@ class ClockWishes:
 
     ideal (N + 1, 3), target (N + 1, 12) : as in symbols.FIELDS
     usual : distance to the target in the film, metres; watches : whether anything is filmed
+    placed : whether the author gave the places
     """
 
     ideal: Array
     target: Array
     usual: float
     watches: bool
+    placed: bool
 
 
 def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
@@ -55,14 +57,15 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     ideal = np.array(
         [ideal_place(subject.mission, subject.placed.shot, subject.leg.start, float(u)) for u in t]
     )
-    watched = subject.watched
+    watched, shot = subject.watched, subject.placed.shot
+    placed = shot.ideal is not None and shot.ideal.placed
     if watched is None:
         away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((len(t), 9))])
-        return ClockWishes(ideal, away, 100.0, watches=False)
+        return ClockWishes(ideal, away, 100.0, watches=False, placed=placed)
     target = motion(subject.mission, watched.target, t)
     filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
     usual = float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1)))
-    return ClockWishes(ideal, target, max(NEAREST, usual), watches=True)
+    return ClockWishes(ideal, target, max(NEAREST, usual), watches=True, placed=placed)
 
 
 def motion(mission: MissionIR, name: str, t: Array) -> Array:
@@ -75,12 +78,12 @@ def motion(mission: MissionIR, name: str, t: Array) -> Array:
         return np.column_stack([np.tile(np.array(target.centre), (len(t), 1)), np.zeros((len(t), 9))])
     s = np.linspace(-1.0, 1.0, SAMPLES)
     kernel = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 4
-    mass = 256 / 315  # the integral of (1 - s^2)^4 from 0 to 1
+    mass = 256 / 315  # the integral of (1 - s^2)^4
     at = places(target.track, (t[:, None] - AROUND * s).ravel()).reshape(len(t), SAMPLES, 3)
     orders = []
     for order in range(4):
         weight = kernel.deriv(order)(s) if order else kernel(s)
-        weight = weight / (2 * mass * AROUND**order) * (s[1] - s[0])
+        weight = weight / (mass * AROUND**order) * (s[1] - s[0])
         orders.append(np.einsum("mkd,k->md", at, weight))
     return np.concatenate(orders, axis=1)
 
