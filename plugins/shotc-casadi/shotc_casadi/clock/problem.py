@@ -113,6 +113,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
         "length": length,
         "ideal": wanted.ideal,
         "place": (weights.PLACED if wanted.placed else weights.PLACE) * near * place,
+        "leash": np.full(n + 1, near / weights.LEASH**2),
         "target": wanted.target,
         "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
         "turn": turn if wanted.watches else np.zeros((n + 1, 6)),

@@ -1,4 +1,4 @@
-"""Whether a motion keeps a drone's limits at every instant, and its distances: hulls of control points."""
+"""Whether a motion keeps limits and distances at every instant, by hulls; and whether its camera follows."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import Drone, Surroundings
+from shotc.refiner_api import CAM_PITCH, CAM_YAW, Drone, Surroundings, TimedLeg, aim_at
+from shotc_casadi.clock.wishes import ClockSubject
 
 PROVED = 1e-6  # metres
 ROUNDING = 1e-9  # of a limit
+AIMS = 200  # at which a camera is compared with its aim
 
 
 class Gap(NamedTuple):
@@ -45,4 +47,21 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
         over = float(most[k]) - limit
         if over > ROUNDING * limit and (worst is None or over > worst.lack):
             worst = Gap(float(position.breaks[k]), f"the limit of {what}", over, unit)
+    return worst
+
+
+def astray(subject: ClockSubject, leg: TimedLeg) -> float:
+    """Return the most by which a camera misses the aim that puts its subject in its place, in the film, rad."""
+    watched, drone = subject.watched, subject.drone
+    if watched is None:
+        return 0.0
+    target, uv = subject.mission.target(watched.target), watched.reference or (0.0, 0.0)
+    worst = 0.0
+    times = np.linspace(leg.start, leg.end, AIMS)
+    for t, q in zip(times, leg.curve(times), strict=True):
+        ray = np.array(target.at(float(t))) - q[:3]
+        aim = aim_at((ray[0], ray[1], ray[2]), uv, drone.hfov, drone.aspect, q[CAM_YAW])
+        if aim is not None:
+            turned = np.remainder(q[CAM_YAW] - aim[0] + np.pi, 2 * np.pi) - np.pi
+            worst = max(worst, float(np.hypot(np.cos(aim[1]) * turned, q[CAM_PITCH] - aim[1])))
     return worst

@@ -24,6 +24,8 @@ from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.patience import PATIENCE
 
 NOTICE = 0.5  # metres off the ideal that are worth telling
+KEPT = "kept: the guide is framed better"
+CALM = "a calmer camera, and the drone's limits"
 
 
 def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tuple[Diagnostic, ...]]:
@@ -64,10 +66,12 @@ def with_leg(path: PathIR, leg: TimedLeg) -> PathIR:
     )
     moved = replace(path, timed=timed)
     others = tuple(d for d in path.deviations if d.shot != leg.shot)
-    return replace(moved, deviations=(*others, *_deviation(subject_of(moved, leg.shot))))
+    mine = tuple(d for d in path.deviations if d.shot == leg.shot)
+    return replace(moved, deviations=(*others, *_deviation(subject_of(moved, leg.shot), mine)))
 
 
-def _deviation(subject: ClockSubject) -> tuple[Deviation, ...]:
+def _deviation(subject: ClockSubject, before: tuple[Deviation, ...]) -> tuple[Deviation, ...]:
+    """Return the most by which a shot leaves its ideal; what moved its guide there before is why."""
     leg = subject.leg
     t = np.linspace(leg.start, leg.end, 201)
     ideal = [ideal_place(subject.mission, subject.placed.shot, leg.start, float(u)) for u in t]
@@ -75,7 +79,8 @@ def _deviation(subject: ClockSubject) -> tuple[Deviation, ...]:
     k = int(away.argmax())
     if away[k] < NOTICE:
         return ()
-    return (Deviation(leg.shot, float(away[k]), float(t[k]), "a calmer camera, and the drone's limits"),)
+    near = min(before, key=lambda d: abs(d.s - t[k]), default=None)
+    return (Deviation(leg.shot, float(away[k]), float(t[k]), CALM if near is None else near.cause),)
 
 
 def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: str) -> Diagnostic | None:
@@ -87,6 +92,8 @@ def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: st
         return (
             None if first is None or solvers is None else fallback(path, refined.shot, solvers, _word(first))
         )
+    if gap is None and solution.status == "solved":
+        return None
     time = float(refined.breaks[solution.stage]) if gap is None else gap.time
     state = SolverState(
         shot=refined.shot,
@@ -115,10 +122,11 @@ def _word(solution: ClockSolution) -> str:
 
 def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:
     solution, shot = refined.solution, refined.shot
+    kept = refined.leg is None and refined.gap is None and solution.status == "solved"
     return (
         (f"{shot}.refine_stages", float(len(refined.breaks) - 1)),
         (f"{shot}.refine_rounds", float(refined.rounds)),
         (f"{shot}.refine_iterations", float(solution.iterations)),
         (f"{shot}.refine_solver", solution.solver),
-        (f"{shot}.refine_status", solution.status),
+        (f"{shot}.refine_status", KEPT if kept else solution.status),
     )

@@ -25,7 +25,8 @@ from shotc.refiner_api import (
 )
 from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
 from shotc_casadi.clock.program import ClockSolution, solve
-from shotc_casadi.clock.proof import Gap, gap_in
+from shotc_casadi.clock.proof import Gap, astray, gap_in
+from shotc_casadi.clock.side import held, led, passes
 from shotc_casadi.clock.wishes import ClockSubject, wishes
 from shotc_casadi.program import Solver
 
@@ -34,6 +35,7 @@ ROUNDS = 6
 REACH = 8.0  # metres beyond its clearance within which a wall counts
 SHARE = 0.5  # of the room beside a wall that is kept
 NEARLY = 0.998  # of each limit that is used, so that rounding breaks none
+ALLOWED = 0.01  # rad by which a camera may miss its aim, if its guide misses it by less
 GAIN = 0.01  # of the cost: a round that gains less is the last
 
 
@@ -41,7 +43,8 @@ GAIN = 0.01  # of the cost: a round that gains less is the last
 class ClockRefined:
     """One shot refined.
 
-    leg : with its new curve, or None where no solver found one that holds
+    leg : with its new curve, or None where no solver found one that holds, or where its camera follows less
+        well than the guide's
     rounds : how often it was solved; solution : the leg's, or the last one; first : the solver that failed
         before it; seconds : of all solves; gap : what stands against the motion of a solved problem
     """
@@ -62,7 +65,8 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
     around = surroundings(subject.path, subject.drone, breaks)
     wanted = wishes(subject, breaks)
     guide = restrict(leg.curve.channels(0, 1, 2), breaks)
-    hulls, start, share = guide.ctrl, guess(guide, breaks), NEARLY
+    over = passes(subject, breaks, wanted)
+    hulls, start, share = guide.ctrl, guess(led(guide, wanted, over), breaks), NEARLY
     best: tuple[Piecewise, ClockSolution] | None = None
     first: ClockSolution | None = None
     gap: Gap | None = None
@@ -70,7 +74,8 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
     rounds = 0
     while rounds < ROUNDS:
         rounds += 1
-        task = problem(subject, breaks, wanted, around.half_spaces(hulls, reach, SHARE), share, start)
+        planes = held(around.half_spaces(hulls, reach, SHARE), wanted, over)
+        task = problem(subject, breaks, wanted, planes, share, start)
         solution, failed = _solved(task)
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
         if solution.status != "solved":
@@ -90,11 +95,11 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
         hulls, start = found.ctrl, (solution.states, solution.inputs)
     if best is None:
         return ClockRefined(leg.shot, None, breaks, rounds, solution, seconds, first, gap)
-    whole = _filmed(subject, best[0])
-    unaimed = Gap(leg.start, "the camera's limits", float("nan"), "")
-    return ClockRefined(
-        leg.shot, whole, breaks, rounds, best[1], seconds, first, None if whole is not None else unaimed
-    )
+    whole, unaimed = _filmed(subject, best[0]), Gap(leg.start, "the camera's limits", float("nan"), "")
+    if whole is None:
+        return ClockRefined(leg.shot, None, breaks, rounds, best[1], seconds, first, unaimed)
+    worse = astray(subject, whole) > max(ALLOWED, astray(subject, leg))
+    return ClockRefined(leg.shot, None if worse else whole, breaks, rounds, best[1], seconds, first, None)
 
 
 def _solved(task: ClockProblem) -> tuple[ClockSolution, ClockSolution | None]:

@@ -26,6 +26,7 @@ FIELDS = {
     "length": 1,
     "ideal": 3,
     "place": 1,
+    "leash": 1,
     "target": 12,
     "jerk": 1,
     "turn": 6,
@@ -36,7 +37,8 @@ FIELDS = {
 """The parameters of a stage and their sizes; half-spaces follow, PLANE numbers each.
 
 length : seconds
-ideal : where the camera would be, W, metres; place : weight of the squared distance to it
+ideal : where the camera would be, W, metres; place : weight of the squared distance to it, which grows by ``leash`` 1/m^2
+    of it
 target : its position, velocity, acceleration and jerk
 jerk : weight of the camera's squared jerk
 turn : weights of the squares of the ray's yaw and pitch rate, acceleration and jerk, as in ``Turning``
@@ -69,7 +71,8 @@ def stage(planes: int) -> Stage:
         + h * ca.dot(given["turn"], turned**2)
         + h * given["price"] * u[SLACK]
     )
-    node = given["place"] * ca.sumsqr(place - given["ideal"])
+    off = ca.sumsqr(place - given["ideal"])
+    node = given["place"] * off * (1 + given["leash"] * off)
     middle = v + h * a / 2
     low, high = given["steep"][0], given["steep"][1]
     room = given["free"] + u[SLACK]

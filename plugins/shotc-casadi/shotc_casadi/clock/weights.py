@@ -8,6 +8,7 @@ of the ray to the target (the camera's yaw and pitch; Eq. 12 of Alcantara et al.
 from __future__ import annotations
 
 PLACE = 1.0
+LEASH = 0.2  # of the usual distance: as far off, the place weighs twice as much
 PLACED = 1e4  # instead, where the author gave the places
 JERK = 0.5**6  # s^6: wiggles of the place shorter than half a second vanish, as in the convex guide
 TURN = (0.0, 0.0, 0.5, 0.5, 0.25, 0.25)  # s^2, s^4, s^6: yaw and pitch rate, acceleration, jerk
