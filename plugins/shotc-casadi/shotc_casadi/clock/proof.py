@@ -51,7 +51,7 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
 
 
 def astray(subject: ClockSubject, leg: TimedLeg) -> float:
-    """Return the most by which a camera misses the aim that puts its subject in its place, in the film, rad."""
+    """Return the most by which a camera misses the aim that its subject asks for, in the film, rad."""
     watched, drone = subject.watched, subject.drone
     if watched is None:
         return 0.0

@@ -37,8 +37,8 @@ FIELDS = {
 """The parameters of a stage and their sizes; half-spaces follow, PLANE numbers each.
 
 length : seconds
-ideal : where the camera would be, W, metres; place : weight of the squared distance to it, which grows by ``leash`` 1/m^2
-    of it
+ideal : where the camera would be, W, metres; place : weight of the squared distance to it
+leash : 1/m^2, by which that weight grows with the squared distance
 target : its position, velocity, acceleration and jerk
 jerk : weight of the camera's squared jerk
 turn : weights of the squares of the ray's yaw and pitch rate, acceleration and jerk, as in ``Turning``
