@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -49,7 +50,7 @@ def test_more_weight_on_pitch_goes_wider_and_turns_the_camera_more_calmly() -> N
         flown()[name].measures for name in ("no cinematography", "low pitch", "medium pitch", "high pitch")
     ]
     for column in (DIST, RMSE, ACC):
-        assert all(a[column] < b[column] for a, b in zip(order, order[1:], strict=False))
+        assert all(a[column] < b[column] for a, b in pairwise(order))
     for column in (YAW_JERK, PITCH_JERK):
         plain, low, *rest = (m[column] for m in order)
         assert low < 0.1 * plain

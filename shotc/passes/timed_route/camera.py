@@ -116,9 +116,10 @@ def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Arra
         return yaw
     course = _motion(position.derivative()(times)[:, :2])
     low, high = drone.gimbal.yaw
-    relative = yaw - course
-    relative -= 2 * np.pi * np.round((relative - 0.5 * (low + high)) / (2 * np.pi))
-    return np.asarray(yaw - np.clip(np.unwrap(relative), low, high))
+    relative = np.unwrap(yaw - course)
+    # Most of the time counts: at its ends a slow motion may go any way.
+    relative -= 2 * np.pi * np.round((np.median(relative) - 0.5 * (low + high)) / (2 * np.pi))
+    return np.asarray(yaw - np.clip(relative, low, high))
 
 
 def _motion(velocity: Array) -> Array:
