@@ -32,32 +32,35 @@ class Turned:
     status: Status
 
 
-def turn(
-    mission: MissionIR,
-    drone: Drone,
-    subject: PlacedSubject | Vec2 | None,
-    clock: Clock,
-    position: Piecewise,
-) -> Turned:
-    """Return the camera's angles along a position curve.
+@dataclass(frozen=True, slots=True, eq=False)
+class Watch:
+    """Whose camera turns and what it watches.
 
     subject : that the camera follows, or (yaw, pitch) that it keeps, rad, or None to look where it goes
+    ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
     """
+
+    mission: MissionIR
+    drone: Drone
+    subject: PlacedSubject | Vec2 | None
+    ends: Array | None = None
+
+
+def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
+    """Return the camera's angles along a position curve."""
+    drone = watch.drone
     breaks = clock.breaks
     inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
     rows = value_rows(breaks, times)
-    aims = _aims(mission, drone, subject, times, position)
+    aims = _aims(watch, times, position)
     step = np.diff(breaks)[rows.piece] / SAMPLES
     filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT) * step
     across = np.maximum(np.cos(aims[:, 1]), 0.03)
     wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
     goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(breaks)
-    rest = at_rest(breaks)
-    problem = SplineProblem(
-        count(breaks), goals, Equalities(rest, np.zeros((len(rest.piece), 3))), _bounds(drone, breaks), ()
-    )
+    problem = SplineProblem(count(breaks), goals, _ends(watch, breaks), _bounds(drone, breaks), ())
     solved = minimise(problem)
     if solved.coef is None:
         return Turned(None, solved.status)
@@ -67,18 +70,31 @@ def turn(
     return Turned(spline(breaks, coef), solved.status)
 
 
-def _aims(
-    mission: MissionIR, drone: Drone, subject: PlacedSubject | Vec2 | None, times: Array, position: Piecewise
-) -> Array:
+def _ends(watch: Watch, breaks: Array) -> Equalities:
+    """Return the rest at both ends, and the angles there where they are given."""
+    rest = at_rest(breaks)
+    still = np.zeros((len(rest.piece), 3))
+    if watch.ends is None:
+        return Equalities(rest, still)
+    values = control_rows(breaks)
+    rows = Rows(
+        np.concatenate([rest.piece, values.piece[[0, -1]]]),
+        np.concatenate([rest.weight, values.weight[[0, -1]]]),
+    )
+    return Equalities(rows, np.concatenate([still, watch.ends]))
+
+
+def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
     """Return the yaw and the pitch that put the subject in its place, unwrapped; shape (M, 2)."""
+    drone, subject = watch.drone, watch.subject
     if isinstance(subject, tuple) and not isinstance(subject, PlacedSubject):
         return np.tile(np.array(subject), (len(times), 1))
     places = position(times)[:, :3]
     velocity = position.derivative()(times)[:, :2]
     if subject is None:
         yaw = _motion(velocity)
-        return np.column_stack([yaw, np.zeros(len(times))])
-    target = mission.target(subject.target)
+        return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])
+    target = watch.mission.target(subject.target)
     uv = subject.reference or (0.0, 0.0)
     found = np.zeros((len(times), 2))
     last = (0.0, 0.0)
@@ -87,7 +103,14 @@ def _aims(
         last = aim_at((x, y, z), uv, drone.hfov, drone.aspect, last[0]) or last
         found[i] = last
     low, high = drone.gimbal.pitch
-    return np.column_stack([np.unwrap(found[:, 0]), np.clip(found[:, 1], low, high)])
+    return np.column_stack([_wound(watch, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
+
+
+def _wound(watch: Watch, yaw: Array) -> Array:
+    """Return a yaw by whole turns on the winding of the angle that it begins in, if one is given."""
+    if watch.ends is None:
+        return yaw
+    return np.asarray(yaw + 2 * np.pi * np.round((watch.ends[0, YAW] - yaw[0]) / (2 * np.pi)))
 
 
 def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Array:
@@ -96,9 +119,10 @@ def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Arra
         return yaw
     course = _motion(position.derivative()(times)[:, :2])
     low, high = drone.gimbal.yaw
-    relative = yaw - course
-    relative -= 2 * np.pi * np.round((relative - 0.5 * (low + high)) / (2 * np.pi))
-    return np.asarray(yaw - np.clip(np.unwrap(relative), low, high))
+    relative = np.unwrap(yaw - course)
+    # Most of the time counts: at its ends a slow motion may go any way.
+    relative -= 2 * np.pi * np.round((np.median(relative) - 0.5 * (low + high)) / (2 * np.pi))
+    return np.asarray(yaw - np.clip(relative, low, high))
 
 
 def _motion(velocity: Array) -> Array:

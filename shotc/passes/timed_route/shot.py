@@ -13,7 +13,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
-from shotc.passes.timed_route.camera import turn
+from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import clock_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly
@@ -66,7 +66,7 @@ def timed_shot(
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
     kept = None if shot.ideal is None else shot.ideal.aim
-    turned = turn(mission, drone, kept or subject, clock, flown.curve)
+    turned = turn(Watch(mission, drone, kept or subject), clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
     lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)
