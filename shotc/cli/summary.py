@@ -38,12 +38,15 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
 def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     """Return a heading and one row a shot: name, kind, when, how long, and what the framing is worth."""
     kinds = {shot.id: shot.kind for shot in plan.trajectory.keyframes.mission.shots}
+    several = len(plan.trajectory.drones) > 1
+    head = ("drone",) if several else ()
     rows: list[tuple[str, ...]] = [
-        ("shot", "kind", "from", "lasts", "target in frame", "screen error", "size")
+        (*head, "shot", "kind", "from", "lasts", "target in frame", "screen error", "size")
     ]
     for drone in plan.trajectory.drones:
+        who = (drone.drone,) if several else ()
         rows += [
-            (phase.shot, kinds[phase.shot], *_shot(plan.certificate, phase))
+            (*who, phase.shot, kinds[phase.shot], *_shot(plan.certificate, phase))
             for phase in drone.phases
             if phase.shot is not None
         ]
@@ -95,13 +98,17 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def _used(certificate: Iterable[Claim]) -> list[str]:
+    """Tell how much of each limit is used, by the drone that uses most of it where several fly."""
+    found = [claim for claim in certificate if claim.constraint in LIMITS]
+    several = len({claim.subject for claim in found}) > 1
     texts = []
-    for claim in certificate:
-        if claim.constraint in LIMITS:
-            scale, unit = (
-                (degrees(1), claim.unit.replace("rad", "deg")) if "rad" in claim.unit else (1.0, claim.unit)
-            )
-            texts.append(f"{claim.constraint} {claim.worst * scale:.3g} of {claim.limit * scale:.3g} {unit}")
+    for name in dict.fromkeys(claim.constraint for claim in found):
+        most = max((c for c in found if c.constraint == name), key=lambda c: c.worst / c.limit)
+        scale, unit = (
+            (degrees(1), most.unit.replace("rad", "deg")) if "rad" in most.unit else (1.0, most.unit)
+        )
+        who = f" ({most.subject})" if several else ""
+        texts.append(f"{name} {most.worst * scale:.3g} of {most.limit * scale:.3g} {unit}{who}")
     return texts
 
 

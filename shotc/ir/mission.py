@@ -163,12 +163,14 @@ class Ideal(NamedTuple):
     target : its name, None in the world
     points : (share of the shot's time, offset in metres), shares rising from 0 to 1; even between them
     placed : True where the user gave the positions, False where a kind generated them
+    aim : (yaw, pitch) that the camera keeps, rad, or None where it follows the shot's subjects
     """
 
     frame: Literal["world", "target", "heading", "about"]
     target: str | None
     points: tuple[tuple[float, Vec3], ...]
     placed: bool = False
+    aim: Vec2 | None = None
 
 
 class Subject(NamedTuple):

@@ -21,6 +21,7 @@ from shotc.passes.resolve.earth import check_earth, geo_origin
 from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.geometry import check_places
+from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.ideals import check_ideal
 from shotc.passes.resolve.names import check_names, once
@@ -102,6 +103,8 @@ class Resolve:
         faults += _static_faults(
             mission, geometry=not astray, timing=not drone_faults, order=not has_errors(faults)
         )
+        if not has_errors(faults):
+            faults += check_grammar(mission, allowed(spec))
         return Outcome(None if stops(faults) else mission, tuple(faults))
 
 

@@ -7,11 +7,13 @@ it are timed here as the time pass will time them.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.parameterize_time.estimate import leg_motion, leg_time
 from shotc.passes.parameterize_time.flight import Flight as Timed
 from shotc.passes.solve_path_qp.departure import Then, Way, choose
@@ -28,8 +30,7 @@ from shotc.passes.solve_path_qp.legs import (
 )
 from shotc.passes.solve_path_qp.shots import Failure, ShotCurve
 from shotc.passes.timed_route.clock import lead_in
-from shotc.passes.timed_route.moving import Moving
-from shotc.passes.timed_route.shot import NoMotion, TimedShot, timed_shot
+from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_shot
 
 TRIES = 6
 LATE = 1e-6  # seconds
@@ -65,7 +66,7 @@ class Flown:
 
     mission: MissionIR
     flight: Flight
-    moving: tuple[Moving, ...]
+    around: Around
     ends: dict[str, float]
     legs: list[Leg | TimedLeg] = field(default_factory=list)
     clock: float = 0.0
@@ -84,9 +85,8 @@ class Flown:
     def home(self) -> Failure | None:
         """Add the way home."""
         pose = end_of(self.legs)
-        way = choose(
-            self.mission, self.drone, self.moving, lambda lift: self._back(pose, lift), (self.clock, None)
-        )
+        span = (self.clock, None)
+        way = choose(self.mission, self.drone, self.around, partial(self._back, pose), span)
         if way is None:
             back = way_home(self.flight, pose)
             assert not isinstance(back, list)
@@ -94,8 +94,8 @@ class Flown:
         self._take(way)
         return None
 
-    def track(self) -> Piecewise:
-        """Return where the drone is over mission time, channels x, y, z: as the time pass will fly it."""
+    def track(self) -> DroneTrajectory:
+        """Return the drone's flight as far as it is planned, as the time pass will fly it."""
         flight = Timed(self.drone.name)
         for leg in self.legs:
             if isinstance(leg, TimedLeg):
@@ -109,7 +109,7 @@ class Flown:
             flight.wait(max(flight.clock, leg.start or 0.0, self.ends.get(waits or "", 0.0)), leg.pose)
             if motion is not None:
                 flight.fly(leg, motion)
-        return flight.trajectory().curve.channels(0, 1, 2)
+        return flight.trajectory()
 
     def _back(self, pose: Pose, lift: float) -> list[Leg] | None:
         """Return the way home, over a height that is so many metres more than its ends'."""
@@ -165,7 +165,7 @@ class Flown:
             down = way_to(self.flight, top, near, path)
             return [*lift, *up, *down] if isinstance(up, list) and isinstance(down, list) else None
 
-        found = choose(self.mission, self.drone, self.moving, over, (self.clock, due), then)
+        found = choose(self.mission, self.drone, self.around, over, (self.clock, due), then)
         assert found is not None
         return found
 
@@ -200,7 +200,7 @@ class Flown:
         outside = self._outside(placed, start)
         if outside is not None:
             return outside
-        made = timed_shot(self.mission, self.drone, self.flight.room, self.moving, placed, start)
+        made = timed_shot(self.mission, self.drone, self.flight.room, self.around, placed, start)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)

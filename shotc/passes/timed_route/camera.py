@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
-from shotc.geom.camera import aim_at
+from shotc.geom.camera import Vec2, aim_at
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.mission import Drone, MissionIR
 from shotc.passes.timed_route.clock import Clock
@@ -33,9 +33,16 @@ class Turned:
 
 
 def turn(
-    mission: MissionIR, drone: Drone, subject: PlacedSubject | None, clock: Clock, position: Piecewise
+    mission: MissionIR,
+    drone: Drone,
+    subject: PlacedSubject | Vec2 | None,
+    clock: Clock,
+    position: Piecewise,
 ) -> Turned:
-    """Return the camera's angles along a position curve."""
+    """Return the camera's angles along a position curve.
+
+    subject : that the camera follows, or (yaw, pitch) that it keeps, rad, or None to look where it goes
+    """
     breaks = clock.breaks
     inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
@@ -61,9 +68,11 @@ def turn(
 
 
 def _aims(
-    mission: MissionIR, drone: Drone, subject: PlacedSubject | None, times: Array, position: Piecewise
+    mission: MissionIR, drone: Drone, subject: PlacedSubject | Vec2 | None, times: Array, position: Piecewise
 ) -> Array:
     """Return the yaw and the pitch that put the subject in its place, unwrapped; shape (M, 2)."""
+    if isinstance(subject, tuple) and not isinstance(subject, PlacedSubject):
+        return np.tile(np.array(subject), (len(times), 1))
     places = position(times)[:, :3]
     velocity = position.derivative()(times)[:, :2]
     if subject is None:
