@@ -17,11 +17,12 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
-from shotc.passes.base import PassContext, silent
+from shotc.passes.base import Outcome, PassContext, silent
+from shotc.passes.resolve.names import AUTO
 from shotc.pipeline import PassReport, default_passes, front_passes, run, run_refined
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_BYTES
-from shotc.spec.load import load
+from shotc.spec.load import LoadedMission, load
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.emission import Crew
@@ -132,9 +133,11 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     if loaded.mission is None or has_errors(found):
         return Compilation(None, (), tuple(found), sources)
     ctx = PassContext(options.seed, options.progress, options.headings)
-    front = run(
-        front_passes(kinds.plugins, plugins.names("emitters")), loaded.mission, ctx, options.stop_after
-    )
+    chosen = _with_drones(loaded.mission, kinds.plugins, ctx)
+    found += chosen.diagnostics
+    if chosen.value is None:
+        return Compilation(None, (), tuple(found), sources)
+    front = run(front_passes(kinds.plugins, plugins.names("emitters")), chosen.value, ctx, options.stop_after)
     found += front.diagnostics
     if front.value is None or not isinstance(front.value, KeyframeIR):
         return Compilation(None, front.reports, tuple(found), sources)
@@ -153,6 +156,20 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     # What was stopped on purpose is no plan to write, not even after the last pass.
     plan = None if options.stop_after or has_errors(found) else back.value
     return Compilation(plan, front.reports + back.reports, tuple(found), sources)
+
+
+def _with_drones(
+    mission: LoadedMission, kinds: Mapping[str, Any], ctx: PassContext
+) -> Outcome[LoadedMission]:
+    """Choose the drones of shots that leave that open; it takes a solver, so checking does without."""
+    if not any(shot.drone == AUTO for shot in mission.spec.shots):
+        return Outcome(mission)
+    missing = _missing_libraries("planning", SOLVERS)
+    if missing:
+        return Outcome(None, missing)
+    from shotc.passes.assign_drones import AssignDrones
+
+    return AssignDrones(kinds).run(mission, ctx)
 
 
 def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic, ...]]:

@@ -23,6 +23,7 @@ from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.turns import steady
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
+from shotc.passes.timed_route.pictures import least_out
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
@@ -57,6 +58,7 @@ __all__ = [
     "frustum_margins",
     "ideal_place",
     "kept",
+    "least_out",
     "leg_of",
     "places",
     "quintic_hermite",

@@ -13,6 +13,7 @@ from shotc.ir.trajectory import Claim, Phase, VerifiedIR
 
 WIDTH = 100
 GLUE = "\N{NO-BREAK SPACE}"
+APART, OUT = "separation from ", " out of the picture"
 LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
 
 
@@ -37,12 +38,15 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
 def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     """Return a heading and one row a shot: name, kind, when, how long, and what the framing is worth."""
     kinds = {shot.id: shot.kind for shot in plan.trajectory.keyframes.mission.shots}
+    several = len(plan.trajectory.drones) > 1
+    head = ("drone",) if several else ()
     rows: list[tuple[str, ...]] = [
-        ("shot", "kind", "from", "lasts", "target in frame", "screen error", "size")
+        (*head, "shot", "kind", "from", "lasts", "target in frame", "screen error", "size")
     ]
     for drone in plan.trajectory.drones:
+        who = (drone.drone,) if several else ()
         rows += [
-            (phase.shot, kinds[phase.shot], *_shot(plan.certificate, phase))
+            (*who, phase.shot, kinds[phase.shot], *_shot(plan.certificate, phase))
             for phase in drone.phases
             if phase.shot is not None
         ]
@@ -76,6 +80,7 @@ def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
 def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
+    facts += [("drones", text) for text in _together(plan)]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
     facts.append(
@@ -93,19 +98,30 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def _used(certificate: Iterable[Claim]) -> list[str]:
+    """Tell how much of each limit is used, by the drone that uses most of it where several fly."""
+    found = [claim for claim in certificate if claim.constraint in LIMITS]
+    several = len({claim.subject for claim in found}) > 1
     texts = []
-    for claim in certificate:
-        if claim.constraint in LIMITS:
-            scale, unit = (
-                (degrees(1), claim.unit.replace("rad", "deg")) if "rad" in claim.unit else (1.0, claim.unit)
-            )
-            texts.append(f"{claim.constraint} {claim.worst * scale:.3g} of {claim.limit * scale:.3g} {unit}")
+    for name in dict.fromkeys(claim.constraint for claim in found):
+        most = max((c for c in found if c.constraint == name), key=lambda c: c.worst / c.limit)
+        scale, unit = (
+            (degrees(1), most.unit.replace("rad", "deg")) if "rad" in most.unit else (1.0, most.unit)
+        )
+        who = f" ({most.subject})" if several else ""
+        texts.append(f"{name} {most.worst * scale:.3g} of {most.limit * scale:.3g} {unit}{who}")
     return texts
 
 
 def _closest(certificate: Iterable[Claim]) -> list[str]:
     near = [
-        c for c in certificate if c.unit == "m" and not c.upper and isfinite(c.worst) and isfinite(c.limit)
+        c
+        for c in certificate
+        if c.unit == "m"
+        and not c.upper
+        and isfinite(c.worst)
+        and isfinite(c.limit)
+        and not c.constraint.startswith(APART)
+        and not c.constraint.endswith(OUT)
     ]
     near.sort(key=lambda c: c.worst - c.limit)
     return [
@@ -113,6 +129,33 @@ def _closest(certificate: Iterable[Claim]) -> list[str]:
         + ("" if c.time is None else f" at {clock(c.time)}")
         for c in near[:2]
     ]
+
+
+def _together(plan: VerifiedIR) -> list[str]:
+    """Tell, where several drones fly, how near two of them come, and who is in whose picture."""
+    apart = [c for c in plan.certificate if c.constraint.startswith(APART)]
+    if not apart:
+        return []
+    near = min(apart, key=lambda c: c.worst)
+    other = near.constraint.removeprefix(APART)
+    text = f"{near.subject} and {other} come nearest, {near.worst:.2f} m, {near.limit:.2f} m needed"
+    return [text + ("" if near.time is None else f", at {clock(near.time)}") + f"; {_pictures(plan)}"]
+
+
+def _pictures(plan: VerifiedIR) -> str:
+    rules = plan.trajectory.keyframes.mission.rules
+    if rules.visibility == "off":
+        return "pictures are not judged"
+    whose = (
+        "another's picture"
+        if rules.half_angle is None
+        else f"the {degrees(rules.half_angle):.3g} deg about another's optical axis"
+    )
+    seen = [c for c in plan.certificate if c.constraint.endswith(OUT) and not c.holds]
+    if not seen:
+        return f"none is in {whose}"
+    said = [f"{c.constraint.removesuffix(OUT)} in that of {c.subject} (shot {c.shot})" for c in seen]
+    return f"in {whose}: {', '.join(said)}"
 
 
 def _files(paths: Sequence[Path]) -> list[str]:

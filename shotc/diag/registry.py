@@ -15,6 +15,7 @@ FAMILIES = {
     "G": ("geometry", "geometry and framing"),
     "K": ("keyframes", "keyframes and kinds"),
     "M": ("motion", "moving targets"),
+    "F": ("grammar", "film grammar"),
     "Q": ("convex", "convex solve"),
     "R": ("refinement", "refinement"),
     "T": ("timing", "timing"),

@@ -163,12 +163,14 @@ class Ideal(NamedTuple):
     target : its name, None in the world
     points : (share of the shot's time, offset in metres), shares rising from 0 to 1; even between them
     placed : True where the user gave the positions, False where a kind generated them
+    aim : (yaw, pitch) that the camera keeps, rad, or None where it follows the shot's subjects
     """
 
     frame: Literal["world", "target", "heading", "about"]
     target: str | None
     points: tuple[tuple[float, Vec3], ...]
     placed: bool = False
+    aim: Vec2 | None = None
 
 
 class Subject(NamedTuple):
@@ -231,11 +233,18 @@ class Shot(NamedTuple):
 
 
 class Rules(NamedTuple):
-    """Mission-wide rules, metres."""
+    """Mission-wide rules, metres.
+
+    visibility : how strictly drones keep out of each other's pictures
+    half_angle : half the opening of the cone about a camera's axis that they keep out of, rad; None for
+        the frame itself
+    """
 
     separation: float
     ground_clearance: float
     target_clearance: float
+    visibility: Literal["require", "prefer", "off"] = "prefer"
+    half_angle: float | None = None
 
 
 class Deferred(NamedTuple):

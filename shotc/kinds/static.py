@@ -1,16 +1,20 @@
 """Static: the camera stands still and films."""
 
+from math import pi
 from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred, Ideal
+from shotc.geom.camera import aim_at, yaw_of
+from shotc.ir.mission import Composition, Deferred, Ideal, Vec2
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.kinds.moving import evenly, timed
 from shotc.spec.fields import Angle, LookAt, Pitch, Position
 from shotc.spec.model import OneOf
 from shotc.spec.shot import AIM, ShotBase
+
+WATCH = Composition("fixed")  # the camera does not turn to its target
 
 
 class StaticShot(ShotBase):
@@ -27,24 +31,39 @@ class StaticShot(ShotBase):
 
 def expand(shot: StaticShot, scene: Scene) -> Expansion:
     """Return one keyframe, held for the shot's duration; of a target that moves, the place to watch from."""
-    followed = shot.target if shot.look_at is None else shot.look_at
-    if isinstance(followed, str) and shot.heading is None:
-        target = scene.targets.get(followed)
-        if target is not None and target.track is not None:
-            ideal = Ideal("world", None, evenly([scene.place(shot.at)]), placed=True)
-            return timed(shot, scene, ideal, (scene.framed(shot, followed),), lasts=STILL)
-    aim = scene.aim(shot, shot)
-    if isinstance(aim, Diagnostic | Deferred):
-        return Expansion.of([aim])
+    followed = shot.look_at if isinstance(shot.look_at, str) else shot.target
+    target = None if followed is None else scene.targets.get(followed)
+    if followed is not None and target is not None and target.track is not None:
+        aim = _kept(shot, scene)
+        subject = scene.framed(shot, followed)
+        if aim is not None:
+            subject = subject._replace(composition=WATCH)
+        ideal = Ideal("world", None, evenly([scene.place(shot.at)]), placed=True, aim=aim)
+        return timed(shot, scene, ideal, (subject,), lasts=STILL)
+    found = scene.aim(shot, shot)
+    if isinstance(found, Diagnostic | Deferred):
+        return Expansion.of([found])
     keyframe = scene.keyframe(
         scene.place(shot.at),
-        aim[1],
-        aim=aim[0],
+        found[1],
+        aim=found[0],
         hold=shot.timing.duration or STILL,
         placed=True,
         path=scene.path,
     )
     return Expansion.of([keyframe])
+
+
+def _kept(shot: StaticShot, scene: Scene) -> Vec2 | None:
+    """Return (yaw, pitch) of a camera that looks one way while its target goes through the picture."""
+    if shot.heading is not None and shot.pitch is not None:
+        return (yaw_of(shot.heading), shot.pitch)
+    if shot.look_at is None or isinstance(shot.look_at, str):
+        return None
+    point, eye = scene.place(shot.look_at), scene.place(shot.at)
+    # The middle of the screen can be turned to any point but the camera's own place.
+    offset = (point[0] - eye[0], point[1] - eye[1], point[2] - eye[2])
+    return aim_at(offset, (0.0, 0.0), 1.0, 1.0) or (pi / 2, 0.0)
 
 
 KIND = Kind("static", "stand still and film", StaticShot, expand)

@@ -35,6 +35,9 @@ def inconsistencies(ir: TrajectoryIR) -> Iterator[Fault]:
 def _mission(mission: MissionIR) -> Iterator[Fault]:
     if not 0 < mission.rate <= 1000:
         yield "mission.rate", f"{mission.rate:g} is not between 0 and 1000 samples a second"
+    half_angle = mission.rules.half_angle
+    if half_angle is not None and not 0 < half_angle <= pi / 2:
+        yield "mission.rules.half_angle", f"{half_angle:g} rad is not between 0 and a right angle"
     for i, zone in enumerate(mission.zones):
         text = _solid(zone.solid)
         if text:

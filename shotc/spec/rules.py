@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from shotc.spec import presets
+from shotc.spec.allow import Allowed
 from shotc.spec.compositions import COMPOSITIONS
 from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace
 from shotc.spec.model import Model
@@ -44,6 +45,7 @@ class RulesSpec(Model):
         default=None, description="whether drones keep out of each other's pictures"
     )
     pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
+    allow: Allowed = Field(default=(), description="warnings of film grammar that are not told, by name")
 
 
 class OutputSpec(Model):

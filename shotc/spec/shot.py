@@ -9,6 +9,7 @@ from pydantic import Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
+from shotc.spec.allow import Allowed
 from shotc.spec.faults import fault
 from shotc.spec.fields import (
     CompositionSet,
@@ -123,6 +124,9 @@ class ShotBase(Model):
     )
     require: RequireSpec = section("what the shot promises")
     refine: RefineSpec = section("how refinement is used")
+    allow: Allowed = Field(
+        default=(), description="warnings of film grammar that are not told of this shot, by name"
+    )
 
 
 class KeyframeSpec(Model):

@@ -151,4 +151,18 @@ CODES: tuple[CodeInfo, ...] = (
         "a whole turn, or let the camera turn between keyframes that frame nothing.",
         ("{at: [45, -20, 15], look_at: tower}", "{at: [45, -20, 15], heading: 654 deg, pitch: -4 deg}"),
     ),
+    _code(
+        14,
+        "no-drone-to-choose",
+        "no choice of drones films every shot that says `drone: auto` in time",
+        "`drone: auto` leaves it to the compiler who films a shot. A drone films one shot at a time, has to get "
+        "from one to the next, and has to be home before its endurance ends. Here the drones of the mission are "
+        "too few, too slow or too far away. Add a drone, move a shot in time, or bring a home nearer.",
+        (
+            "{id: above, kind: top-down, drone: cam1, target: tower, altitude: 60, drift: [1, 0, 0],\n"
+            "     timing: {start: 100, duration: 10}}",
+            "{id: above, kind: top-down, drone: auto, target: tower, altitude: 60, drift: [1, 0, 0],\n"
+            "     timing: {start: 50, duration: 10}}",
+        ),
+    )._replace(phase="plan"),
 )

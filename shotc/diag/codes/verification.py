@@ -270,6 +270,18 @@ _FRAMING = (
         ),
     ),
     _code(
+        25,
+        "drone-in-required-picture",
+        (
+            "a drone is in another one's picture, and the mission requires that none is",
+            "With `rules: {mutual_visibility: {strength: require}}` the body sphere of every other drone stays "
+            "outside of the frame of a drone that films, beyond one of its edges or behind the camera, or outside "
+            "of the cone about the optical axis where `half_angle` is given. That counts in all phases of the other "
+            "drone, also on its pad, and also where a target or a zone would hide it. It is proved between frames, "
+            "too. Film at another time or from another side, or prefer it only.",
+        ),
+    ),
+    _code(
         30,
         "target-cropped",
         (
@@ -299,6 +311,18 @@ _FRAMING = (
             "once a shot, with the worst frame, its time, and what of the gimbal and of the space around is at its "
             "limit there. Loosen that or move the keyframes beside it. State `require: {screen_error: ...}` to have "
             "the shot held to it; then it is an error. A shot without a composition is not judged.",
+        ),
+        severity=Severity.WARNING,
+    ),
+    _code(
+        33,
+        "drone-in-picture",
+        (
+            "a drone is in another one's picture",
+            "The plan keeps drones out of each other's pictures where it can, unless the mission says otherwise; "
+            "here it could not. The first frame that shows the drone, the worst one and the share of the shot are "
+            "told. Film at another time or from another side. `rules: {mutual_visibility: {strength: require}}` "
+            'makes it an error, `strength: "off"` has it not judged. See V025 for what counts as in the picture.',
         ),
         severity=Severity.WARNING,
     ),

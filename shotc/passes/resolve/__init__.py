@@ -21,6 +21,7 @@ from shotc.passes.resolve.earth import check_earth, geo_origin
 from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.geometry import check_places
+from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.ideals import check_ideal
 from shotc.passes.resolve.names import check_names, once
@@ -32,6 +33,7 @@ from shotc.passes.resolve.world import check_targets, drones, resolve_drone, tar
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE
+from shotc.spec.rules import RulesSpec
 
 ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
 
@@ -57,7 +59,7 @@ class Resolve:
         put = partial(placed, origin or ANYWHERE)
         found_zones, zone_faults = zones(spec, put, origins)
         found_drones, drone_faults = drones(spec, put, origins)
-        rules = Rules(spec.rules.separation, spec.rules.ground_clearance, spec.rules.target_clearance)
+        rules = _rules(spec.rules)
         read = partial(read_file, ir.folder, origins)
         tracks = read_tracks(spec, put, Ground(origin, origins, read))
         found_targets = targets(spec, put, tracks.tracks)
@@ -101,7 +103,20 @@ class Resolve:
         faults += _static_faults(
             mission, geometry=not astray, timing=not drone_faults, order=not has_errors(faults)
         )
+        if not has_errors(faults):
+            faults += check_grammar(mission, allowed(spec))
         return Outcome(None if stops(faults) else mission, tuple(faults))
+
+
+def _rules(spec: RulesSpec) -> Rules:
+    visibility = spec.mutual_visibility
+    return Rules(
+        spec.separation,
+        spec.ground_clearance,
+        spec.target_clearance,
+        "prefer" if visibility is None else visibility.strength,
+        None if visibility is None else visibility.half_angle,
+    )
 
 
 def _static_faults(mission: MissionIR, *, geometry: bool, timing: bool, order: bool) -> list[Diagnostic]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from shotc.ir.mission import Deferred
-from shotc.passes.resolve.names import AUTO
 from shotc.spec.mission import MissionSpec
 
 
@@ -25,10 +24,6 @@ def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
 
 
 def _of_shots(spec: MissionSpec) -> Iterator[Deferred]:
-    filming = [(i, shot.drone) for i, shot in enumerate(spec.shots) if "drone" in shot.model_fields_set]
-    for i, drone in filming:
-        if drone == AUTO:
-            yield Deferred("choosing the drone of a shot (`drone: auto`)", ("shots", i, "drone"))
     for i, shot in enumerate(spec.shots):
         if shot.size is not None:
             yield Deferred("aiming for a size on screen (`size`)", ("shots", i, "size"))

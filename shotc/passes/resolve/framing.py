@@ -44,16 +44,17 @@ def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | N
     if len(keyframe.aim) == 2 or keyframe.target is None:
         low, high = drone.gimbal.pitch
         if not low - TILT <= aim[1] <= high + TILT:
-            return _beyond_gimbal(mission, drone, keyframe, aim[1])
+            key = "pitch" if len(keyframe.aim) == 2 else "look_at"
+            return beyond_gimbal(mission, drone, (*keyframe.path, key), aim[1])
     return None if keyframe.target is None else _unseen(mission, drone, keyframe, aim)
 
 
-def _beyond_gimbal(mission: MissionIR, drone: Drone, keyframe: Keyframe, pitch: float) -> Diagnostic:
+def beyond_gimbal(mission: MissionIR, drone: Drone, path: KeyPath, pitch: float) -> Diagnostic:
+    """Return the fault of a pitch that the gimbal does not reach; ``path`` is where it is written."""
     low, high = (degrees(p) for p in drone.gimbal.pitch)
     asked = degrees(pitch)
-    key = "pitch" if len(keyframe.aim or ()) == 2 else "look_at"
     labels = (
-        mission.origins.value((*keyframe.path, key)),
+        mission.origins.value(path),
         mission.origins.value((*drone.path, "gimbal", "pitch"), "the gimbal's range"),
     )
     return Diagnostic(
@@ -78,7 +79,7 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     if off >= 90.0:
         note = f"it is {off:.0f} deg away from where the camera looks"
         return Diagnostic("G008", f"target `{keyframe.target}` is behind the camera", label, (note,), remedy)
-    if not _shows(setting, aim):
+    if not shows(setting, aim):
         note = (
             f"it is {off:.0f} deg away from the middle of a frame {degrees(setting.hfov):.0f} deg wide; "
             "no part of it is in the picture"
@@ -92,7 +93,7 @@ def _angle_off(setting: Setting, aim: Vec2) -> float:
     return acos(max(-1.0, min(1.0, forward / max(hypot(*setting.offset), 1e-12))))
 
 
-def _shows(setting: Setting, aim: Vec2) -> bool:
+def shows(setting: Setting, aim: Vec2) -> bool:
     """Tell whether any of the target's outline box is in the frame."""
     camera = view(aim[0], aim[1], setting.hfov, setting.aspect)
     if nearest_depth(camera, setting.offset, setting.radius, setting.height) <= 0:

@@ -12,6 +12,8 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.place_keyframes.faults import TILT
+from shotc.passes.resolve.framing import beyond_gimbal
 from shotc.passes.resolve.obstacles import ROUNDING
 from shotc.passes.resolve.timing import timing_label
 
@@ -26,6 +28,7 @@ def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     outside = list(_outside(mission, shot))
     yield from outside
     yield from _low(mission, shot)
+    yield from _tilted(mission, shot)
     if not outside:
         yield from _fast(mission, shot)
 
@@ -88,6 +91,16 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         (f"the ground clearance and the body radius need {need:.2f} m",),
         f"raise it to z = {ceil(need * 100) / 100:.2f}",
     )
+
+
+def _tilted(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell a pitch that a camera is to keep, and that its gimbal does not reach."""
+    if shot.ideal is None or shot.ideal.aim is None:
+        return
+    drone, pitch = mission.drone(shot.drone), shot.ideal.aim[1]
+    if not drone.gimbal.pitch[0] - TILT <= pitch <= drone.gimbal.pitch[1] + TILT:
+        key = "pitch" if (*shot.path, "pitch") in mission.origins.values else "look_at"
+        yield beyond_gimbal(mission, drone, (*shot.path, key), pitch)
 
 
 def _fast(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:

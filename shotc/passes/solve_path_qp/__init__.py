@@ -13,10 +13,10 @@ from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.solve_path_qp.faults import (
     cut_framing,
@@ -34,7 +34,8 @@ from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
 from shotc.passes.timed_route.faults import left_place, stopped_on_clock
 from shotc.passes.timed_route.moving import moving_targets
 from shotc.passes.timed_route.others import other_drones
-from shotc.passes.timed_route.shot import NoMotion
+from shotc.passes.timed_route.shot import Around, NoMotion
+from shotc.passes.timed_route.sights import sights_of
 from shotc.solvers.headings import DEFAULT
 
 
@@ -59,7 +60,7 @@ class SolvePathQp:
         paths: list[DronePath] = []
         timed: list[TimedPath] = []
         ends: dict[str, float] = {}
-        flights: dict[str, Piecewise] = {}
+        flights: dict[str, DroneTrajectory] = {}
         deviations: list[Deviation] = []
         stats: list[tuple[str, float | str]] = []
         diagnostics: list[Diagnostic] = []
@@ -106,12 +107,12 @@ def _plan(
     drone: Drone,
     ctx: PassContext,
     ends: dict[str, float],
-    flights: dict[str, Piecewise],
+    flights: dict[str, DroneTrajectory],
 ) -> _Planned:
     """Plan one drone's legs.
 
-    ends : of the shots planned so far on the mission's clock; flights : of the drones planned so far,
-        channels x, y, z over it; both are added to
+    ends : of the shots planned so far on the mission's clock; flights : of the drones planned so far; both
+        are added to
     """
     mission = ir.mission
     mine = [placed for placed in ir.shots if placed.shot.drone == drone.name]
@@ -143,7 +144,8 @@ def _plan(
     if on_clock(ir):
         curves = {s.shot.shot.id: s for s in shots}
         moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, flights))
-        flown = Flown(mission, Flight(drone, room, top), moving, ends)
+        around = Around(moving, sights_of(mission, drone, flights))
+        flown = Flown(mission, Flight(drone, room, top), around, ends)
         planned = _on_clock(flown, [curves.get(p.shot.id, p) for p in mine], tuple(warnings), ctx)
         if planned.legs:
             flights[drone.name] = flown.track()

@@ -19,6 +19,8 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Leg
 from shotc.passes.parameterize_time.estimate import leg_motion
 from shotc.passes.timed_route.moving import Moving
+from shotc.passes.timed_route.shot import Around
+from shotc.passes.timed_route.sights import seen_on
 
 STEP = 0.05  # seconds between the places that are compared
 COMFORT = 0.5  # metres beyond a clearance: twice what two drones or a target come nearer within a step
@@ -34,12 +36,19 @@ Ways = Callable[[float], list[Leg] | None]
 class Way:
     """Unfilmed legs, the first of which waits for its time.
 
-    end : mission time at which the last one ends; room : least distance on it beyond a clearance, metres
+    end : mission time at which the last one ends
+    room : least distance on it beyond a clearance, metres; unseen : least distance out of a picture
     """
 
     legs: tuple[Leg, ...]
     end: float
-    room: float
+    room: float = inf
+    unseen: float = inf
+
+    @property
+    def clear(self) -> bool:
+        """Whether nothing is met on it."""
+        return self.room >= COMFORT
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,7 +62,7 @@ class Then:
 def choose(
     mission: MissionIR,
     drone: Drone,
-    moving: Sequence[Moving],
+    around: Around,
     ways: Ways,
     span: tuple[float, float | None],
     then: Then | None = None,
@@ -66,21 +75,21 @@ def choose(
     """
     tried: list[Way] = []
     for legs in (found for lift in LIFTS if (found := ways(lift)) is not None):
-        for way in _tries(mission, drone, moving, legs, span, then):
+        for way in _tries(mission, drone, around, legs, span, then):
             in_time = span[1] is None or way.end <= span[1]
-            if way.room >= COMFORT and (in_time or not tried):
+            if way.clear and way.unseen >= 0.0 and (in_time or not tried):
                 return way
             tried.append(way)
-        if not moving:
+        if not around.moving:
             break
     due = inf if span[1] is None else span[1]
-    return max(tried, key=lambda way: (way.end <= due, way.room), default=None)
+    return max(tried, key=lambda way: (way.end <= due, min(way.room, COMFORT), way.unseen), default=None)
 
 
 def _tries(
     mission: MissionIR,
     drone: Drone,
-    moving: Sequence[Moving],
+    around: Around,
     legs: list[Leg],
     span: tuple[float, float | None],
     then: Then | None,
@@ -94,8 +103,8 @@ def _tries(
     for delay in delays:
         leaves = begin + delay
         started = [replace(leg, start=leaves) if i == 0 else leg for i, leg in enumerate(legs)]
-        if not moving:
-            yield Way(tuple(started), leaves + lasts, inf)
+        if not around.moving:
+            yield Way(tuple(started), leaves + lasts)
             return
         until = max(leaves + lasts, due or 0.0, 0.0 if then is None else then.ready)
         film = [] if next_motion is None else [next_motion.curve.channels(0, 1, 2)]
@@ -105,7 +114,9 @@ def _tries(
             inside = times >= until
             places[inside] = curve(np.minimum(times[inside] - until, float(curve.end)))
         upright = _upright(legs, [float(c.end) for c in curves], times - leaves)
-        yield Way(tuple(started), leaves + lasts, _room(moving, times, places, upright))
+        room = _room(around.moving, times, places, upright)
+        unseen = seen_on(drone, around.sights, times, places)
+        yield Way(tuple(started), leaves + lasts, room, unseen)
 
 
 def _places(legs: list[Leg], curves: Sequence[Piecewise], clock: Array) -> Array:

@@ -7,13 +7,14 @@ it are timed here as the time pass will time them.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg
-from shotc.passes.parameterize_time.estimate import leg_motion, leg_time
-from shotc.passes.parameterize_time.flight import Flight as Timed
+from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg, TimedPath
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.passes.parameterize_time.estimate import leg_time
 from shotc.passes.solve_path_qp.departure import Then, Way, choose
 from shotc.passes.solve_path_qp.legs import (
     Flight,
@@ -28,11 +29,10 @@ from shotc.passes.solve_path_qp.legs import (
 )
 from shotc.passes.solve_path_qp.shots import Failure, ShotCurve
 from shotc.passes.timed_route.clock import lead_in
-from shotc.passes.timed_route.moving import Moving
-from shotc.passes.timed_route.shot import NoMotion, TimedShot, timed_shot
+from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_shot
+from shotc.passes.timed_route.surroundings import flight
 
 TRIES = 6
-LATE = 1e-6  # seconds
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
 
 
@@ -65,7 +65,7 @@ class Flown:
 
     mission: MissionIR
     flight: Flight
-    moving: tuple[Moving, ...]
+    around: Around
     ends: dict[str, float]
     legs: list[Leg | TimedLeg] = field(default_factory=list)
     clock: float = 0.0
@@ -84,9 +84,8 @@ class Flown:
     def home(self) -> Failure | None:
         """Add the way home."""
         pose = end_of(self.legs)
-        way = choose(
-            self.mission, self.drone, self.moving, lambda lift: self._back(pose, lift), (self.clock, None)
-        )
+        span = (self.clock, None)
+        way = choose(self.mission, self.drone, self.around, partial(self._back, pose), span)
         if way is None:
             back = way_home(self.flight, pose)
             assert not isinstance(back, list)
@@ -94,22 +93,9 @@ class Flown:
         self._take(way)
         return None
 
-    def track(self) -> Piecewise:
-        """Return where the drone is over mission time, channels x, y, z: as the time pass will fly it."""
-        flight = Timed(self.drone.name)
-        for leg in self.legs:
-            if isinstance(leg, TimedLeg):
-                if flight.clock > leg.curve.start + LATE:
-                    break  # the time pass will refuse it
-                flight.wait(float(leg.curve.start), leg.pose)
-                flight.film(leg)
-                continue
-            motion = leg_motion(self.mission, self.drone, leg)
-            waits = next((s.timing.after for s in self.mission.shots if s.id == leg.shot), None)
-            flight.wait(max(flight.clock, leg.start or 0.0, self.ends.get(waits or "", 0.0)), leg.pose)
-            if motion is not None:
-                flight.fly(leg, motion)
-        return flight.trajectory().curve.channels(0, 1, 2)
+    def track(self) -> DroneTrajectory:
+        """Return the drone's flight as far as it is planned, as the time pass will fly it."""
+        return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
     def _back(self, pose: Pose, lift: float) -> list[Leg] | None:
         """Return the way home, over a height that is so many metres more than its ends'."""
@@ -165,7 +151,7 @@ class Flown:
             down = way_to(self.flight, top, near, path)
             return [*lift, *up, *down] if isinstance(up, list) and isinstance(down, list) else None
 
-        found = choose(self.mission, self.drone, self.moving, over, (self.clock, due), then)
+        found = choose(self.mission, self.drone, self.around, over, (self.clock, due), then)
         assert found is not None
         return found
 
@@ -200,7 +186,7 @@ class Flown:
         outside = self._outside(placed, start)
         if outside is not None:
             return outside
-        made = timed_shot(self.mission, self.drone, self.flight.room, self.moving, placed, start)
+        made = timed_shot(self.mission, self.drone, self.flight.room, self.around, placed, start)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)

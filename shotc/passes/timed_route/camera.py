@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
-from shotc.geom.camera import aim_at
+from shotc.geom.camera import Vec2, aim_at
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.mission import Drone, MissionIR
 from shotc.passes.timed_route.clock import Clock
@@ -36,12 +36,13 @@ class Turned:
 class Watch:
     """Whose camera turns and what it watches.
 
+    subject : that the camera follows, or (yaw, pitch) that it keeps, rad, or None to look where it goes
     ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
     """
 
     mission: MissionIR
     drone: Drone
-    subject: PlacedSubject | None
+    subject: PlacedSubject | Vec2 | None
     ends: Array | None = None
 
 
@@ -86,6 +87,8 @@ def _ends(watch: Watch, breaks: Array) -> Equalities:
 def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
     """Return the yaw and the pitch that put the subject in its place, unwrapped; shape (M, 2)."""
     drone, subject = watch.drone, watch.subject
+    if isinstance(subject, tuple) and not isinstance(subject, PlacedSubject):
+        return np.tile(np.array(subject), (len(times), 1))
     places = position(times)[:, :3]
     velocity = position.derivative()(times)[:, :2]
     if subject is None:

@@ -8,16 +8,17 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import Deviation
 from shotc.passes.solve_path_qp.room import named, owner_path
-from shotc.passes.timed_route.shot import LIMITS, NoMotion
+from shotc.passes.timed_route.shot import LIMITS, PICTURES, NoMotion
 
 
 def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
     """Warn of a stretch on which a shot leaves its place beside its target."""
     shot = next(s for s in mission.shots if s.id == deviation.shot)
     labels: tuple[Label, ...] = (mission.origins.value((*shot.path, "kind")),)
-    if deviation.cause != LIMITS:
+    named_cause = deviation.cause not in {LIMITS, PICTURES}
+    if named_cause:
         labels = (*labels, mission.origins.key(owner_path(mission, deviation.cause), "what stands there"))
-    cause = deviation.cause if deviation.cause == LIMITS else named(deviation.cause)
+    cause = named(deviation.cause) if named_cause else deviation.cause
     return Diagnostic(
         "M008",
         f"shot `{shot.id}` leaves its place by {deviation.distance:.2f} m at t = {deviation.s:.1f} s",

@@ -10,16 +10,16 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import MissionIR
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.timed_route.moving import Moving
 
 POINT = Cylinder((0.0, 0.0), 0.0, 0.0, 0.0)
 
 
-def other_drones(mission: MissionIR, name: str, flights: Mapping[str, Piecewise]) -> tuple[Moving, ...]:
+def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTrajectory]) -> tuple[Moving, ...]:
     """Return every drone but one that films something.
 
-    flights : channels x, y, z over mission time, by drone, of those that are planned; the others count as
-        standing on their pads
+    flights : by drone, of those that are planned; the others count as standing on their pads
     """
     filming = {shot.drone for shot in mission.shots}
     found = []
@@ -27,7 +27,7 @@ def other_drones(mission: MissionIR, name: str, flights: Mapping[str, Piecewise]
         if drone.name == name or drone.name not in filming:
             continue
         flight = flights.get(drone.name)
-        at = partial(_standing, np.array(drone.home)) if flight is None else partial(_flying, flight)
+        at = partial(_standing, np.array(drone.home)) if flight is None else partial(flying, flight.curve)
         found.append(Moving(f"drone {drone.name}", POINT, mission.rules.separation, at, always=True))
     return tuple(found)
 
@@ -36,5 +36,6 @@ def _standing(place: Array, times: Array) -> Array:
     return np.tile(place, (len(times), 1))
 
 
-def _flying(flight: Piecewise, times: Array) -> Array:
-    return np.asarray(flight(np.clip(times, flight.start, flight.end))[:, :3])
+def flying(curve: Piecewise, times: Array) -> Array:
+    """Return where a drone is at times, before and after its flight on its pad; shape (M, 3)."""
+    return np.asarray(curve(np.clip(times, curve.start, curve.end))[:, :3])

@@ -14,6 +14,7 @@ from shotc.ir.mission import Drone, Limits, MissionIR, Shot
 from shotc.passes.solve_path_qp.corridor import Around, with_corridor
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.moving import Even, Sides, shortfalls, sides
+from shotc.passes.timed_route.sights import Kept, Looker, Sights, keep_free
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
     Cones,
@@ -33,6 +34,7 @@ FAINT = 1e-3  # weight of the ideal's course beyond the film's ends, against tha
 UNSEEN = 0.1  # weight of jerk beyond the film's ends, against that in the film
 NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
 ROUNDS = 6
+LOOKS = 5  # rounds in which pictures are kept free
 REACH = 4.0  # metres beyond its clearance within which something that stands counts
 SHARES = (0.5, 0.95)  # as in solve_path_qp.position
 PROVED = 1e-6  # metres
@@ -43,15 +45,27 @@ GAIN = 0.01
 class Task:
     """One shot to be flown.
 
+    looker : who flies, and the subject foremost in the picture
     room : what stands; motions : its obstacles and what moves, even on the clock's pieces
+    sights : whose pictures count
     """
 
-    mission: MissionIR
-    drone: Drone
+    looker: Looker
     shot: Shot
     clock: Clock
     room: Room
     motions: tuple[Even, ...]
+    sights: Sights
+
+    @property
+    def mission(self) -> MissionIR:
+        """The mission."""
+        return self.looker.mission
+
+    @property
+    def drone(self) -> Drone:
+        """Who flies."""
+        return self.looker.drone
 
     @property
     def owners(self) -> tuple[str, ...]:
@@ -69,6 +83,7 @@ class Flown:
     """The position over mission time, or why there is none.
 
     objective : m^2 s; rounds : programmes solved
+    freed : whether it gives way to keep pictures free
     """
 
     curve: Piecewise | None
@@ -76,10 +91,35 @@ class Flown:
     objective: float
     rounds: int
     relaxation: Relaxation | None = None
+    freed: bool = False
 
 
 def fly(task: Task) -> Flown:
-    """Return the position curve of a shot, proved clear by its hulls."""
+    """Return the position curve of a shot, proved clear by its hulls, out of pictures as far as it can be."""
+    best = _fly(task, ())
+    if best.curve is None:
+        return best
+    kept = _kept(task, best.curve)
+    for _ in range(LOOKS):
+        if kept.worst >= 0.0 or best.curve is None:
+            break
+        freer = _fly(task, kept.floors)
+        if freer.curve is None:
+            break
+        later = _kept(task, freer.curve)
+        if later.worst <= kept.worst + PROVED:
+            break
+        best, kept = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
+    return best
+
+
+def _kept(task: Task, course: Piecewise) -> Kept:
+    span = (task.clock.start, task.clock.end)
+    return keep_free(task.looker, task.sights, span, task.clock.breaks, course)
+
+
+def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
+    """Return the position curve under half-spaces that keep pictures free."""
     breaks = task.clock.breaks
     base = _base(task)
     ideal = _ideal(task, breaks)
@@ -91,6 +131,7 @@ def fly(task: Task) -> Flown:
     status, relaxation = Status.INFEASIBLE, None
     for rounds in range(1, ROUNDS + 1):
         problem = _walled(task, base, hulls, reach, share)
+        problem = replace(problem, floors=(*problem.floors, *free))
         solution = minimise(problem)
         status = solution.status
         if solution.coef is None:

@@ -17,12 +17,22 @@ from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import clock_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly
+from shotc.passes.timed_route.sights import Looker, Sights
 from shotc.solvers.conic import Status
 
 NOTICE = 0.5  # metres off the ideal that are worth telling
 LEFT = 0.1  # metres off that belong to a stretch worth telling
 STEP = 0.1  # seconds between the places that are compared with the ideal
 LIMITS = "the drone's limits"
+PICTURES = "the pictures of other drones"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Around:
+    """What goes on around a shot: what moves, and whose pictures count."""
+
+    moving: tuple[Moving, ...]
+    sights: Sights
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,19 +54,19 @@ class NoMotion:
 
 
 def timed_shot(
-    mission: MissionIR, drone: Drone, room: Room, moving: tuple[Moving, ...], placed: PlacedShot, start: float
+    mission: MissionIR, drone: Drone, room: Room, around: Around, placed: PlacedShot, start: float
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``."""
     shot = placed.shot
     clock = clock_of(mission, drone, shot, start)
-    task = Task(
-        mission, drone, shot, clock, room, tuple(evened(m, clock.breaks) for m in (*standing(room), *moving))
-    )
+    subject = placed.subjects[0] if placed.subjects else None
+    motions = tuple(evened(m, clock.breaks) for m in (*standing(room), *around.moving))
+    task = Task(Looker(mission, drone, subject), shot, clock, room, motions, around.sights)
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
-    subject = placed.subjects[0] if placed.subjects else None
-    turned = turn(Watch(mission, drone, subject), clock, flown.curve)
+    kept = None if shot.ideal is None else shot.ideal.aim
+    turned = turn(Watch(mission, drone, kept or subject), clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
     lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)
@@ -70,7 +80,7 @@ def timed_shot(
         (f"{shot.id}.qp_rounds", float(flown.rounds)),
         (f"{shot.id}.qp_status", str(flown.status)),
     )
-    return TimedShot(leg, _deviations(task, flown.curve), stats)
+    return TimedShot(leg, _deviations(task, flown), stats)
 
 
 def _lacks(task: Task, flown: Flown) -> tuple[tuple[str, float], ...]:
@@ -90,11 +100,12 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[FramingSpan,
     return tuple(spans)
 
 
-def _deviations(task: Task, curve: Piecewise) -> tuple[Deviation, ...]:
+def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
     """Return, for each stretch on which the motion leaves the ideal, the worst of it."""
     times = np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
     ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
-    away = np.linalg.norm(curve(times) - ideal, axis=1)
+    assert flown.curve is not None
+    away = np.linalg.norm(flown.curve(times) - ideal, axis=1)
     runs: list[list[int]] = []
     for i in np.flatnonzero(away > LEFT):
         if runs and runs[-1][-1] == i - 1:
@@ -103,13 +114,15 @@ def _deviations(task: Task, curve: Piecewise) -> tuple[Deviation, ...]:
             runs.append([int(i)])
     worst = [max(run, key=lambda i: float(away[i])) for run in runs]
     return tuple(
-        Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, ideal[i], float(times[i])))
+        Deviation(
+            task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, ideal[i], float(times[i]))
+        )
         for i in worst
         if away[i] > NOTICE
     )
 
 
-def _cause(task: Task, ideal: Array, t: float) -> str:
+def _cause(task: Task, flown: Flown, ideal: Array, t: float) -> str:
     near = breaches(task.room, ideal)
     if near:
         return near[0].owner
@@ -117,4 +130,4 @@ def _cause(task: Task, ideal: Array, t: float) -> str:
         relative = ideal[None] - motion.what.at(np.array([t]))
         if float(distances(motion.what.part, relative)[0]) < motion.what.clearance:
             return motion.what.owner
-    return LIMITS
+    return PICTURES if flown.freed else LIMITS

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.corridor import Room, kept, shortfall
 from shotc.ir.mission import Drone, MissionIR
@@ -21,6 +21,8 @@ from shotc.passes.parameterize_time.flight import Flight
 from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.timed_route.moving import Even, evened, moving_targets, shortfalls, sides, standing
 from shotc.passes.timed_route.others import other_drones
+
+LATE = 1e-6  # seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,24 +94,23 @@ def surroundings(path: PathIR, drone: Drone, breaks: Array) -> Surroundings:
     moving = (
         *standing(room),
         *moving_targets(mission, drone),
-        *other_drones(mission, drone.name, _flights(path)),
+        *other_drones(mission, drone.name, flights(path)),
     )
     return Surroundings(
         breaks, Room((), room.walls, room.discs), tuple(evened(what, breaks) for what in moving)
     )
 
 
-def _flights(path: PathIR) -> dict[str, Piecewise]:
-    """Return where the drones of a path on the clock are over mission time, by name; one has no others."""
+def flights(path: PathIR) -> dict[str, DroneTrajectory]:
+    """Return the flights of the drones of a path on the clock, by name; one has no others."""
     if len(path.timed) < 2:
         return {}
     ends: dict[str, float] = {}
-    found = {flown.drone: flight(path.keyframes.mission, flown, ends) for flown in path.timed}
-    return {name: made.curve.channels(0, 1, 2) for name, made in found.items()}
+    return {flown.drone: flight(path.keyframes.mission, flown, ends) for flown in path.timed}
 
 
 def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> DroneTrajectory:
-    """Return a drone's flight as the time pass will fly it.
+    """Return a drone's flight as the time pass will fly it, up to a shot that it would be late for.
 
     ends : of the shots of drones before it, by id, seconds; its own are added
     """
@@ -117,6 +118,8 @@ def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> Dron
     after = {shot.id: shot.timing.after for shot in mission.shots}
     for leg in flown.legs:
         if isinstance(leg, TimedLeg):
+            if made.clock > leg.curve.start + LATE:
+                break
             made.wait(float(leg.curve.start), leg.pose)
             made.film(leg)
             ends[leg.shot] = leg.end

@@ -22,6 +22,7 @@ from shotc.passes.verify.pair import separation
 from shotc.passes.verify.report import report
 from shotc.passes.verify.shape import shape, structure
 from shotc.passes.verify.shots import shots
+from shotc.passes.verify.sight import sights
 from shotc.passes.verify.space import space
 
 
@@ -58,7 +59,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
-    claims += separation(ir, flights)
+    claims += [*separation(ir, flights), *sights(flights)]
     certificate = tuple(claims)
     return Verdict(certificate, (*_grounded(ir), *report(ir, certificate), *losses(ir, certificate)))
 

@@ -12,6 +12,8 @@ from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
+from shotc.passes.verify.sight import ENDING as SEEN
+from shotc.passes.verify.sighting import sighted
 
 RULES = {
     "speed": Rule("V001", 1.0),
@@ -61,6 +63,7 @@ ENDING = {
     " screen error": Rule("V020"),
     " size smallest": Rule("V021"),
     " size largest": Rule("V021"),
+    SEEN: Rule("V025"),
 }
 
 UNKNOWN = {
@@ -77,7 +80,9 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
     for claim in claims:
         if claim.holds:
             continue
-        if claim.hard:
+        if claim.constraint.endswith(SEEN):
+            yield sighted(ir, claim)
+        elif claim.hard:
             yield _broken(ir, claim, claims)
         else:
             code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)

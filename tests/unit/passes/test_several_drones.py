@@ -23,7 +23,7 @@ drones:
   cam1: {model: x500, home: [20, -20, 0], priority: 1}
   cam2: {model: x500, home: [26, -20, 0], priority: 2}
   cam3: {model: x500, home: [32, -20, 0], priority: 3}
-rules: {mutual_visibility: {strength: "off"}}
+rules: {mutual_visibility: {strength: "off"}, allow: [fast-pan]}
 shots:
 """
 SIDE = """\
@@ -100,3 +100,48 @@ def test_homes_that_are_too_near_are_told_on_their_line() -> None:
     found = check_source(near.encode(), "m.yaml", None).diagnostics
     assert [d.code for d in found] == ["G019"]
     assert found[0].labels[0].span.line == 11
+
+
+def seen_share(plan: VerifiedIR, watcher: str, other: str) -> float:
+    """Return the share of a film in which the other drone is in the frame, by plain trigonometry."""
+    tracks = {t.drone: t for t in plan.trajectory.drones}
+    mission = plan.trajectory.keyframes.mission
+    hits: list[bool] = []
+    for phase in tracks[watcher].phases:
+        if phase.shot is None:
+            continue
+        for t in np.arange(phase.start, phase.end, 0.04):
+            x, y, z, yaw, pitch, _, hfov = tracks[watcher].curve(t)
+            d = tracks[other].curve(min(t, tracks[other].curve.end))[:3] - [x, y, z]
+            ahead = np.array([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
+            right = np.array([np.sin(yaw), -np.cos(yaw), 0.0])
+            depth, wide = d @ ahead, np.tan(hfov / 2)
+            u = d @ right / wide
+            v = d @ np.cross(right, ahead) / wide * mission.drone(watcher).aspect
+            hits.append(bool(depth > 0 and abs(u) < depth and abs(v) < depth))
+    return float(np.mean(hits))
+
+
+def pairs() -> list[tuple[str, str]]:
+    return [(a, b) for a in ("cam1", "cam2", "cam3") for b in ("cam1", "cam2", "cam3") if a != b]
+
+
+def test_drones_keep_out_of_each_others_pictures_both_ways() -> None:
+    off = planned(SIDE + PASS + TAIL)
+    assert max(seen_share(off, a, b) for a, b in pairs()) > 0.5
+    kept = planned(SIDE + PASS + TAIL, HEAD.replace('"off"', "prefer"))
+    assert max(seen_share(kept, a, b) for a, b in pairs()) == 0.0
+    assert nearest(kept) >= 3.0 - 1e-6
+
+
+def test_a_cone_is_kept_free_where_the_mission_asks_for_one() -> None:
+    cone = HEAD.replace('{strength: "off"}', "{strength: prefer, half_angle: 20 deg}")
+    plan = planned(SIDE + PASS + TAIL, cone)
+    tracks = {t.drone: t for t in plan.trajectory.drones}
+    for a, b in pairs():
+        (phase,) = (p for p in tracks[a].phases if p.shot)
+        for t in np.arange(phase.start, phase.end, 0.04):
+            x, y, z, yaw, pitch, _, _ = tracks[a].curve(t)
+            d = tracks[b].curve(min(t, tracks[b].curve.end))[:3] - [x, y, z]
+            ahead = [np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)]
+            assert np.degrees(np.arccos(d @ ahead / np.linalg.norm(d))) > 20.0

@@ -172,3 +172,11 @@ def test_a_curve_seen_from_a_target_is_the_curve_less_its_motion(steps, gaps, af
     t = np.linspace(0.0, 20.0, 171)
     assert np.allclose(seen_from(curve, track)(t), curve(t) - places(track, t), atol=1e-9)
     assert np.allclose(places(track, t), [track.at(float(u)) for u in t], atol=1e-9)
+
+
+def test_a_camera_that_keeps_its_aim_does_not_turn_to_its_target() -> None:
+    plan = planned(text("kind: static, at: [58, -25, 5], heading: 0 deg, pitch: -5 deg"))
+    yaw = plan.trajectory.drones[0].curve(np.linspace(15.0, 27.0, 50))[:, CAM_YAW]
+    assert np.abs(yaw - pi / 2).max() < 1e-6
+    assert claim(plan, "distance from its place") < 0.02
+    assert "F004" not in said(text(KINDS["static"]))

@@ -17,14 +17,14 @@ from shotc.plugin_api import (
     solver_nan,
     stopped_early,
 )
-from shotc.refiner_api import Deviation, TimedLeg, TimedPath, ideal_place
+from shotc.refiner_api import Deviation, TimedLeg, TimedPath, ideal_place, least_out
 from shotc_casadi.clock.program import UNITS, ClockSolution
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.patience import PATIENCE
 
 NOTICE = 0.5  # metres off the ideal that are worth telling
-KEPT = "kept: the guide is framed better"
+KEPT = "kept: the guide shows more"
 CALM = "a calmer camera, and the drone's limits"
 
 
@@ -40,9 +40,10 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
         refined = refine_clock(subject)
         said = _report(path, subject, refined, name)
         told += [] if said is None else [said]
-        path = replace(path, stats=(*path.stats, *_stats(refined)))
-        if refined.leg is not None:
-            path = with_leg(path, refined.leg)
+        moved = path if refined.leg is None else with_leg(path, refined.leg)
+        if moved is not path and least_out(moved) < min(0.0, least_out(path)):
+            refined, moved = replace(refined, leg=None), path
+        path = replace(moved, stats=(*moved.stats, *_stats(refined)))
     return path, tuple(told)
 
 

@@ -1,0 +1,79 @@
+"""assign-drones: LoadedMission to LoadedMission, every `drone: auto` replaced by a drone.
+
+Takes a mission whose shape is right. Gives it with the choice of drones that films everything in time with
+the least work for the busiest drone, and of those the one with the least way; no drone is asked to be in two
+places at once. Where there is no such choice, it says at which time more drones are needed than there are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar, Final
+
+from shotc.diag.model import Diagnostic
+from shotc.kinds.base import Kind
+from shotc.passes.assign_drones.choice import Choice, choose
+from shotc.passes.assign_drones.tasks import Task, busiest, tasks_of
+from shotc.passes.base import Outcome, PassContext
+from shotc.passes.resolve.names import AUTO
+from shotc.spec.load import LoadedMission
+
+
+class AssignDrones:
+    """The pass; kinds : every shot kind that is installed, by name."""
+
+    name: ClassVar[str] = "assign-drones"
+
+    def __init__(self, kinds: Mapping[str, Kind]) -> None:
+        self.kinds: Final = kinds
+
+    def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[LoadedMission]:
+        """Choose the drones of one mission."""
+        ctx.progress("choosing drones")
+        spec = ir.spec
+        if not spec.drones:
+            return Outcome(None, (_nobody(ir),))
+        tasks = tasks_of(ir, self.kinds)
+        if tasks is None:
+            # A shot is wrong by itself, whoever films it: resolve says how.
+            first = next(iter(spec.drones))
+            return Outcome(_with(ir, dict.fromkeys(range(len(spec.shots)), first)))
+        choice = choose(tasks, tuple(spec.drones))
+        if choice is None:
+            return Outcome(None, (_too_few(ir, tasks),))
+        return Outcome(_with(ir, choice))
+
+
+def _with(ir: LoadedMission, choice: Choice) -> LoadedMission:
+    shots = tuple(
+        shot.model_copy(update={"drone": choice[i]}) if shot.drone == AUTO else shot
+        for i, shot in enumerate(ir.spec.shots)
+    )
+    return ir._replace(spec=ir.spec.model_copy(update={"shots": shots}))
+
+
+def _nobody(ir: LoadedMission) -> Diagnostic:
+    first = next(i for i, shot in enumerate(ir.spec.shots) if shot.drone == AUTO)
+    label = ir.origins.value(("shots", first, "drone"))
+    return Diagnostic(
+        "K014", "there is no drone to choose from", (label,), help="define drones under `drones`"
+    )
+
+
+def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:
+    time, busy = busiest(tasks)
+    shots = ", ".join(f"`{task.id}`" for task in busy)
+    number = len(ir.spec.drones)
+    labels = tuple(ir.origins.value(("shots", task.number, "id")) for task in busy)
+    if len(busy) > number:
+        message = f"{len(busy)} shots are filmed at t = {time:.1f} s, and there are {number} drones"
+        return Diagnostic(
+            "K014", message, labels, (f"they are {shots}",), "add a drone, or move a shot in time"
+        )
+    return Diagnostic(
+        "K014",
+        "no choice of drones films every shot in time",
+        labels,
+        (f"most goes on at t = {time:.1f} s: {shots}; ways and endurance count, too",),
+        "add a drone, move a shot in time, or bring a home nearer",
+    )

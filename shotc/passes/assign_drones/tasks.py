@@ -1,0 +1,100 @@
+"""What there is to film, as far as the choice of a drone depends on it: where and when each shot is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import dist
+from typing import NamedTuple
+
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import Drone, MissionIR, Shot, Vec3
+from shotc.kinds.base import Kind
+from shotc.passes.base import PassContext
+from shotc.passes.resolve import Resolve
+from shotc.passes.resolve.motion import least_shot, least_travel
+from shotc.passes.resolve.names import AUTO
+from shotc.spec.load import LoadedMission
+
+
+class Task(NamedTuple):
+    """One shot.
+
+    number : its index in the mission; start : seconds, None where that is open; lasts : seconds at least
+    first, last : where the camera begins and ends; flown_by : its drone, None where that is open
+    drones : of the mission, by name
+    """
+
+    number: int
+    id: str
+    start: float | None
+    lasts: float
+    first: Vec3
+    last: Vec3
+    flown_by: str | None
+    drones: Mapping[str, Drone]
+
+    def way(self, drone: str) -> float:
+        """Return the seconds from a drone's home to the shot, at least."""
+        return least_travel([self.drones[drone].home, self.first], self.drones[drone].limits)
+
+    def back(self, drone: str) -> float:
+        """Return the seconds from the shot to a drone's home, at least."""
+        return least_travel([self.last, self.drones[drone].home], self.drones[drone].limits)
+
+    def to(self, other: Task, drone: str) -> float:
+        """Return the seconds from the end of this shot to the beginning of another, at least."""
+        return least_travel([self.last, other.first], self.drones[drone].limits)
+
+    def length(self, drone: str) -> float:
+        """Return the metres from a drone's home to the shot."""
+        return dist(self.drones[drone].home, self.first)
+
+
+def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] | None:
+    """Return every shot as a task; None where one is wrong by itself.
+
+    Each is resolved alone, flown by the first drone where that is open: where it is filmed from does not
+    depend on who does.
+    """
+    spec = ir.spec
+    some = next(iter(spec.drones))
+    found: list[Task] = []
+    for i, written in enumerate(spec.shots):
+        open_ = written.drone == AUTO
+        alone = written.model_copy(update={"drone": some}) if open_ else written
+        timing = alone.timing.model_copy(update={"after": None})
+        shots = (alone.model_copy(update={"timing": timing}),)
+        one = ir._replace(spec=spec.model_copy(update={"shots": shots}))
+        mission = Resolve(kinds).run(one, PassContext()).value
+        if mission is None or not mission.shots:
+            return None
+        found.append(_task(i, mission, mission.shots[0], None if open_ else written.drone))
+    return tuple(found)
+
+
+def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> Task:
+    drones = {drone.name: drone for drone in mission.drones}
+    start = shot.timing.start
+    if shot.ideal is not None:
+        begin = start or 0.0
+        lasts = shot.timing.duration or 0.0
+        first, last = (ideal_place(mission, shot, begin, t) for t in (begin, begin + lasts))
+    else:
+        first, last = shot.keyframes[0].at, shot.keyframes[-1].at
+        least = min(least_shot(shot.keyframes, drone.limits) for drone in mission.drones)
+        lasts = shot.timing.duration or least
+    return Task(index, shot.id, start, lasts, first, last, flown_by, drones)
+
+
+def busiest(tasks: tuple[Task, ...]) -> tuple[float, list[Task]]:
+    """Return the time at which most shots with a start are filmed, and those."""
+    timed = [task for task in tasks if task.start is not None]
+    if not timed:
+        return 0.0, list(tasks)
+    at = {t.start or 0.0: [o for o in timed if (o.start or 0.0) <= (t.start or 0.0) < _end(o)] for t in timed}
+    time = max(at, key=lambda t: len(at[t]))
+    return time, at[time]
+
+
+def _end(task: Task) -> float:
+    return (task.start or 0.0) + task.lasts

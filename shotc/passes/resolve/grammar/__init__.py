@@ -1,0 +1,49 @@
+"""Film grammar: what an audience stumbles over, told from a mission whose names and places stand.
+
+Every finding is a warning, for a filmmaker may break any of these rules; `allow` names the rules that are
+broken on purpose. A rule that a mission cannot break is not even loaded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.origin import KeyPath
+from shotc.spec.mission import MissionSpec
+
+Judge = Callable[[str, Shot], bool]
+"""Tells whether a rule, by its slug, is to be judged in a shot."""
+
+
+def allowed(spec: MissionSpec) -> Mapping[KeyPath, frozenset[str]]:
+    """Return the rules that may be broken: in each shot by its path, and under () in every one."""
+    found: dict[KeyPath, frozenset[str]] = {(): frozenset(spec.rules.allow)}
+    found |= {("shots", i): frozenset(shot.allow) for i, shot in enumerate(spec.shots) if shot.allow}
+    return found
+
+
+def check_grammar(mission: MissionIR, allow: Mapping[KeyPath, frozenset[str]]) -> list[Diagnostic]:
+    """Return the warnings about how the shots of a mission will look, each on its own and in their order."""
+    everywhere, none = allow.get((), frozenset()), frozenset[str]()
+
+    def judged(slug: str, shot: Shot) -> bool:
+        return slug not in everywhere and slug not in allow.get(shot.path, none)
+
+    found: list[Diagnostic] = []
+    if len(mission.shots) > 1:
+        from shotc.passes.resolve.grammar.cuts import check_cuts
+
+        found += check_cuts(mission, judged)
+    lasting = [shot for shot in mission.shots if shot.timing.duration is not None or _timed(shot)]
+    if lasting:
+        from shotc.passes.resolve.grammar.alone import check_alone
+
+        for shot in lasting:
+            found += check_alone(mission, shot, judged)
+    return found
+
+
+def _timed(shot: Shot) -> bool:
+    return any(keyframe.time is not None for keyframe in shot.keyframes)

@@ -1,0 +1,37 @@
+"""A shot by itself, whose time is known: is it long enough to be read, does its camera turn too fast."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.grammar.leaving import check_leaving
+from shotc.passes.resolve.grammar.pans import check_pans
+from shotc.passes.resolve.grammar.places import lasting
+
+SHORTEST = 2.0  # seconds
+
+
+def check_alone(mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
+    """Yield what is wrong with a shot whose time is known, whatever stands beside it in the film."""
+    if judged("short-shot", shot):
+        yield from check_length(mission, shot)
+    if judged("walks-out-of-frame", shot):
+        yield from check_leaving(mission, shot)
+    if judged("fast-pan", shot):
+        yield from check_pans(mission, shot)
+
+
+def check_length(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell a shot that is over before it is read."""
+    duration = shot.timing.duration
+    if duration is None or duration >= SHORTEST:
+        return
+    yield Diagnostic(
+        "F003",
+        f"shot `{shot.id}` is over before it is seen",
+        (lasting(mission, shot),),
+        (f"it lasts {duration:.1f} s; a picture that moves takes about {SHORTEST:.1f} s to be read",),
+        f"give it {SHORTEST:.0f} s or more, or write `allow: [short-shot]` in it",
+    )

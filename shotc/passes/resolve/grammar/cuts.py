@@ -1,0 +1,89 @@
+"""Cuts: from each shot to the next one of the film.
+
+The film is cut in the order in which its shots are flown, those of all drones together: as written, unless
+`start` or `after` says otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from math import acos, degrees, dist, hypot, radians
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.place_keyframes.flown_order import flown_order
+from shotc.passes.resolve.grammar.line import check_line
+from shotc.passes.resolve.grammar.places import placing
+from shotc.passes.resolve.grammar.sight import Sight, sight
+
+APART = radians(30.0)  # between two views of one subject, for a cut to look meant: the 30-degree rule
+ALIKE = 1.5  # one subject over the other on screen, below which their size is about the same
+SAME_PLACE = 0.02  # share of the distance by which a camera may have moved and still carry on
+SAME_LENS = 1.05
+SAME_TIME = 1.0  # seconds between two shots of a moving subject that are one
+
+
+def check_cuts(mission: MissionIR, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the cuts; each is told of the shot that it leads to."""
+    for before, after in pairwise(film_order(mission.shots)):
+        line, jump = (judged(slug, after) for slug in ("crossing-the-line", "jump-cut"))
+        left = sight(mission, before, 1.0) if line or jump else None
+        right = None if left is None else sight(mission, after, 0.0)
+        if left is None or right is None:
+            continue
+        crossed = check_line(mission, before, after, left, right) if line else None
+        jumped = check_jump(mission, before, after, left, right) if jump else None
+        yield from (found for found in (crossed, jumped) if found is not None)
+
+
+def film_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:
+    """Return the shots of all drones in the order of the film: as flown, those with a `start` by it."""
+    flown = flown_order(shots)
+    risen = iter(
+        sorted((s for s in flown if s.timing.start is not None), key=lambda s: s.timing.start or 0.0)
+    )
+    return tuple(shot if shot.timing.start is None else next(risen) for shot in flown)
+
+
+def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right: Sight) -> Diagnostic | None:
+    """Return the warning about a cut between two pictures of one subject that are too much alike."""
+    if left.names[0] != right.names[0] or carries_on(left, right):
+        return None
+    angle, ratio = between(left, right), right.scale / left.scale
+    if angle >= APART or not 1 / ALIKE < ratio < ALIKE:
+        return None
+    change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
+    return Diagnostic(
+        "F002",
+        f"the cut from `{before.id}` to `{after.id}` makes `{left.names[0]}` jump",
+        (placing(mission, after, last=False), placing(mission, before, last=True, text="filmed from here")),
+        (
+            f"it is seen from {degrees(angle):.0f} deg to the side, {change}; a cut wants 30 deg or more, or "
+            f"a size that changes {ALIKE:.1f} times",
+        ),
+        f"begin `{after.id}` {_farther(angle)} to the side, much nearer or much farther away, or write "
+        "`allow: [jump-cut]` in it",
+    )
+
+
+def between(left: Sight, right: Sight) -> float:
+    """Return the angle between two views of a subject, rad."""
+    a, b = left.offset, right.offset
+    product = sum(p * q for p, q in zip(a, b, strict=True))
+    return acos(max(-1.0, min(1.0, product / (hypot(*a) * hypot(*b)))))
+
+
+def carries_on(left: Sight, right: Sight) -> bool:
+    """Tell whether a shot begins with the picture that the last one ends with, so that no cut is seen."""
+    if dist(left.eye, right.eye) > SAME_PLACE * hypot(*left.offset):
+        return False
+    if not 1 / SAME_LENS < left.half / right.half < SAME_LENS:
+        return False
+    if not left.moving:
+        return True
+    return left.t is not None and right.t is not None and abs(right.t - left.t) < SAME_TIME
+
+
+def _farther(angle: float) -> str:
+    return f"{max(1.0, degrees(APART - angle)):.0f} deg more"

@@ -1,0 +1,64 @@
+"""Subjects that leave the picture of a camera that keeps its place and its aim."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.place_keyframes.candidates import Setting
+from shotc.passes.resolve.framing import shows
+from shotc.passes.resolve.grammar.places import framing
+from shotc.passes.resolve.grammar.sight import begins, minus
+
+EMPTY = 0.5  # seconds without its subject that a shot may have
+STEPS = 200  # places at which a shot is looked at
+
+
+def check_leaving(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell a subject that is out of the picture for a part of a shot."""
+    start, duration = begins(mission, shot), shot.timing.duration
+    if shot.ideal is None or shot.ideal.aim is None or start is None or duration is None:
+        return
+    for subject in shot.subjects:
+        seen = [
+            _seen(mission, shot, subject.target, start, start + duration * i / STEPS) for i in range(STEPS)
+        ]
+        empty = duration * seen.count(False) / STEPS
+        if empty < min(EMPTY, duration):
+            continue
+        if True not in seen:
+            message = f"`{subject.target}` is never in the picture of shot `{shot.id}`"
+            note = f"the camera keeps its aim, and looks past it for all of the {duration:.1f} s"
+        else:
+            first, last = seen.index(True), STEPS - seen[::-1].index(True)
+            message = f"`{subject.target}` walks out of the picture of shot `{shot.id}`"
+            if last == STEPS:
+                message = f"`{subject.target}` is not in the picture of shot `{shot.id}` all the time"
+            note = (
+                f"the camera keeps its aim and shows it from t = {start + duration * first / STEPS:.1f} s "
+                f"to {start + duration * last / STEPS:.1f} s; the shot is filmed from {start:.1f} s to "
+                f"{start + duration:.1f} s"
+            )
+        yield Diagnostic(
+            "F004",
+            message,
+            (framing(mission, shot),),
+            (note,),
+            f"write `look_at: {subject.target}` instead to follow it, film it while it passes, or write "
+            "`allow: [walks-out-of-frame]` in the shot",
+        )
+
+
+def _seen(mission: MissionIR, shot: Shot, name: str, start: float, t: float) -> bool:
+    """Tell whether any part of a target is in the picture at a mission time."""
+    assert shot.ideal is not None
+    assert shot.ideal.aim is not None
+    drone, target = mission.drone(shot.drone), mission.target(name)
+    offset = minus(target.at(t), ideal_place(mission, shot, start, t))
+    setting = Setting(
+        offset, target.radius, target.height, drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2
+    )
+    return shows(setting, shot.ideal.aim)

@@ -1,0 +1,74 @@
+"""The line of action: from one shot to the next the camera stays on one side of it, or is seen to cross it.
+
+The line is the way that a subject moves or, of two that are filmed together, the line between them. On its
+other side what went to the left goes to the right. A camera on the line, ahead, behind or overhead, is on
+neither side, and a cut to it or from it is none across.
+"""
+
+from __future__ import annotations
+
+from math import hypot, radians, sin
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.grammar.places import placing
+from shotc.passes.resolve.grammar.sight import Sight, minus, sight
+
+NEUTRAL = sin(radians(15.0))  # sine of the angle off the line within which a camera is on no side of it
+STEPS = 24  # places at which a shot is looked at for going over the line
+
+
+def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right: Sight) -> Diagnostic | None:
+    """Return the warning about a cut across the line, from a shot's last frame to the next one's first."""
+    pair = len(left.names) > 1 and set(left.names[:2]) == set(right.names[:2])
+    if not pair and left.names[0] != right.names[0]:
+        return None
+    a, b = (side(seen, pair=pair) for seen in (left, right))
+    if a is None or b is None or a * b > 0 or min(abs(a), abs(b)) < NEUTRAL:
+        return None
+    if goes_over(mission, after, pair=pair):
+        return None
+    who = " and ".join(f"`{name}`" for name in left.names[: 2 if pair else 1])
+    what = "the line from the one to the other" if pair else "the way it goes"
+    sides = [
+        f"`{shot.id}` {verb} {abs(sine) * hypot(*seen.offset):.1f} m to the {'left' if sine > 0 else 'right'}"
+        for shot, verb, sine, seen in ((before, "ends", a, left), (after, "begins", b, right))
+    ]
+    side_kept = "left" if a > 0 else "right"
+    return Diagnostic(
+        "F001",
+        f"the cut from `{before.id}` to `{after.id}` crosses the line of action of {who}",
+        (placing(mission, after, last=False), placing(mission, before, last=True, text="filmed from here")),
+        (f"of {what}, {sides[0]}, {sides[1]}: on screen it turns round",),
+        f"begin `{after.id}` on the {side_kept}, put a shot from ahead, from behind or of something else "
+        "between them, or write `allow: [crossing-the-line]` in it",
+    )
+
+
+def side(seen: Sight, *, pair: bool) -> float | None:
+    """Return on which side of the line a camera is: the sine of its angle off it, positive to the left.
+
+    None where there is no line. A camera overhead is as near to the line as one on it.
+    """
+    if pair:
+        (_, a), (_, b) = sorted(zip(seen.names[:2], seen.centres[:2], strict=True))
+        way, origin = minus(b, a), tuple(0.5 * (p + q) for p, q in zip(a, b, strict=True))
+        length = hypot(way[0], way[1])
+        if length < 1e-6:
+            return None
+        x, y = way[0] / length, way[1] / length
+        offset = minus(seen.eye, (origin[0], origin[1], origin[2]))
+    elif seen.course is None:
+        return None
+    else:
+        (x, y), offset = seen.course, seen.offset
+    return (x * offset[1] - y * offset[0]) / max(hypot(*offset), 1e-9)
+
+
+def goes_over(mission: MissionIR, shot: Shot, *, pair: bool) -> bool:
+    """Tell whether the camera is on both sides of the line in the course of a shot."""
+    if shot.ideal is None:
+        return False
+    seen = (sight(mission, shot, i / STEPS) for i in range(STEPS + 1))
+    sines = [s for s in (side(one, pair=pair) for one in seen if one is not None) if s is not None]
+    return bool(sines) and min(sines) < -NEUTRAL and max(sines) > NEUTRAL

@@ -1,0 +1,147 @@
+"""Pans: how fast the surroundings go through the picture as the camera turns.
+
+A camera that turns at w rad/s moves what is far away by w / (2 tan(hfov / 2)) frame widths a second, near the
+middle of the frame. At 24 frames a second that judders where a width takes less than 7 s. Where a subject is
+followed it stands still on screen and holds the eye, and the surroundings may go through in 3 s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import acos, ceil, cos, hypot, pi, tan
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Keyframe, MissionIR, Shot, Vec2, Vec3
+from shotc.passes.place_keyframes import explicit_aim
+from shotc.passes.place_keyframes.turns import ROUNDING, TURN, wrapped
+from shotc.passes.resolve.grammar.places import lasting
+from shotc.passes.resolve.grammar.sight import begins, minus, sight
+
+FREE = 7.0  # seconds a frame width takes at least where nobody is followed
+FOLLOWING = 3.0  # and where the camera follows a subject
+WINDOW = 1.0  # seconds over which a shot on its own clock is judged
+STEPS = 120  # pieces of such a shot at most
+
+
+class Pan(NamedTuple):
+    """A stretch of a shot with its turn.
+
+    widths : frame widths that go through the picture; lasts : seconds it takes; held : of rest in it
+    followed : the subject that the camera follows, or None
+    """
+
+    widths: float
+    lasts: float
+    followed: str | None
+    held: float = 0.0
+    when: float | None = None
+
+    @property
+    def least(self) -> float:
+        """Return the seconds that the turn has to take at least."""
+        return self.widths * (FREE if self.followed is None else FOLLOWING)
+
+
+def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Yield the worst of the pans of a shot that are too fast; those whose time is not known are not told."""
+    pans = list(_on_clock(mission, shot) if shot.ideal is not None else _between_keyframes(mission, shot))
+    fast = [pan for pan in pans if pan.lasts > 0 and pan.lasts < pan.least * (1 - 1e-9)]
+    if not fast:
+        return
+    worst = max(fast, key=lambda pan: pan.least / pan.lasts)
+    who = "where nobody is followed" if worst.followed is None else f"behind `{worst.followed}`"
+    least = FREE if worst.followed is None else FOLLOWING
+    when = "" if worst.when is None else f" at t = {worst.when:.1f} s"
+    if worst.when is None:
+        help_ = f"give this {_up(worst.least + worst.held)} s or more"
+    else:
+        help_ = "film it from farther away, or with a wider field of view"
+    yield Diagnostic(
+        "F005",
+        f"shot `{shot.id}` pans too fast for the eye",
+        (lasting(mission, shot),),
+        (
+            f"a frame width goes by in {worst.lasts / worst.widths:.1f} s{when}; {who} it takes {least:.0f} "
+            "s or more, at 24 frames a second, not to judder",
+        ),
+        f"{help_}, or write `allow: [fast-pan]` in it",
+    )
+
+
+def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
+    """Yield the pans of a camera that follows a moving subject, over a second each."""
+    start, duration = begins(mission, shot), shot.timing.duration
+    kept = shot.ideal is not None and shot.ideal.aim is not None
+    if start is None or duration is None or kept or not shot.subjects:
+        return
+    pieces = max(2, min(STEPS, ceil(4 * duration)))
+    ahead = min(pieces, max(1, round(WINDOW * pieces / duration)))
+    looks: list[Vec3 | None] = []
+    for i in range(pieces + 1):
+        seen = sight(mission, shot, i / pieces)
+        looks.append(None if seen is None else seen.offset)
+    width = 2 * tan(mission.drone(shot.drone).hfov / 2)
+    who = shot.subjects[0].target
+    lasts = duration * ahead / pieces
+    for i, (a, b) in enumerate(zip(looks, looks[ahead:], strict=False)):
+        if a is not None and b is not None:
+            yield Pan(_angle(a, b) / width, lasts, who, when=start + duration * i / pieces)
+
+
+def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
+    """Yield the stretches of a shot between keyframes whose time is known, each with its mean rate."""
+    keyframes, duration = shot.keyframes, shot.timing.duration
+    times: dict[int, float] = {0: 0.0}
+    if duration is not None:
+        times[len(keyframes) - 1] = duration - keyframes[-1].hold
+    times |= {i: k.time for i, k in enumerate(keyframes) if k.time is not None}
+    looks = _looks(mission, keyframes)
+    for i, j in pairwise(sorted(times)):
+        stretch = keyframes[i : j + 1]
+        held = sum(k.hold for k in stretch[:-1])
+        widths = sum(_turned(keyframes, looks, k) for k in range(i, j))
+        yield Pan(widths, times[j] - times[i] - held, _followed(stretch), held)
+
+
+def _looks(mission: MissionIR, keyframes: Sequence[Keyframe]) -> list[Vec2]:
+    """Return yaw and pitch of the camera at every keyframe, before composition turns it a little."""
+    found: list[Vec2] = []
+    for keyframe in keyframes:
+        aim: Vec2 | Vec3 | None = keyframe.aim
+        if aim is None and keyframe.target is not None:
+            aim = mission.target(keyframe.target).centre
+        last = found[-1] if found else (pi / 2, 0.0)
+        found.append(last if aim is None else explicit_aim(keyframe.at, aim, last[0]))
+    return found
+
+
+def _turned(keyframes: Sequence[Keyframe], looks: Sequence[Vec2], i: int) -> float:
+    """Return the frame widths by which the camera turns from a keyframe to the next one."""
+    a, b = looks[i], looks[i + 1]
+    stated, before = keyframes[i + 1].heading, keyframes[i].heading
+    if stated is not None and before is not None and abs(stated) >= TURN - ROUNDING:
+        yaw = stated - before
+    else:
+        yaw = wrapped(b[0] - a[0])
+    way = hypot(yaw * cos(0.5 * (a[1] + b[1])), b[1] - a[1])
+    return way / (tan(keyframes[i].hfov / 2) + tan(keyframes[i + 1].hfov / 2))
+
+
+def _followed(stretch: Sequence[Keyframe]) -> str | None:
+    """Return whom the camera follows throughout a stretch."""
+    first = stretch[0].target
+    if any(k.target != first or k.composition.watches for k in stretch):
+        return None
+    return first
+
+
+def _angle(a: Vec3, b: Vec3) -> float:
+    chord = hypot(*minus((0.0, 0.0, 0.0), a))
+    product = sum(p * q for p, q in zip(a, b, strict=True)) / (chord * hypot(*b))
+    return acos(max(-1.0, min(1.0, product)))
+
+
+def _up(seconds: float) -> str:
+    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"

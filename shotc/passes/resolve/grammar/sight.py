@@ -1,0 +1,130 @@
+"""What a shot shows at its first and its last frame: whom, from where, and which way they go."""
+
+from __future__ import annotations
+
+from math import hypot, pi, tan
+from typing import NamedTuple
+
+from shotc.geom.track import AROUND, MOVES, Track
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import Drone, MissionIR, Shot, Vec2, Vec3
+
+STRAIGHT = 1e-6  # sine of the angle between two stretches that go the same way
+
+
+class Sight(NamedTuple):
+    """One frame of a shot.
+
+    eye : place of the camera, W, m; names, centres : of those in the picture, the first one foremost
+    course : unit direction in which the first one moves over ground, or None where it stands
+    half : tangent of half the vertical field of view; height : of the first one, m
+    moving : whether the first one has a track
+    t : mission time, s, or None where it is not known and does not matter
+    """
+
+    eye: Vec3
+    names: tuple[str, ...]
+    centres: tuple[Vec3, ...]
+    course: Vec2 | None
+    half: float
+    height: float
+    moving: bool
+    t: float | None
+
+    @property
+    def offset(self) -> Vec3:
+        """Return the camera's place as seen from the first one."""
+        return minus(self.eye, self.centres[0])
+
+    @property
+    def scale(self) -> float:
+        """Return the height of the first one over that of the frame, were it seen upright."""
+        return self.height / (2 * hypot(*self.offset) * self.half)
+
+
+def sight(mission: MissionIR, shot: Shot, share: float) -> Sight | None:
+    """Return what a shot shows at its start (0), its end (1) or between; None without a target or a time.
+
+    Of a shot of keyframes only start and end are told.
+    """
+    drone = mission.drone(shot.drone)
+    if shot.ideal is not None:
+        return _on_clock(mission, shot, drone, share)
+    keyframe = shot.keyframes[0 if share < 0.5 else -1]
+    if keyframe.target is None:
+        return None
+    target = mission.target(keyframe.target)
+    half = tan(keyframe.hfov / 2) / drone.aspect
+    return _sound(
+        Sight(keyframe.at, (target.name,), (target.centre,), None, half, target.height, False, None)
+    )
+
+
+def begins(mission: MissionIR, shot: Shot) -> float | None:
+    """Return the mission time of a shot's first frame, or None where its picture depends on it unknown.
+
+    Without a `start` it is not known. That does not matter where the camera goes along with a target whose
+    way is straight; any time on that way will do then.
+    """
+    ideal = shot.ideal
+    if shot.timing.start is not None or ideal is None or ideal.target is None:
+        return shot.timing.start
+    tracks = [mission.target(name).track for name in {ideal.target, *(s.target for s in shot.subjects)}]
+    if len(tracks) == 1 and tracks[0] is not None and _straight(tracks[0]):
+        return tracks[0].times[0] + AROUND
+    return None
+
+
+def course(track: Track | None, t: float) -> Vec2 | None:
+    """Return the unit direction in which a target moves about a time, None where it stands."""
+    if track is None:
+        return None
+    a, b = track.at(t - AROUND), track.at(t + AROUND)
+    x, y = b[0] - a[0], b[1] - a[1]
+    way = hypot(x, y)
+    return (x / way, y / way) if way >= MOVES else None
+
+
+def minus(a: Vec3, b: Vec3) -> Vec3:
+    """Return the vector from b to a."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sight | None:
+    start, duration = begins(mission, shot), shot.timing.duration
+    if start is None or duration is None or not shot.subjects:
+        return None
+    t = start + share * duration
+    targets = [mission.target(subject.target) for subject in shot.subjects]
+    first = targets[0]
+    return _sound(
+        Sight(
+            ideal_place(mission, shot, start, t),
+            tuple(target.name for target in targets),
+            tuple(target.at(t) for target in targets),
+            course(first.track, t),
+            tan(drone.hfov / 2) / drone.aspect,
+            first.height,
+            first.track is not None,
+            None if shot.timing.start is None else t,
+        )
+    )
+
+
+def _sound(seen: Sight) -> Sight | None:
+    """Return what is seen, unless the camera is where the target is."""
+    return seen if hypot(*seen.offset) > 1e-6 else None
+
+
+def _straight(track: Track) -> bool:
+    """Tell whether a target goes one way only, and faces that way."""
+    legs = [minus(b, a) for a, b in zip(track.points, track.points[1:], strict=False)]
+    legs = [leg for leg in (*legs, track.after) if hypot(leg[0], leg[1]) > 1e-9]
+    if not legs:
+        return False
+    if track.headings and max(track.headings) - min(track.headings) > pi / 180:
+        return False
+    x, y, _ = legs[0]
+    return all(
+        abs(x * b - y * a) <= STRAIGHT * hypot(x, y) * hypot(a, b) and x * a + y * b > 0 for a, b, _ in legs
+    )

@@ -1,0 +1,196 @@
+"""Drones out of each other's pictures: who films is one side, every other drone in all its phases the other.
+
+A drone on its pad, before it takes off and after it has landed, is in the picture as much as one that
+flies, and so is one that a zone or a target would hide. How far a body is out of the picture is sampled at
+the output rate, and halved between samples until bounds on its rate leave no room for anything worse.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.pieces import cut
+from shotc.geom.proof import Bound, norm, sup_convex
+from shotc.geom.sight import WITHIN, off_axis, outside
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.sampling import SAME_TIME, cameras, clock
+from shotc.ir.trajectory import Claim, DroneTrajectory, Phase
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim, slack
+
+ENDING = " out of the picture"
+
+PATH = ("rules", "mutual_visibility")
+
+NARROW = 0.01
+"""Share of the distance from the limit to which the worst value is closed."""
+
+ROUNDS = 40
+"""Halvings of the time between two samples."""
+
+OPEN_LIMIT = 200_000
+"""Intervals halved at once; where there are more the worst value is left as sampled."""
+
+
+def sights(flights: list[Flight]) -> Iterator[Claim]:
+    """Claim for every shot that no other drone is in its picture."""
+    for flight in flights:
+        rules = flight.mission.rules
+        if rules.visibility == "off":
+            continue
+        for phase in flight.track.phases:
+            if phase.shot is None:
+                continue
+            for other in flights:
+                if other is not flight:
+                    yield _claim(flight, other, phase)
+
+
+def _claim(flight: Flight, other: Flight, phase: Phase) -> Claim:
+    rules = flight.mission.rules
+    cone = rules.half_angle is not None
+    limit = Limit(
+        f"{other.drone.name}{ENDING}",
+        rules.half_angle or 0.0,
+        "rad" if cone else "m",
+        (*PATH, "half_angle") if cone else PATH,
+        upper=False,
+        hard=rules.visibility == "require",
+        shot=phase.shot,
+    )
+    sight = Sight(flight.mission, flight.track, other.track)
+    return claim(flight, limit, _worst(sight, ticks(flight.mission, phase), limit.value))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sight:
+    """One drone's camera and another drone's body."""
+
+    mission: MissionIR
+    film: DroneTrajectory
+    other: DroneTrajectory
+
+    @property
+    def body(self) -> Drone:
+        """The drone that is seen or not."""
+        return self.mission.drone(self.other.drone)
+
+    def out(self, t: Array) -> Array:
+        """Return how far the other is out of the picture: metres, or rad off the axis for a cone."""
+        eyes, places = cameras(self.mission, self.film, t), self.other.curve(t)[:, :3]
+        measured = outside if self.mission.rules.half_angle is None else off_axis
+        return measured(eyes, places, self.body.radius)
+
+
+def ticks(mission: MissionIR, phase: Phase) -> Array:
+    """Return the ticks of the output clock within a phase, and both its ends."""
+    times = clock(mission.rate, phase.end)
+    inside = times[(times > phase.start + SAME_TIME) & (times < phase.end - SAME_TIME)]
+    return np.concatenate([[phase.start], inside, [phase.end]])
+
+
+def _worst(sight: Sight, times: Array, limit: float) -> Worst:
+    """Return the least value between the first time and the last: proved, or as met where it is broken."""
+    landed = sight.other.curve.end
+    if times[0] < landed < times[-1]:
+        times = np.union1d(times, [landed])
+    found = infimum(sight, times, limit)
+    if found.proven >= limit - slack(limit):
+        return Worst(found.proven, found.at, "bounded")
+    closed = found.proven >= found.attained - _gap(found.attained, limit)
+    return Worst(found.attained, found.at, "bounded" if closed else "sampled")
+
+
+def infimum(sight: Sight, times: Array, limit: float) -> Bound:
+    """Bound the least value over the time that the samples span."""
+    if times[-1] <= times[0]:
+        least = float(sight.out(times[:1])[0])
+        return Bound(least, least, float(times[0]))
+    fastest = _fastest(sight, float(times[0]), float(times[-1]))
+    rows = _sampled(sight, times)
+    k = int(np.argmin(rows[:, 0]))
+    best, at, closed = float(rows[k, 0]), float(times[k]), inf
+    low, high, a, b = times[:-1], times[1:], rows[:-1], rows[1:]
+    for _ in range(ROUNDS):
+        lower = np.minimum(_lower(sight, fastest, a, b, high - low), np.minimum(a[:, 0], b[:, 0]))
+        is_open = lower < best - _gap(best, limit)
+        closed = min(closed, float(lower[~is_open].min(initial=inf)))
+        rest = float(lower[is_open].min(initial=inf))
+        if not is_open.any() or is_open.sum() > OPEN_LIMIT:
+            break
+        low, high, a, b = low[is_open], high[is_open], a[is_open], b[is_open]
+        middle = 0.5 * (low + high)
+        m = _sampled(sight, middle)
+        k = int(np.argmin(m[:, 0]))
+        if m[k, 0] < best:
+            best, at = float(m[k, 0]), float(middle[k])
+        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+        a, b = np.concatenate([a, m]), np.concatenate([m, b])
+    return Bound(min(closed, best, rest), best, at)
+
+
+def _gap(best: float, limit: float) -> float:
+    return max(0.5 * slack(limit), NARROW * abs(best - limit))
+
+
+@dataclass(frozen=True, slots=True)
+class _Fastest:
+    """Bounds over a shot on what the rates at samples change by: m/s^2, rad/s^2."""
+
+    speed: float
+    turn: float
+    zoom: float
+
+
+def _fastest(sight: Sight, start: float, end: float) -> _Fastest:
+    film, other = sight.film.curve, sight.other.curve
+
+    def most(curve: Piecewise, *channels: int) -> float:
+        bend = cut(curve.channels(*channels), start, end).derivative().derivative()
+        return max(0.0, sup_convex(bend, norm, lambda best: max(1e-3, 0.05 * abs(best))).proven)
+
+    return _Fastest(
+        most(film, 0, 1, 2) + most(other, 0, 1, 2),
+        most(film, CAM_YAW) + most(film, CAM_PITCH),
+        most(film, HFOV),
+    )
+
+
+def _sampled(sight: Sight, t: Array) -> Array:
+    """Return the value, relative speed, turn of the camera, zoom, and distance at times, shape (M, 5)."""
+    film, other = sight.film.curve, sight.other.curve
+    rate = film.derivative()(t)
+    # It has landed, and stands.
+    flying = np.where(t < other.end, 1.0, 0.0)[:, None]
+    speed = norm(rate[:, :3] - flying * other.derivative()(t)[:, :3])
+    turn = np.abs(rate[:, CAM_YAW]) + np.abs(rate[:, CAM_PITCH])
+    far = norm(film(t)[:, :3] - other(t)[:, :3])
+    return np.column_stack([sight.out(t), speed, turn, np.abs(rate[:, HFOV]), far])
+
+
+def _lower(sight: Sight, fastest: _Fastest, a: Array, b: Array, dt: Array) -> Array:
+    """Return bounds from below within intervals.
+
+    An edge of the frame is a plane through the camera with unit normal n; a body at p from the camera is
+    -n.p - r beyond it. That changes by at most |p'| + |p| |n'|, and n turns no faster than the camera plus
+    the edge's half angle (``geom.framing.margin_rate``). The largest of several changes no faster than the
+    fastest. The angle from the axis less asin(r / d) changes by at most |p'| / sqrt(d^2 - r^2) and the turn.
+    """
+    speed = 0.5 * (a[:, 1] + b[:, 1] + fastest.speed * dt)
+    turn = 0.5 * (a[:, 2] + b[:, 2] + fastest.turn * dt)
+    middle, drift = 0.5 * (a[:, 4] + b[:, 4]), 0.5 * speed * dt
+    if sight.mission.rules.half_angle is None:
+        aspect = sight.mission.drone(sight.film.drone).aspect
+        zoom = 0.5 * (a[:, 3] + b[:, 3] + fastest.zoom * dt)
+        rate = speed + (middle + drift) * (turn + 0.5 * zoom * max(aspect, 1.0 / aspect))
+        return np.asarray(0.5 * (a[:, 0] + b[:, 0] - rate * dt))
+    near, radius = middle - drift, sight.body.radius
+    apart = near > radius
+    reach = np.sqrt(np.where(apart, near**2 - radius**2, 1.0))
+    angle = 0.5 * (a[:, 0] + b[:, 0] - (turn + speed / reach) * dt)
+    return np.where(apart, np.maximum(angle, WITHIN), WITHIN)

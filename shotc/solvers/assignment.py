@@ -1,0 +1,43 @@
+"""Who does what: a mixed-integer linear programme over choices of 0 or 1, solved exactly by HiGHS (scipy)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Programme:
+    """Minimise cost . x with 0 <= x <= highest, once x = 1 and rows x <= most; all shapes by N unknowns.
+
+    cost, highest : (N,); once : (T, N); rows : (R, N); most : (R,)
+    whole : how many of the unknowns, from the first on, are whole numbers
+    """
+
+    cost: Array
+    highest: Array
+    once: Array
+    rows: Array
+    most: Array
+    whole: int
+
+
+def least_cost(programme: Programme) -> Array | None:
+    """Return the optimal x, or None where nothing satisfies the programme."""
+    from scipy.optimize import Bounds, LinearConstraint, milp
+
+    number = len(programme.cost)
+    found = milp(
+        programme.cost,
+        integrality=(np.arange(number) < programme.whole).astype(float),
+        bounds=Bounds(np.zeros(number), programme.highest),
+        constraints=[
+            LinearConstraint(programme.once, 1.0, 1.0),
+            LinearConstraint(programme.rows, -np.inf, programme.most),
+        ],
+        options={"mip_rel_gap": 0.0},
+    )
+    return None if found.x is None else np.asarray(found.x)

@@ -1,0 +1,82 @@
+"""Cuts between two pictures that are too much alike, on both sides of every threshold."""
+
+from __future__ import annotations
+
+from math import cos, radians, sin
+
+import pytest
+
+from tests.grammar_missions import codes, grammar, mission
+
+
+def still(name: str, azimuth: float, distance: float, more: str = "", extra: str = "") -> str:
+    """A camera level with the statue's middle, that azimuth East of its South."""
+    x, y = distance * sin(radians(azimuth)), 40 - distance * cos(radians(azimuth))
+    return (
+        f"id: {name}, kind: static, at: [{x:.6f}, {y:.6f}, 2], look_at: statue, "
+        f"timing: {{duration: 4{more}}}{extra}"
+    )
+
+
+def found(*shots: str, **how: object) -> list[str]:
+    text = mission(*shots, **how).replace("rules: {", "rules: {ground_clearance: 0, ")  # type: ignore[arg-type]
+    return [d.code for d in grammar(text)]
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "distance", "told"),
+    [
+        (29.0, 20, ["F002"]),
+        (31.0, 20, []),
+        (10.0, 20 / 1.45, ["F002"]),
+        (10.0, 20 / 1.55, []),
+        (10.0, 20 * 1.45, ["F002"]),
+        (10.0, 20 * 1.55, []),
+    ],
+)
+def test_thirty_degrees_or_half_as_large_again(azimuth: float, distance: float, told: list[str]) -> None:
+    assert found(still("a", 0, 20), still("b", azimuth, distance)) == told
+
+
+def test_the_numbers_are_told() -> None:
+    text = mission(still("a", 0, 20), still("b", 20, 16)).replace("rules: {", "rules: {ground_clearance: 0, ")
+    (said,) = grammar(text)
+    assert "20 deg to the side, 1.2 times as large" in said.notes[0] or "1.3 times" in said.notes[0]
+    assert "10 deg more to the side" in said.help
+
+
+def test_a_lens_changes_the_size_too() -> None:
+    a, b = (
+        f"id: {name}, kind: keyframes, target: statue, keyframes: [{{at: [{x}, 20, 4], look_at: statue, "
+        f"hfov: {lens} deg, hold: 3}}, {{at: [{x + 2}, 20, 4], look_at: statue, hfov: {lens} deg}}]"
+        for name, x, lens in (("a", 0, 70), ("b", 5, 40))
+    )
+    assert codes(a, b) == []
+    assert codes(a, b.replace("40 deg", "60 deg")) == ["F002"]
+
+
+def test_a_shot_that_carries_on_is_no_cut() -> None:
+    assert found(still("a", 0, 20), still("b", 0.5, 20)) == []
+    assert found(still("a", 0, 20), still("b", 3, 20)) == ["F002"]
+
+
+def test_a_shot_of_something_that_moves_carries_on_only_at_once() -> None:
+    one, same = (
+        f"id: {n}, kind: static, at: [45, -30, 4], look_at: runner, timing: {{start: {start}, duration: 5}}"
+        for n, start in (("a", 24), ("b", 29.5))
+    )
+    assert codes(one, same) == []
+    assert codes(one, same.replace("29.5", "31.5")) == ["F002"]
+
+
+def test_another_subject_is_another_picture() -> None:
+    a = "id: a, kind: static, at: [20, 20, 4], look_at: statue, timing: {start: 15, duration: 3}"
+    b = "id: b, kind: static, at: [22, 20, 4], look_at: runner, timing: {start: 28, duration: 3}"
+    assert codes(a, b) == []
+
+
+def test_it_is_allowed_by_name() -> None:
+    a, b = still("a", 0, 20), still("b", 10, 20)
+    assert found(a, b, allow="jump-cut") == []
+    assert found(a, still("b", 10, 20, extra=", allow: [jump-cut]")) == []
+    assert found(a, b, allow="short-shot, fast-pan") == ["F002"]

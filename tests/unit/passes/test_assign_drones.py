@@ -1,0 +1,85 @@
+"""The choice of drones for `drone: auto`: exact on small cases, told where there is none."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from shotc.api import PlanOptions, check_source, compile_source
+from shotc.passes.assign_drones.choice import LEAST_WAY, choose
+from shotc.passes.assign_drones.tasks import Task
+from tests.front import clean
+from tests.unit.passes.test_several_drones import HEAD, PASS, SIDE, TAIL
+
+DRONES = {d.name: d for d in clean(HEAD + SIDE + PASS + TAIL).mission.drones}
+
+
+def task(number: int, start: float | None, lasts: float, x: float, y: float, by: str | None = None) -> Task:
+    return Task(number, f"s{number}", start, lasts, (x, y, 10.0), (x, y, 10.0), by, DRONES)
+
+
+def cost(tasks: list[Task], names: tuple[str, ...]) -> float | None:
+    """Return what one choice costs, None where it cannot be flown; written anew from the rules."""
+    for i, a in enumerate(tasks):
+        if a.flown_by not in {None, names[i]}:
+            return None
+        if a.flown_by is None and a.start is not None and a.way(names[i]) > a.start + 1e-6:
+            return None
+        for j, b in enumerate(tasks):
+            if i < j and names[i] == names[j] and a.start is not None and b.start is not None:
+                one, two = (a, b) if a.start <= b.start else (b, a)
+                if one.start + one.lasts + one.to(two, names[i]) > two.start + 1e-6:
+                    return None
+    work = dict.fromkeys(DRONES, 0.0)
+    for t, name in zip(tasks, names, strict=True):
+        work[name] += t.lasts + 0.5 * (t.way(name) + t.back(name))
+    return max(work.values()) + LEAST_WAY * sum(t.length(n) for t, n in zip(tasks, names, strict=True))
+
+
+PLACE = st.floats(-80.0, 80.0)
+START = st.one_of(st.none(), st.floats(0.0, 120.0))
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.tuples(START, st.floats(1.0, 40.0), PLACE, PLACE), min_size=1, max_size=4))
+def test_the_choice_is_the_best_of_all(drawn: list[tuple[float | None, float, float, float]]) -> None:
+    tasks = [task(i, *values) for i, values in enumerate(drawn)]
+    every = [cost(tasks, names) for names in product(DRONES, repeat=len(tasks))]
+    possible = [c for c in every if c is not None]
+    found = choose(tasks, tuple(DRONES))
+    if not possible:
+        assert found is None
+        return
+    assert found is not None
+    taken = cost(tasks, tuple(found[i] for i in range(len(tasks))))
+    assert taken is not None
+    assert taken <= min(possible) + 1e-3
+
+
+def test_the_nearest_drone_films_and_one_drone_is_never_in_two_places() -> None:
+    auto = (SIDE + PASS + TAIL).replace("cam1", "auto").replace("cam2", "auto").replace("cam3", "auto")
+    done = compile_source((HEAD + auto).encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    assert done.plan is not None, done.diagnostics
+    shots = {s.id: s.drone for s in done.plan.trajectory.keyframes.mission.shots}
+    assert sorted(shots.values()) == ["cam1", "cam2", "cam3"]
+
+
+def test_more_shots_at_a_time_than_drones_are_told_with_the_time() -> None:
+    text = (
+        HEAD.split("  cam2:")[0] + "shots:\n" + (SIDE + PASS).replace("cam1", "auto").replace("cam2", "auto")
+    )
+    assert check_source(text.encode(), "m.yaml", None).diagnostics == ()
+    done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    assert [d.code for d in done.diagnostics] == ["K014"]
+    assert done.diagnostics[0].message == "2 shots are filmed at t = 15.0 s, and there are 1 drones"
+
+
+@pytest.mark.parametrize("wrong", ["altitude: 1", "target: nobody"])
+def test_what_is_wrong_by_itself_is_told_as_ever(wrong: str) -> None:
+    right = "altitude: 4" if "altitude" in wrong else "target: runner"
+    text = HEAD + SIDE.replace("cam1", "auto").replace(right, wrong)
+    done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    assert [d.code for d in done.diagnostics] == ["M006" if "altitude" in wrong else "N001"]
