@@ -108,7 +108,8 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
     near = 1.0 / wanted.usual**2
     share = np.where(filmed, 1.0, weights.FAINT) * length
     place = 0.5 * (share + np.append(0.0, share[:-1]))
-    turn = np.where(filmed[:, None], weights.TURN, weights.UNWATCHED * np.array(weights.TURN))
+    turn = np.array(weights.TURN)
+    turn = np.where(filmed[:, None], turn, (0.0 if wanted.placed else weights.UNWATCHED) * turn)
     values = {
         "length": length,
         "ideal": wanted.ideal,

@@ -11,7 +11,7 @@ from shotc.plugin_api import MissionIR, PathIR
 from shotc.refiner_api import Array, Drone, PlacedShot, PlacedSubject, TimedLeg, ideal_place, places
 
 AROUND = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
-SAMPLES = 401
+SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
 STEEPEST = tan(89.0 * pi / 180)
 NEAREST = 1.0  # metres: least distance that counts as usual
 
@@ -76,14 +76,14 @@ def motion(mission: MissionIR, name: str, t: Array) -> Array:
     target = mission.target(name)
     if target.track is None:
         return np.column_stack([np.tile(np.array(target.centre), (len(t), 1)), np.zeros((len(t), 9))])
-    s = np.linspace(-1.0, 1.0, SAMPLES)
+    s, share = np.polynomial.legendre.leggauss(SAMPLES)
     kernel = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 4
     mass = 256 / 315  # the integral of (1 - s^2)^4
     at = places(target.track, (t[:, None] - AROUND * s).ravel()).reshape(len(t), SAMPLES, 3)
     orders = []
     for order in range(4):
         weight = kernel.deriv(order)(s) if order else kernel(s)
-        weight = weight / (mass * AROUND**order) * (s[1] - s[0])
+        weight = weight * share / (mass * AROUND**order)
         orders.append(np.einsum("mkd,k->md", at, weight))
     return np.concatenate(orders, axis=1)
 
