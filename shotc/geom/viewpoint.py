@@ -2,7 +2,7 @@
 
 The terms are those of Naegeli et al. (viewpoint Eq. 7 to 9): place on screen, size and viewing angle. Sizes
 are those of the exact outline, and enter as logarithms, so that twice and half are equally wrong. What has to
-hold (the target whole in the frame, clearances, the gimbal's range) enters as a steep hinge.
+hold enters as a steep hinge (the target whole in the frame, its clearance) or as a bound (the floor, the pitch).
 """
 
 from collections.abc import Sequence
@@ -20,8 +20,8 @@ STEEP = 10.0  # weight of what has to hold
 FAINT = 0.03  # weight of what is free: that it stays as it is, and is level
 EDGE = 0.97  # of half a frame, within which a whole target is kept
 NUDGE = 1e-6
-ROUNDS = 40
-SETTLED = 1e-10  # share of the cost by which a round has to lower it
+ROUNDS = 100
+SETTLED = 1e-6  # share of the cost by which a round has to lower it
 STEEPEST = 1.5  # rad of elevation that a free view is raised to
 
 
@@ -219,26 +219,37 @@ def viewpoint(
     scale = (reach, reach, reach, 1.0, 1.0)
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
-        found = _residuals(pose, subjects, lens, room, (kept, reach))
+        found = _residuals(pose, subjects, lens, room.near, (kept, reach))
         return found, inf if found is None else sum(r * r for r in found)
 
-    pose, damping = start, 1e-3
+    low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
+    high = (inf, inf, inf, inf, lens.pitch[1])
+    pose, damping = _within(start, low, high), 1e-3
     here, least = cost(pose)
     for _ in range(ROUNDS):
         if here is None:
             break
         columns = []
         for i in range(5):
-            there, _ = cost(_moved(pose, i, NUDGE * scale[i]))
+            # Away from a bound, so that what lies beyond it is not looked at.
+            nudge = NUDGE if pose[i] < high[i] else -NUDGE
+            there, _ = cost(_moved(pose, i, nudge * scale[i]))
             if there is None:
                 return pose, least
-            columns.append([(b - a) / NUDGE for a, b in zip(here, there, strict=True)])
+            columns.append([(b - a) / nudge for a, b in zip(here, there, strict=True)])
         gradient = [_dot(c, here) for c in columns]
-        normal = [[_dot(a, b) for b in columns] for a in columns]
+        # A step goes against the gradient; where that leads over a bound, it stays on it.
+        stopped = [
+            (p <= a and g > 0) or (p >= b and g < 0)
+            for p, a, b, g in zip(pose, low, high, gradient, strict=True)
+        ]
+        free = [i for i in range(5) if not stopped[i]]
+        normal = [[_dot(columns[i], columns[k]) for k in free] for i in free]
         before = least
         for _ in range(12):
-            step = _solved(normal, gradient, damping)
-            later: Pose = tuple(p - s * d for p, s, d in zip(pose, scale, step, strict=True))  # type: ignore[assignment]
+            step = dict(zip(free, _solved(normal, [gradient[i] for i in free], damping), strict=True))
+            moved = tuple(p - scale[i] * step.get(i, 0.0) for i, p in enumerate(pose))
+            later = _within(moved, low, high)
             found, value = cost(later)
             if value < least:
                 pose, here, least, damping = later, found, value, max(damping * 0.1, 1e-12)
@@ -249,8 +260,13 @@ def viewpoint(
     return pose, least
 
 
+def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) -> Pose:
+    x, y, z, yaw, pitch = (min(max(p, a), b) for p, a, b in zip(pose, low, high, strict=True))
+    return (x, y, z, yaw, pitch)
+
+
 def _residuals(
-    pose: Pose, subjects: Sequence[Wanted], lens: Lens, room: Room, faint: tuple[Vec3 | None, float]
+    pose: Pose, subjects: Sequence[Wanted], lens: Lens, near: float, faint: tuple[Vec3 | None, float]
 ) -> Residuals | None:
     """Return all terms; None where a subject reaches behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
@@ -279,9 +295,7 @@ def _residuals(
         found += _off_view(s, offset)
         if s.elevation is None:
             found.append(FAINT * offset[2] / max(hypot(*offset), 1e-9))
-        found.append(STEEP * max(0.0, room.near - gap(s, offset)) / room.near)
-    found.append(STEEP * max(0.0, room.floor - eye[2]) / reach)
-    found += [STEEP * max(0.0, lens.pitch[0] - pose[4]), STEEP * max(0.0, pose[4] - lens.pitch[1])]
+        found.append(STEEP * max(0.0, near - gap(s, offset)))
     if kept is not None:
         found += [FAINT * (e - k) / reach for e, k in zip(eye, kept, strict=True)]
     return found

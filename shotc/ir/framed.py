@@ -42,6 +42,7 @@ TURN = pi / 36  # between bearings that are tried for one subject
 WIDE = pi / 6  # and for several
 NEARLY = 0.02  # of cost by which another bearing is as good
 LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
+AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
 
 
@@ -272,7 +273,7 @@ def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
     least = min(cost for cost, _, _ in found)
     good = [f for f in found if f[0] <= least + NEARLY]
     if len(good) == 1:
-        return good[0][1], good[0][2]
+        return _polished(scene, good[0])
     every = max(1, len(scene.times) // 6)
     times = scene.times[::every]
     scores = []
@@ -280,8 +281,21 @@ def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
         poses = _follow(scene, settled, pose, times)
         eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
         scores.append((*scene.shares(eyes), i))
-    _, pose, settled = good[min(scores)[2]]
-    return pose, settled
+    return _polished(scene, good[min(scores)[2]])
+
+
+def _polished(
+    scene: _Scene, found: tuple[float, Pose, tuple[Subject, ...]]
+) -> tuple[Pose, tuple[Subject, ...]]:
+    """Return an opening, begun again from where it ended until that changes nothing."""
+    cost, pose, subjects = found
+    wanted = scene.wanted(subjects, scene.start)
+    for _ in range(AGAIN):
+        pose, later = viewpoint(wanted, scene.lens, scene.room, pose)
+        if later > (1 - NEARLY) * cost:
+            break
+        cost = later
+    return pose, subjects
 
 
 def _follow(
