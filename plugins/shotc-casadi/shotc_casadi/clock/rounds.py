@@ -16,6 +16,7 @@ from shotc.refiner_api import (
     HFOV,
     Array,
     Clock,
+    Looker,
     TimedLeg,
     Watch,
     quintic_hermite,
@@ -134,7 +135,10 @@ def _filmed(subject: ClockSubject, position: Piecewise) -> TimedLeg | None:
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
     ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
     clock = Clock(leg.curve.breaks, leg.start, leg.end)
-    turned = turn(Watch(subject.mission, subject.drone, subject.watched, ends), clock, position)
+    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
+    ideal = subject.placed.shot.ideal
+    kept = None if ideal is None else ideal.aim
+    turned = turn(Watch(looker, kept, ends), clock, position)
     if turned.curve is None:
         return None
     breaks = position.breaks
