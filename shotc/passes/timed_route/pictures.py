@@ -26,7 +26,7 @@ def least_out(path: PathIR) -> float:
         return inf
     for name, flight in found.items():
         for phase in (p for p in flight.phases if p.shot is not None):
-            times = np.arange(phase.start, phase.end, STEP)
+            times = np.append(np.arange(phase.start, phase.end, STEP), phase.end)
             pose = flight.curve(times)
             aspect = mission.drone(name).aspect
             cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)

@@ -25,6 +25,7 @@ from shotc_casadi.patience import PATIENCE
 
 NOTICE = 0.5  # metres off the ideal that are worth telling
 KEPT = "kept: the guide shows more"
+OUT = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
 CALM = "a calmer camera, and the drone's limits"
 
 
@@ -44,7 +45,7 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
         said = _report(path, subject, refined, name)
         told += [] if said is None else [said]
         moved = path if refined.leg is None else with_leg(path, refined.leg)
-        if moved is not path and least_out(moved) < min(0.0, least_out(path)):
+        if moved is not path and least_out(moved) < min(OUT, least_out(path)):
             refined, moved = replace(refined, leg=None), path
         path = replace(moved, stats=(*moved.stats, *_stats(refined)))
     return path, tuple(told)
