@@ -112,7 +112,7 @@ def two() -> Table:
             "beyond the other drone, so that it has to give way, and ends 5 m ahead by its ideal",
             "assumed: a walker at 1.5 m/s and drones of 5 m/s, since the paper's 1 m/s is slower than its "
             "target; no tree; planned whole, where the paper replans at 2 Hz",
-            "2 m of altitude need a ground clearance of 1 m; separation and pictures are proved for all times",
+            "the ground clearance is 1 m; separation and pictures are proved for all times",
         ),
     )
 
