@@ -134,7 +134,9 @@ def _filmed(subject: ClockSubject, position: Piecewise) -> TimedLeg | None:
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
     ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
     clock = Clock(leg.curve.breaks, leg.start, leg.end)
-    turned = turn(Watch(subject.mission, subject.drone, subject.watched, ends), clock, position)
+    turned = turn(
+        Watch(subject.mission, subject.drone, subject.aim or subject.watched, ends), clock, position
+    )
     if turned.curve is None:
         return None
     breaks = position.breaks
