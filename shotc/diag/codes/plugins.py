@@ -92,7 +92,7 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.ERROR,
         "the mission uses a part of the language that this version checks but cannot plan",
         "The whole language is parsed and validated, so that missions can be written and reviewed today. Scenes, "
-        "framings by size and drone shows are planned by later versions; until then "
+        "framings of several subjects and drone shows are planned by later versions; until then "
         "`shotc plan` refuses the mission instead of flying a part of it.",
         _FRAMING,
         _PASSING,
