@@ -24,6 +24,7 @@ from shotc.passes.solve_path_qp.turns import steady
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.pictures import least_out
+from shotc.passes.timed_route.sights import Looker
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
@@ -38,6 +39,7 @@ __all__ = [
     "Deviation",
     "Drone",
     "Fit",
+    "Looker",
     "NoTransit",
     "PlacedKeyframe",
     "PlacedShot",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray
 from shotc.geom.corridor import Room, kept, shortfall
 from shotc.ir.mission import Drone, MissionIR
@@ -21,6 +21,7 @@ from shotc.passes.parameterize_time.flight import Flight
 from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.timed_route.moving import Even, evened, moving_targets, shortfalls, sides, standing
 from shotc.passes.timed_route.others import other_drones
+from shotc.passes.timed_route.sights import Looker, Sights, keep_free, sights_of
 
 LATE = 1e-6  # seconds
 
@@ -31,11 +32,31 @@ class Surroundings:
 
     breaks : of the motion's pieces, shape (P + 1,), seconds
     walls : the room without its obstacles; motions : its obstacles and what moves, even on those pieces
+    pictures : of the other drones' flights, those that count
     """
 
     breaks: Array
     walls: Room
     motions: tuple[Even, ...]
+    pictures: Sights
+
+    def free(self, looker: Looker, span: tuple[float, float], course: Piecewise) -> Planes:
+        """Put half-spaces beside pictures, linearised about a course on these pieces.
+
+        span : of the film. On each piece the one that the course is nearest to counts, as far as the course
+        itself keeps it.
+        """
+        found: dict[int, tuple[float, Array, float]] = {}
+        for floors in keep_free(looker, self.pictures, span, self.breaks, course).floors:
+            for piece, normal, offset in zip(floors.rows.piece, floors.normal, floors.offset, strict=True):
+                length = float(np.linalg.norm(normal))
+                slack = float((course.ctrl[piece] @ normal).min() - offset) / length
+                if piece not in found or slack < found[piece][0]:
+                    found[piece] = slack, normal / length, offset / length + min(0.0, slack)
+        pieces = np.array(sorted(found), dtype=np.intp)
+        normals = np.array([found[k][1] for k in pieces]).reshape(-1, 3)
+        borders = np.array([found[k][2] for k in pieces])
+        return Planes(pieces, normals, np.repeat(borders[:, None], 2, axis=1))
 
     def lacking(self, hulls: Array) -> Array:
         """Return by how much pieces fail to prove their clearances, metres; shape (P,), <= 0 is proved.
@@ -87,17 +108,29 @@ class Planes:
     normal: Array
     border: Array
 
+    def and_also(self, other: Planes) -> Planes:
+        """Return these and those of another."""
+        return Planes(
+            np.concatenate([self.piece, other.piece]),
+            np.concatenate([self.normal, other.normal]),
+            np.concatenate([self.border, other.border]),
+        )
+
 
 def surroundings(path: PathIR, drone: Drone, breaks: Array) -> Surroundings:
     """Return what a drone of a path keeps clear of on pieces of mission time."""
     mission, room = path.keyframes.mission, flight_room(path.keyframes.mission, drone)
+    flown = flights(path)
     moving = (
         *standing(room),
         *moving_targets(mission, drone),
-        *other_drones(mission, drone.name, flights(path)),
+        *other_drones(mission, drone.name, flown),
     )
     return Surroundings(
-        breaks, Room((), room.walls, room.discs), tuple(evened(what, breaks) for what in moving)
+        breaks,
+        Room((), room.walls, room.discs),
+        tuple(evened(what, breaks) for what in moving),
+        sights_of(mission, drone, flown),
     )
 
 

@@ -16,6 +16,7 @@ from shotc.refiner_api import (
     HFOV,
     Array,
     Clock,
+    Looker,
     TimedLeg,
     Watch,
     quintic_hermite,
@@ -66,7 +67,8 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
     wanted = wishes(subject, breaks)
     guide = restrict(leg.curve.channels(0, 1, 2), breaks)
     over = passes(subject, breaks, wanted)
-    hulls, start, share = guide.ctrl, guess(led(guide, wanted, over), breaks), NEARLY
+    course, start, share = guide, guess(led(guide, wanted, over), breaks), NEARLY
+    looker = Looker(subject.mission, subject.drone, subject.watched)
     best: tuple[Piecewise, ClockSolution] | None = None
     first: ClockSolution | None = None
     gap: Gap | None = None
@@ -74,7 +76,8 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
     rounds = 0
     while rounds < ROUNDS:
         rounds += 1
-        planes = held(around.half_spaces(hulls, reach, SHARE), wanted, over)
+        planes = held(around.half_spaces(course.ctrl, reach, SHARE), wanted, over)
+        planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
         task = problem(subject, breaks, wanted, planes, share, start)
         solution, failed = _solved(task)
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
@@ -85,14 +88,14 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
         gap = gap_in(subject.drone, around, found)
         if gap is not None:
             reach, share = (2 * reach, share) if gap.unit == "m" else (reach, share * NEARLY)
-            hulls = found.ctrl
+            course = found
             continue
         gained = best is None or solution.objective < (1 - GAIN) * best[1].objective
         if best is None or solution.objective < best[1].objective:
             best = found, solution
         if not gained:
             break
-        hulls, start = found.ctrl, (solution.states, solution.inputs)
+        course, start = found, (solution.states, solution.inputs)
     if best is None:
         return ClockRefined(leg.shot, None, breaks, rounds, solution, seconds, first, gap)
     whole, unaimed = _filmed(subject, best[0]), Gap(leg.start, "the camera's limits", float("nan"), "")

@@ -55,14 +55,12 @@ def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> list[Pa
 
 def held(planes: Planes, wanted: ClockWishes, over: list[Pass]) -> Planes:
     """Return half-spaces with those that keep the nodes near a target on their side."""
-    pieces, normals, borders = [planes.piece], [planes.normal], [planes.border]
     for one in over:
         stages = one.stages
         at = wanted.target[:, :3] @ one.side + ASIDE
-        pieces.append(stages)
-        normals.append(np.tile(one.side, (len(stages), 1)))
-        borders.append(np.column_stack([at[stages], at[stages + 1]]))
-    return Planes(np.concatenate(pieces), np.concatenate(normals), np.concatenate(borders))
+        border = np.column_stack([at[stages], at[stages + 1]])
+        planes = planes.and_also(Planes(stages, np.tile(one.side, (len(stages), 1)), border))
+    return planes
 
 
 def led(curve: Piecewise, wanted: ClockWishes, over: list[Pass]) -> Piecewise:
