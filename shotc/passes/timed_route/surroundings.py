@@ -13,17 +13,13 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray
 from shotc.geom.corridor import Room, kept, shortfall
-from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import PathIR, TimedLeg, TimedPath
-from shotc.ir.trajectory import DroneTrajectory
-from shotc.passes.parameterize_time.estimate import leg_motion
-from shotc.passes.parameterize_time.flight import Flight
+from shotc.ir.mission import Drone
+from shotc.ir.path import PathIR
 from shotc.passes.solve_path_qp.room import flight_room
+from shotc.passes.timed_route.flights import flights
 from shotc.passes.timed_route.moving import Even, evened, moving_targets, shortfalls, sides, standing
 from shotc.passes.timed_route.others import other_drones
 from shotc.passes.timed_route.sights import Looker, Sights, keep_free, sights_of
-
-LATE = 1e-6  # seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -132,36 +128,3 @@ def surroundings(path: PathIR, drone: Drone, breaks: Array) -> Surroundings:
         tuple(evened(what, breaks) for what in moving),
         sights_of(mission, drone, flown),
     )
-
-
-def flights(path: PathIR) -> dict[str, DroneTrajectory]:
-    """Return the flights of the drones of a path on the clock, by name; one has no others."""
-    if len(path.timed) < 2:
-        return {}
-    ends: dict[str, float] = {}
-    return {flown.drone: flight(path.keyframes.mission, flown, ends) for flown in path.timed}
-
-
-def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> DroneTrajectory:
-    """Return a drone's flight as the time pass will fly it, up to a shot that it would be late for.
-
-    ends : of the shots of drones before it, by id, seconds; its own are added
-    """
-    drone, made = mission.drone(flown.drone), Flight(flown.drone)
-    after = {shot.id: shot.timing.after for shot in mission.shots}
-    for leg in flown.legs:
-        if isinstance(leg, TimedLeg):
-            if made.clock > leg.curve.start + LATE:
-                break
-            made.wait(float(leg.curve.start), leg.pose)
-            made.film(leg)
-            ends[leg.shot] = leg.end
-            continue
-        motion = leg_motion(mission, drone, leg)
-        waited = ends.get(after.get(leg.shot or "") or "", 0.0)
-        made.wait(max(made.clock, leg.start or 0.0, waited), leg.pose)
-        if motion is not None:
-            made.fly(leg, motion)
-        if leg.shot is not None:
-            ends[leg.shot] = made.clock
-    return made.trajectory()
