@@ -128,3 +128,21 @@ def turned(leg: TimedLeg) -> float:
     """The mean square of the camera's angular acceleration in the film, rad^2/s^4."""
     t = np.linspace(leg.start, leg.end, 2000)
     return sum(float((leg.curve.derivative(2)(t)[:, c] ** 2).mean()) for c in (CAM_YAW, CAM_PITCH))
+
+
+def test_where_a_wall_leaves_no_room_on_the_side_of_the_pass_there_is_a_motion_all_the_same() -> None:
+    text = ALONE.format(
+        points="[0, 0, 0.9], [-23.35, 9.75, 0.9], [-47.51, 13.15, 0.9], [-43.09, 37.63, 0.9]",
+        speed=2.2,
+        home=(-30.7, 27.7),
+        body="forward",
+        world="world: {zones: {z0: {keep: out, box: {center: [-50.9, 12.3, 4], size: [5.5, 5.5, 8]}}}}\n",
+        rules="",
+        kind="flyby",
+        shot="behind: 6.7, ahead: 6.7, offset: 1.2, altitude: 4.6",
+        start=13.55,
+        duration=18.74,
+    )
+    done = compiled(text)
+    assert done.plan is not None, done.diagnostics
+    assert not [d for d in done.diagnostics if d.code[0] == "R"]

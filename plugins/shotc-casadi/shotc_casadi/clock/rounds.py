@@ -70,8 +70,12 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
         planes = held(around.half_spaces(course.ctrl, reach, SHARE), wanted, over)
         planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
         task = problem(subject, breaks, wanted, planes, share, start)
-        solution, failed = _solved(task, SOLVERS if best is None else SOLVERS[:1])
+        solution, failed = _solved(task, SOLVERS if best is None and not over else SOLVERS[:1])
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
+        if solution.status != "solved" and best is None and over:
+            # The room may leave no place on that side; a camera that cannot follow then is not taken.
+            over, start = [], guess(guide, breaks)
+            continue
         if solution.status != "solved":
             break
         first = first or failed
