@@ -11,6 +11,7 @@ from shotc.geom.camera import View, aim_at, frustum_margins
 from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.track_array import places
+from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
@@ -21,10 +22,10 @@ from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
 from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.turns import steady
+from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.pictures import least_out
-from shotc.passes.timed_route.sights import Looker
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
@@ -53,6 +54,7 @@ __all__ = [
     "View",
     "Watch",
     "aim_at",
+    "at_start",
     "corridor",
     "distances",
     "fit",

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from shotc.ir.mission import MissionIR, Shot, Vec2, Vec3
+from shotc.ir.mission import MissionIR, Shot, Vec2, Vec3, ViewAngles
 from shotc.ir.origin import KeyPath
 
 
@@ -42,7 +42,7 @@ class PlacedSubject(NamedTuple):
     target: str
     reference: Vec2 | None
     size: float | None
-    view: Vec2 | None
+    view: ViewAngles | None
     path: KeyPath
 
 

@@ -13,6 +13,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
 Range = tuple[float, float]
+ViewAngles = tuple[float | None, float | None]
 
 
 class GeoOrigin(NamedTuple):
@@ -164,6 +165,8 @@ class Ideal(NamedTuple):
     points : (share of the shot's time, offset in metres), shares rising from 0 to 1; even between them
     placed : True where the user gave the positions, False where a kind generated them
     aim : (yaw, pitch) that the camera keeps, rad, or None where it follows the shot's subjects
+    framed : True where the points are found from how the subjects are to appear (``ir.framed``), for the
+        time at which the shot begins, as far as that is known
     """
 
     frame: Literal["world", "target", "heading", "about"]
@@ -171,6 +174,7 @@ class Ideal(NamedTuple):
     points: tuple[tuple[float, Vec3], ...]
     placed: bool = False
     aim: Vec2 | None = None
+    framed: bool = False
 
 
 class Subject(NamedTuple):
@@ -178,13 +182,14 @@ class Subject(NamedTuple):
 
     composition : the set of places its centre may have on screen
     size : projected height over frame height to aim for, above 1 where it is to be cropped; or None
-    view : (azimuth as a compass bearing from it to the camera, elevation), rad, or None
+    view : (azimuth as a compass bearing from it to the camera, elevation), rad, each None where it is free,
+        or None
     """
 
     target: str
     composition: Composition
     size: float | None
-    view: Vec2 | None
+    view: ViewAngles | None
     path: KeyPath
 
 
@@ -216,6 +221,7 @@ class Shot(NamedTuple):
     subject : the target as the shot names it, or None
     ideal : of a shot on its own clock, whose timing has a duration; it has no keyframes then
     subjects : whom it frames then
+    size : that its target is to have, as in Subject, or None
     """
 
     id: str
@@ -230,6 +236,7 @@ class Shot(NamedTuple):
     path: KeyPath
     ideal: Ideal | None = None
     subjects: tuple[Subject, ...] = ()
+    size: float | None = None
 
 
 class Rules(NamedTuple):

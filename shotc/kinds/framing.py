@@ -1,21 +1,25 @@
-"""Framing: the camera goes where its subjects appear as asked. Checked, but not planned yet."""
+"""Framing: the camera goes where its subjects appear as asked, and goes along with them."""
 
 from typing import Literal
 
 from pydantic import Field
 
-from shotc.ir.mission import Deferred
-from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Deferred, Ideal, Subject
+from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.moving import evenly
 from shotc.spec.fields import Angle, Frame, Name, Pitch, ShotSize
 from shotc.spec.model import Model
 from shotc.spec.shot import ShotBase
 
+ORIGIN = (0.0, 0.0, 0.0)
+
 
 class ViewSpec(Model):
-    """The side from which a subject is seen."""
+    """The side from which a subject is seen; what is silent is free."""
 
-    azimuth: Angle = Field(description="compass bearing from the subject to the camera")
-    elevation: Pitch = Field(default=0.0, description="how high the camera stands above the subject")
+    azimuth: Angle | None = Field(default=None, description="compass bearing from the subject to the camera")
+    elevation: Pitch | None = Field(default=None, description="how high the camera stands above the subject")
 
 
 class SubjectSpec(Model):
@@ -37,13 +41,47 @@ class FramingShot(ShotBase):
 
 
 def expand(shot: FramingShot, scene: Scene) -> Expansion:
-    """Check the subjects' names; planning waits for a later version."""
-    wrong = [
-        unknown_target(scene.origins, (*scene.path, "subjects", i, "target"), subject.target, scene.targets)
-        for i, subject in enumerate(shot.subjects)
-        if subject.target not in scene.targets
-    ]
-    return Expansion.of([*wrong, Deferred("a shot of kind `framing`", (*scene.path, "kind"))])
+    """Return the subjects; where the camera goes is settled once all shots and zones are known."""
+    found = [scene.subject(s.target, "subjects", i, "target") for i, s in enumerate(shot.subjects)]
+    against = [f for f in found if isinstance(f, Diagnostic | Deferred)]
+    against += _twice(shot, scene)
+    if shot.timing.duration is None:
+        message = f"how long does this {shot.kind} last? it is planned on the mission's own time"
+        against.append(scene.fault("M003", message, "add `timing: {duration: ...}`", "kind"))
+    if against:
+        return Expansion.of(against)
+    subjects = tuple(
+        Subject(
+            s.target,
+            s.frame or scene.composition,
+            s.size if s.size is not None or i else shot.size,
+            None if s.view is None else (s.view.azimuth, s.view.elevation),
+            (*scene.path, "subjects", i, "target"),
+        )
+        for i, s in enumerate(shot.subjects)
+    )
+    ideal = Ideal("about", subjects[0].target, evenly([ORIGIN]), framed=True)
+    return Expansion(ideal=ideal, subjects=subjects)
 
 
-KIND = Kind("framing", "go where the subjects appear as asked", FramingShot, expand, planned=False)
+def _twice(shot: FramingShot, scene: Scene) -> list[Diagnostic]:
+    """Return the fault of every target that is a subject a second time."""
+    first: dict[str, int] = {}
+    faults = []
+    for i, subject in enumerate(shot.subjects):
+        k = first.setdefault(subject.target, i)
+        if k != i:
+            fault = scene.fault(
+                "M030",
+                f"target `{subject.target}` is twice a subject of this {shot.kind}",
+                "name another target, or say all of it in one place",
+                "subjects",
+                i,
+                "target",
+            )
+            beside = scene.origins.value((*scene.path, "subjects", k, "target"), "its first time")
+            faults.append(fault._replace(labels=(*fault.labels, beside)))
+    return faults
+
+
+KIND = Kind("framing", "go where the subjects appear as asked", FramingShot, expand)

@@ -21,7 +21,7 @@ shots:
 _BY_FILE = _PASSING.replace("points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]", "file: runner.csv")
 
 
-_WARNINGS = (7, 8)
+_WARNINGS = (7, 8, 34, 35)
 _PLANNED = (8, 9)
 
 
@@ -34,6 +34,26 @@ def _code(number: int, slug: str, summary: str, explanation: str, *changes: tupl
 def _needs_a_file(number: int, slug: str, summary: str, explanation: str) -> CodeInfo:
     """Return the code of a fault that a mission cannot show without a file beside it."""
     return CodeInfo(f"M{number:03}", slug, Severity.ERROR, summary, explanation, "", "", "other")
+
+
+_SECOND = ",\n                {target: rider, frame: [0.27, 0.0]}"
+_PAIR = f"""\
+shotc: 1
+mission: pair
+targets:
+  runner: {{track: {{points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]}}, radius: 0.4, height: 1.8}}
+  rider: {{track: {{points: [[0, 3, 1], [60, 3, 1]], times: [0, 40]}}, radius: 0.6, height: 2}}
+drones:
+  cam1: {{model: x500, home: [0, -30, 0], limits: {{speed: 8 m/s}}}}
+shots:
+  - {{id: both, kind: framing, drone: cam1, timing: {{start: 15, duration: 10}},
+     subjects: [{{target: runner, frame: [-0.27, 0.0], size: 0.3}}{_SECOND}]}}
+"""
+
+
+def _framing(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
+    made = slip(f"M{number:03}", slug, summary, explanation, _PAIR, *changes)
+    return made._replace(severity=Severity.WARNING if number in _WARNINGS else Severity.ERROR)
 
 
 CODES: tuple[CodeInfo, ...] = (
@@ -152,4 +172,58 @@ CODES: tuple[CodeInfo, ...] = (
         _PASSING,
         phase="other",
     ),
+    _framing(
+        30,
+        "subject-twice",
+        "a framing names a target twice",
+        "A target is in one place on screen, in one size. Name every subject of a framing once.",
+        ("target: rider, frame", "target: runner, frame"),
+    ),
+    _framing(
+        31,
+        "size-out-of-reach",
+        "a subject cannot be as large in the picture as asked",
+        "How large a target appears is a matter of distance and lens. The camera keeps `rules.target_clearance` "
+        "from it, and from there it is as large as it can be. Ask for a smaller size, lessen the clearance, or "
+        "take a longer lens. Where no place on screen is asked that its view allows, the note says so.",
+        ("size: 0.3", "size: close-up"),
+    ),
+    _framing(
+        32,
+        "view-blocked",
+        "the place from which a subject is to be seen is no place for a camera",
+        "Size, place on screen and view say where the camera stands. Here that is under the ground clearance, or "
+        "in a zone or a target throughout the shot. A view that is left out is chosen where there is room.",
+        (_SECOND, ""),
+        ("size: 0.3}", "size: 0.3, view: {elevation: -15 deg}}"),
+    ),
+    _framing(
+        33,
+        "subjects-apart",
+        "subjects cannot be in one picture as asked",
+        "Several subjects are in one picture where the camera is far enough away, and then all are small. Here one "
+        "of them is out of the frame, or less than half as large as asked. Film them in two shots, ask for "
+        "smaller sizes, or take a wider lens.",
+        ("[[0, 3, 1], [60, 3, 1]]", "[[0, 53, 1], [60, 53, 1]]"),
+        ("[0.27, 0.0]", "[0.27, 0.0], size: 0.3"),
+    ),
+    _framing(
+        34,
+        "framing-compromise",
+        "several subjects cannot all appear as asked at once",
+        "A camera has a place and two angles: that is enough for two places on screen and one more wish. Beyond that "
+        "the plan takes the middle: the squares of what is off on screen, in size and in view are least. The notes "
+        "say by how much each subject is off. `require` holds the plan to what matters.",
+        ("size: 0.3}", "size: 0.3, view: {azimuth: 270 deg}}"),
+    ),
+    slip(
+        "M035",
+        "size-not-met",
+        "a target does not have the size asked, for other numbers of its shot decide it",
+        "The distance, radius or places that a shot is given say how large its target appears; `size` does not move "
+        "the camera of any kind but `framing`. The note gives the size that the target has, and from how far away, or "
+        "through which lens, it would have the one asked.",
+        _PASSING,
+        ("distance: 8, altitude: 4,", "distance: 8, altitude: 4, size: 0.6,"),
+    )._replace(severity=Severity.WARNING),
 )

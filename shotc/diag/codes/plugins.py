@@ -20,14 +20,7 @@ shots:
       - {at: [12, -20, 10], look_at: mast}
 """
 
-_FRAMING = """\
-shotc: 1
-mission: pan
-targets: {mast: {at: [0, 0, 6], radius: 0.5, height: 12}}
-drones: {cam: {model: x500, home: [0, -30, 0]}}
-shots:
-  - {id: mid, kind: framing, drone: cam, subjects: [{target: mast, size: 0.4}], timing: {duration: 10}}
-"""
+_SCENE = _PASSING.replace("mission: pan\n", "mission: pan\nworld: {scene: scene.ply}\n")
 
 CODES: tuple[CodeInfo, ...] = (
     CodeInfo(
@@ -91,10 +84,10 @@ CODES: tuple[CodeInfo, ...] = (
         "not-planned-yet",
         Severity.ERROR,
         "the mission uses a part of the language that this version checks but cannot plan",
-        "The whole language is parsed and validated, so that missions can be written and reviewed today. Scenes, "
-        "framings of several subjects and drone shows are planned by later versions; until then "
-        "`shotc plan` refuses the mission instead of flying a part of it.",
-        _FRAMING,
+        "The whole language is parsed and validated, so that missions can be written and reviewed today. Scenes "
+        "and drone shows are planned by later versions; until then `shotc plan` refuses the mission instead of "
+        "flying a part of it.",
+        _SCENE,
         _PASSING,
         "plan",
     ),

@@ -20,6 +20,7 @@ from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
 from shotc.passes.place_keyframes.faults import Miss, does_not_fit, keeps, off_composition, report
 from shotc.passes.place_keyframes.flown_order import flown_order
+from shotc.passes.place_keyframes.sizes import check_size
 from shotc.passes.place_keyframes.subjects import place_subjects
 from shotc.passes.place_keyframes.turns import while_following, with_turns
 
@@ -40,14 +41,20 @@ class PlaceKeyframes:
             if shot.ideal is not None:
                 subjects, found = place_subjects(ir, shot)
                 shots.append(PlacedShot(shot, (), subjects))
-                diagnostics += found
+                diagnostics += [*found, *_sized(ir, shots[-1])]
                 continue
             placed, misses = place_shot(ir, shot)
             shots.append(PlacedShot(shot, placed))
+            diagnostics += _sized(ir, shots[-1])
             diagnostics += report(ir, shot, misses)
             diagnostics += while_following(ir, shot.keyframes, placed)
         value = None if has_errors(diagnostics) else KeyframeIR(ir, tuple(shots))
         return Outcome(value, tuple(diagnostics))
+
+
+def _sized(mission: MissionIR, placed: PlacedShot) -> list[Diagnostic]:
+    fault = check_size(mission, placed)
+    return [] if fault is None else [fault]
 
 
 def place_shot(mission: MissionIR, shot: Shot) -> tuple[tuple[PlacedKeyframe, ...], tuple[Miss, ...]]:

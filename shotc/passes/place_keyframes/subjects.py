@@ -12,7 +12,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject, Vec2
-from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
+from shotc.passes.place_keyframes.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
 
 MIDDLE = (0.0, 0.0)
 
@@ -37,12 +37,24 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
     if composition.keep:
         return MIDDLE, []
     setting = setting_at(mission, shot, subject.target)
+    if shot.ideal is not None and shot.ideal.framed:
+        # Where it stands is settled, and the camera goes where it has its place.
+        settled = composition.points[0]
+        cropped = len(shot.subjects) == 1 and not _large(subject) and setting.slack(settled) < -TOUCH
+        return settled, [_cropped(mission, shot, subject, settled, None)] if cropped else []
+    if _large(subject):
+        return _nearest_of_all(setting, composition), []
     place = nearest_candidate(setting, composition, MIDDLE)
     if place is not None:
         return place, []
     instead = nearest_on_verticals(setting, composition, MIDDLE)
     wanted = _nearest_of_all(setting, composition)
     return instead or wanted, [_cropped(mission, shot, subject, wanted, instead)]
+
+
+def _large(subject: Subject) -> bool:
+    """Tell whether a subject is cropped on purpose."""
+    return subject.size is not None and subject.size > 1.0
 
 
 def setting_at(mission: MissionIR, shot: Shot, target: str) -> Setting:
@@ -71,7 +83,9 @@ def _cropped(
 ) -> Diagnostic:
     label = mission.origins.value(subject.path)
     where = f"({wanted[0]:.2f}, {wanted[1]:.2f})"
-    if instead is not None:
+    if shot.ideal is not None and shot.ideal.framed:
+        note = "the camera goes where it has this place and its size, cropped as it is"
+    elif instead is not None:
         note = f"it is filmed at ({instead[0]:.2f}, {instead[1]:.2f}) instead, where it is whole"
     else:
         note = "no place on screen shows it whole from there"

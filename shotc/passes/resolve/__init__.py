@@ -20,6 +20,7 @@ from shotc.passes.resolve.deferred import deferred_features
 from shotc.passes.resolve.earth import check_earth, geo_origin
 from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.framing import check_framing
+from shotc.passes.resolve.framings import with_framings
 from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
@@ -100,6 +101,8 @@ class Resolve:
             deferred=deferred_features(spec, shots.deferred),
             origins=origins,
         )
+        mission, framings = with_framings(mission)
+        faults += framings
         faults += _static_faults(
             mission, geometry=not astray, timing=not drone_faults, order=not has_errors(faults)
         )

@@ -11,7 +11,7 @@ from shotc.spec.mission import MissionSpec
 def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[Deferred, ...]:
     """Return each such feature once, at its first place; ``shots`` is what the kinds found."""
     first: dict[str, Deferred] = {}
-    for deferred in (*_of_mission(spec), *shots, *_of_shots(spec)):
+    for deferred in (*_of_mission(spec), *shots):
         first.setdefault(deferred.feature, deferred)
     return tuple(first.values())
 
@@ -21,9 +21,3 @@ def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
         yield Deferred("a scene file (`world.scene`)", ("world", "scene"))
     for name in spec.fleets:
         yield Deferred("a fleet", ("fleets", name))
-
-
-def _of_shots(spec: MissionSpec) -> Iterator[Deferred]:
-    for i, shot in enumerate(spec.shots):
-        if shot.size is not None:
-            yield Deferred("aiming for a size on screen (`size`)", ("shots", i, "size"))

@@ -82,4 +82,5 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         path=path,
         ideal=expansion.ideal,
         subjects=expansion.subjects,
+        size=shot.size,
     )

@@ -8,9 +8,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
-from shotc.geom.camera import Vec2, aim_at
-from shotc.ir.keyframes import PlacedSubject
-from shotc.ir.mission import Drone, MissionIR
+from shotc.geom.camera import Vec2
+from shotc.ir.mission import Drone
+from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.position import NEARLY, at_rest
 from shotc.solvers.conic import Status
@@ -34,21 +34,20 @@ class Turned:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Watch:
-    """Whose camera turns and what it watches.
+    """Whose camera turns, and how.
 
-    subject : that the camera follows, or (yaw, pitch) that it keeps, rad, or None to look where it goes
+    kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the looker's subjects
     ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
     """
 
-    mission: MissionIR
-    drone: Drone
-    subject: PlacedSubject | Vec2 | None
+    looker: Looker
+    kept: Vec2 | None = None
     ends: Array | None = None
 
 
 def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
     """Return the camera's angles along a position curve."""
-    drone = watch.drone
+    drone = watch.looker.drone
     breaks = clock.breaks
     inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
@@ -85,24 +84,14 @@ def _ends(watch: Watch, breaks: Array) -> Equalities:
 
 
 def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
-    """Return the yaw and the pitch that put the subject in its place, unwrapped; shape (M, 2)."""
-    drone, subject = watch.drone, watch.subject
-    if isinstance(subject, tuple) and not isinstance(subject, PlacedSubject):
-        return np.tile(np.array(subject), (len(times), 1))
-    places = position(times)[:, :3]
-    velocity = position.derivative()(times)[:, :2]
-    if subject is None:
-        yaw = _motion(velocity)
+    """Return the yaw and the pitch that put the subjects in their places, unwrapped; shape (M, 2)."""
+    if watch.kept is not None:
+        return np.tile(np.array(watch.kept), (len(times), 1))
+    if not watch.looker.subjects:
+        yaw = _motion(position.derivative()(times)[:, :2])
         return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])
-    target = watch.mission.target(subject.target)
-    uv = subject.reference or (0.0, 0.0)
-    found = np.zeros((len(times), 2))
-    last = (0.0, 0.0)
-    for i, t in enumerate(times):
-        x, y, z = (c - p for c, p in zip(target.at(float(t)), places[i], strict=True))
-        last = aim_at((x, y, z), uv, drone.hfov, drone.aspect, last[0]) or last
-        found[i] = last
-    low, high = drone.gimbal.pitch
+    found = aims_at(watch.looker, times, position(times)[:, :3])
+    low, high = watch.looker.drone.gimbal.pitch
     return np.column_stack([_wound(watch, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
 
 

@@ -12,9 +12,10 @@ from shotc.geom.corridor import Room, shortfall
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import Drone, Limits, MissionIR, Shot
 from shotc.passes.solve_path_qp.corridor import Around, with_corridor
+from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.moving import Even, Sides, shortfalls, sides
-from shotc.passes.timed_route.sights import Kept, Looker, Sights, keep_free
+from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
     Cones,
@@ -45,7 +46,7 @@ GAIN = 0.01
 class Task:
     """One shot to be flown.
 
-    looker : who flies, and the subject foremost in the picture
+    looker : who flies, and whom it films
     room : what stands; motions : its obstacles and what moves, even on the clock's pieces
     sights : whose pictures count
     """

@@ -9,15 +9,17 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, breaches
+from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
+from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import clock_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly
-from shotc.passes.timed_route.sights import Looker, Sights
+from shotc.passes.timed_route.sights import Sights
 from shotc.solvers.conic import Status
 
 NOTICE = 0.5  # metres off the ideal that are worth telling
@@ -57,16 +59,16 @@ def timed_shot(
     mission: MissionIR, drone: Drone, room: Room, around: Around, placed: PlacedShot, start: float
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``."""
-    shot = placed.shot
+    shot = at_start(mission, placed.shot, start)
     clock = clock_of(mission, drone, shot, start)
-    subject = placed.subjects[0] if placed.subjects else None
+    looker = Looker(mission, drone, placed.subjects)
     motions = tuple(evened(m, clock.breaks) for m in (*standing(room), *around.moving))
-    task = Task(Looker(mission, drone, subject), shot, clock, room, motions, around.sights)
+    task = Task(looker, shot, clock, room, motions, around.sights)
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
     kept = None if shot.ideal is None else shot.ideal.aim
-    turned = turn(Watch(mission, drone, kept or subject), clock, flown.curve)
+    turned = turn(Watch(looker, kept), clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
     lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)

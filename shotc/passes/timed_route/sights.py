@@ -14,13 +14,12 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import value_rows
-from shotc.geom.camera import aim_at
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
-from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import DroneTrajectory
+from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.passes.timed_route.others import flying
 from shotc.solvers.spline_qp import Floors
 
@@ -60,15 +59,6 @@ class Sights:
     watchers: tuple[Watcher, ...] = ()
     bodies: tuple[Body, ...] = ()
     half_angle: float | None = None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Looker:
-    """Whose own picture is kept free: a drone that frames a subject."""
-
-    mission: MissionIR
-    drone: Drone
-    subject: PlacedSubject | None
 
 
 def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTrajectory]) -> Sights:
@@ -123,7 +113,7 @@ def keep_free(
         )
         for watcher in sights.watchers
     ]
-    if looker.subject is not None:
+    if looker.subjects:
         own = times[(times > span[0]) & (times < span[1])]
         asked += [(partial(_in_own, looker, body, sights.half_angle), own) for body in sights.bodies]
     found = [_linear(outside_of, at, breaks, course) for outside_of, at in asked if len(at)]
@@ -163,12 +153,6 @@ def _in_theirs(
 
 
 def _in_own(looker: Looker, body: Body, half_angle: float | None, times: Array, places: Array) -> Array:
-    subject, drone = looker.subject, looker.drone
-    assert subject is not None
-    target, uv = looker.mission.target(subject.target), subject.reference or (0.0, 0.0)
-    aims = np.zeros((len(times), 2))
-    for i, (t, p) in enumerate(zip(times, places, strict=True)):
-        x, y, z = (c - e for c, e in zip(target.at(float(t)), p, strict=True))
-        aims[i] = aim_at((x, y, z), uv, drone.hfov, drone.aspect) or (0.0, 0.0)
+    drone, aims = looker.drone, aims_at(looker, times, places)
     camera = Cameras(places, aims[:, 0], aims[:, 1], np.full(len(times), drone.hfov), drone.aspect)
     return _out(camera, body.at(times), body.radius, half_angle)

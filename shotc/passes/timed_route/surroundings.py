@@ -16,10 +16,11 @@ from shotc.geom.corridor import Room, kept, shortfall
 from shotc.ir.mission import Drone
 from shotc.ir.path import PathIR
 from shotc.passes.solve_path_qp.room import flight_room
+from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.flights import flights
 from shotc.passes.timed_route.moving import Even, evened, moving_targets, shortfalls, sides, standing
 from shotc.passes.timed_route.others import other_drones
-from shotc.passes.timed_route.sights import Looker, Sights, keep_free, sights_of
+from shotc.passes.timed_route.sights import Sights, keep_free, sights_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)

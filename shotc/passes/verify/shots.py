@@ -9,6 +9,7 @@ import numpy as np
 
 from shotc.geom.pieces import cut
 from shotc.geom.proof import norm, sup_convex
+from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Shot
@@ -82,7 +83,8 @@ def _place(flight: Flight, shot: Shot, phase: Phase) -> Iterator[Claim]:
         return
     ticks = clock(flight.mission.rate, phase.end)
     t = np.union1d(ticks[(ticks > phase.start) & (ticks < phase.end)], [phase.start, phase.end])
-    ideal = np.array([ideal_place(flight.mission, shot, phase.start, float(u)) for u in t])
+    begun = at_start(flight.mission, shot, phase.start)
+    ideal = np.array([ideal_place(flight.mission, begun, phase.start, float(u)) for u in t])
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)
     k = int(np.argmax(away))
     limit = Limit("distance from its place", inf, "m", shot.path, hard=False, shot=shot.id)

@@ -13,8 +13,8 @@ from shotc.geom.bspline import restrict, subdivide
 from shotc.ir.path import PathIR, TimedLeg
 from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
+from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.flights import flights
-from shotc.passes.timed_route.sights import Looker
 from shotc.passes.timed_route.surroundings import surroundings
 
 HEAD = """\
@@ -119,7 +119,7 @@ def test_a_course_keeps_its_own_half_spaces_beside_pictures() -> None:
     mission, guide = path().keyframes.mission, fine("side")
     around = surroundings(path(), mission.drone("cam1"), guide.breaks)
     (placed,) = (p for p in path().keyframes.shots if p.shot.id == "side")
-    looker = Looker(mission, mission.drone("cam1"), placed.subjects[0])
+    looker = Looker(mission, mission.drone("cam1"), placed.subjects)
     planes = around.free(looker, (leg("side").start, leg("side").end), guide)
     reach = np.einsum("pmd,pd->pm", guide.ctrl[planes.piece], planes.normal).min(axis=1)
     assert (reach - planes.border[:, 0]).min(initial=0.0) > -1e-9

@@ -14,6 +14,7 @@ from shotc.refiner_api import (
     HFOV,
     Array,
     Clock,
+    Looker,
     TimedLeg,
     Watch,
     quintic_hermite,
@@ -51,9 +52,8 @@ def filmed(subject: ClockSubject, position: Piecewise) -> TimedLeg | None:
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
     ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
     clock = Clock(leg.curve.breaks, leg.start, leg.end)
-    turned = turn(
-        Watch(subject.mission, subject.drone, subject.aim or subject.watched, ends), clock, position
-    )
+    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
+    turned = turn(Watch(looker, subject.aim, ends), clock, position)
     if turned.curve is None:
         return None
     breaks = position.breaks

@@ -17,7 +17,7 @@ from shotc.plugin_api import (
     solver_nan,
     stopped_early,
 )
-from shotc.refiner_api import Deviation, TimedLeg, TimedPath, ideal_place, least_out
+from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
 from shotc_casadi.clock.program import UNITS, ClockSolution
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.wishes import ClockSubject
@@ -35,7 +35,10 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
     name : of the refiner. A shot that cannot be refined keeps its guide, with an error that says why.
     """
     told: list[Diagnostic] = []
-    for shot in [leg.shot for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]:
+    # What several subjects ask for together is not in this problem: their guide is flown.
+    shared = {p.shot.id for p in path.keyframes.shots if len(p.subjects) > 1}
+    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
+    for shot in [leg.shot for leg in legs if leg.shot not in shared]:
         ctx.progress(f"refine shot {shot}")
         subject = subject_of(path, shot)
         refined = refine_clock(subject)
@@ -54,7 +57,8 @@ def subject_of(path: PathIR, shot: str) -> ClockSubject:
     (placed,) = (p for p in path.keyframes.shots if p.shot.id == shot)
     legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
     (leg,) = (leg for leg in legs if leg.shot == shot)
-    return ClockSubject(path, mission.drone(placed.shot.drone), placed, leg)
+    begun = placed._replace(shot=at_start(mission, placed.shot, leg.start))
+    return ClockSubject(path, mission.drone(placed.shot.drone), begun, leg)
 
 
 def with_leg(path: PathIR, leg: TimedLeg) -> PathIR:

@@ -59,7 +59,7 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
     guide = restrict(leg.curve.channels(0, 1, 2), breaks)
     over = passes(subject, breaks, wanted)
     course, start, share = guide, guess(led(guide, wanted, over), breaks), NEARLY
-    looker = Looker(subject.mission, subject.drone, subject.watched)
+    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
     best: tuple[Piecewise, ClockSolution] | None = None
     first: ClockSolution | None = None
     gap: Gap | None = None

@@ -1,0 +1,358 @@
+"""From where subjects appear as asked: place, yaw and pitch of a camera, by least squares. Plain Python.
+
+The terms are those of Naegeli et al. (viewpoint Eq. 7 to 9): place on screen, size and viewing angle. Sizes
+are those of the exact outline, and enter as logarithms, so that twice and half are equally wrong. What has to
+hold enters as a steep hinge (the target whole in the frame, its clearance) or as a bound (floor, pitch).
+"""
+
+from collections.abc import Sequence
+from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
+from typing import NamedTuple
+
+from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
+
+Pose = tuple[float, float, float, float, float]
+Residuals = list[float]
+
+FAR = 1e5  # metres beyond which nothing is filmed
+HALVINGS = 60
+STEEP = 10.0  # weight of what has to hold
+FAINT = 0.03  # weight of what is free: that it stays as it is, and is level
+EDGE = 0.97  # of half a frame, within which a whole target is kept
+NUDGE = 1e-6
+ROUNDS = 100
+SETTLED = 1e-6  # share of the cost by which a round has to lower it
+STEEPEST = 1.5  # rad of elevation that a free view is raised to
+
+
+class Lens(NamedTuple):
+    """What the camera sees and where its gimbal turns: hfov, rad; width / height; pitch range, rad."""
+
+    hfov: float
+    aspect: float
+    pitch: Vec2
+
+
+class Room(NamedTuple):
+    """Where the camera may be: lowest z, metres, and the distance it keeps from subjects."""
+
+    floor: float
+    near: float
+
+
+class Wanted(NamedTuple):
+    """A subject at one instant, and how it is to appear; None is free.
+
+    centre : W, m; radius, height : of its cylinder, m
+    uv : place on screen; size : of its outline, over the frame's height
+    azimuth : compass bearing from it to the camera, rad; elevation : of the camera above it, rad
+    """
+
+    centre: Vec3
+    radius: float
+    height: float
+    uv: Vec2 | None = None
+    size: float | None = None
+    azimuth: float | None = None
+    elevation: float | None = None
+
+    @property
+    def whole(self) -> bool:
+        """Whether all of it is to be in the frame: it is not asked to be larger than that."""
+        return self.size is None or self.size <= 1.0
+
+
+class Seen(NamedTuple):
+    """How a subject appears, against what was wanted.
+
+    screen : distance from its place, half frames; size : over the frame's height
+    angle : off the asked view, rad; out : how far it reaches out of the frame, half frames; 0 inside
+    """
+
+    screen: float
+    size: float
+    angle: float
+    out: float
+
+
+def direction(azimuth: float, elevation: float) -> Vec3:
+    """Return the unit vector from a subject to a camera at a compass bearing and an elevation."""
+    level = cos(elevation)
+    return (level * sin(azimuth), level * cos(azimuth), sin(elevation))
+
+
+def size_from(wanted: Wanted, lens: Lens, offset: Vec3) -> float:
+    """Return the size of a subject at its place on screen, seen from ``offset`` off its centre.
+
+    Infinite where it reaches past the image plane, NaN where no camera puts it there.
+    """
+    back = (-offset[0], -offset[1], -offset[2])
+    aim = aim_at(back, wanted.uv or (0.0, 0.0), lens.hfov, lens.aspect)
+    if aim is None:
+        return float("nan")
+    camera = view(*aim, lens.hfov, lens.aspect)
+    if nearest_depth(camera, back, wanted.radius, wanted.height) <= 0:
+        return inf
+    _, _, low, high = silhouette_bounds(camera, back, wanted.radius, wanted.height)
+    return float(0.5 * (high - low))
+
+
+def gap(wanted: Wanted, offset: Vec3) -> float:
+    """Return the distance from a subject's cylinder to a place ``offset`` off its centre, metres."""
+    across = max(0.0, hypot(offset[0], offset[1]) - wanted.radius)
+    return hypot(across, max(0.0, abs(offset[2]) - wanted.height / 2))
+
+
+def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
+    """Return the distance from a subject's centre, along a unit vector, at which its clearance is kept."""
+    low, high = 0.0, wanted.radius + wanted.height + near + 1.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if gap(wanted, _times(toward, middle)) < near:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def distance_for(wanted: Wanted, lens: Lens, toward: Vec3, size: float) -> float:
+    """Return the distance along a unit vector from which a subject has a size; 0 where none is so near."""
+    low, high = 1e-3, FAR
+    for _ in range(HALVINGS + 20):
+        middle = sqrt(low * high)
+        if size_from(wanted, lens, _times(toward, middle)) > size:
+            low = middle
+        else:
+            high = middle
+    return high if high > 1.01e-3 else 0.0
+
+
+def lens_for(wanted: Wanted, lens: Lens, offset: Vec3, size: float) -> float | None:
+    """Return the horizontal field of view that gives a subject its size from a place, rad, or None."""
+    low, high = 0.02, 2.8
+    sized = [size_from(wanted, lens._replace(hfov=h), offset) for h in (low, high)]
+    if not sized[1] <= size <= sized[0]:
+        return None
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if size_from(wanted, lens._replace(hfov=middle), offset) > size:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def stand(wanted: Wanted, lens: Lens, room: Room, azimuth: float, size: float) -> Vec3:
+    """Return the camera's offset from a subject that is seen from a bearing in a size, in closed form.
+
+    Where the elevation is free it is level, or as little above as the room's floor asks for.
+    """
+    if wanted.elevation is not None:
+        toward = direction(azimuth, wanted.elevation)
+        return _times(toward, distance_for(wanted, lens, toward, size))
+
+    def at(elevation: float) -> Vec3:
+        toward = direction(azimuth, elevation)
+        return _times(toward, distance_for(wanted, lens, toward, size))
+
+    lift = room.floor - wanted.centre[2]
+    offset = at(0.0)
+    if offset[2] >= lift:
+        return offset
+    low, high = 0.0, STEEPEST
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        if at(middle)[2] < lift:
+            low = middle
+        else:
+            high = middle
+    return at(high)
+
+
+def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Seen | None:
+    """Return how a subject appears from a pose; None where it reaches behind the camera."""
+    camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
+    offset = _minus(wanted.centre, (pose[0], pose[1], pose[2]))
+    if nearest_depth(camera, offset, wanted.radius, wanted.height) <= 0:
+        return None
+    left, right, low, high = silhouette_bounds(camera, offset, wanted.radius, wanted.height)
+    u, v, _ = camera.project(offset)
+    screen = 0.0 if wanted.uv is None else hypot(u - wanted.uv[0], v - wanted.uv[1])
+    chord = hypot(*_off_view(wanted, offset))
+    out = max(0.0, -left - 1.0, right - 1.0, -low - 1.0, high - 1.0) if wanted.whole else 0.0
+    return Seen(screen, 0.5 * (high - low), 2 * asin(min(1.0, 0.5 * chord)), out)
+
+
+def whole(pose: Pose, lens: Lens, wanted: Wanted) -> bool:
+    """Tell whether all of a subject is in the frame."""
+    offset = _minus(wanted.centre, (pose[0], pose[1], pose[2]))
+    camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
+    return bool(min(frustum_margins(camera, offset, wanted.radius, wanted.height)) >= 0.0)
+
+
+def middle_of(subjects: Sequence[Wanted]) -> Vec3:
+    """Return the mean of the subjects' centres."""
+    x, y, z = (sum(s.centre[i] for s in subjects) / len(subjects) for i in range(3))
+    return (x, y, z)
+
+
+def first_pose(subjects: Sequence[Wanted], lens: Lens, room: Room, azimuth: float) -> Pose:
+    """Return a pose from which all subjects are in front of the camera, at a bearing from their middle."""
+    middle = middle_of(subjects)
+    spread = max(hypot(*_minus(s.centre, middle)) + s.radius + s.height / 2 for s in subjects)
+    half = min(tan(lens.hfov / 2), tan(lens.hfov / 2) / lens.aspect)
+    away = spread * (1.0 + 1.0 / half) + room.near
+    level = direction(azimuth, 0.0)
+    eye = (middle[0] + away * level[0], middle[1] + away * level[1], max(middle[2], room.floor))
+    x, y, z = _minus(middle, eye)
+    return (*eye, atan2(y, x), atan2(z, hypot(x, y)))
+
+
+def viewpoint(
+    subjects: Sequence[Wanted], lens: Lens, room: Room, start: Pose, kept: Vec3 | None = None
+) -> tuple[Pose, float]:
+    """Return the pose nearest to all that is wanted, from a first guess, and its cost (Levenberg-Marquardt).
+
+    kept : where the camera would be if nothing changed, or None; the free ways are taken that lead there
+    """
+    reach = max(hypot(*_minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
+    scale = (reach, reach, reach, 1.0, 1.0)
+
+    def cost(pose: Pose) -> tuple[Residuals | None, float]:
+        found = _residuals(pose, subjects, lens, room.near, (kept, reach))
+        return found, inf if found is None else sum(r * r for r in found)
+
+    low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
+    high = (inf, inf, inf, inf, lens.pitch[1])
+    pose, damping = _within(start, low, high), 1e-3
+    here, least = cost(pose)
+    for _ in range(ROUNDS):
+        if here is None:
+            break
+        columns = []
+        for i in range(5):
+            # Away from a bound, so that what lies beyond it is not looked at.
+            nudge = NUDGE if pose[i] < high[i] else -NUDGE
+            there, _ = cost(_moved(pose, i, nudge * scale[i]))
+            if there is None:
+                return pose, least
+            columns.append([(b - a) / nudge for a, b in zip(here, there, strict=True)])
+        gradient = [_dot(c, here) for c in columns]
+        # A step goes against the gradient; where that leads over a bound, it stays on it.
+        stopped = [
+            (p <= a and g > 0) or (p >= b and g < 0)
+            for p, a, b, g in zip(pose, low, high, gradient, strict=True)
+        ]
+        free = [i for i in range(5) if not stopped[i]]
+        normal = [[_dot(columns[i], columns[k]) for k in free] for i in free]
+        before = least
+        for _ in range(12):
+            step = dict(zip(free, _solved(normal, [gradient[i] for i in free], damping), strict=True))
+            moved = tuple(p - scale[i] * step.get(i, 0.0) for i, p in enumerate(pose))
+            later = _within(moved, low, high)
+            found, value = cost(later)
+            if value < least:
+                pose, here, least, damping = later, found, value, max(damping * 0.1, 1e-12)
+                break
+            damping *= 10.0
+        if before - least <= SETTLED * max(before, 1e-12):
+            break
+    return pose, least
+
+
+def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) -> Pose:
+    x, y, z, yaw, pitch = (min(max(p, a), b) for p, a, b in zip(pose, low, high, strict=True))
+    return (x, y, z, yaw, pitch)
+
+
+def _residuals(
+    pose: Pose, subjects: Sequence[Wanted], lens: Lens, near: float, faint: tuple[Vec3 | None, float]
+) -> Residuals | None:
+    """Return all terms; None where a subject reaches behind the camera."""
+    camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
+    eye = (pose[0], pose[1], pose[2])
+    kept, reach = faint
+    found: Residuals = []
+    sized = any(s.size is not None for s in subjects)
+    for s in subjects:
+        offset = _minus(s.centre, eye)
+        if nearest_depth(camera, offset, s.radius, s.height) <= 1e-3:
+            return None
+        u, v, _ = camera.project(offset)
+        left, right, low, high = silhouette_bounds(camera, offset, s.radius, s.height)
+        if not high > low:
+            return None
+        if s.uv is None:
+            found += [FAINT * u, FAINT * v]
+        else:
+            found += [u - s.uv[0], v - s.uv[1]]
+        if s.size is not None:
+            found.append(log(0.5 * (high - low) / s.size))
+        elif not sized:
+            found.append(FAINT * log(0.5 * (high - low) / LONG))
+        if s.whole:
+            found += [STEEP * max(0.0, edge - EDGE) for edge in (-left, right, -low, high)]
+        found += _off_view(s, offset)
+        if s.elevation is None:
+            found.append(FAINT * offset[2] / max(hypot(*offset), 1e-9))
+        found.append(STEEP * max(0.0, near - gap(s, offset)))
+    if kept is not None:
+        found += [FAINT * (e - k) / reach for e, k in zip(eye, kept, strict=True)]
+    return found
+
+
+LONG = 0.4  # size of a subject that is asked none: the whole of it, in its surroundings
+
+
+def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:
+    """Return by how much a view is off the asked one, as chords of the unit sphere (viewpoint Eq. 9).
+
+    offset : subject less camera
+    """
+    azimuth, elevation = wanted.azimuth, wanted.elevation
+    length, level = max(hypot(*offset), 1e-9), max(hypot(offset[0], offset[1]), 1e-9)
+    if azimuth is not None and elevation is not None:
+        return [-c / length - a for c, a in zip(offset, direction(azimuth, elevation), strict=True)]
+    if azimuth is not None:
+        return [-offset[0] / level - sin(azimuth), -offset[1] / level - cos(azimuth)]
+    if elevation is not None:
+        return [atan2(-offset[2], level) - elevation]
+    return []
+
+
+def _solved(normal: list[list[float]], gradient: list[float], damping: float) -> list[float]:
+    """Solve the damped normal equations by Gaussian elimination with pivots."""
+    n = len(gradient)
+    rows = [[*normal[i], gradient[i]] for i in range(n)]
+    for i in range(n):
+        rows[i][i] += damping * max(normal[i][i], 1e-9)
+    for i in range(n):
+        best = max(range(i, n), key=lambda k: abs(rows[k][i]))
+        rows[i], rows[best] = rows[best], rows[i]
+        pivot = rows[i][i] or 1e-300
+        for k in range(i + 1, n):
+            share = rows[k][i] / pivot
+            rows[k] = [a - share * b for a, b in zip(rows[k], rows[i], strict=True)]
+    step = [0.0] * n
+    for i in reversed(range(n)):
+        rest = rows[i][n] - sum(rows[i][k] * step[k] for k in range(i + 1, n))
+        step[i] = rest / (rows[i][i] or 1e-300)
+    return step
+
+
+def _moved(pose: Pose, i: int, step: float) -> Pose:
+    values = list(pose)
+    values[i] += step
+    return tuple(values)  # type: ignore[return-value]
+
+
+def _dot(a: Residuals, b: Residuals) -> float:
+    return sum(p * q for p, q in zip(a, b, strict=True))
+
+
+def _minus(a: Vec3, b: Vec3) -> Vec3:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _times(a: Vec3, factor: float) -> Vec3:
+    return (a[0] * factor, a[1] * factor, a[2] * factor)

@@ -1,0 +1,372 @@
+"""The ideal of a framing: from where its subjects appear as asked, over the time of the shot. Plain Python.
+
+One subject is a closed form: the camera goes along with it at one offset. Several are a least-squares course,
+knot after knot, each begun where the last one ended. What is silent is free, and is settled by rule:
+
+- a bearing: the one from which the drone comes, else the nearest to it from which nothing stands before the
+  subjects and the camera has room, over the whole shot;
+- an elevation: level with the subject, or as little above as the ground clearance asks;
+- a size: ``viewpoint.LONG``, where no subject has one;
+- a place on screen: of one subject, the place of its composition nearest to the middle where it is whole; of
+  several, each place of the composition once.
+"""
+
+from collections.abc import Iterator, Sequence
+from itertools import permutations
+from math import atan2, ceil, cos, dist, hypot, pi, sin
+from typing import NamedTuple
+
+from shotc.geom.camera import Vec2, Vec3, aim_at
+from shotc.geom.line_of_sight import crosses
+from shotc.geom.solids import Cylinder, depth, distance
+from shotc.geom.viewpoint import (
+    LONG,
+    Lens,
+    Pose,
+    Room,
+    Wanted,
+    first_pose,
+    judged,
+    middle_of,
+    stand,
+    viewpoint,
+    whole,
+)
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject, Target
+
+KNOT = 0.5  # seconds between the knots of a course
+FEWEST, MOST = 8, 240  # stretches of a course
+LOOKS = 24  # stretches at which a bearing is looked at
+TURN = pi / 36  # between bearings that are tried for one subject
+WIDE = pi / 6  # and for several
+NEARLY = 0.02  # of cost by which another bearing is as good
+LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
+AGAIN = 5  # times that a first pose is begun again at most
+SAME = 1e-6  # seconds
+
+
+class Course(NamedTuple):
+    """A framing as it begins at one time.
+
+    shot : with its ideal and its subjects' places on screen; times, poses : along it
+    blocked, hidden : shares of it at which the camera has no room, or something stands before a subject
+    """
+
+    shot: Shot
+    times: tuple[float, ...]
+    poses: tuple[Pose, ...]
+    blocked: float
+    hidden: float
+
+
+def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
+    """Return a shot as it is where its first frame is at ``start``; only a framing depends on that."""
+    if shot.ideal is None or not shot.ideal.framed:
+        return shot
+    if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME:
+        return shot
+    return course_of(mission, shot, start).shot
+
+
+def first_start(mission: MissionIR, shot: Shot) -> float:
+    """Return when a shot begins, or where that is not known, when it may at the earliest."""
+    if shot.timing.start is not None:
+        return shot.timing.start
+    tracks = (mission.target(s.target).track for s in shot.subjects)
+    return max((track.since for track in tracks if track is not None), default=0.0)
+
+
+def course_of(mission: MissionIR, shot: Shot, start: float) -> Course:
+    """Return the course of a framing whose first frame is at ``start``."""
+    scene = _Scene(mission, shot, start)
+    return _alone(scene) if len(shot.subjects) == 1 else _several(scene)
+
+
+def wanted_at(mission: MissionIR, subject: Subject, t: float) -> Wanted:
+    """Return a subject and how it is to appear, at a mission time."""
+    target = mission.target(subject.target)
+    azimuth, elevation = subject.view or (None, None)
+    uv = subject.composition.points[0] if len(subject.composition.points) == 1 else None
+    return Wanted(target.at(t), target.radius, target.height, uv, subject.size, azimuth, elevation)
+
+
+def lens_of(drone: Drone) -> Lens:
+    """Return the lens of a drone's camera."""
+    return Lens(drone.hfov, drone.aspect, drone.gimbal.pitch)
+
+
+def room_of(mission: MissionIR, drone: Drone) -> Room:
+    """Return where a drone's camera may be."""
+    rules = mission.rules
+    return Room(rules.ground_clearance + drone.radius + LIFT, rules.target_clearance + drone.radius)
+
+
+def places_of(composition: Composition) -> list[Vec2]:
+    """Return the places of a composition, the nearest to the middle first; of a line the nearest one."""
+    points = [*composition.points, *((c, 0.0) for c in composition.u_lines)]
+    points += [(0.0, c) for c in composition.v_lines]
+    return sorted(points, key=lambda p: hypot(*p)) or [(0.0, 0.0)]
+
+
+class _Scene:
+    """What the course of one framing is made of."""
+
+    def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
+        duration = shot.timing.duration or 0.0
+        pieces = int(min(MOST, max(FEWEST, ceil(duration / KNOT))))
+        self.mission, self.shot, self.start = mission, shot, start
+        self.drone = mission.drone(shot.drone)
+        self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone)
+        self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
+        self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
+
+    def wanted(self, subjects: Sequence[Subject], t: float) -> list[Wanted]:
+        """Return all subjects as they are wanted at a time."""
+        return [wanted_at(self.mission, s, t) for s in subjects]
+
+    def comes_from(self, subject: Vec3) -> float:
+        """Return the bearing from a subject to where the drone was before the shot."""
+        x, y, _ = _before(self.mission, self.shot)
+        return atan2(x - subject[0], y - subject[1]) if hypot(x - subject[0], y - subject[1]) > 1e-3 else 0.0
+
+    def shares(self, eyes: Sequence[tuple[float, Vec3]]) -> tuple[float, float]:
+        """Return the shares of places at which there is no room, and from which a subject is hidden."""
+        no_room = sum(any(True for _ in lacks(self.mission, self.drone, eye, t)) for t, eye in eyes)
+        unseen = sum(self._hidden(eye, t) for t, eye in eyes)
+        return no_room / len(eyes), unseen / len(eyes)
+
+    def _hidden(self, eye: Vec3, t: float) -> bool:
+        return any(hides(self.mission, s.target, eye, t) is not None for s in self.shot.subjects)
+
+
+def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[str, str, float]]:
+    """Yield every zone and target, by sort and name, that a drone is too near to, and by how much."""
+    for zone in mission.zones:
+        if zone.keep == "out":
+            lack = drone.radius - distance(zone.solid, p)
+        else:
+            lack = drone.radius - depth(zone.solid, p)
+        if lack > SAME:
+            yield "zone", zone.name, lack
+    need = mission.rules.target_clearance + drone.radius
+    for target in mission.targets:
+        lack = need - distance(_cylinder(target, t), p)
+        if lack > SAME:
+            yield "target", target.name, lack
+
+
+def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
+    """Return what stands between a camera and a target's middle or one of its sides, or None."""
+    target = mission.target(name)
+    x, y, z = target.at(t)
+    level = max(hypot(x - eye[0], y - eye[1]), 1e-9)
+    aside = (-(y - eye[1]) / level * target.radius, (x - eye[0]) / level * target.radius)
+    points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
+    solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
+    solids += [(o.name, _cylinder(o, t)) for o in mission.targets if o.name != name]
+    return next((n for n, solid in solids if any(crosses(solid, eye, p) for p in points)), None)
+
+
+def _cylinder(target: Target, t: float) -> Cylinder:
+    x, y, z = target.at(t)
+    return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
+
+
+def _before(mission: MissionIR, shot: Shot) -> Vec3:
+    """Return where a drone is before a shot: at the end of its shot before, as written, or at home."""
+    last: Shot | None = None
+    for other in mission.shots:
+        if other.id == shot.id:
+            break
+        if other.drone == shot.drone:
+            last = other
+    if last is None:
+        return mission.drone(shot.drone).home
+    if last.ideal is None:
+        return last.keyframes[-1].at
+    start = first_start(mission, last)
+    return ideal_place(mission, last, start, start + (last.timing.duration or 0.0))
+
+
+def _alone(scene: _Scene) -> Course:
+    """Return the course of one subject: an offset from it that stays."""
+    subject = scene.shot.subjects[0]
+    target = scene.mission.target(subject.target)
+    lowest = min((target.at(t) for t in scene.looks), key=lambda c: c[2])
+    wanted = wanted_at(scene.mission, subject, scene.start)._replace(centre=lowest)
+    size = LONG if subject.size is None else subject.size
+    options = []
+    for uv in places_of(subject.composition):
+        trial = wanted._replace(uv=uv)
+        offset = stand(trial, scene.lens, scene.room, wanted.azimuth or 0.0, size)
+        options.append((offset, uv))
+        if not trial.whole or whole(_aimed(lowest, offset, uv, scene.lens), scene.lens, trial):
+            break
+    else:
+        del options[1:]
+    offset, uv = options[-1]
+    offset = offset if wanted.azimuth is not None else _clear_bearing(scene, target, offset)
+    ideal = scene.shot.ideal
+    assert ideal is not None
+    shot = scene.shot._replace(
+        ideal=ideal._replace(points=((0.0, offset), (1.0, offset))),
+        subjects=(_at_place(subject, uv),),
+    )
+    poses = tuple(_aimed(target.at(t), offset, uv, scene.lens) for t in scene.times)
+    blocked, hidden = scene.shares([(t, _plus(target.at(t), offset)) for t in scene.looks])
+    return Course(shot, scene.times, poses, blocked, hidden)
+
+
+def _clear_bearing(scene: _Scene, target: Target, offset: Vec3) -> Vec3:
+    """Return an offset, given to the North, on the bearing nearest to the drone's that is clear."""
+    first = scene.comes_from(target.at(scene.start))
+    best, least = offset, (2.0, 2.0)
+    for k in range(round(2 * pi / TURN)):
+        azimuth = first + TURN * ((k + 1) // 2) * (1 if k % 2 else -1)
+        away = hypot(offset[0], offset[1])
+        turned = (away * sin(azimuth), away * cos(azimuth), offset[2])
+        found = scene.shares([(t, _plus(target.at(t), turned)) for t in scene.looks])
+        if found < least:
+            best, least = turned, found
+        if least == (0.0, 0.0):
+            break
+    return best
+
+
+def _several(scene: _Scene) -> Course:
+    """Return the course of several subjects."""
+    shot, ideal = scene.shot, scene.shot.ideal
+    assert ideal is not None
+    first, subjects = _opening(scene)
+    poses = _follow(scene, subjects, first, scene.times)
+    lead = scene.mission.target(subjects[0].target)
+    pieces = len(scene.times) - 1
+    points = tuple(
+        (i / pieces, _minus((p[0], p[1], p[2]), lead.at(t)))
+        for i, (t, p) in enumerate(zip(scene.times, poses, strict=True))
+    )
+    blocked, hidden = scene.shares([(t, (p[0], p[1], p[2])) for t, p in zip(scene.times, poses, strict=True)])
+    made = shot._replace(ideal=ideal._replace(points=points), subjects=subjects)
+    return Course(made, scene.times, poses, blocked, hidden)
+
+
+def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
+    """Return the first pose of several subjects, and the subjects with their places on screen.
+
+    Bearings all round are tried; of those that serve as well, the one that is clear, then the nearest to
+    the drone's.
+    """
+    subjects = scene.shot.subjects
+    wanted = scene.wanted(subjects, scene.start)
+    come = scene.comes_from(middle_of(wanted))
+    turns = [WIDE * ((k + 1) // 2) * (1 if k % 2 else -1) for k in range(round(2 * pi / WIDE))]
+    asked = [w.azimuth for w in wanted if w.azimuth is not None]
+    found: list[tuple[float, Pose, tuple[Subject, ...]]] = []
+    for azimuth in [*asked, *(come + turn for turn in turns)]:
+        guess = first_pose(wanted, scene.lens, scene.room, azimuth)
+        pose, cost = viewpoint(wanted, scene.lens, scene.room, guess)
+        settled = _assigned(subjects, wanted, pose, scene.lens)
+        if settled != subjects:
+            pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, scene.room, pose)
+        found.append((cost, pose, settled))
+    least = min(cost for cost, _, _ in found)
+    good = [f for f in found if f[0] <= least + NEARLY]
+    if len(good) == 1:
+        return _polished(scene, good[0])
+    every = max(1, len(scene.times) // 6)
+    times = scene.times[::every]
+    scores = []
+    for i, (_, pose, settled) in enumerate(good):
+        poses = _follow(scene, settled, pose, times)
+        eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
+        scores.append((*scene.shares(eyes), i))
+    return _polished(scene, good[min(scores)[2]])
+
+
+def _polished(
+    scene: _Scene, found: tuple[float, Pose, tuple[Subject, ...]]
+) -> tuple[Pose, tuple[Subject, ...]]:
+    """Return an opening, begun again from where it ended until that changes nothing."""
+    cost, pose, subjects = found
+    wanted = scene.wanted(subjects, scene.start)
+    for _ in range(AGAIN):
+        pose, later = viewpoint(wanted, scene.lens, scene.room, pose)
+        if later > (1 - NEARLY) * cost:
+            break
+        cost = later
+    return pose, subjects
+
+
+def _follow(
+    scene: _Scene, subjects: Sequence[Subject], first: Pose, times: Sequence[float]
+) -> tuple[Pose, ...]:
+    """Return the poses at times, each found from the one before, carried along with the subjects."""
+    poses = [first]
+    middle = middle_of(scene.wanted(subjects, times[0]))
+    for t in times[1:]:
+        wanted = scene.wanted(subjects, t)
+        later = middle_of(wanted)
+        last = poses[-1]
+        kept = _plus((last[0], last[1], last[2]), _minus(later, middle))
+        pose, cost = viewpoint(wanted, scene.lens, scene.room, (*kept, last[3], last[4]), kept)
+        if cost == float("inf"):
+            x, y, _ = _minus(kept, later)
+            guess = first_pose(wanted, scene.lens, scene.room, atan2(x, y))
+            pose, _ = viewpoint(wanted, scene.lens, scene.room, guess, kept)
+        poses.append(pose)
+        middle = later
+    return tuple(poses)
+
+
+def _assigned(
+    subjects: tuple[Subject, ...], wanted: Sequence[Wanted], pose: Pose, lens: Lens
+) -> tuple[Subject, ...]:
+    """Give each subject that has no place of its own one of its composition, each place once.
+
+    The places are those nearest to where the subjects are without; who finds none is only kept in the frame.
+    """
+    silent = [i for i, w in enumerate(wanted) if w.uv is None and not subjects[i].composition.watches]
+    if not silent:
+        return subjects
+    at = {i: _on_screen(pose, lens, wanted[i]) for i in silent}
+    taken = [w.uv for w in wanted if w.uv is not None]
+    free = [p for p in places_of(subjects[silent[0]].composition) if p not in taken]
+    free = [] if subjects[silent[0]].composition.keep else free
+    spots: list[Vec2 | None] = [*free, *([None] * max(0, len(silent) - len(free)))]
+
+    def away(order: tuple[Vec2 | None, ...]) -> float:
+        return sum(9.0 if p is None else dist(p, at[i]) for i, p in zip(silent, order, strict=True))
+
+    best = min(permutations(spots[:8], len(silent)), key=away)
+    settled = list(subjects)
+    for i, place in zip(silent, best, strict=True):
+        settled[i] = _at_place(subjects[i], place)
+    return tuple(settled)
+
+
+def _on_screen(pose: Pose, lens: Lens, wanted: Wanted) -> Vec2:
+    seen = [judged(pose, lens, wanted._replace(uv=uv)) for uv in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))]
+    if any(s is None for s in seen):
+        return (0.0, 0.0)
+    a, b, c = (s.screen**2 for s in seen if s is not None)
+    return (0.5 * (a - b + 1.0), 0.5 * (a - c + 1.0))
+
+
+def _at_place(subject: Subject, place: Vec2 | None) -> Subject:
+    name = subject.composition.name
+    return subject._replace(composition=Composition(name, () if place is None else (place,)))
+
+
+def _aimed(centre: Vec3, offset: Vec3, uv: Vec2, lens: Lens) -> Pose:
+    back = (-offset[0], -offset[1], -offset[2])
+    aim = aim_at(back, uv, lens.hfov, lens.aspect, pi / 2) or (0.0, 0.0)
+    return (*_plus(centre, offset), *aim)
+
+
+def _plus(a: Vec3, b: Vec3) -> Vec3:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def _minus(a: Vec3, b: Vec3) -> Vec3:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])

@@ -1,0 +1,119 @@
+"""Sizes that a shot asks for and that its geometry decides otherwise: told, with what would give them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees, hypot
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.camera import Vec2, Vec3, aim_at, nearest_depth, silhouette_bounds, view
+from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
+from shotc.ir.framed import first_start, lens_of
+from shotc.ir.ideal import ideal_place
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Drone, MissionIR
+
+LOOKS = 40  # stretches of a shot on its own clock
+OFF = 0.1  # share of the size asked that is worth telling
+
+
+class Look(NamedTuple):
+    """What is seen of a target: its size, from where, and how it is framed.
+
+    offset : camera less target's centre
+    """
+
+    size: float
+    name: str
+    offset: Vec3
+    uv: Vec2 | None
+    lens: Lens
+
+
+def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
+    """Return the warning about a shot whose target has not the size it asks for."""
+    shot, asked = placed.shot, placed.shot.size
+    if asked is None or (shot.ideal is not None and shot.ideal.framed):
+        return None
+    looks = list(_on_clock(mission, placed) if shot.ideal is not None else _at_keyframes(mission, placed))
+    if not looks:
+        return None
+    worst = max(looks, key=lambda look: abs(look.size / asked - 1.0))
+    if abs(worst.size / asked - 1.0) <= OFF:
+        return None
+    low, high = min(look.size for look in looks), max(look.size for look in looks)
+    found = f"{low:.3g} to {high:.3g}" if high - low > 0.01 * high else f"{worst.size:.3g}"
+    return Diagnostic(
+        "M035",
+        f"the size of `{worst.name}` in shot `{shot.id}` is {found}, not {asked:.3g}",
+        (mission.origins.value((*shot.path, "size")),),
+        (
+            f"how far away the camera is, a {shot.kind} says by its own numbers",
+            *_instead(mission, worst, asked),
+        ),
+        "change those numbers or the lens, leave `size` out, or use `kind: framing`",
+    )
+
+
+def _instead(mission: MissionIR, look: Look, asked: float) -> str:
+    """Say from how far away, and through which lens, a target would have its size."""
+    target = mission.target(look.name)
+    wanted = Wanted(target.centre, target.radius, target.height, look.uv)
+    away = hypot(*look.offset)
+    x, y, z = (c / away for c in look.offset)
+    distance = distance_for(wanted, look.lens, (x, y, z), asked)
+    said = (
+        f"its size is {look.size:.3g} from {away:.1f} m away; it would be {asked:.3g} from {distance:.1f} m"
+    )
+    if distance < nearest(wanted, (x, y, z), mission.rules.target_clearance):
+        said += ", which is too near"
+    hfov = lens_for(wanted, look.lens, look.offset, asked)
+    return said if hfov is None else f"{said}, or from there with `hfov: {degrees(hfov):.0f} deg`"
+
+
+def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
+    """Yield what is seen of the first subject along the ideal of a shot on its own clock."""
+    shot = placed.shot
+    if shot.ideal is None or not placed.subjects:
+        return
+    start, duration = first_start(mission, shot), shot.timing.duration or 0.0
+    subject, drone = placed.subjects[0], mission.drone(shot.drone)
+    for i in range(LOOKS + 1):
+        t = start + duration * i / LOOKS
+        eye = ideal_place(mission, shot, start, t)
+        x, y, z = (e - c for e, c in zip(eye, mission.target(subject.target).at(t), strict=True))
+        look = _look(mission, subject.target, (x, y, z), subject.reference, lens_of(drone), shot.ideal.aim)
+        if look is not None:
+            yield look
+
+
+def _at_keyframes(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
+    """Yield what is seen of the targets at the keyframes of a shot."""
+    drone = mission.drone(placed.shot.drone)
+    for keyframe in placed.keyframes:
+        look = None if keyframe.target is None else _from_keyframe(mission, drone, keyframe, keyframe.target)
+        if look is not None:
+            yield look
+
+
+def _from_keyframe(mission: MissionIR, drone: Drone, keyframe: PlacedKeyframe, name: str) -> Look | None:
+    x, y, z = (e - c for e, c in zip(keyframe.at, mission.target(name).centre, strict=True))
+    lens = lens_of(drone)._replace(hfov=keyframe.hfov)
+    return _look(mission, name, (x, y, z), keyframe.reference, lens, (keyframe.yaw, keyframe.pitch))
+
+
+def _look(
+    mission: MissionIR, name: str, offset: Vec3, uv: Vec2 | None, lens: Lens, aim: Vec2 | None
+) -> Look | None:
+    """Return what a camera sees of a target; None where it reaches behind the camera."""
+    target = mission.target(name)
+    back = (-offset[0], -offset[1], -offset[2])
+    aim = aim or aim_at(back, uv or (0.0, 0.0), lens.hfov, lens.aspect)
+    if aim is None:
+        return None
+    camera = view(*aim, lens.hfov, lens.aspect)
+    if nearest_depth(camera, back, target.radius, target.height) <= 0:
+        return None
+    _, _, low, high = silhouette_bounds(camera, back, target.radius, target.height)
+    return Look(0.5 * (high - low), name, offset, uv, lens)

@@ -1,0 +1,274 @@
+"""Framings: where their cameras go is settled here, and what no camera can have is told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import asin, ceil, degrees, floor, isnan
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.viewpoint import Seen, Wanted, direction, judged, nearest, size_from
+from shotc.ir.framed import (
+    Course,
+    course_of,
+    first_start,
+    lacks,
+    lens_of,
+    wanted_at,
+)
+from shotc.ir.mission import MissionIR, Shot, Subject
+from shotc.ir.origin import KeyPath
+from shotc.passes.place_keyframes.faults import TILT
+from shotc.passes.resolve.framing import beyond_gimbal
+
+OFF_PLACE = 0.05  # half frames
+OFF_SIZE = 0.1  # share of the size asked
+OFF_VIEW = 0.09  # rad
+APART = 2.0  # times smaller than asked that a subject may be, for others to be in the picture with it
+OUT = 0.02  # half frames that a whole subject may reach out of the frame
+ROUNDING = 1e-6
+
+
+def with_framings(mission: MissionIR) -> tuple[MissionIR, list[Diagnostic]]:
+    """Return the mission with every framing's ideal and places on screen, and what stands against them."""
+    faults: list[Diagnostic] = []
+    for i, shot in enumerate(mission.shots):
+        if shot.ideal is None or not shot.ideal.framed:
+            continue
+        course = course_of(mission, shot, first_start(mission, shot))
+        faults += check_course(mission, course)
+        shots = (*mission.shots[:i], course.shot, *mission.shots[i + 1 :])
+        mission = mission._replace(shots=shots)
+    return mission, faults
+
+
+def check_course(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
+    """Yield what is wrong with a framing; the first fault of a subject is enough."""
+    shot = course.shot
+    near = [fault for s in shot.subjects if (fault := _too_large(mission, shot, s)) is not None]
+    yield from near
+    if near:
+        return
+    blocked = _blocked(mission, course)
+    if blocked is not None:
+        yield blocked
+        return
+    if len(shot.subjects) > 1:
+        yield from _together(mission, course)
+
+
+def _too_large(mission: MissionIR, shot: Shot, subject: Subject) -> Diagnostic | None:
+    """Tell a size that the subject has not even from as near as its clearance allows."""
+    if subject.size is None:
+        return None
+    drone = mission.drone(shot.drone)
+    near = mission.rules.target_clearance + drone.radius
+    wanted = wanted_at(mission, subject, first_start(mission, shot))
+    toward = direction(wanted.azimuth or 0.0, wanted.elevation or 0.0)
+    least = nearest(wanted, toward, near)
+    x, y, z = (c * least for c in toward)
+    largest = size_from(wanted, lens_of(drone), (x, y, z))
+    if largest >= subject.size * (1 - ROUNDING):
+        return None
+    path = shot_key(mission, shot, subject, "size")
+    if isnan(largest):
+        return Diagnostic(
+            "M031",
+            f"no camera shows `{subject.target}` at its place on screen",
+            (mission.origins.value(shot_key(mission, shot, subject, "frame")),),
+            ("it would look so steeply up or down that this place cannot be reached without tilting",),
+            "move its place nearer to the middle, or lower the elevation of its view",
+        )
+    labels: tuple[Label, ...] = (mission.origins.value(path),)
+    if ("rules", "target_clearance") in mission.origins.values:
+        labels = (*labels, mission.origins.value(("rules", "target_clearance"), "the clearance"))
+    return Diagnostic(
+        "M031",
+        f"target `{subject.target}` is never {_share(subject.size)} of the frame high",
+        labels,
+        (
+            f"the clearance of {mission.rules.target_clearance:.2f} m and the body radius of "
+            f"{drone.radius:.2f} m keep the camera {least:.2f} m from its middle; from there its size is "
+            f"{_share(largest)}",
+        ),
+        f"ask for {_share(floor(largest * 1000) / 1000)} or less, or take a longer lens",
+    )
+
+
+def _blocked(mission: MissionIR, course: Course) -> Diagnostic | None:
+    """Tell a view that is underground, out of the gimbal's range, or in something all along."""
+    shot, drone = course.shot, mission.drone(course.shot.drone)
+    need = mission.rules.ground_clearance + drone.radius
+    low = min(range(len(course.poses)), key=lambda i: course.poses[i][2])
+    z = course.poses[low][2]
+    subject = shot.subjects[0]
+    asked = next((s for s in shot.subjects if s.view is not None and s.view[1] is not None), None)
+    if len(shot.subjects) == 1 and z < need - ROUNDING:
+        where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
+        return Diagnostic(
+            "M032",
+            f"the view of `{subject.target}` puts the camera {where}",
+            (_view_label(mission, shot, subject, "elevation"),),
+            (f"the ground clearance and the body radius need {need:.2f} m",),
+            f"raise `elevation`{_enough(course, need)}, or leave it out: then it is as low as it may be",
+        )
+    pitches = sorted(p[4] for p in course.poses)
+    for pitch in (pitches[0], pitches[-1]):
+        if (
+            not drone.gimbal.pitch[0] - TILT <= pitch <= drone.gimbal.pitch[1] + TILT
+            and len(shot.subjects) == 1
+        ):
+            path = (*subject.path[:-1], "view", "elevation")
+            known = path if path in mission.origins.values else (*shot.path, "kind")
+            return beyond_gimbal(mission, drone, known, pitch)
+    if course.blocked < 1.0:
+        return None
+    t, pose = course.times[0], course.poses[0]
+    what, name, lack = max(lacks(mission, drone, (pose[0], pose[1], pose[2]), t), key=lambda found: found[2])
+    free = all(s.view is None or s.view[0] is None for s in shot.subjects)
+    owner = (
+        mission.target(name).path
+        if what == "target"
+        else next(z.path for z in mission.zones if z.name == name)
+    )
+    place = ", ".join(f"{c:.1f}" for c in pose[:3])
+    return Diagnostic(
+        "M032",
+        f"the camera of shot `{shot.id}` has no room where it sees `{subject.target}` as asked",
+        (
+            _view_label(mission, shot, asked or subject, "azimuth"),
+            mission.origins.key(owner, "what is in its way"),
+        ),
+        (
+            f"it would be at [{place}], where {what} `{name}` lacks {lack:.2f} m",
+            "it is so all through the shot",
+        ),
+        "ask for another size or elevation: no bearing is free"
+        if free
+        else "take another `azimuth`, or leave it out",
+    )
+
+
+def _enough(course: Course, need: float) -> str:
+    """Say which elevation would do, where the distance stays the same."""
+    x, y, z = course.shot.ideal.points[0][1] if course.shot.ideal is not None else (0.0, 0.0, 0.0)
+    away = (x * x + y * y + z * z) ** 0.5
+    rise = (z + need - min(p[2] for p in course.poses)) / max(away, 1e-9)
+    if rise >= 1.0:
+        return ""
+    return f" to {ceil(degrees(asin(rise)))} deg"
+
+
+def _view_label(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> Label:
+    base = subject.path[:-1]
+    for path in ((*base, "view", key), (*base, "view"), base):
+        if path in mission.origins.values:
+            return mission.origins.value(path)
+    return mission.origins.value((*shot.path, "kind"))
+
+
+def shot_key(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> KeyPath:
+    """Return where a key of a subject is written: in it, or in its shot, or the subject where it is not."""
+    for path in ((*subject.path[:-1], key), (*shot.path, key)):
+        if path in mission.origins.values:
+            return path
+    return subject.path
+
+
+class Worst(NamedTuple):
+    """The worst of one subject over a framing: against its place, size and view, and when."""
+
+    screen: tuple[float, float]
+    size: tuple[float, float, float]
+    angle: tuple[float, float]
+    out: tuple[float, float]
+
+
+def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
+    """Tell what several subjects cannot have at once."""
+    shot, lens = course.shot, lens_of(mission.drone(course.shot.drone))
+    notes: list[str] = []
+    labels: list[Label] = []
+    for subject in shot.subjects:
+        seen = []
+        for t, pose in zip(course.times, course.poses, strict=True):
+            wanted = wanted_at(mission, subject, t)
+            found = judged(pose, lens, wanted)
+            if found is not None:
+                seen.append((t, found, wanted))
+        apart = _apart(mission, course, subject, seen)
+        if apart is not None:
+            yield apart
+            return
+        said = _compromise(subject, seen)
+        if said:
+            notes.append(f"`{subject.target}` is {', '.join(said)}")
+            labels.append(mission.origins.value(subject.path))
+    if notes:
+        yield Diagnostic(
+            "M034",
+            f"the subjects of shot `{shot.id}` cannot all appear as asked at once",
+            tuple(labels),
+            tuple(notes),
+            "leave out what matters least, or hold to what matters by `require`",
+        )
+
+
+def _apart(
+    mission: MissionIR, course: Course, subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]
+) -> Diagnostic | None:
+    """Tell a subject that is out of the picture, or far too small for others to be in it."""
+    shot = course.shot
+    others = ", ".join(f"`{s.target}`" for s in shot.subjects if s is not subject)
+    label = mission.origins.value(subject.path)
+    if len(seen) < len(course.times):
+        return Diagnostic(
+            "M033",
+            f"`{subject.target}` cannot be in one picture with {others}",
+            (label,),
+            ("from where they appear as asked, it is behind the camera",),
+            "film it in another shot",
+        )
+    t, worst, _ = max(seen, key=lambda found: found[1].out)
+    if worst.out > OUT:
+        return Diagnostic(
+            "M033",
+            f"`{subject.target}` cannot be in one picture with {others}",
+            (label,),
+            (f"at t = {t:.1f} s it reaches {worst.out:.2f} of half a frame out of it, at best",),
+            "film it in another shot, or take a wider lens",
+        )
+    if subject.size is None:
+        return None
+    t, small, _ = min(seen, key=lambda found: found[1].size)
+    if small.size * APART >= subject.size:
+        return None
+    return Diagnostic(
+        "M033",
+        f"`{subject.target}` cannot be {_share(subject.size)} of the frame high in one picture with {others}",
+        (mission.origins.value(shot_key(mission, shot, subject, "size")),),
+        (f"at t = {t:.1f} s its size is {_share(small.size)} where all are in the frame",),
+        f"ask for {_share(small.size)} or less, or film them in two shots",
+    )
+
+
+def _compromise(subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]) -> list[str]:
+    """Say how far one subject is from what was asked of it, where that is worth telling."""
+    said = []
+    t, worst, wanted = max(seen, key=lambda found: found[1].screen)
+    if worst.screen > OFF_PLACE and wanted.uv is not None:
+        place = f"({wanted.uv[0]:.2f}, {wanted.uv[1]:.2f})"
+        said.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
+    if subject.size is not None:
+        asked = subject.size
+        t, worst, _ = max(seen, key=lambda found: abs(found[1].size / asked - 1.0))
+        if abs(worst.size / asked - 1.0) > OFF_SIZE:
+            said.append(f"{_share(worst.size)} of the frame high instead of {_share(asked)} at t = {t:.1f} s")
+    t, worst, _ = max(seen, key=lambda found: found[1].angle)
+    if worst.angle > OFF_VIEW:
+        said.append(f"seen {degrees(worst.angle):.0f} deg off its view at t = {t:.1f} s")
+    return said
+
+
+def _share(size: float) -> str:
+    return f"{size:.3g}"

@@ -1,0 +1,88 @@
+"""Where a camera has to look for its subjects to be at their places on screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import View, aim_at
+from shotc.geom.track_array import places as track_places
+from shotc.ir.keyframes import PlacedSubject
+from shotc.ir.mission import Drone, MissionIR
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Looker:
+    """A drone that frames subjects, the first one foremost; none where it looks where it goes."""
+
+    mission: MissionIR
+    drone: Drone
+    subjects: tuple[PlacedSubject, ...]
+
+
+ROUNDS = 12  # of Gauss and Newton, from a good first guess
+NUDGE = 1e-6  # rad
+MOST = 0.2  # rad of a step
+
+
+def aims_at(looker: Looker, times: Array, places: Array) -> Array:
+    """Return the yaw and the pitch that put subjects in their places, from places (M, 3) at times (M,).
+
+    Of several with a place the squares of their distances from it on screen are least, each counting alike.
+    Shape (M, 2), rad, not unwrapped.
+    """
+    mission, drone, subjects = looker.mission, looker.drone, looker.subjects
+    placed = [s for s in subjects if s.reference is not None] or list(subjects[:1])
+    each = np.stack([_aim(mission, drone, s, times, places) for s in placed])
+    if len(placed) == 1:
+        return np.asarray(each[0])
+    yaw = np.arctan2(np.sin(each[:, :, 0]).mean(axis=0), np.cos(each[:, :, 0]).mean(axis=0))
+    found = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
+    offsets = np.stack([_centres(mission, s, times) - places for s in placed])
+    wanted = np.array([s.reference or (0.0, 0.0) for s in placed])
+    for _ in range(ROUNDS):
+        here = _errors(drone, offsets, wanted, found)
+        slopes = np.stack(
+            [(_errors(drone, offsets, wanted, found + NUDGE * step) - here) / NUDGE for step in np.eye(2)],
+            axis=2,
+        )
+        normal = np.einsum("mri,mrj->mij", slopes, slopes) + 1e-9 * np.eye(2)
+        down = np.einsum("mri,mr->mi", slopes, here)
+        found = found - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST, MOST)
+    return found
+
+
+def _aim(mission: MissionIR, drone: Drone, subject: PlacedSubject, times: Array, places: Array) -> Array:
+    """Return the aim at one subject, shape (M, 2)."""
+    target = mission.target(subject.target)
+    uv = subject.reference or (0.0, 0.0)
+    found = np.zeros((len(times), 2))
+    last = (0.0, 0.0)
+    for i, t in enumerate(times):
+        x, y, z = (c - p for c, p in zip(target.at(float(t)), places[i], strict=True))
+        last = aim_at((x, y, z), uv, drone.hfov, drone.aspect, last[0]) or last
+        found[i] = last
+    return found
+
+
+def _centres(mission: MissionIR, subject: PlacedSubject, times: Array) -> Array:
+    target = mission.target(subject.target)
+    if target.track is None:
+        return np.tile(np.array(target.centre), (len(times), 1))
+    return np.asarray(track_places(target.track, times))
+
+
+def _errors(drone: Drone, offsets: Array, wanted: Array, aim: Array) -> Array:
+    """Return how far subjects are from their places on screen, shape (M, 2 K)."""
+    half = np.tan(drone.hfov / 2)
+    yaw, pitch = aim.T
+    camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)
+    found = []
+    for offset, uv in zip(offsets, wanted, strict=True):
+        x, y, z = offset.T
+        right, down, forward = camera.to_camera((x, y, z))
+        forward = np.maximum(forward, 0.1 * np.linalg.norm(offset, axis=1))
+        found += [right / (forward * half) - uv[0], -down / (forward * camera.half_height) - uv[1]]
+    return np.stack(found, axis=1)
