@@ -75,7 +75,7 @@ def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:
         "no choice of drones films every shot in time",
         labels,
         (
-            f"most is going on at t = {time:.1f} s: {shots}; the ways between them and the endurance count too",
+            f"most goes on at t = {time:.1f} s: {shots}; ways and endurance count, too",
         ),
         "add a drone, move a shot in time, or bring a home nearer",
     )
