@@ -63,7 +63,7 @@ bless: $(STAMP) ## Rewrite the golden files of the tests; read the diff before y
 	$(BIN)/pytest -n 2 --bless tests
 
 bench: $(STAMP) ## Measure: ratios to bare imports, growth, memory
-	$(BIN)/python tests/bench/bench.py
+	$(BIN)/python -m tests.bench.bench
 
 papers: $(STAMP) ## Run the papers' experiments; report in out/papers, tables in shotc/docs/papers.md
 	$(BIN)/python -m tests.papers --write-page

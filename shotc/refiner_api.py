@@ -5,45 +5,65 @@ Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it
 
 from __future__ import annotations
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import View, aim_at, frustum_margins
 from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
-from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.geom.track_array import places
+from shotc.ir.framed import at_start
+from shotc.ir.ideal import ideal_place
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, Deviation
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath
 from shotc.passes.parameterize_time.estimate import rough_times, shortest_time
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
 from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.turns import steady
+from shotc.passes.timed_route.camera import Watch, turn
+from shotc.passes.timed_route.clock import Clock
+from shotc.passes.timed_route.pictures import least_out
+from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
 
 __all__ = [
+    "BODY_YAW",
     "CAM_PITCH",
     "CAM_YAW",
     "HFOV",
     "Array",
+    "Clock",
     "Deviation",
     "Drone",
     "Fit",
     "NoTransit",
     "PlacedKeyframe",
     "PlacedShot",
+    "PlacedSubject",
+    "Planes",
     "Room",
     "Status",
+    "Surroundings",
+    "TimedLeg",
+    "TimedPath",
     "View",
+    "Watch",
     "aim_at",
+    "at_start",
     "corridor",
     "distances",
     "fit",
     "flight_room",
     "frustum_margins",
+    "ideal_place",
     "kept",
+    "least_out",
     "leg_of",
+    "places",
+    "quintic_hermite",
     "rejoined",
     "restrict",
     "rough_times",
@@ -53,6 +73,8 @@ __all__ = [
     "spline",
     "steady",
     "subdivide",
+    "surroundings",
+    "turn",
     "with_camera",
     "within",
 ]

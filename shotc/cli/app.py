@@ -25,6 +25,7 @@ class _Command(NamedTuple):
 _PLAN, _LEARN = "From mission to flight", "Write missions"
 COMMANDS = {
     "new": _Command("shotc.cli.new:new", _LEARN),
+    "import": _Command("shotc.cli.import_:import_", _LEARN),
     "check": _Command("shotc.cli.check:check", _LEARN),
     "explain": _Command("shotc.cli.explain:explain", _LEARN),
     "list": _Command("shotc.cli.inventory:show", _LEARN),

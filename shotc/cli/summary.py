@@ -146,16 +146,14 @@ def _pictures(plan: VerifiedIR) -> str:
     rules = plan.trajectory.keyframes.mission.rules
     if rules.visibility == "off":
         return "pictures are not judged"
-    whose = (
-        "another's picture"
-        if rules.half_angle is None
-        else f"the {degrees(rules.half_angle):.3g} deg about another's optical axis"
-    )
-    seen = [c for c in plan.certificate if c.constraint.endswith(OUT) and not c.holds]
-    if not seen:
-        return f"none is in {whose}"
-    said = [f"{c.constraint.removesuffix(OUT)} in that of {c.subject} (shot {c.shot})" for c in seen]
-    return f"in {whose}: {', '.join(said)}"
+    angle = rules.half_angle
+    where = "in the picture" if angle is None else f"within {degrees(angle):.3g} deg of the axis"
+    seen = [
+        f"{c.constraint.removesuffix(OUT)} is {where} of {c.subject} (shot {c.shot})"
+        for c in plan.certificate
+        if c.constraint.endswith(OUT) and not c.holds
+    ]
+    return ", ".join(seen) or f"none is {where} of another"
 
 
 def _files(paths: Sequence[Path]) -> list[str]:

@@ -21,6 +21,7 @@ FAMILIES = {
     "T": ("timing", "timing"),
     "V": ("verification", "verification"),
     "E": ("emission", "emission"),
+    "I": ("imports", "imports"),
     "P": ("plugins", "plugins and options"),
     "X": ("internal", "our bug"),
 }

@@ -2,7 +2,8 @@
 
 The terms are those of Naegeli et al. (viewpoint Eq. 7 to 9): place on screen, size and viewing angle. Sizes
 are those of the exact outline, and enter as logarithms, so that twice and half are equally wrong. What has to
-hold enters as a steep hinge (the target whole in the frame, its clearance) or as a bound (the floor, the pitch).
+hold enters as a steep hinge (the target whole in the frame, its clearance, the drone's speed) or as a bound
+(the floor, the pitch).
 """
 
 from collections.abc import Sequence
@@ -63,7 +64,7 @@ class Wanted(NamedTuple):
 
 
 class Since(NamedTuple):
-    """The camera a moment before: where it was, where it is if it goes along, and how far it may have gone."""
+    """The camera a moment before: where it was, where it is if it goes along, how far it may go."""
 
     eye: Vec3
     kept: Vec3

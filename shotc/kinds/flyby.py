@@ -6,7 +6,7 @@ from pydantic import Field
 
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.moving import along
-from shotc.spec.fields import Length, Name, PositiveLength
+from shotc.spec.fields import Length, Name
 from shotc.spec.shot import ShotBase
 
 
@@ -15,8 +15,8 @@ class FlybyShot(ShotBase):
 
     kind: Literal["flyby"] = Field(description="what sort of shot it is")
     target: Name = Field(description="name of the target that is passed")
-    behind: PositiveLength = Field(description="distance behind the target at the start")
-    ahead: PositiveLength = Field(description="distance ahead of the target at the end")
+    behind: Length = Field(description="distance behind the target at the start; negative is ahead of it")
+    ahead: Length = Field(description="distance ahead of the target at the end; negative is behind it")
     altitude: Length = Field(description="z of the camera")
     offset: Length = Field(
         default=0.0, description="distance of the pass to the left of the target's motion; negative is right"

@@ -42,7 +42,8 @@ class RulesSpec(Model):
         default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"
     )
     mutual_visibility: MutualVisibilitySpec | None = Field(
-        default=None, description="whether drones keep out of each other's pictures"
+        default=None,
+        description="whether drones keep out of each other's pictures; prefer, by the frame, if silent",
     )
     pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
     allow: Allowed = Field(default=(), description="warnings of film grammar that are not told, by name")

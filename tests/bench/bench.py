@@ -22,6 +22,7 @@ from pathlib import Path
 from shotc import __version__, plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
+from tests.bench.fleets import fleets, mission
 
 ROOT = Path(__file__).resolve().parents[2]
 DEMO = ROOT / "specs" / "westerhever-lighthouse.yaml"
@@ -201,6 +202,11 @@ def main() -> None:
         }
         processes(7, "cvxpy, toppra, rerun", commands)
         processes(7, "cvxpy, casadi, toppra, rerun", {"shotc plan DEMO": plan})
+        three = Path(folder) / "three.yaml"
+        three.write_bytes(mission(3))
+        fleet = [*SHOTC, "plan", str(three), "-o", folder]
+        processes(3, "cvxpy, casadi, toppra, rerun", {"shotc plan, 3 drones, 60 s each": fleet})
+    fleets()
     growth()
     stages()
 

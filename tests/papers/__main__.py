@@ -18,7 +18,7 @@ from tests.papers.report import Section, html, markdown, text
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "papers"
 PAGE = ROOT / "shotc" / "docs" / "papers.md"
-PARTS = ("framing", "yaw", "retiming")
+PARTS = ("framing", "yaw", "retiming", "multidrone")
 MISSIONS = 60
 
 
@@ -56,6 +56,11 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
         found.append(Section("Headings", tuple(yaw.tables())))
     if "retiming" in parts:
         found.append(retiming.section(drafts, say))
+    if "multidrone" in parts and "ours" in installed:
+        from tests.papers import multidrone
+
+        say("multidrone")
+        found.append(multidrone.section())
     return found
 
 

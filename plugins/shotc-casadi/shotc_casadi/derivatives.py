@@ -16,15 +16,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc_casadi.conditions import Visibility
-from shotc_casadi.symbols import INPUTS, STATES, Stage, stage
+from shotc_casadi.symbols import Stage, stage
 
-WIDTH = STATES + INPUTS
 Index = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
 class Derived:
-    """Functions of one stage and of the last node, with their derivatives laid out as the solvers ask."""
+    """Functions of one stage and of the last node, with their derivatives laid out as the solvers ask.
+
+    states, inputs, size : of a stage, how many of each and of parameters; bound, last_bound : constraints
+    """
 
     cost: Any
     last_cost: Any
@@ -37,30 +39,39 @@ class Derived:
     last_hessian: Any
     bound: int
     last_bound: int
+    states: int
+    inputs: int
+    size: int
+
+    @property
+    def width(self) -> int:
+        """Return how many unknowns a stage has."""
+        return self.states + self.inputs
 
 
 def laid_out(d: Derived, solver: str, stages: int, x: Any, p: Any) -> dict[str, Any]:
     """Return the derivatives of the programme, under the names by which CasADi's solvers ask for them."""
-    z, end = ca.reshape(x[: stages * WIDTH], WIDTH, stages), x[stages * WIDTH :]
+    states, wide = d.states, d.width
+    z, end = ca.reshape(x[: stages * wide], wide, stages), x[stages * wide :]
     given = ca.reshape(p, p.numel() // (stages + 1), stages + 1)
     inner, last = given[:, :stages], given[:, stages]
-    lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", stages * (STATES + d.bound) + d.last_bound)
-    lam = ca.reshape(lam_g[: stages * (STATES + d.bound)], STATES + d.bound, stages)
-    costate = lam[:STATES, :]
+    lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", stages * (states + d.bound) + d.last_bound)
+    lam = ca.reshape(lam_g[: stages * (states + d.bound)], states + d.bound, stages)
+    costate = lam[:states, :]
 
-    slope, blocks = d.hessian.map(stages)(z, inner, ca.repmat(lam_f, 1, stages), costate, lam[STATES:, :])
-    end_slope, end_block = d.last_hessian(end, last, lam_f, lam_g[stages * (STATES + d.bound) :])
+    slope, blocks = d.hessian.map(stages)(z, inner, ca.repmat(lam_f, 1, stages), costate, lam[states:, :])
+    end_slope, end_block = d.last_hessian(end, last, lam_f, lam_g[stages * (states + d.bound) :])
     curvature = ca.MX(_block_diagonal(d, stages), ca.vertcat(blocks.nz[:], end_block.nz[:]))
-    before = ca.vertcat(ca.horzcat(ca.MX(STATES, 1), costate[:, :-1]), ca.MX(INPUTS, stages))
+    before = ca.vertcat(ca.horzcat(ca.MX(states, 1), costate[:, :-1]), ca.MX(d.inputs, stages))
     slopes = ca.vertcat(ca.vec(slope + before), end_slope + costate[:, -1])
 
     gap0, bound0, first = d.first_jacobian(z[:, 0], inner[:, 0])
     gaps, bounds, rest = d.jacobian.map(stages - 1)(z[:, 1:], inner[:, 1:])
     end_bound, end_rows = d.last_jacobian(end, last)
     jacobian = ca.MX(_staircase(d, stages), ca.vertcat(first.nz[:], rest.nz[:], end_rows.nz[:]))
-    following = ca.horzcat(z[:STATES, 1:], end)
+    following = ca.horzcat(z[:states, 1:], end)
     rows = ca.vertcat(ca.horzcat(gap0, gaps), ca.horzcat(bound0, bounds))
-    rows = ca.vertcat(following - rows[:STATES, :], rows[STATES:, :])
+    rows = ca.vertcat(following - rows[:states, :], rows[states:, :])
     g = ca.vertcat(ca.vec(rows), end_bound)
 
     value, gradient = d.gradient.map(stages)(z, inner)
@@ -91,16 +102,22 @@ def laid_out(d: Derived, solver: str, stages: int, x: Any, p: Any) -> dict[str, 
 @lru_cache(maxsize=8)
 def derived(visibility: Visibility, planes: int) -> Derived:
     """Return the functions of one stage with that many half-spaces."""
-    s: Stage = stage(visibility, planes)
-    x = s.z[:STATES]
+    return differentiated(stage(visibility, planes))
+
+
+def differentiated(s: Stage) -> Derived:
+    """Return the functions of a stage; its state is what comes first in ``z``."""
+    states = s.following.numel()
+    inputs = s.z.numel() - states
+    x = s.z[:states]
     cost, bound = s.node + s.passing, ca.vertcat(s.held, s.driven)
-    weight, costate = ca.SX.sym("weight"), ca.SX.sym("costate", STATES)
+    weight, costate = ca.SX.sym("weight"), ca.SX.sym("costate", states)
     force, held_force = ca.SX.sym("force", bound.numel()), ca.SX.sym("force", s.held.numel())
     lagrangian = weight * cost - ca.dot(costate, s.following) + ca.dot(force, bound)
     end_lagrangian = weight * s.node + ca.dot(held_force, s.held)
     own = ca.vertcat(-ca.jacobian(s.following, s.z), ca.jacobian(bound, s.z))
     end_own = ca.jacobian(s.held, x)
-    joint = ca.horzcat(ca.SX.eye(STATES), ca.SX(STATES, INPUTS))
+    joint = ca.horzcat(ca.SX.eye(states), ca.SX(states, inputs))
 
     def function(name: str, inputs: list[Any], outputs: list[Any]) -> Any:
         return ca.Function(name, inputs, outputs, {"cse": True})
@@ -112,11 +129,14 @@ def derived(visibility: Visibility, planes: int) -> Derived:
         last_gradient=function("last_gradient", [x, s.p], [s.node, ca.gradient(s.node, x)]),
         first_jacobian=function("first_jacobian", [s.z, s.p], [s.following, bound, own]),
         jacobian=function("jacobian", [s.z, s.p], [s.following, bound, ca.vertcat(joint, own)]),
-        last_jacobian=function("last_jacobian", [x, s.p], [s.held, ca.vertcat(ca.SX.eye(STATES), end_own)]),
+        last_jacobian=function("last_jacobian", [x, s.p], [s.held, ca.vertcat(ca.SX.eye(states), end_own)]),
         hessian=function("hessian", [s.z, s.p, weight, costate, force], _curved(lagrangian, s.z)),
         last_hessian=function("last_hessian", [x, s.p, weight, held_force], _curved(end_lagrangian, x)),
         bound=bound.numel(),
         last_bound=s.held.numel(),
+        states=states,
+        inputs=inputs,
+        size=s.p.numel(),
     )
 
 
@@ -126,10 +146,11 @@ def _curved(lagrangian: Any, at: Any) -> list[Any]:
 
 
 def _block_diagonal(d: Derived, stages: int) -> Any:
-    rows, columns = _repeated(d.hessian.sparsity_out(1), range(stages), WIDTH, WIDTH)
+    states, wide = d.states, d.width
+    rows, columns = _repeated(d.hessian.sparsity_out(1), range(stages), wide, wide)
     end = _triplets(d.last_hessian.sparsity_out(1))
-    side = stages * WIDTH + STATES
-    rows, columns = np.append(rows, end[0] + stages * WIDTH), np.append(columns, end[1] + stages * WIDTH)
+    side = stages * wide + states
+    rows, columns = np.append(rows, end[0] + stages * wide), np.append(columns, end[1] + stages * wide)
     return ca.Sparsity.triplet(side, side, rows.tolist(), columns.tolist())
 
 
@@ -139,27 +160,31 @@ def _staircase(d: Derived, stages: int) -> Any:
     A stage's columns hold the joint to the stage before, then its own gap and bounds; the nonzeros of
     ``jacobian`` come in that order.
     """
-    high = STATES + d.bound
+    states, wide = d.states, d.width
+    high = states + d.bound
     first = _triplets(d.first_jacobian.sparsity_out(2))
-    rows, columns = _repeated(d.jacobian.sparsity_out(2), range(1, stages), high, WIDTH, lift=high)
+    rows, columns = _repeated(d.jacobian.sparsity_out(2), range(1, stages), high, wide, (states, high))
     end = _triplets(d.last_jacobian.sparsity_out(1))
-    end_rows = np.where(end[0] < STATES, (stages - 1) * high, stages * high - STATES) + end[0]
+    end_rows = np.where(end[0] < states, (stages - 1) * high, stages * high - states) + end[0]
     return ca.Sparsity.triplet(
         stages * high + d.last_bound,
-        stages * WIDTH + STATES,
+        stages * wide + states,
         np.concatenate([first[0], rows, end_rows]).tolist(),
-        np.concatenate([first[1], columns, end[1] + stages * WIDTH]).tolist(),
+        np.concatenate([first[1], columns, end[1] + stages * wide]).tolist(),
     )
 
 
-def _repeated(block: Any, at: range, high: int, wide: int, lift: int = 0) -> tuple[Index, Index]:
+def _repeated(
+    block: Any, at: range, high: int, wide: int, lift: tuple[int, int] = (0, 0)
+) -> tuple[Index, Index]:
     """Return the places of a block repeated down a diagonal.
 
-    lift : rows by which the block's first STATES rows stand higher than the rest of it would have them
+    lift : how many first rows of the block stand higher than the rest of it would have them, and by how much
     """
+    first, by = lift
     row, column = _triplets(block)
-    if lift:
-        row = np.where(row < STATES, row - lift, row - STATES)
+    if by:
+        row = np.where(row < first, row - by, row - first)
     k = np.array(at)[:, None]
     return (row + k * high).ravel(), (column + k * wide).ravel()
 

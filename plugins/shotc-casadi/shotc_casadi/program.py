@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc_casadi.conditions import Visibility
-from shotc_casadi.derivatives import WIDTH, derived, laid_out
+from shotc_casadi.derivatives import Derived, derived, laid_out
 from shotc_casadi.patience import PATIENCE, Endless, within
-from shotc_casadi.symbols import INPUTS, STATES, size
+from shotc_casadi.symbols import STATES, WIDTH
 
 Array = NDArray[np.float64]
 Solver = Literal["fatrop", "ipopt"]
@@ -149,12 +149,17 @@ def _status(stats: dict[str, Any], residual: float) -> Status:
 @lru_cache(maxsize=16)
 def _programme(stages: int, planes: int, visibility: Visibility, solver: Solver) -> Any:
     """Return the solver of all problems of one shape."""
-    d = derived(visibility, planes)
-    x = ca.MX.sym("x", stages * WIDTH + STATES)
-    p = ca.MX.sym("p", (stages + 1) * size(planes))
-    z, end = ca.reshape(x[: stages * WIDTH], WIDTH, stages), x[stages * WIDTH :]
-    given = ca.reshape(p, size(planes), stages + 1)
-    following = ca.horzcat(z[:STATES, 1:], end)
+    return built(derived(visibility, planes), stages, solver)
+
+
+def built(d: Derived, stages: int, solver: Solver, tolerance: float = TOLERANCE) -> Any:
+    """Return the solver of all problems of one kind of stage: unknowns x stage by stage, parameters p."""
+    states, wide = d.states, d.width
+    x = ca.MX.sym("x", stages * wide + states)
+    p = ca.MX.sym("p", (stages + 1) * d.size)
+    z, end = ca.reshape(x[: stages * wide], wide, stages), x[stages * wide :]
+    given = ca.reshape(p, d.size, stages + 1)
+    following = ca.horzcat(z[:states, 1:], end)
     cost, gap, bound = d.cost.map(stages)(z, given[:, :stages])
     end_cost, end_bound = d.last_cost(end, given[:, stages])
     rows = ca.vertcat(ca.vec(ca.vertcat(following - gap, bound)), end_bound)
@@ -162,14 +167,14 @@ def _programme(stages: int, planes: int, visibility: Visibility, solver: Solver)
     layout: dict[str, Any] = {
         "structure_detection": "manual",
         "N": stages,
-        "nx": [STATES] * (stages + 1),
-        "nu": [INPUTS] * stages + [0],
+        "nx": [states] * (stages + 1),
+        "nu": [d.inputs] * stages + [0],
         "ng": [d.bound] * stages + [d.last_bound],
-        "equality": ([True] * STATES + [False] * d.bound) * stages + [False] * d.last_bound,
-        "fatrop": {"print_level": 0, "tol": TOLERANCE, "max_iter": ITERATIONS, "max_soc": 0},
+        "equality": ([True] * states + [False] * d.bound) * stages + [False] * d.last_bound,
+        "fatrop": {"print_level": 0, "tol": tolerance, "max_iter": ITERATIONS, "max_soc": 0},
     }
     quiet: dict[str, Any] = {
-        "ipopt": {"print_level": 0, "sb": "yes", "tol": TOLERANCE, "max_iter": ITERATIONS}
+        "ipopt": {"print_level": 0, "sb": "yes", "tol": tolerance, "max_iter": ITERATIONS}
     }
     options: dict[str, Any] = {"print_time": False, "cache": laid_out(d, solver, stages, x, p)}
     return ca.nlpsol("framing", solver, nlp, options | (layout if solver == "fatrop" else quiet))

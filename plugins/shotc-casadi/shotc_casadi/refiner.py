@@ -22,6 +22,7 @@ from shotc.plugin_api import (
 )
 from shotc.refiner_api import Deviation, NoTransit, flight_room, leg_of, rejoined
 from shotc_casadi import conditions
+from shotc_casadi.clock.refiner import refine_clocks
 from shotc_casadi.conditions import Condition
 from shotc_casadi.patience import PATIENCE
 from shotc_casadi.program import Solution
@@ -51,7 +52,13 @@ class Refiner:
         return self.condition.summary
 
     def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
-        """Return the path with every moving shot refined; a shot that cannot be keeps its convex path."""
+        """Return the path with every moving shot refined; a shot that cannot be keeps its convex path.
+
+        Shots on their own clock have no keyframes to interpolate; the conditions that do leave them alone.
+        """
+        if path.timed and self.condition.aims == "framing":
+            clocked, told = refine_clocks(path, ctx, self.name)
+            return Outcome(clocked, told)
         done = self.shots(path, ctx)
         refined, unreached = self._joined(path, done)
         diagnostics = [*unreached, *(d for r in done if (d := self._report(path, r)) is not None)]

@@ -7,8 +7,8 @@ from functools import cache
 import casadi as ca
 import numpy as np
 import pytest
-from shotc_casadi.derivatives import WIDTH, derived, laid_out
-from shotc_casadi.symbols import INPUTS, STATES, size, stage
+from shotc_casadi.derivatives import derived, laid_out
+from shotc_casadi.symbols import INPUTS, STATES, WIDTH, size, stage
 
 N = 3
 

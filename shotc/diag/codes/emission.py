@@ -101,6 +101,24 @@ _MAVLINK_CODES = (
         "",
         "other",
     ),
+    CodeInfo(
+        "E107",
+        "clock-not-carried",
+        Severity.WARNING,
+        "a mission file does not carry when a shot of a moving target is filmed",
+        "An autopilot flies a mission file from waypoint to waypoint at mean speeds, from whenever it is started. A "
+        "target that moves is then somewhere else, and several drones meet where the plan keeps them apart. Stream "
+        "`trajectory.csv` as offboard setpoints on one clock for such a mission; the file is good for rehearsing one "
+        "drone's way without the target.",
+        _MAVLINK.replace("at: [0, 0, 6]", "track: {start: [0, 0, 6], velocity: [1, 0, 0]}")
+        .replace(
+            "    keyframes:\n      - {at: [-20, -25, 16], look_at: mast}\n      - {at: [20, -25, 16], look_at: mast}\n",
+            "    side: right\n    distance: 25\n    altitude: 16\n    timing: {duration: 10}\n",
+        )
+        .replace("kind: keyframes", "kind: lateral"),
+        _MAVLINK,
+        "plan",
+    ),
 )
 
 _FILE_CODES = (

@@ -32,6 +32,26 @@ def _promise(promise: str, south: int = -20) -> str:
     return _MISSION.replace("PROMISE", promise).replace("SOUTH", str(south))
 
 
+_PAIR = """\
+shotc: 1
+mission: pair
+drones:
+  one: {model: x500, home: [0, -40, 0]}
+  two: {model: x500, home: [8, -40, 0]}
+rules: {mutual_visibility: {strength: STRENGTH}}
+shots:
+  - {id: look, kind: static, drone: one, at: [0, -30, 9], heading: 0 deg, pitch: 0 deg,
+     timing: {start: 40, duration: 5}}
+  - {id: see, kind: static, drone: two, at: [PLACE, 9], heading: HEADING deg, pitch: 0 deg,
+     timing: {start: 40, duration: 5}}
+"""
+_FACING, _ABREAST = ("0, 30", "180"), ("12, -30", "0")
+
+
+def _pair(strength: str, where: tuple[str, str]) -> str:
+    return _PAIR.replace("STRENGTH", strength).replace("PLACE", where[0]).replace("HEADING", where[1])
+
+
 def _code(
     number: int,
     slug: str,
@@ -280,6 +300,7 @@ _FRAMING = (
             "drone, also on its pad, and also where a target or a zone would hide it. It is proved between frames, "
             "too. Film at another time or from another side, or prefer it only.",
         ),
+        (_pair("require", _FACING), _pair("require", _ABREAST)),
     ),
     _code(
         30,
@@ -322,8 +343,9 @@ _FRAMING = (
             "The plan keeps drones out of each other's pictures where it can, unless the mission says otherwise; "
             "here it could not. The first frame that shows the drone, the worst one and the share of the shot are "
             "told. Film at another time or from another side. `rules: {mutual_visibility: {strength: require}}` "
-            'makes it an error, `strength: "off"` has it not judged. See V025 for what counts as in the picture.',
+            "makes it an error, `strength: off` has it not judged. See V025 for what counts as in the picture.",
         ),
+        (_pair("prefer", _FACING), _pair("prefer", _ABREAST)),
         severity=Severity.WARNING,
     ),
 )

@@ -24,7 +24,17 @@ from shotc.emit.mavlink.geo import Geo, tie
 from shotc.emit.mavlink.items import CHANGE_SPEED, Item
 from shotc.emit.mavlink.plan_file import read_plan, write_plan
 from shotc.emit.mavlink.refly import Flown, refly
-from shotc.emit.mavlink.report import coarsened, cut, left_out, no_origin, note, raised, sidenotes, zooms
+from shotc.emit.mavlink.report import (
+    clockless,
+    coarsened,
+    cut,
+    left_out,
+    no_origin,
+    note,
+    raised,
+    sidenotes,
+    zooms,
+)
 from shotc.emit.mavlink.speed import DEFAULTS
 from shotc.emit.mavlink.steps import Step, steps_of, whole_seconds
 from shotc.emit.mavlink.style import Style, style_of
@@ -133,7 +143,11 @@ class _Job:
             raised(self.mission, self.drone, height, self.dialect.least_takeoff),
             cut(self.mission, self.drone, *nearest_miss(self.obstacles, flown)),
         ]
-        return [d for d in found if d is not None] + zooms(self.mission, self.flight)
+        return (
+            [d for d in found if d is not None]
+            + zooms(self.mission, self.flight)
+            + clockless(self.mission, self.flight)
+        )
 
     def _fit(self) -> _Flight:
         thinner = thinner_of(self.track, self.drone, self.style, self.obstacles)

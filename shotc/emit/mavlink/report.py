@@ -89,6 +89,24 @@ def zooms(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
     return out
 
 
+def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
+    """Say which shots are out of time in a mission file, for that has no clock."""
+    flown = {phase.shot for phase in flight.phases}
+    moving = [s for s in mission.shots if s.ideal is not None and s.id in flown]
+    if not moving:
+        return []
+    names = ", ".join(f"`{shot.id}`" for shot in moving)
+    return [
+        Diagnostic(
+            "E107",
+            f"the mission file of {flight.drone} does not carry when its shots of moving targets are filmed",
+            tuple(mission.origins.key(shot.path) for shot in moving),
+            (f"an autopilot starts it when it is told to, and flies at mean speeds; in question: {names}",),
+            "stream trajectory.csv instead",
+        )
+    ]
+
+
 def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic | None:
     """Say that straight legs come nearer to something than the plan does, or return None."""
     if depth < CUT_LEAST:

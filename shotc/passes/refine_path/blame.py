@@ -5,15 +5,19 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import PathIR
-from shotc.passes.refine_path.faults import leg_of
+from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.finding import Fault
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept, same
+from shotc.passes.timed_route.faults import left_place
 
 OF_THE_CONVEX = ("Q007",)
 """Warnings of what the convex path cannot frame; verification says it of a path that is flown instead."""
+
+OF_THE_GUIDE = "M008"
+"""The warning of how far a shot on its own clock leaves its place; a refined one leaves it by another way."""
 
 
 class Verdict(NamedTuple):
@@ -50,15 +54,33 @@ def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ..
 
 
 def still_true(paths: tuple[PathIR, PathIR], said: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
-    """Return what was said, less the warnings about convex legs that are not flown; paths as in ``blame``."""
-    before, _ = paths
+    """Return what was said, less the warnings about convex legs that are not flown; paths as in ``blame``.
+
+    Where a guide left its place and was refined, the flown motion's distance is told instead.
+    """
+    before, after = paths
+    mission = before.keyframes.mission
     refined = {shot.id for shot in _refined(paths)}
-    find = before.keyframes.mission.origins.key
+    find = mission.origins.key
     over = {find(k.path).span for p in before.keyframes.shots if p.shot.id in refined for k in p.keyframes}
-    return tuple(d for d in said if d.code not in OF_THE_CONVEX or d.labels[0].span not in over)
+    told = {
+        id(d)
+        for d in said
+        if (d.code in OF_THE_CONVEX and d.labels[0].span in over)
+        or (d.code == OF_THE_GUIDE and _of(mission, d) in refined)
+    }
+    guided = {_of(mission, d) for d in said if id(d) in told and d.code == OF_THE_GUIDE}
+    anew = [left_place(mission, d) for d in after.deviations if d.shot in guided]
+    return (*(d for d in said if id(d) not in told), *anew)
+
+
+def _of(mission: MissionIR, told: Diagnostic) -> str | None:
+    """Return the shot whose kind a warning of its place labels first."""
+    span = told.labels[0].span
+    return next((s.id for s in mission.shots if mission.origins.value((*s.path, "kind")).span == span), None)
 
 
 def _refined(paths: tuple[PathIR, PathIR]) -> list[Shot]:
     before, after = paths
     shots = before.keyframes.mission.shots
-    return [s for s in shots if not same(leg_of(before, s.id), leg_of(after, s.id))]
+    return [s for s in shots if not same(filmed(before, s.id), filmed(after, s.id))]

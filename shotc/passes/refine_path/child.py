@@ -14,7 +14,7 @@ import sys
 from importlib.metadata import EntryPoint
 from typing import Any, BinaryIO, NamedTuple
 
-from shotc.ir.path import Deviation, DronePath, PathIR
+from shotc.ir.path import Deviation, DronePath, PathIR, TimedPath
 from shotc.passes.base import Outcome, PassContext
 
 _START = (
@@ -39,6 +39,7 @@ class _Bare(NamedTuple):
     drones: tuple[DronePath, ...]
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
+    timed: tuple[TimedPath, ...]
 
 
 class _Order(NamedTuple):
@@ -95,7 +96,7 @@ def _bare(outcome: Any, path: PathIR) -> Any:
     value = outcome.value if isinstance(outcome, Outcome) else None
     if not isinstance(value, PathIR) or value.keyframes is not path.keyframes:
         return outcome
-    return outcome._replace(value=_Bare(value.drones, value.deviations, value.stats))
+    return outcome._replace(value=_Bare(value.drones, value.deviations, value.stats, value.timed))
 
 
 def _read(answered: bytes, status: int, path: PathIR) -> Any:

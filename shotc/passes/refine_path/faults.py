@@ -12,7 +12,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import Leg, PathIR
+from shotc.ir.path import Leg, PathIR, TimedLeg
 from shotc.passes.verify.numbers import measure
 
 NO_HELP = "let this shot fly its convex path by `refine: {optional: true}`, or plan with `--refiner none`"
@@ -103,8 +103,10 @@ def nearest_keyframe(leg: Leg, s: float) -> int | None:
     return min(leg.marks, key=lambda mark: abs(mark.s - s)).index if leg.marks else None
 
 
-def place(leg: Leg, s: float) -> str:
+def place(leg: Leg | TimedLeg, s: float) -> str:
     """Write where on a leg something is."""
+    if isinstance(leg, TimedLeg):
+        return f"at t = {s:.2f} s of the mission"
     near = nearest_keyframe(leg, s)
     keyframe = "" if near is None else f", nearest keyframe {near + 1}"
     return f"{s - leg.stops[0].s:.1f} m along the {leg.phase}{keyframe}"
@@ -117,6 +119,15 @@ def leg_of(path: PathIR, shot: str) -> Leg:
             if leg.shot == shot:
                 return leg
     raise KeyError(shot)
+
+
+def filmed(path: PathIR, shot: str) -> Leg | TimedLeg:
+    """Return the leg that films a shot, whatever it is a curve over; KeyError if there is none."""
+    for drone in path.timed:
+        for leg in drone.legs:
+            if leg.shot == shot:
+                return leg
+    return leg_of(path, shot)
 
 
 def _who(state: SolverState) -> str:
@@ -135,7 +146,7 @@ def _labels(path: PathIR, state: SolverState) -> tuple[Label, ...]:
 def _notes(path: PathIR, state: SolverState) -> tuple[str, ...]:
     time = "" if state.time is None else f", {state.time:.2f} s into the shot"
     where = (
-        f"worst at stage {state.stage} of {state.stages}{time}, {place(leg_of(path, state.shot), state.s)}"
+        f"worst at stage {state.stage} of {state.stages}{time}, {place(filmed(path, state.shot), state.s)}"
     )
     if not isfinite(state.excess):
         return (where, f"{state.constraint} was worst there, its excess is not a number")

@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.ir.path import CHANNELS, DronePath, FramingSpan, Leg, PathIR
+from shotc.ir.path import CHANNELS, DronePath, FramingSpan, Leg, PathIR, TimedLeg
 from shotc.passes.refine_path.faults import place
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.verify.shape import ORDERS, largest_jump
@@ -32,22 +32,18 @@ _DENSE = 257
 def structure(before: PathIR, after: object) -> Iterator[Finding]:
     """Find what keeps the legs of two paths from being compared."""
     if not isinstance(after, PathIR):
-        yield _broken(f"it is a {type(after).__name__}, not a PathIR")
+        yield broken(f"it is a {type(after).__name__}, not a PathIR")
         return
     if after.keyframes is not before.keyframes and after.keyframes != before.keyframes:
         yield Finding(
             "R005", "changed the mission", ("the keyframes it returned are not those it was given",)
         )
     if _skeleton(before) != _skeleton(after) or any(map(_doubled, after.drones)):
-        yield _broken("its legs are not those of the convex path")
+        yield broken("its legs are not those of the convex path")
         return
     if not all(isinstance(name, str) and _is_told(value) for name, value in after.stats):
-        yield _broken("its statistics are not pairs of a name and a number or a word")
-    for drone in after.drones:
-        for leg in drone.legs:
-            fault = _shapeless(leg)
-            if fault:
-                yield _broken(f"the {leg.phase} {fault}", leg.shot)
+        yield broken("its statistics are not pairs of a name and a number or a word")
+    yield from _shapes(after)
 
 
 def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
@@ -57,20 +53,37 @@ def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
         yield from _pads(old, new)
         for leg in new.legs:
             if leg.curve is not None:
-                yield from _jumps(leg, leg.curve)
+                yield from jumps(leg, leg.curve)
         for was, now in zip(_shots(old), _shots(new), strict=True):
             for fault in _changed(was, now):
                 yield Finding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
 
 
-def _broken(note: str, shot: str | None = None) -> Finding:
+def _shapes(path: PathIR) -> Iterator[Finding]:
+    for drone in path.drones:
+        for leg in drone.legs:
+            fault = _shapeless(leg)
+            if fault:
+                yield broken(f"the {leg.phase} {fault}", leg.shot)
+    for clocked in path.timed:
+        for filmed in clocked.legs:
+            fault = _misshapen(filmed.curve) if isinstance(filmed, TimedLeg) else ""
+            if fault:
+                yield broken(f"the shot {fault}", filmed.shot)
+
+
+def broken(note: str, shot: str | None = None) -> Finding:
+    """Return the finding of a path that cannot be flown."""
     return Finding("R002", "returned a path that cannot be flown", (note,), shot)
 
 
 def _skeleton(path: PathIR) -> list[tuple[str, list[tuple[str, str | None]]]]:
-    return [
+    """Return what has to stay: of drones on the clock every leg, of others those that film or lift."""
+    kept: list[tuple[str, list[tuple[str, str | None]]]] = [
         (d.drone, [(leg.phase, leg.shot) for leg in d.legs if leg.phase not in UNFILMED]) for d in path.drones
     ]
+    kept += [(d.drone, [(type(leg).__name__, leg.shot) for leg in d.legs]) for d in path.timed]
+    return kept
 
 
 def _doubled(drone: DronePath) -> bool:
@@ -92,14 +105,21 @@ def _shapeless(leg: Leg) -> str:
         return "has stops, keyframes or framings that are nowhere"
     if leg.curve is None:
         return ""
-    if leg.curve.ctrl.shape[1:] != (DEGREE + 1, len(CHANNELS)):
-        return f"is no curve of degree {DEGREE} with {len(CHANNELS)} channels"
-    if not (np.isfinite(leg.curve.ctrl).all() and np.isfinite(leg.curve.breaks).all()):
-        return "has numbers that are not finite"
+    fault = _misshapen(leg.curve)
+    if fault:
+        return fault
     low, high = leg.curve.start - SAME, leg.curve.end + SAME
     places = [stop.s for stop in leg.stops], [mark.s for mark in leg.marks]
     if any(a > b for run in places for a, b in pairwise([low, *run, high])):
         return "has stops or keyframes that are out of order, or off its curve"
+    return ""
+
+
+def _misshapen(curve: Piecewise) -> str:
+    if curve.ctrl.shape[1:] != (DEGREE + 1, len(CHANNELS)):
+        return f"is no curve of degree {DEGREE} with {len(CHANNELS)} channels"
+    if not (np.isfinite(curve.ctrl).all() and np.isfinite(curve.breaks).all()):
+        return "has numbers that are not finite"
     return ""
 
 
@@ -108,14 +128,14 @@ def _joints(drone: DronePath) -> Iterator[Finding]:
         gap = float(np.abs(_end(a) - np.array(b.pose)).max())
         if gap > SAME:
             note = f"the {b.phase} begins {gap:.3g} from where the {a.phase} ends"
-            yield _broken(f"{drone.drone}: {note} (m or rad)")
+            yield broken(f"{drone.drone}: {note} (m or rad)")
     for leg in drone.legs:
         if leg.curve is None:
             continue
         off = float(np.abs(leg.curve.ctrl[0, 0] - np.array(leg.pose)).max())
         ends = (leg.stops[0].s - leg.curve.start, leg.curve.end - leg.stops[-1].s)
         if off > SAME or max(map(abs, ends)) > 1e-9:
-            yield _broken(
+            yield broken(
                 f"{drone.drone}: the {leg.phase} does not begin and end at rest at its ends", leg.shot
             )
 
@@ -139,9 +159,10 @@ def _start(leg: Leg) -> Array:
     return np.array(leg.pose)
 
 
-def _jumps(leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+def jumps(leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
     """Find where a leg is not smooth, the lowest order only; at its stops the motion ends, so it may turn."""
-    rests = np.searchsorted(curve.breaks, [stop.s - SAME for stop in leg.stops])
+    stops = () if isinstance(leg, TimedLeg) else leg.stops
+    rests = np.searchsorted(curve.breaks, [stop.s - SAME for stop in stops])
     cuts = sorted({0, len(curve.ctrl), *map(int, rests)})
     whole = [(0, len(curve.ctrl))]
     for order, name in enumerate(ORDERS):
@@ -150,7 +171,7 @@ def _jumps(leg: Leg, curve: Piecewise) -> Iterator[Finding]:
             jump = largest_jump(stretch, order)
             if jump.value > SMOOTH:
                 where = place(leg, float(jump.time or 0.0))
-                yield _broken(f"its {name} jumps by {jump.value:.3g} of its scale, {where}", leg.shot)
+                yield broken(f"its {name} jumps by {jump.value:.3g} of its scale, {where}", leg.shot)
                 return
 
 

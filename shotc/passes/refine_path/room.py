@@ -17,7 +17,7 @@ from shotc.geom.corridor import Room, breaches, shortfall
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, sup_channel
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg
 from shotc.passes.refine_path.faults import leg_of, place
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.form import UPRIGHT
@@ -53,6 +53,13 @@ def limits(path: PathIR) -> Iterator[Finding]:
                 if leg.phase not in UPRIGHT:
                     yield from _clearance(mission, room, leg, leg.curve)
                 yield from _gimbal(mission, drone, leg, leg.curve)
+    for clocked in path.timed:
+        drone = mission.drone(clocked.drone)
+        room = flight_room(mission, drone)
+        for shot in clocked.legs:
+            if isinstance(shot, TimedLeg):
+                yield from _clearance(mission, room, shot, shot.curve)
+                yield from _gimbal(mission, drone, shot, shot.curve)
     yield from _keyframes(path)
 
 
@@ -79,7 +86,7 @@ def _worst_of(room: Room, bag: Pieces) -> Near:
     return Near(float(at[k]), points[k], float(lack[k]))
 
 
-def _clearance(mission: MissionIR, room: Room, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+def _clearance(mission: MissionIR, room: Room, leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
     near = nearest(room, curve.channels(0, 1, 2))
     if near is None:
         return
@@ -101,7 +108,7 @@ def _clearance(mission: MissionIR, room: Room, leg: Leg, curve: Piecewise) -> It
     )
 
 
-def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+def _gimbal(mission: MissionIR, drone: Drone, leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
     """Find camera angles that the gimbal does not reach; its yaw counts from the body, whole turns apart."""
     whole = pieces(curve)
     low, high = drone.gimbal.yaw
@@ -132,7 +139,8 @@ def _fine(_worst: float) -> float:
 
 
 def _keyframes(path: PathIR) -> Iterator[Finding]:
-    for placed in path.keyframes.shots:
+    names = {drone.drone for drone in path.drones}
+    for placed in (p for p in path.keyframes.shots if p.shot.drone in names):
         leg = leg_of(path, placed.shot.id)
         for mark in leg.marks:
             keyframe = placed.keyframes[mark.index]
@@ -148,5 +156,7 @@ def _keyframes(path: PathIR) -> Iterator[Finding]:
                 )
 
 
-def _which(leg: Leg) -> str:
+def _which(leg: Leg | TimedLeg) -> str:
+    if isinstance(leg, TimedLeg):
+        return f"shot `{leg.shot}`"
     return f"shot `{leg.shot}`" if leg.shot is not None else f"the {leg.phase}"

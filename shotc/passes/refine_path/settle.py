@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, X, Y, Z
+from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg, TimedPath, X, Y, Z
 from shotc.passes.base import Outcome
 from shotc.passes.refine_path.ask import Answer
 from shotc.passes.refine_path.child import told
-from shotc.passes.refine_path.faults import leg_of
+from shotc.passes.refine_path.clocked import on_clock
+from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.finding import Fault, Finding, tell
 from shotc.passes.refine_path.form import form, structure
 from shotc.passes.refine_path.room import limits
@@ -60,7 +61,7 @@ def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, 
 def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
     """Return what is wrong with what should be a path; only a path that is one is looked at closely."""
     try:
-        found = list(structure(before, path)) or [*form(before, path), *limits(path)]
+        found = list(structure(before, path)) or [*form(before, path), *on_clock(before, path), *limits(path)]
     except Exception as raised:  # noqa: BLE001  a plugin may hand back anything, and reading it may raise
         found = [
             Finding("R002", "returned a path that cannot be flown", (f"to read it raises {told(raised)}",))
@@ -71,7 +72,7 @@ def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
 def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> PathIR | None:
     """Return the path with the convex legs of some shots, itself where it has them, None where none joins."""
     convex = {name for name in failed if name is not None}
-    if all(same(leg_of(before, name), leg_of(path, name)) for name in convex):
+    if all(same(filmed(before, name), filmed(path, name)) for name in convex):
         return path
     refined = {
         leg.shot: leg.curve.channels(*CAMERA)
@@ -85,10 +86,17 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
         return None
     bent = [d for d in before.deviations if d.shot in convex]
     bent += [d for d in path.deviations if d.shot not in convex]
-    return replace(joined, deviations=tuple(bent), stats=path.stats)
+    timed = tuple(_guided(old, new, convex) for old, new in zip(before.timed, path.timed, strict=True))
+    return replace(joined, deviations=tuple(bent), stats=path.stats, timed=timed)
 
 
-def same(a: Leg, b: Leg) -> bool:
+def _guided(old: TimedPath, new: TimedPath, convex: set[str]) -> TimedPath:
+    """Return a drone's legs with the guides of some shots: refined legs begin and end where those do."""
+    legs = zip(old.legs, new.legs, strict=True)
+    return TimedPath(old.drone, tuple(was if was.shot in convex else now for was, now in legs))
+
+
+def same(a: Leg | TimedLeg, b: Leg | TimedLeg) -> bool:
     """Tell whether two legs fly the same."""
     if a is b:
         return True

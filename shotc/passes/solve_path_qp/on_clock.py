@@ -12,10 +12,9 @@ from functools import partial
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg
+from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.passes.parameterize_time.estimate import leg_motion, leg_time
-from shotc.passes.parameterize_time.flight import Flight as Timed
+from shotc.passes.parameterize_time.estimate import leg_time
 from shotc.passes.solve_path_qp.departure import Then, Way, choose
 from shotc.passes.solve_path_qp.legs import (
     Flight,
@@ -31,9 +30,9 @@ from shotc.passes.solve_path_qp.legs import (
 from shotc.passes.solve_path_qp.shots import Failure, ShotCurve
 from shotc.passes.timed_route.clock import lead_in
 from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_shot
+from shotc.passes.timed_route.surroundings import flight
 
 TRIES = 6
-LATE = 1e-6  # seconds
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
 
 
@@ -96,20 +95,7 @@ class Flown:
 
     def track(self) -> DroneTrajectory:
         """Return the drone's flight as far as it is planned, as the time pass will fly it."""
-        flight = Timed(self.drone.name)
-        for leg in self.legs:
-            if isinstance(leg, TimedLeg):
-                if flight.clock > leg.curve.start + LATE:
-                    break  # the time pass will refuse it
-                flight.wait(float(leg.curve.start), leg.pose)
-                flight.film(leg)
-                continue
-            motion = leg_motion(self.mission, self.drone, leg)
-            waits = next((s.timing.after for s in self.mission.shots if s.id == leg.shot), None)
-            flight.wait(max(flight.clock, leg.start or 0.0, self.ends.get(waits or "", 0.0)), leg.pose)
-            if motion is not None:
-                flight.fly(leg, motion)
-        return flight.trajectory()
+        return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
     def _back(self, pose: Pose, lift: float) -> list[Leg] | None:
         """Return the way home, over a height that is so many metres more than its ends'."""

@@ -9,7 +9,8 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
 from shotc.geom.camera import Vec2
-from shotc.ir.mission import Drone
+from shotc.ir.keyframes import PlacedSubject
+from shotc.ir.mission import Drone, MissionIR
 from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.position import NEARLY, at_rest
@@ -32,27 +33,37 @@ class Turned:
     status: Status
 
 
-def turn(looker: Looker, kept: Vec2 | None, clock: Clock, position: Piecewise) -> Turned:
-    """Return the camera's angles along a position curve.
+@dataclass(frozen=True, slots=True, eq=False)
+class Watch:
+    """Whose camera turns and what it watches.
 
-    kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the looker's subjects
+    subjects : that the camera follows; none to look where it goes
+    kept : (yaw, pitch) that it keeps instead, rad
+    ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
     """
-    drone = looker.drone
+
+    mission: MissionIR
+    drone: Drone
+    subjects: tuple[PlacedSubject, ...]
+    kept: Vec2 | None = None
+    ends: Array | None = None
+
+
+def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
+    """Return the camera's angles along a position curve."""
+    drone = watch.drone
     breaks = clock.breaks
     inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
     rows = value_rows(breaks, times)
-    aims = _aims(looker, kept, times, position)
+    aims = _aims(watch, times, position)
     step = np.diff(breaks)[rows.piece] / SAMPLES
     filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT) * step
     across = np.maximum(np.cos(aims[:, 1]), 0.03)
     wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
     goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(breaks)
-    rest = at_rest(breaks)
-    problem = SplineProblem(
-        count(breaks), goals, Equalities(rest, np.zeros((len(rest.piece), 3))), _bounds(drone, breaks), ()
-    )
+    problem = SplineProblem(count(breaks), goals, _ends(watch, breaks), _bounds(drone, breaks), ())
     solved = minimise(problem)
     if solved.coef is None:
         return Turned(None, solved.status)
@@ -62,16 +73,38 @@ def turn(looker: Looker, kept: Vec2 | None, clock: Clock, position: Piecewise) -
     return Turned(spline(breaks, coef), solved.status)
 
 
-def _aims(looker: Looker, kept: Vec2 | None, times: Array, position: Piecewise) -> Array:
+def _ends(watch: Watch, breaks: Array) -> Equalities:
+    """Return the rest at both ends, and the angles there where they are given."""
+    rest = at_rest(breaks)
+    still = np.zeros((len(rest.piece), 3))
+    if watch.ends is None:
+        return Equalities(rest, still)
+    values = control_rows(breaks)
+    rows = Rows(
+        np.concatenate([rest.piece, values.piece[[0, -1]]]),
+        np.concatenate([rest.weight, values.weight[[0, -1]]]),
+    )
+    return Equalities(rows, np.concatenate([still, watch.ends]))
+
+
+def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
     """Return the yaw and the pitch that put the subjects in their places, unwrapped; shape (M, 2)."""
-    if kept is not None:
-        return np.tile(np.array(kept), (len(times), 1))
-    if not looker.subjects:
+    if watch.kept is not None:
+        return np.tile(np.array(watch.kept), (len(times), 1))
+    if not watch.subjects:
         yaw = _motion(position.derivative()(times)[:, :2])
-        return np.column_stack([yaw, np.zeros(len(times))])
+        return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])
+    looker = Looker(watch.mission, watch.drone, watch.subjects)
     found = aims_at(looker, times, position(times)[:, :3])
-    low, high = looker.drone.gimbal.pitch
-    return np.column_stack([np.unwrap(found[:, 0]), np.clip(found[:, 1], low, high)])
+    low, high = watch.drone.gimbal.pitch
+    return np.column_stack([_wound(watch, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
+
+
+def _wound(watch: Watch, yaw: Array) -> Array:
+    """Return a yaw by whole turns on the winding of the angle that it begins in, if one is given."""
+    if watch.ends is None:
+        return yaw
+    return np.asarray(yaw + 2 * np.pi * np.round((watch.ends[0, YAW] - yaw[0]) / (2 * np.pi)))
 
 
 def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Array:
@@ -80,9 +113,10 @@ def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Arra
         return yaw
     course = _motion(position.derivative()(times)[:, :2])
     low, high = drone.gimbal.yaw
-    relative = yaw - course
-    relative -= 2 * np.pi * np.round((relative - 0.5 * (low + high)) / (2 * np.pi))
-    return np.asarray(yaw - np.clip(np.unwrap(relative), low, high))
+    relative = np.unwrap(yaw - course)
+    # Most of the time counts: at its ends a slow motion may go any way.
+    relative -= 2 * np.pi * np.round((np.median(relative) - 0.5 * (low + high)) / (2 * np.pi))
+    return np.asarray(yaw - np.clip(relative, low, high))
 
 
 def _motion(velocity: Array) -> Array:

@@ -15,7 +15,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.passes.timed_route.aims import Looker
-from shotc.passes.timed_route.camera import turn
+from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import clock_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly
@@ -68,7 +68,7 @@ def timed_shot(
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
     kept = None if shot.ideal is None else shot.ideal.aim
-    turned = turn(looker, kept, clock, flown.curve)
+    turned = turn(Watch(mission, drone, placed.subjects, kept), clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
     lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)

@@ -63,7 +63,6 @@ ENDING = {
     " screen error": Rule("V020"),
     " size smallest": Rule("V021"),
     " size largest": Rule("V021"),
-    SEEN: Rule("V025"),
 }
 
 UNKNOWN = {

@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, TrajectoryIR
 from shotc.passes.verify.claims import slack
-from shotc.passes.verify.numbers import measure
+from shotc.passes.verify.numbers import measure, told_apart
 from shotc.passes.verify.sight import ENDING, PATH, Sight, ticks
 
 HARD, SOFT = "V025", "V033"
@@ -29,10 +29,11 @@ def sighted(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
     name = claim.constraint.removesuffix(ENDING)
     film, other = (next(t for t in ir.drones if t.drone == who) for who in (claim.subject, name))
     phase = next(p for p in film.phases if p.shot == claim.shot)
-    where = "in the picture" if mission.rules.half_angle is None else "within the cone to keep free"
+    cone = mission.rules.half_angle
+    where = "in the picture of" if cone is None else f"within {measure(cone, 'rad')} of the optical axis of"
     return Diagnostic(
         HARD if claim.hard else SOFT,
-        f"{name} is {where} of {claim.subject} in shot `{claim.shot}`",
+        f"{name} is {where} {claim.subject} in shot `{claim.shot}`",
         tuple(_labels(mission, claim)),
         tuple(_notes(Sight(mission, film, other), claim, phase)),
         _help(mission, claim, other),
@@ -44,7 +45,7 @@ def _labels(mission: MissionIR, claim: Claim) -> Iterator[Label]:
     shot = next(s for s in mission.shots if s.id == claim.shot)
     yield origins.key(shot.path, "seen in this shot")
     if PATH in origins.keys or PATH in origins.values:
-        yield origins.value(claim.path, "required here" if claim.hard else "preferred here")
+        yield origins.key(PATH, "required here" if claim.hard else "preferred here")
 
 
 def _notes(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
@@ -70,8 +71,8 @@ def _how_far(sight: Sight, claim: Claim) -> str:
     far = f"{float(away):.1f} m from the camera"
     if sight.mission.rules.half_angle is None:
         return f"its body reaches {measure(-claim.worst, 'm')} into the frame, {far}"
-    found, asked = measure(max(0.0, claim.worst), "rad"), measure(claim.limit, "rad")
-    return f"its body is {found} off the optical axis, {asked} are to be kept free, {far}"
+    found, asked = told_apart(max(0.0, claim.worst), claim.limit, "rad")
+    return f"its body is {found} off the axis, {asked} are to be kept free, {far}"
 
 
 def _doing(other: DroneTrajectory, time: float) -> str:
@@ -99,4 +100,4 @@ def _help(mission: MissionIR, claim: Claim, other: DroneTrajectory) -> str:
     )
     if claim.hard:
         return f"{move}, or set `rules: {{mutual_visibility: {{strength: prefer}}}}` to be told only"
-    return f'{move}; `rules: {{mutual_visibility: {{strength: "off"}}}}` judges nothing'
+    return f"{move}; `rules: {{mutual_visibility: {{strength: off}}}}` judges nothing"

@@ -23,7 +23,7 @@ drones:
   cam1: {model: x500, home: [20, -20, 0], priority: 1}
   cam2: {model: x500, home: [26, -20, 0], priority: 2}
   cam3: {model: x500, home: [32, -20, 0], priority: 3}
-rules: {mutual_visibility: {strength: "off"}}
+rules: {mutual_visibility: {strength: "off"}, allow: [fast-pan]}
 shots:
 """
 SIDE = """\

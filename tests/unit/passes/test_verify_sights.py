@@ -7,6 +7,7 @@ from math import asin, atan2, pi, radians, sqrt
 import numpy as np
 import pytest
 
+from shotc.geom.bernstein import quintic_hermite
 from shotc.passes.verify.sight import Sight, infimum
 from tests.sights import EYE, LENGTH, at, claims, film, mission, still, through, unfilmed
 
@@ -133,3 +134,21 @@ def test_strengths() -> None:
     assert [c.hard for c in claims(mission(visibility="require"), *seen)] == [True]
     assert [c.hard for c in claims(mission(visibility="prefer"), *seen)] == [False]
     assert claims(mission(visibility="off"), *seen) == []
+
+
+def test_who_flies_close_and_fast_about_the_camera_is_still_proved() -> None:
+    # Both circle: the value hardly changes, while every bound on its rate is large.
+    t = np.linspace(0.0, LENGTH, 81)
+    eye = [np.array([0, 0, 10, x, 0, x, radians(60)]) for x in t]
+    bird = [at(8 * np.cos(x + 1.0), 8 * np.sin(x + 1.0), 10) for x in t]
+    zero = np.zeros((len(t), 7))
+    turning = zero + np.array([0, 0, 0, 1.0, 0, 1.0, 0])
+    round_ = np.array([[-8 * np.sin(x + 1.0), 8 * np.cos(x + 1.0), 0, 0, 0, 0, 0] for x in t])
+    inward = np.array([[-8 * np.cos(x + 1.0), -8 * np.sin(x + 1.0), 0, 0, 0, 0, 0] for x in t])
+    spun = quintic_hermite(t, np.array(eye), turning, zero)
+    flown = quintic_hermite(t, np.array(bird), round_, inward)
+    for half_angle in (None, radians(30)):
+        (found,) = claims(mission(half_angle=half_angle), film("eye", spun), unfilmed("bird", flown))
+        value = 8 * np.sin(1.0 - radians(30)) - R if half_angle is None else 1.0 - asin(R / 8)
+        assert found.method == "bounded"
+        assert found.worst == pytest.approx(value, rel=0.02)

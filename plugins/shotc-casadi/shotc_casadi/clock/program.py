@@ -1,0 +1,137 @@
+"""Solving the programme of one shot on its own clock, by fatrop or IPOPT; what they say is checked."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from shotc.refiner_api import Array
+from shotc_casadi.clock.problem import ClockProblem
+from shotc_casadi.clock.symbols import INPUTS, POINTS, STATES, derived
+from shotc_casadi.patience import PATIENCE, Endless, within
+from shotc_casadi.program import Solver, Status, built
+
+TOLERANCE = 1e-6
+FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
+WIDTH = STATES + INPUTS
+ROWS = ("speed", "acceleration", "jerk", "speed", "climb and descent")
+UNITS = {
+    "speed": "m^2/s^2",
+    "acceleration": "m^2/s^4",
+    "jerk": "m^2/s^6",
+    "climb and descent": "m/s",
+    "clearance": "m",
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ClockSolution:
+    """What a solver made of a problem; as in ``shotc_casadi.program.Solution``."""
+
+    status: Status
+    solver: Solver
+    states: Array
+    inputs: Array
+    objective: float
+    iterations: int
+    seconds: float
+    residual: float
+    stage: int
+    constraint: str
+
+
+def solve(task: ClockProblem, solver: Solver) -> ClockSolution:
+    """Solve a problem from its first guess."""
+    n = task.stages
+    start = _flat(task.states, task.inputs)
+    began = time.perf_counter()
+
+    def nothing(status: Status) -> ClockSolution:
+        took = time.perf_counter() - began
+        return ClockSolution(status, solver, task.states, task.inputs, np.nan, 0, took, np.nan, 0, ROWS[0])
+
+    if not (np.isfinite(start).all() and np.isfinite(task.parameters).all()):
+        return nothing("nan")
+    programme = programme_of(n, task.planes, solver)
+    lower, upper = _constraint_bounds(task)
+    inputs_low = np.full_like(task.inputs, -np.inf)
+    inputs_low[:, -1] = 0.0
+    given = {
+        "x0": start,
+        "p": task.parameters.ravel(),
+        "lbx": _flat(task.state_bounds[0], inputs_low),
+        "ubx": _flat(task.state_bounds[1], np.full_like(task.inputs, np.inf)),
+        "lbg": lower,
+        "ubg": upper,
+    }
+    began = time.perf_counter()
+    try:
+        out = within(PATIENCE, lambda: programme(**given))
+    except RuntimeError:
+        return nothing("nan")
+    except Endless:
+        programme_of.cache_clear()  # the one left behind is still at work on its memory
+        return nothing("stopped")
+    seconds = time.perf_counter() - began
+    stats = programme.stats()
+    x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
+    inner = x[: n * WIDTH].reshape(n, WIDTH)
+    states, inputs = np.vstack([inner[:, :STATES], x[n * WIDTH :]]), inner[:, STATES:]
+    if not (np.isfinite(x).all() and np.isfinite(g).all()):
+        return nothing("nan")
+    violation = np.maximum(np.maximum(lower - g, g - upper), 0.0)
+    worst = int(violation.argmax())
+    return ClockSolution(
+        _status(stats, float(violation[worst])),
+        solver,
+        states,
+        inputs,
+        float(out["f"]),
+        int(stats["iter_count"]),
+        seconds,
+        float(violation[worst]),
+        min(worst // _high(task.planes), n),
+        _name(worst, n, task.planes),
+    )
+
+
+@lru_cache(maxsize=16)
+def programme_of(stages: int, planes: int, solver: Solver) -> Any:
+    """Return the solver of all problems of one shape."""
+    return built(derived(planes), stages, solver, TOLERANCE)
+
+
+def _status(stats: dict[str, Any], residual: float) -> Status:
+    # A success flag alone is no evidence.
+    if stats["success"] and residual < FEASIBLE:
+        return "solved"
+    return "infeasible" if "nfeasible" in str(stats.get("return_status", "")) else "stopped"
+
+
+def _high(planes: int) -> int:
+    """Return how many rows a stage has: the motion, held and driven constraints."""
+    return STATES + 7 + POINTS * planes
+
+
+def _name(row: int, stages: int, planes: int) -> str:
+    inner = row % _high(planes) if row < stages * _high(planes) else STATES + row - stages * _high(planes)
+    if inner < STATES:
+        return "the motion from stage to stage"
+    inner -= STATES
+    return ROWS[inner] if inner < len(ROWS) else "the gimbal's pitch" if inner < 7 else "clearance"
+
+
+def _constraint_bounds(task: ClockProblem) -> tuple[Array, Array]:
+    ends = []
+    for side in (0, 1):
+        rows = np.concatenate([np.zeros(STATES), task.held[side], task.driven[side]])
+        ends.append(np.concatenate([np.tile(rows, task.stages), task.held[side]]))
+    return ends[0], ends[1]
+
+
+def _flat(states: Array, inputs: Array) -> Array:
+    return np.concatenate([np.hstack([states[:-1], inputs]).ravel(), states[-1]])

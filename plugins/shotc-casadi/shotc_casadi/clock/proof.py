@@ -1,0 +1,67 @@
+"""Whether a motion keeps limits and distances at every instant, by hulls; and whether its camera follows."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import CAM_PITCH, CAM_YAW, Drone, Surroundings, TimedLeg, aim_at
+from shotc_casadi.clock.wishes import ClockSubject
+
+PROVED = 1e-6  # metres
+ROUNDING = 1e-9  # of a limit
+AIMS = 200  # at which a camera is compared with its aim
+
+
+class Gap(NamedTuple):
+    """Where a motion is not proved: mission time, what is lacking there, and by how much in ``unit``."""
+
+    time: float
+    what: str
+    lack: float
+    unit: str
+
+
+def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | None:
+    """Return the worst of what the hulls of a motion do not prove, None where they prove all."""
+    lack = around.lacking(position.ctrl)
+    k = int(lack.argmax())
+    if lack[k] > PROVED:
+        return Gap(float(position.breaks[k]), "the clearances", float(lack[k]), "m")
+    limits = drone.limits
+    first, second, third = (position.derivative(order).ctrl for order in (1, 2, 3))
+    norm = np.linalg.norm
+    uses = {
+        "speed": (norm(first[:, :, :2], axis=2), limits.speed, "m/s"),
+        "climb": (first[:, :, 2], limits.climb, "m/s"),
+        "descent": (-first[:, :, 2], limits.descent, "m/s"),
+        "acceleration": (norm(second, axis=2), limits.acceleration, "m/s^2"),
+        "jerk": (norm(third, axis=2), limits.jerk, "m/s^3"),
+    }
+    worst: Gap | None = None
+    for what, (points, limit, unit) in uses.items():
+        most = points.max(axis=1)
+        k = int(most.argmax())
+        over = float(most[k]) - limit
+        if over > ROUNDING * limit and (worst is None or over > worst.lack):
+            worst = Gap(float(position.breaks[k]), f"the limit of {what}", over, unit)
+    return worst
+
+
+def astray(subject: ClockSubject, leg: TimedLeg) -> float:
+    """Return the most by which a camera misses the aim that its subject asks for, in the film, rad."""
+    watched, drone = subject.watched, subject.drone
+    if watched is None:
+        return 0.0
+    target, uv = subject.mission.target(watched.target), watched.reference or (0.0, 0.0)
+    worst = 0.0
+    times = np.linspace(leg.start, leg.end, AIMS)
+    for t, q in zip(times, leg.curve(times), strict=True):
+        ray = np.array(target.at(float(t))) - q[:3]
+        aim = aim_at((ray[0], ray[1], ray[2]), uv, drone.hfov, drone.aspect, q[CAM_YAW])
+        if aim is not None:
+            turned = np.remainder(q[CAM_YAW] - aim[0] + np.pi, 2 * np.pi) - np.pi
+            worst = max(worst, float(np.hypot(np.cos(aim[1]) * turned, q[CAM_PITCH] - aim[1])))
+    return worst

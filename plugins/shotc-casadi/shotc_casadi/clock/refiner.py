@@ -1,0 +1,134 @@
+"""Every shot of a path that is on its own clock refined, and what has to be said of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import nan
+
+import numpy as np
+
+from shotc.plugin_api import (
+    Diagnostic,
+    PassContext,
+    PathIR,
+    SolverState,
+    fallback,
+    impossible,
+    solver_nan,
+    stopped_early,
+)
+from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
+from shotc_casadi.clock.program import UNITS, ClockSolution
+from shotc_casadi.clock.rounds import ClockRefined, refine_clock
+from shotc_casadi.clock.wishes import ClockSubject
+from shotc_casadi.patience import PATIENCE
+
+NOTICE = 0.5  # metres off the ideal that are worth telling
+KEPT = "kept: the guide shows more"
+CALM = "a calmer camera, and the drone's limits"
+
+
+def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tuple[Diagnostic, ...]]:
+    """Return the path with its shots on their own clock refined, each clear of those before it.
+
+    name : of the refiner. A shot that cannot be refined keeps its guide, with an error that says why.
+    """
+    told: list[Diagnostic] = []
+    for shot in [leg.shot for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]:
+        ctx.progress(f"refine shot {shot}")
+        subject = subject_of(path, shot)
+        refined = refine_clock(subject)
+        said = _report(path, subject, refined, name)
+        told += [] if said is None else [said]
+        moved = path if refined.leg is None else with_leg(path, refined.leg)
+        if moved is not path and least_out(moved) < min(0.0, least_out(path)):
+            refined, moved = replace(refined, leg=None), path
+        path = replace(moved, stats=(*moved.stats, *_stats(refined)))
+    return path, tuple(told)
+
+
+def subject_of(path: PathIR, shot: str) -> ClockSubject:
+    """Return a shot of a path that is on its own clock."""
+    mission = path.keyframes.mission
+    (placed,) = (p for p in path.keyframes.shots if p.shot.id == shot)
+    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
+    (leg,) = (leg for leg in legs if leg.shot == shot)
+    begun = placed._replace(shot=at_start(mission, placed.shot, leg.start))
+    return ClockSubject(path, mission.drone(placed.shot.drone), begun, leg)
+
+
+def with_leg(path: PathIR, leg: TimedLeg) -> PathIR:
+    """Return the path with another leg for a shot, which leaves its ideal as far as it then does."""
+    timed = tuple(
+        TimedPath(
+            flown.drone,
+            tuple(leg if isinstance(old, TimedLeg) and old.shot == leg.shot else old for old in flown.legs),
+        )
+        for flown in path.timed
+    )
+    moved = replace(path, timed=timed)
+    others = tuple(d for d in path.deviations if d.shot != leg.shot)
+    mine = tuple(d for d in path.deviations if d.shot == leg.shot)
+    return replace(moved, deviations=(*others, *_deviation(subject_of(moved, leg.shot), mine)))
+
+
+def _deviation(subject: ClockSubject, before: tuple[Deviation, ...]) -> tuple[Deviation, ...]:
+    """Return the most by which a shot leaves its ideal; what moved its guide there before is why."""
+    leg = subject.leg
+    t = np.linspace(leg.start, leg.end, 201)
+    ideal = [ideal_place(subject.mission, subject.placed.shot, leg.start, float(u)) for u in t]
+    away = np.linalg.norm(leg.curve(t)[:, :3] - np.array(ideal), axis=1)
+    k = int(away.argmax())
+    if away[k] < NOTICE:
+        return ()
+    near = min(before, key=lambda d: abs(d.s - t[k]), default=None)
+    return (Deviation(leg.shot, float(away[k]), float(t[k]), CALM if near is None else near.cause),)
+
+
+def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: str) -> Diagnostic | None:
+    """Return what has to be said of one shot's solver."""
+    solution, gap = refined.solution, refined.gap
+    if refined.leg is not None:
+        first = refined.first
+        solvers = None if first is None else (first.solver, solution.solver)
+        return (
+            None if first is None or solvers is None else fallback(path, refined.shot, solvers, _word(first))
+        )
+    if gap is None and solution.status == "solved":
+        return None
+    time = float(refined.breaks[solution.stage]) if gap is None else gap.time
+    state = SolverState(
+        shot=refined.shot,
+        refiner=name,
+        solver=solution.solver,
+        stage=solution.stage if gap is None else int(np.searchsorted(refined.breaks, time)),
+        stages=len(refined.breaks) - 1,
+        s=time,
+        time=time - subject.leg.start,
+        constraint=solution.constraint if gap is None else gap.what,
+        excess=(solution.residual if solution.iterations else nan) if gap is None else gap.lack,
+        unit=UNITS.get(solution.constraint, "") if gap is None else gap.unit,
+    )
+    if solution.status == "nan":
+        return solver_nan(path, state)
+    if solution.status == "stopped":
+        return stopped_early(path, state, _word(solution))
+    return impossible(path, state)
+
+
+def _word(solution: ClockSolution) -> str:
+    if solution.status == "nan":
+        return "numbers that are none"
+    return f"{solution.iterations} iterations" if solution.iterations else f"{PATIENCE:.0f} s without an end"
+
+
+def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:
+    solution, shot = refined.solution, refined.shot
+    kept = refined.leg is None and refined.gap is None and solution.status == "solved"
+    return (
+        (f"{shot}.refine_stages", float(len(refined.breaks) - 1)),
+        (f"{shot}.refine_rounds", float(refined.rounds)),
+        (f"{shot}.refine_iterations", float(solution.iterations)),
+        (f"{shot}.refine_solver", solution.solver),
+        (f"{shot}.refine_status", KEPT if kept else solution.status),
+    )

@@ -1,0 +1,49 @@
+"""What an importer had to assume: each with the element that it is about, and the words for a comment."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.importers.xml_tree import Node
+from shotc.source.file import Span
+
+
+class Note(NamedTuple):
+    """One assumption.
+
+    message : what is wrong or missing there; taken : what is taken instead, which is the comment, too
+    """
+
+    node: Node
+    message: str
+    taken: str
+
+
+class Notes:
+    """Assumptions in the order in which they are made, each once."""
+
+    def __init__(self) -> None:
+        self.found: list[Note] = []
+
+    def assume(self, node: Node, message: str, taken: str) -> str:
+        """Note an assumption, and return the comment that goes with it."""
+        note = Note(node, message, taken)
+        if all((n.node is not node or n.message != message) for n in self.found):
+            self.found.append(note)
+        return f"assumed: {taken} (line {node.line}: {message})"
+
+
+def label(file: str, node: Node) -> Label:
+    """Return a label on an element's tag."""
+    end = node.column + len(node.tag) + 1
+    return Label(file, Span(node.line, node.column, node.line, end))
+
+
+def told(file: str, notes: Notes, *, strict: bool) -> tuple[Diagnostic, ...]:
+    """Return a warning for every assumption, or an error where nothing may be assumed."""
+    code = "I005" if strict else "I004"
+    return tuple(
+        Diagnostic(code, note.message, (label(file, note.node),), (), f"taken: {note.taken}")
+        for note in notes.found
+    )

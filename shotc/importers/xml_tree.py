@@ -1,0 +1,109 @@
+"""XML as a tree that knows its lines: any bytes in, a tree or one fault out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+from xml.parsers import expat
+
+LARGEST = 4_000_000  # bytes
+MOST_NODES = 100_000
+DEEPEST = 60
+
+
+@dataclass(slots=True)
+class Node:
+    """An element: its name, its text without that of its children, and where it begins, from 1."""
+
+    tag: str
+    line: int
+    column: int
+    attributes: dict[str, str] = field(default_factory=dict)
+    text: str = ""
+    children: list[Node] = field(default_factory=list)
+
+    def first(self, tag: str) -> Node | None:
+        """Return the first child of that name, or None."""
+        return next((child for child in self.children if child.tag == tag), None)
+
+    def all(self, tag: str) -> list[Node]:
+        """Return the children of that name."""
+        return [child for child in self.children if child.tag == tag]
+
+    def value(self, tag: str) -> str:
+        """Return the text of the first child of that name, without space round it; empty if there is none."""
+        found = self.first(tag)
+        return "" if found is None else found.text.strip()
+
+
+class XmlFault(NamedTuple):
+    """Why bytes are no tree; line and column from 1."""
+
+    message: str
+    line: int = 1
+    column: int = 1
+
+
+class _Stop(Exception):
+    """Leave expat at the first fault."""
+
+
+def parse_xml(data: bytes) -> Node | XmlFault:
+    """Return the root element. A document type is refused, for entities could grow without bound."""
+    if len(data) > LARGEST:
+        return XmlFault(f"the file is {len(data) / 1e6:.1f} MB; at most {LARGEST / 1e6:.0f} MB are read")
+    reader = _Reader()
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+    parser.StartDoctypeDeclHandler = reader.doctype
+    parser.StartElementHandler = reader.start
+    parser.EndElementHandler = reader.end
+    parser.CharacterDataHandler = reader.text
+    reader.parser = parser
+    try:
+        parser.Parse(data, True)
+    except _Stop:
+        assert reader.fault is not None
+        return reader.fault
+    except expat.ExpatError as error:
+        return XmlFault(f"it is no XML: {expat.ErrorString(error.code)}", error.lineno, error.offset + 1)
+    except (LookupError, ValueError) as error:  # an encoding that Python does not know
+        return XmlFault(f"it is no XML: {error}")
+    assert reader.root is not None
+    return reader.root
+
+
+class _Reader:
+    """Expat's handlers."""
+
+    def __init__(self) -> None:
+        self.parser: Any = None
+        self.root: Node | None = None
+        self.fault: XmlFault | None = None
+        self._open: list[Node] = []
+        self._count = 0
+
+    def doctype(self, *_: Any) -> None:
+        self._stop("it has a document type declaration, which is refused")
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        node = Node(tag, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1, attributes)
+        self._count += 1
+        if self._count > MOST_NODES or len(self._open) >= DEEPEST:
+            self._stop("it has too many elements, or too deep ones")
+        if self._open:
+            self._open[-1].children.append(node)
+        else:
+            self.root = node
+        self._open.append(node)
+
+    def text(self, data: str) -> None:
+        if self._open:
+            self._open[-1].text += data
+
+    def end(self, _tag: str) -> None:
+        self._open.pop()
+
+    def _stop(self, message: str) -> None:
+        self.fault = XmlFault(message, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1)
+        raise _Stop

@@ -1,0 +1,162 @@
+"""What is told of drones in each other's pictures, of plans made and of plans tampered with."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from shotc.api import Compilation, PlanOptions, compile_source, verify_plan
+from shotc.cli.summary import summary
+from shotc.diag.model import Diagnostic
+from shotc.ir.path import CAM_YAW
+from shotc.planfile.write import document
+
+PAIR = """\
+shotc: 1
+mission: pair
+drones:
+  one: {model: x500, home: [0, -40, 0]}
+  two: {model: x500, home: [8, -40, 0]}
+RULES
+shots:
+  - {id: look, kind: static, drone: one, at: [0, -30, 9], heading: 0 deg, pitch: 0 deg,
+     timing: {start: 40, duration: 5}}
+  - {id: see, kind: static, drone: two, at: [PLACE, 9], heading: HEADING deg, pitch: 0 deg,
+     timing: {start: 40, duration: 5}}
+"""
+FACING, ABREAST, BEFORE = ("0, 30", "180"), ("12, -30", "0"), ("0, 30", "0")
+REQUIRE = "rules: {mutual_visibility: {strength: require}}"
+
+
+@cache
+def planned(where: tuple[str, str], rules: str = "") -> Compilation:
+    text = PAIR.replace("RULES", rules).replace("PLACE", where[0]).replace("HEADING", where[1])
+    return compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+
+
+def told(found: Compilation) -> list[Diagnostic]:
+    return [d for d in found.diagnostics if d.code in ("V025", "V033")]
+
+
+def facts(found: Compilation) -> str:
+    assert found.plan is not None
+    text = summary(found.plan, [Path("out/plan.json")], [])
+    return " ".join(text.split())
+
+
+def lines(diagnostic: Diagnostic) -> list[int]:
+    return [label.span.line for label in diagnostic.labels]
+
+
+def test_a_silent_mission_prefers_and_warns_of_either_direction() -> None:
+    found = planned(FACING)
+    assert found.plan is not None
+    assert [d.message for d in told(found)] == [
+        "two is in the picture of one in shot `look`",
+        "one is in the picture of two in shot `see`",
+    ]
+    (first, _) = told(found)
+    assert lines(first) == [8]
+    assert first.notes[0].startswith("first at t = 40.000 s, 0.000 s into the shot, in 100 % of its frames")
+    assert "60.0 m from the camera; two is in its shot `see` then" in first.notes[1]
+    assert "strength: off" in first.help
+
+
+def test_one_may_see_the_other_alone() -> None:
+    assert [d.message for d in told(planned(BEFORE))] == ["two is in the picture of one in shot `look`"]
+
+
+def test_a_requirement_refuses_and_points_at_its_line() -> None:
+    found = planned(FACING, REQUIRE)
+    assert found.plan is None
+    assert [d.code for d in told(found)] == ["V025", "V025"]
+    assert lines(told(found)[0]) == [8, 6]
+    assert "strength: prefer" in told(found)[0].help
+
+
+def test_nothing_is_told_where_it_is_off_or_kept() -> None:
+    assert told(planned(FACING, "rules: {mutual_visibility: {strength: off}}")) == []
+    assert told(planned(ABREAST, REQUIRE)) == []
+
+
+def test_a_cone_is_told_in_degrees() -> None:
+    cone = planned(FACING, "rules: {mutual_visibility: {half_angle: 20 deg, strength: prefer}}")
+    (first, _) = told(cone)
+    assert first.message == "two is within 20 deg of the optical axis of one in shot `look`"
+    assert "0 deg off the axis, 20 deg are to be kept free" in first.notes[1]
+
+
+@pytest.mark.parametrize(
+    ("where", "rules", "said"),
+    [
+        (ABREAST, REQUIRE, "3.00 m needed, at"),
+        (ABREAST, REQUIRE, "none is in the picture of another"),
+        (FACING, "", "two is in the picture of one (shot look), one is in the picture of two (shot see)"),
+        (FACING, "rules: {mutual_visibility: {strength: off}}", "pictures are not judged"),
+        (
+            ABREAST,
+            "rules: {mutual_visibility: {half_angle: 10 deg}}",
+            "none is within 10 deg of the axis of another",
+        ),
+    ],
+)
+def test_the_summary_tells_of_the_drones_together(where: tuple[str, str], rules: str, said: str) -> None:
+    assert said in facts(planned(where, rules))
+
+
+def proved(value: dict[str, Any]) -> set[str]:
+    return {d.code for d in verify_plan(json.dumps(value).encode(), "plan.json").diagnostics}
+
+
+def plan_of(where: tuple[str, str], rules: str = "") -> dict[str, Any]:
+    plan = planned(where, rules).plan
+    assert plan is not None
+    written: dict[str, Any] = json.loads(json.dumps(document(plan)))
+    return written
+
+
+def test_a_plan_proves_itself_again() -> None:
+    assert proved(plan_of(ABREAST, REQUIRE)) == set()
+    assert proved(plan_of(FACING)) == {"V033"}
+
+
+def test_a_camera_that_was_turned_in_the_plan_is_noticed() -> None:
+    value = plan_of(ABREAST, REQUIRE)
+    for piece in value["drones"][1]["curve"]["control"]:
+        for point in piece:
+            point[CAM_YAW] += pi / 2
+    assert "V025" in proved(value)
+
+
+def test_a_rule_that_was_edited_in_the_plan_is_noticed() -> None:
+    value = plan_of(FACING)
+    value["mission"]["rules"]["visibility"] = "require"
+    assert {"V025", "V040"} <= proved(value)
+    value["mission"]["rules"]["visibility"] = "off"
+    assert "V040" in proved(value)
+    value = plan_of(ABREAST, REQUIRE)
+    value["mission"]["rules"]["half_angle"] = 0.2
+    assert "V040" in proved(value)
+
+
+def test_a_claim_that_was_made_better_in_the_plan_is_noticed() -> None:
+    value = plan_of(FACING)
+    for claim in value["certificate"]:
+        if claim["constraint"] == "two out of the picture":
+            claim["worst"], claim["holds"] = 1.0, True
+    assert proved(value) == {"V033", "V040"}
+    value = plan_of(FACING)
+    value["certificate"] = [c for c in value["certificate"] if "picture" not in c["constraint"]]
+    assert proved(value) == {"V033", "V040"}
+
+
+@pytest.mark.parametrize("angle", [0.0, -0.1, 2.0, "wide"])
+def test_a_cone_that_is_none_is_refused(angle: object) -> None:
+    value = plan_of(ABREAST, REQUIRE)
+    value["mission"]["rules"]["half_angle"] = angle
+    assert verify_plan(json.dumps(value).encode(), "plan.json").plan is None
