@@ -64,7 +64,7 @@ class Course(NamedTuple):
 
 def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
     """Return a shot as it is where its first frame is at ``start``; only a framing depends on that."""
-    if shot.ideal is None or not shot.ideal.framed:
+    if shot.ideal is None or not shot.ideal.framed or not shot.subjects:
         return shot
     if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME:
         return shot
