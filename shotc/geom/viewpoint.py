@@ -2,7 +2,8 @@
 
 The terms are those of Naegeli et al. (viewpoint Eq. 7 to 9): place on screen, size and viewing angle. Sizes
 are those of the exact outline, and enter as logarithms, so that twice and half are equally wrong. What has to
-hold enters as a steep hinge (the target whole in the frame, its clearance) or as a bound (floor, pitch).
+hold enters as a steep hinge (the target whole in the frame, its clearance, the drone's speed) or as a bound
+(the floor, the pitch).
 """
 
 from collections.abc import Sequence
@@ -17,7 +18,7 @@ Residuals = list[float]
 FAR = 1e5  # metres beyond which nothing is filmed
 HALVINGS = 60
 STEEP = 10.0  # weight of what has to hold
-FAINT = 0.03  # weight of what is free: that it stays as it is, and is level
+FAINT = 0.01  # weight of what is free: that it stays as it is, and is level
 EDGE = 0.97  # of half a frame, within which a whole target is kept
 NUDGE = 1e-6
 ROUNDS = 100
@@ -60,6 +61,14 @@ class Wanted(NamedTuple):
     def whole(self) -> bool:
         """Whether all of it is to be in the frame: it is not asked to be larger than that."""
         return self.size is None or self.size <= 1.0
+
+
+class Since(NamedTuple):
+    """The camera a moment before: where it was, where it is if it goes along, how far it may go."""
+
+    eye: Vec3
+    kept: Vec3
+    way: float
 
 
 class Seen(NamedTuple):
@@ -209,17 +218,17 @@ def first_pose(subjects: Sequence[Wanted], lens: Lens, room: Room, azimuth: floa
 
 
 def viewpoint(
-    subjects: Sequence[Wanted], lens: Lens, room: Room, start: Pose, kept: Vec3 | None = None
+    subjects: Sequence[Wanted], lens: Lens, room: Room, start: Pose, since: Since | None = None
 ) -> tuple[Pose, float]:
     """Return the pose nearest to all that is wanted, from a first guess, and its cost (Levenberg-Marquardt).
 
-    kept : where the camera would be if nothing changed, or None; the free ways are taken that lead there
+    since : what it comes from, or None; what is free stays as it is then, and nothing is farther than its way
     """
     reach = max(hypot(*_minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
     scale = (reach, reach, reach, 1.0, 1.0)
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
-        found = _residuals(pose, subjects, lens, room.near, (kept, reach))
+        found = _residuals(pose, subjects, lens, room.near, (since, reach))
         return found, inf if found is None else sum(r * r for r in found)
 
     low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
@@ -266,12 +275,12 @@ def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) 
 
 
 def _residuals(
-    pose: Pose, subjects: Sequence[Wanted], lens: Lens, near: float, faint: tuple[Vec3 | None, float]
+    pose: Pose, subjects: Sequence[Wanted], lens: Lens, near: float, faint: tuple[Since | None, float]
 ) -> Residuals | None:
     """Return all terms; None where a subject reaches behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     eye = (pose[0], pose[1], pose[2])
-    kept, reach = faint
+    since, reach = faint
     found: Residuals = []
     sized = any(s.size is not None for s in subjects)
     for s in subjects:
@@ -296,8 +305,9 @@ def _residuals(
         if s.elevation is None:
             found.append(FAINT * offset[2] / max(hypot(*offset), 1e-9))
         found.append(STEEP * max(0.0, near - gap(s, offset)))
-    if kept is not None:
-        found += [FAINT * (e - k) / reach for e, k in zip(eye, kept, strict=True)]
+    if since is not None:
+        found += [FAINT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
+        found.append(STEEP * max(0.0, hypot(*_minus(eye, since.eye)) - since.way))
     return found
 
 

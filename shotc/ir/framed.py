@@ -13,7 +13,7 @@ knot after knot, each begun where the last one ended. What is silent is free, an
 
 from collections.abc import Iterator, Sequence
 from itertools import permutations
-from math import atan2, ceil, cos, dist, hypot, pi, sin
+from math import atan2, ceil, cos, dist, hypot, inf, pi, sin
 from typing import NamedTuple
 
 from shotc.geom.camera import Vec2, Vec3, aim_at
@@ -24,6 +24,7 @@ from shotc.geom.viewpoint import (
     Lens,
     Pose,
     Room,
+    Since,
     Wanted,
     first_pose,
     judged,
@@ -42,6 +43,7 @@ TURN = pi / 36  # between bearings that are tried for one subject
 WIDE = pi / 6  # and for several
 NEARLY = 0.02  # of cost by which another bearing is as good
 LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
+BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects do not go faster themselves
 AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
 
@@ -62,7 +64,7 @@ class Course(NamedTuple):
 
 def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
     """Return a shot as it is where its first frame is at ``start``; only a framing depends on that."""
-    if shot.ideal is None or not shot.ideal.framed:
+    if shot.ideal is None or not shot.ideal.framed or not shot.subjects:
         return shot
     if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME:
         return shot
@@ -303,19 +305,20 @@ def _follow(
 ) -> tuple[Pose, ...]:
     """Return the poses at times, each found from the one before, carried along with the subjects."""
     poses = [first]
-    middle = middle_of(scene.wanted(subjects, times[0]))
+    middle, before = middle_of(scene.wanted(subjects, times[0])), times[0]
     for t in times[1:]:
         wanted = scene.wanted(subjects, t)
-        later = middle_of(wanted)
-        last = poses[-1]
-        kept = _plus((last[0], last[1], last[2]), _minus(later, middle))
-        pose, cost = viewpoint(wanted, scene.lens, scene.room, (*kept, last[3], last[4]), kept)
-        if cost == float("inf"):
-            x, y, _ = _minus(kept, later)
+        later, last = middle_of(wanted), poses[-1]
+        eye, along = (last[0], last[1], last[2]), _minus(later, middle)
+        way = max(BRISK * scene.drone.limits.speed * (t - before), hypot(*along))
+        since = Since(eye, _plus(eye, along), way)
+        pose, cost = viewpoint(wanted, scene.lens, scene.room, (*since.kept, last[3], last[4]), since)
+        if cost == inf:
+            x, y, _ = _minus(since.kept, later)
             guess = first_pose(wanted, scene.lens, scene.room, atan2(x, y))
-            pose, _ = viewpoint(wanted, scene.lens, scene.room, guess, kept)
+            pose, _ = viewpoint(wanted, scene.lens, scene.room, guess, since)
         poses.append(pose)
-        middle = later
+        middle, before = later, t
     return tuple(poses)
 
 

@@ -59,12 +59,11 @@ def _sized(mission: MissionIR, placed: PlacedShot) -> list[Diagnostic]:
 
 def place_shot(mission: MissionIR, shot: Shot) -> tuple[tuple[PlacedKeyframe, ...], tuple[Miss, ...]]:
     """Place one shot's keyframes; the misses are what its composition could not give."""
-    drone = mission.drone(shot.drone)
     placed: list[PlacedKeyframe] = []
     misses: list[Miss] = []
     for index, keyframe in enumerate(shot.keyframes):
         course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH)
-        done, miss = _place(mission, drone, keyframe, course)
+        done, miss = _place(mission, shot, keyframe, course)
         placed.append(done)
         if miss is not None:
             misses.append(miss)
@@ -72,11 +71,15 @@ def place_shot(mission: MissionIR, shot: Shot) -> tuple[tuple[PlacedKeyframe, ..
 
 
 def _place(
-    mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float
+    mission: MissionIR, shot: Shot, keyframe: Keyframe, course: float
 ) -> tuple[PlacedKeyframe, Miss | None]:
+    drone = mission.drone(shot.drone)
     if keyframe.target is None:
         return _placed(keyframe, _own_aim(keyframe, drone, course), None, None), None
     setting = setting_of(mission, drone, keyframe, course)
+    if shot.size is not None and shot.size > 1.0:
+        # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
+        setting = setting._replace(radius=0.0, height=0.0)
     aim = own_framing(setting, keyframe, course)
     # A camera that looks at its target holds it in the middle, to the last bit.
     asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)

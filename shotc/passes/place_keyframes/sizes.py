@@ -49,8 +49,8 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
         f"the size of `{worst.name}` in shot `{shot.id}` is {found}, not {asked:.3g}",
         (mission.origins.value((*shot.path, "size")),),
         (
-            f"how far away the camera is, a {shot.kind} says by its own numbers",
-            *_instead(mission, worst, asked),
+            "how far away the camera is, other numbers of the shot say",
+            _instead(mission, worst, asked),
         ),
         "change those numbers or the lens, leave `size` out, or use `kind: framing`",
     )

@@ -40,21 +40,18 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
     if shot.ideal is not None and shot.ideal.framed:
         # Where it stands is settled, and the camera goes where it has its place.
         settled = composition.points[0]
-        cropped = len(shot.subjects) == 1 and not _large(subject) and setting.slack(settled) < -TOUCH
+        whole = subject.size is None or subject.size <= 1.0
+        cropped = len(shot.subjects) == 1 and whole and setting.slack(settled) < -TOUCH
         return settled, [_cropped(mission, shot, subject, settled, None)] if cropped else []
-    if _large(subject):
-        return _nearest_of_all(setting, composition), []
+    if subject.size is not None and subject.size > 1.0:
+        # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
+        setting = setting._replace(radius=0.0, height=0.0)
     place = nearest_candidate(setting, composition, MIDDLE)
     if place is not None:
         return place, []
     instead = nearest_on_verticals(setting, composition, MIDDLE)
     wanted = _nearest_of_all(setting, composition)
     return instead or wanted, [_cropped(mission, shot, subject, wanted, instead)]
-
-
-def _large(subject: Subject) -> bool:
-    """Tell whether a subject is cropped on purpose."""
-    return subject.size is not None and subject.size > 1.0
 
 
 def setting_at(mission: MissionIR, shot: Shot, target: str) -> Setting:

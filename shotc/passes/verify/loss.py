@@ -60,12 +60,18 @@ def _loss(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
     why = (
         f"at its limit there: {', '.join(binding)}" if binding else "no limit of gimbal or space is met there"
     )
+    shot = next(s for s in mission.shots if s.id == claim.shot)
+    remedy = "move the keyframes next to it"
+    if len(shot.subjects) > 1:
+        remedy = "ask less of its subjects at once"
+    elif shot.ideal is not None:
+        remedy = "give the shot more room or less speed"
     return Diagnostic(
         "V032",
         f"{target} is up to {off} on screen in shot `{claim.shot}`",
         (mission.origins.key(claim.path),),
         (when, why, *bends(ir, str(claim.shot))),
-        f"{'loosen that or ' if binding else ''}move the keyframes next to it, or state "
+        f"{'loosen that or ' if binding else ''}{remedy}, or state "
         "`require: {screen_error: ...}` to have it held",
     )
 

@@ -85,7 +85,7 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
             yield _broken(ir, claim, claims)
         else:
             code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)
-            if code is not None:
+            if code is not None and not (code == "V030" and _cropped_on_purpose(ir.keyframes.mission, claim)):
                 yield _lost(ir, claim, code)
 
 
@@ -131,6 +131,15 @@ def _state(claim: Claim, code: str) -> str:
 
 def _side(claim: Claim) -> str:
     return "at most" if claim.upper else "at least"
+
+
+def _cropped_on_purpose(mission: MissionIR, claim: Claim) -> bool:
+    """Tell whether the target of a claim is asked to be larger than the frame."""
+    shot = _shot(mission, claim.shot)
+    if shot is None:
+        return False
+    asked = next((s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size)
+    return asked is not None and asked > 1.0
 
 
 def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:

@@ -40,6 +40,11 @@ class ClockSubject:
         """The yaw and pitch that the camera keeps, if the author gave them."""
         return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim
 
+    @property
+    def kept(self) -> tuple[float, float] | None:
+        """Yaw and pitch that the camera keeps, rad, or None where it follows what it films."""
+        return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockWishes:
@@ -63,7 +68,7 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
         [ideal_place(subject.mission, subject.placed.shot, subject.leg.start, float(u)) for u in t]
     )
     watched, shot = subject.watched, subject.placed.shot
-    placed = shot.ideal is not None and shot.ideal.placed
+    placed = shot.ideal is not None and (shot.ideal.placed or shot.ideal.framed)
     if watched is None:
         away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((len(t), 9))])
         return ClockWishes(ideal, away, 100.0, watches=False, placed=placed)

@@ -1,0 +1,153 @@
+"""The viewpoint of subjects: distances and lenses in closed form, and the least-squares pose of several."""
+
+from __future__ import annotations
+
+from math import hypot, pi, radians, tan
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.optimize import least_squares
+
+from shotc.geom import viewpoint as module
+from shotc.geom.camera import aim_at, view
+from shotc.geom.framing import Cameras, frames
+from shotc.geom.solids import Cylinder
+from shotc.geom.viewpoint import (
+    Lens,
+    Room,
+    Since,
+    Wanted,
+    direction,
+    distance_for,
+    first_pose,
+    gap,
+    judged,
+    lens_for,
+    nearest,
+    size_from,
+    stand,
+    viewpoint,
+)
+
+LENS = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
+ROOM = Room(2.7, 1.6)
+MAN = Wanted((0.0, 0.0, 20.0), 0.4, 1.8)
+
+angles = st.floats(-pi, pi)
+places = st.tuples(st.floats(-0.6, 0.6), st.floats(-0.5, 0.5))
+
+
+def test_a_thin_target_at_eye_level_has_the_size_of_its_height_over_the_picture_there() -> None:
+    thin = MAN._replace(radius=1e-6)
+    distance = distance_for(thin, LENS, (1.0, 0.0, 0.0), 0.3)
+    assert distance == pytest.approx(1.8 / (2 * 0.3 * tan(radians(35)) * 9 / 16), rel=1e-4)
+
+
+@settings(deadline=None, max_examples=60)
+@given(azimuth=angles, elevation=st.floats(-0.3, 1.3), uv=places, size=st.floats(0.03, 1.2))
+def test_the_distance_gives_the_size_that_verification_measures(azimuth, elevation, uv, size) -> None:
+    toward = direction(azimuth, elevation)
+    wanted = MAN._replace(uv=uv)
+    away = distance_for(wanted, LENS, toward, size)
+    x, y, z = (c * away for c in toward)
+    aim = aim_at((-x, -y, -z), uv, LENS.hfov, LENS.aspect)
+    assume(aim is not None and gap(MAN, (x, y, z)) > 0.3)
+    eye = np.array([[x, y, z + 20.0]])
+    cameras = Cameras(eye, np.array([aim[0]]), np.array([aim[1]]), np.array([LENS.hfov]), LENS.aspect)
+    seen = frames(cameras, Cylinder((0.0, 0.0), 0.4, 19.1, 20.9))
+    assert seen.size[0] == pytest.approx(size, rel=1e-6)
+    assert (seen.u[0], seen.v[0]) == pytest.approx(uv, abs=1e-9)
+
+
+@given(azimuth=angles, elevation=st.floats(-1.5, 1.5), near=st.floats(0.1, 5.0))
+def test_the_nearest_place_keeps_just_its_clearance(azimuth, elevation, near) -> None:
+    toward = direction(azimuth, elevation)
+    away = nearest(MAN, toward, near)
+    x, y, z = (c * away for c in toward)
+    assert gap(MAN, (x, y, z)) == pytest.approx(near, abs=1e-6)
+
+
+def test_the_lens_that_gives_a_size_gives_it() -> None:
+    offset = (0.0, -8.0, 1.0)
+    hfov = lens_for(MAN, LENS, offset, 0.6)
+    assert hfov is not None
+    assert size_from(MAN, LENS._replace(hfov=hfov), offset) == pytest.approx(0.6, rel=1e-6)
+    assert lens_for(MAN, LENS, offset, 1e-4) is None
+
+
+def test_a_free_elevation_is_level_or_as_little_above_as_the_ground_asks() -> None:
+    assert stand(MAN, LENS, ROOM, 0.0, 0.3)[2] == 0.0
+    low = MAN._replace(centre=(0.0, 0.0, 0.9))
+    offset = stand(low, LENS, ROOM, 0.0, 0.3)
+    assert offset[2] + 0.9 == pytest.approx(ROOM.floor, abs=1e-6)
+    assert size_from(low, LENS, offset) == pytest.approx(0.3, rel=1e-6)
+
+
+@settings(deadline=None, max_examples=40)
+@given(
+    apart=st.floats(1.5, 6.0),
+    away=st.floats(8.0, 25.0),
+    rise=st.floats(1.0, 6.0),
+    pan=st.floats(-0.2, 0.2),
+)
+def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, rise, pan) -> None:
+    """From the places and sizes in a real picture, a camera is found whose picture is the same."""
+    centres = [(0.0, apart / 2, 20.0), (0.0, -apart / 2, 20.5)]
+    eye = (away * np.cos(0.3), away * np.sin(0.3), 20.0 + rise)
+    yaw, pitch = aim_at((-eye[0], -eye[1], -rise), (0.0, 0.0), LENS.hfov, LENS.aspect) or (0.0, 0.0)
+    pose = (*eye, yaw + pan, pitch)
+    camera = view(pose[3], pose[4], LENS.hfov, LENS.aspect)
+    subjects = []
+    for centre in centres:
+        u, v, _ = camera.project(tuple(c - e for c, e in zip(centre, eye, strict=True)))
+        bare = Wanted(centre, 0.4, 1.8)
+        seen = judged(pose, LENS, bare)
+        assume(seen is not None and seen.out == 0.0 and abs(u) < 0.8 and abs(v) < 0.7)
+        subjects.append(bare._replace(uv=(u, v), size=seen.size))
+    guess = first_pose(subjects, LENS, ROOM, 1.2)
+    found, _ = viewpoint(subjects, LENS, ROOM, guess)
+    for subject in subjects:
+        seen = judged(found, LENS, subject)
+        assert seen is not None
+        assert seen.screen < 0.01
+        assert seen.size == pytest.approx(subject.size, rel=0.02)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
+    """Subjects at random, more asked than can be had: the cost is a minimum, within the bounds."""
+    rng = np.random.default_rng(seed)
+    subjects = [
+        Wanted(
+            (*rng.uniform(-8, 8, 2), 0.9),
+            0.4,
+            1.8,
+            uv=tuple(rng.uniform(-0.6, 0.6, 2)),
+            size=float(rng.uniform(0.1, 0.4)),
+            azimuth=float(rng.uniform(0, 2 * pi)) if k == 0 else None,
+        )
+        for k in range(2)
+    ]
+    pose, cost = viewpoint(subjects, LENS, ROOM, first_pose(subjects, LENS, ROOM, 0.5))
+
+    def residuals(x: np.ndarray) -> np.ndarray:
+        found = module._residuals(tuple(x), subjects, LENS, ROOM.near, (None, 10.0))
+        return np.full(26, 1e3) if found is None else np.array(found)
+
+    low = [-np.inf, -np.inf, ROOM.floor - 1e-9, -np.inf, LENS.pitch[0] - 1e-9]
+    high = [np.inf, np.inf, np.inf, np.inf, LENS.pitch[1] + 1e-9]
+    best = least_squares(residuals, pose, bounds=(low, high), x_scale=[10, 10, 10, 1, 1])
+    assert cost <= 2 * best.cost * 1.01 + 1e-6
+    assert pose[2] >= ROOM.floor
+
+
+def test_a_camera_goes_no_farther_than_its_way() -> None:
+    subjects = [MAN._replace(uv=(-0.3, 0.0), size=0.3), Wanted((3.0, 0.0, 20.0), 0.4, 1.8, (0.3, 0.0))]
+    start = first_pose(subjects, LENS, ROOM, 0.0)
+    free, _ = viewpoint(subjects, LENS, ROOM, start)
+    since = Since(start[:3], start[:3], 1.0)
+    held, _ = viewpoint(subjects, LENS, ROOM, start, since)
+    assert hypot(*(a - b for a, b in zip(free[:3], start[:3], strict=True))) > 2.0
+    assert hypot(*(a - b for a, b in zip(held[:3], start[:3], strict=True))) < 1.1
