@@ -28,10 +28,15 @@ class Notes:
 
     def assume(self, node: Node, message: str, taken: str) -> str:
         """Note an assumption, and return the comment that goes with it."""
-        note = Note(node, message, taken)
-        if all((n.node is not node or n.message != message) for n in self.found):
+        note = Note(node, plain(message), plain(taken))
+        if all((n.node is not node or n.message != note.message) for n in self.found):
             self.found.append(note)
-        return f"assumed: {taken} (line {node.line}: {message})"
+        return f"assumed: {note.taken} (line {node.line}: {note.message})"
+
+
+def plain(text: str, most: int | None = None) -> str:
+    """Return a text on one line, with nothing in it that would end a comment; at most so many characters."""
+    return "".join(c if c.isprintable() else " " for c in text[:most])
 
 
 def label(file: str, node: Node) -> Label:
