@@ -159,7 +159,7 @@ def test_a_speed_that_contradicts_the_times_is_told_and_the_times_hold() -> None
 def test_a_shot_ends_where_the_way_of_its_target_does() -> None:
     (shot,) = shots(made := imported(action("CHASE", '{"x_s": -9, "z_0": 5}', duration="600")))
     assert shot["timing"] == {"start": 40, "duration": 40}
-    assert ("the action lasts 600 s, but the way of its target is told for 40.0 s", 9) in said(made)
+    assert ("the action lasts 600 s, the way of its target is told for 40.0 s", 9) in said(made)
 
 
 def test_a_target_that_waits_is_there_until_it_goes() -> None:
@@ -289,6 +289,20 @@ def test_everything_that_is_told_stands_in_the_mission_as_a_comment() -> None:
         assert taken in made.text
 
 
+def test_what_is_left_out_stands_at_the_head_of_the_mission() -> None:
+    empty = "<shootingAction><name>none</name></shootingAction>"
+    made = imported(action("CHASE", '{"x_s": -9, "z_0": 5}'), empty)
+    assert made.text is not None
+    head = made.text[: made.text.index("shotc: 1")]
+    assert "# assumed: it is left out (line 20: an action that neither names its shot nor has a role)" in head
+
+
+def test_a_decimal_comma_is_a_comment_at_its_target() -> None:
+    made = imported(action("CHASE", '{"x_s": -9, "z_0": 5}', way=((0, "0,5", 0), (40, 0, 20))))
+    targets, _, _ = (made.text or "").partition("drones:")
+    assert "  # assumed: 0.5 (line 11: `0,5` has a decimal comma)\n  target1:" in targets
+
+
 def test_strict_refuses_what_would_be_assumed() -> None:
     made = imported(action("CHASE", '{"x_s": -9, "z_0": 5}'), strict=True)
     assert made.text is None
@@ -378,3 +392,7 @@ def test_every_production_mission_is_imported_and_accepted(path: Path) -> None:
     found = check_source(made.text.encode(), "m.yaml", None).diagnostics
     assert not has_errors(found), found
     assert len(shots(made)) == made.shots
+    for note in made.diagnostics:
+        assert (
+            f"# assumed: {note.help.removeprefix('taken: ')} (line {note.labels[0].span.line}:" in made.text
+        )

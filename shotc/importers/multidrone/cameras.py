@@ -11,6 +11,7 @@ from shotc.importers.multidrone.task import NEAREST, Made, Said, Task
 
 BESIDE = 8.0  # metres to the East of a target on whose place a camera would stand
 LEVEL = 90.0  # degrees; the tilt of a camera that looks at the horizon
+LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
 
 
 def elevator(task: Task) -> Made:
@@ -19,20 +20,24 @@ def elevator(task: Task) -> Made:
     high, two = task.altitude("z_e")
     place, (lower, upper), said = _stand(task, low, high)
     points = f"points: [{lower}, {upper}], look_at: {task.target}"
-    return Made("follow-path", points, place, (*one, *two, *said))
+    path = ((*place, low), (*place, (low + high) / 2), (*place, high))
+    return Made("follow-path", points, path, (*one, *two, *said))
 
 
 def static(task: Task) -> Made:
     """Return a camera that stands, and watches its target or turns by itself."""
     z, low = task.altitude()
     place, (at,), said = _stand(task, z)
+    path = ((*place, z),) * 3
     if not _turned(task.role):
         if not task.target:
             heading = degrees(pi / 2 - task.course.heading(task.start)) % 360
-            return Made("static", f"at: {at}, heading: {heading:.1f} deg, pitch: 0 deg", None, (*low, *said))
-        return Made("static", f"at: {at}, look_at: {task.target}", place, (*low, *said))
+            params = f"at: {at}, heading: {heading:.1f} deg, pitch: 0 deg"
+            return Made("static", params, path, (*low, *said), watches=False)
+        return Made("static", f"at: {at}, look_at: {task.target}", path, (*low, *said))
     poses = [(at, task.course.heading(task.start))] * 2
-    return Made("keyframes", *_panned(task, poses, (*low, *said)))
+    rows, more = _panned(task, poses)
+    return Made("keyframes", rows, path, (*low, *said, *more), watches=False)
 
 
 def fly_through(task: Task) -> Made:
@@ -42,15 +47,17 @@ def fly_through(task: Task) -> Made:
     way = [frame.place(point) for point in points]
     if len(way) < 2 or hypot(way[-1][0] - way[0][0], way[-1][1] - way[0][1]) < 1.0:
         message = "a fly-through without a way"
-        said = task.notes.assume(task.action.node, message, "a still camera at the origin of the formation")
+        still = task.notes.assume(task.action.node, message, "a still camera at the origin of the formation")
         made = static(task)
-        return made._replace(comments=(said, *made.comments))
+        return made._replace(comments=(still, *made.comments))
+    path = ((*way[0], z), (*way[len(way) // 2], z), (*way[-1], z))
     if _turned(task.role):
-        poses = [(frame.written(p, z), _course(way, i)) for i, p in enumerate(points)]
-        return Made("keyframes", *_panned(task, poses, low))
+        rows, said = _panned(task, [(frame.written(p, z), _course(way, i)) for i, p in enumerate(points)])
+        return Made("keyframes", rows, path, (*low, *said), watches=False)
     joined = ", ".join(frame.written(p, z) for p in points)
-    said = task.assume("a fly-through without pan and tilt", "the camera looks along the way, level")
-    return Made("follow-path", f"points: [{joined}], heading: along", None, (*low, said))
+    ahead = task.assume("a fly-through without pan and tilt", "the camera looks along the way, level")
+    params = f"points: [{joined}], heading: along"
+    return Made("follow-path", params, path, (*low, ahead), watches=False)
 
 
 def _turned(role: Role) -> bool:
@@ -58,11 +65,14 @@ def _turned(role: Role) -> bool:
     return "pan_s" in role.params or "tilt_s" in role.params
 
 
-def _panned(task: Task, poses: list[tuple[str, float]], said: Said) -> tuple[str, None, Said]:
-    """Return keyframes whose camera pans and tilts from start to end, against the way (rad) of each place."""
+def _panned(task: Task, poses: list[tuple[str, float]]) -> tuple[str, Said]:
+    """Return keyframes whose camera pans and tilts from start to end, and comments.
+
+    poses : places with the way there, rad, from which a pan counts
+    """
     params = task.role.params
     pans, tilts = (
-        (params.get(f"{n}_s", o), params.get(f"{n}_e", o)) for n, o in (("pan", 0.0), ("tilt", 90.0))
+        (params.get(f"{n}_s", o), params.get(f"{n}_e", o)) for n, o in (("pan", 0.0), ("tilt", LEVEL))
     )
     rows, last = [], None
     for i, (at, way) in enumerate(poses):
@@ -72,12 +82,19 @@ def _panned(task: Task, poses: list[tuple[str, float]], said: Said) -> tuple[str
         if last is not None and not _sweeps(pans):
             heading += 360.0 * round((last - heading) / 360.0)
         last = heading
-        pitch = max(-90.0, min(30.0, tilt - 90.0))
+        pitch = max(LOWEST_PITCH, min(HIGHEST_PITCH, tilt - LEVEL))
         rows.append(f"{{at: {at}, heading: {heading:.1f} deg, pitch: {pitch:g} deg}}")
     node = task.role.node.first("targetIdentifierParams") or task.role.node
     message = "pan and tilt in degrees without a frame"
     taken = "pan counter-clockwise from the way, tilt from straight down: 90 is level"
-    return f"keyframes: [{', '.join(rows)}]", None, (*said, task.notes.assume(node, message, taken))
+    said: Said = (task.notes.assume(node, message, taken),)
+    if not LOWEST_PITCH + LEVEL <= min(tilts) <= max(tilts) <= HIGHEST_PITCH + LEVEL:
+        shown = f"{min(tilts):g} to {max(tilts):g} deg"
+        said = (
+            *said,
+            task.notes.assume(node, f"a tilt of {shown} is out of a gimbal's range", "its nearest end"),
+        )
+    return f"keyframes: [{', '.join(rows)}]", said
 
 
 def _sweeps(pans: tuple[float, float]) -> bool:

@@ -54,14 +54,12 @@ def size_of(role: Role, films: bool, fixed: bool, notes: Notes) -> tuple[str | N
 
 
 def composition_of(
-    role: Role, course: Course, camera: Place | None, t: float, notes: Notes
-) -> tuple[str | None, list[str]]:
+    role: Role, course: Course, camera: Place, t: float, notes: Notes
+) -> tuple[str, list[str]]:
     """Return the point on the screen where a role puts its target, and comments.
 
-    camera : where it is at mission time t, in the middle of the shot; None where it films no target
+    camera : where it is at mission time t, in the middle of the shot
     """
-    if camera is None:
-        return None, []
     if role.composition in CENTRED:
         return "center", []
     if role.composition != THIRDS:

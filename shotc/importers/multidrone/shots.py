@@ -44,9 +44,9 @@ def _chase(task: Task) -> Made:
         return made._replace(comments=("its distance changes, which is a flyby of ours", *made.comments))
     kind = "chase" if start < 0 else "lead"
     away, near = _apart(task, abs(start))
-    camera = task.beside(away if start >= 0 else -away, 0.0)
+    spot = (away if start >= 0 else -away, 0.0, z)
     params = f"distance: {away:g}, altitude: {z:g}"
-    return Made(kind, params, camera, (*said, *low, *near), not said)
+    return Made(kind, params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
 def _lateral(task: Task) -> Made:
@@ -55,8 +55,8 @@ def _lateral(task: Task) -> Made:
     away, near = _apart(task, abs(y))
     side = "left" if y >= 0 else "right"
     params = f"side: {side}, distance: {away:g}, altitude: {z:g}"
-    camera = task.beside(0.0, away if y >= 0 else -away)
-    return Made("lateral", params, camera, (*said, *low, *near), not said)
+    spot = (0.0, away if y >= 0 else -away, z)
+    return Made("lateral", params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
 def _flyby(task: Task, beside: float | None = None) -> Made:
@@ -65,8 +65,8 @@ def _flyby(task: Task, beside: float | None = None) -> Made:
     y, three = task.param("y_0", 0.0) if beside is None else (beside, ())
     z, low = task.altitude()
     params = f"behind: {-start:g}, ahead: {end:g}, offset: {y:g}, altitude: {z:g}".replace(": -0,", ": 0,")
-    camera = task.beside((start + end) / 2, y)
-    return Made("flyby", params, camera, (*one, *two, *three, *low), not one)
+    path = task.along((start, y, z), (end, y, z))
+    return Made("flyby", params, path, (*one, *two, *three, *low), not one)
 
 
 def _orbit(task: Task) -> Made:
@@ -88,11 +88,15 @@ def _orbit(task: Task) -> Made:
     # From the way the target goes, counter-clockwise; ours is a compass bearing.
     bearing = degrees(pi / 2 - task.course.heading(task.start) - begin) % 360
     turned = f"sweep: {degrees(sweep):.1f} deg, start_azimuth: {bearing:.1f} deg"
-    way = begin + sweep / 2
-    camera = task.beside(away * cos(way), away * sin(way))
+    begins, halfway, ends = (
+        task.beside(
+            (away * cos(begin + s * sweep), away * sin(begin + s * sweep), z), task.start + s * task.lasts
+        )
+        for s in (0.0, 0.5, 1.0)
+    )
     params = f"radius: {away:g}, altitude: {z:g}, {turned}"
     said = "the side on which a target leaves room changes in an orbit: it is that of the middle of the shot"
-    return Made("orbit", params, camera, (*one, *two, *three, *low, *near, said), not one)
+    return Made("orbit", params, (begins, halfway, ends), (*one, *two, *three, *low, *near, said), not one)
 
 
 def _establish(task: Task) -> Made:
@@ -105,7 +109,8 @@ def _establish(task: Task) -> Made:
     begins, apart = _apart(task, abs(far))
     ends, close = _apart(task, abs(near))
     params = f"azimuth: {bearing:.1f} deg, distance: [{begins:g}, {ends:g}], altitude: [{high:g}, {last:g}]"
-    camera = task.beside((far + near) / 2, 0.0)
+    side = -1.0 if far < 0 else 1.0
+    path = task.along((side * begins, 0.0, high), (side * ends, 0.0, last))
     kept: Said = ()
     if not task.course.stands:
         kept = (
@@ -113,7 +118,7 @@ def _establish(task: Task) -> Made:
                 "an approach is told along the target's way", "along its way at the start of the shot"
             ),
         )
-    return Made("crane", params, camera, (*one, *two, *low, *lowest, *apart, *close, *kept), not one)
+    return Made("crane", params, path, (*one, *two, *low, *lowest, *apart, *close, *kept), not one)
 
 
 def _apart(task: Task, away: float) -> tuple[float, Said]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, sin
 from typing import NamedTuple
 
-from shotc.importers.multidrone.frames import Frame, Place
+from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Action, Role
 from shotc.importers.multidrone.targets import Course
 from shotc.importers.notes import Notes, plain
@@ -14,20 +14,23 @@ NEAREST = 3.0  # metres beside a target that a shot keeps where nothing is said
 LOWEST = 2.0  # metres over the ground
 
 Said = tuple[str, ...]
+Vec3 = tuple[float, float, float]
+Path = tuple[Vec3, Vec3, Vec3]
 
 
 class Made(NamedTuple):
     """A shot as written: its kind and parameters as YAML, and the comments above it.
 
-    camera : where it is in the middle of the shot, East and North in metres; None where it films no target
-    fixed : whether the file gives its distance
+    path : where the camera is at the beginning, in the middle and at the end: East, North, Up in metres
+    fixed : whether the file gives its distance; watches : whether it films a target
     """
 
     kind: str
     params: str
-    camera: Place | None
+    path: Path
     comments: Said
     fixed: bool = True
+    watches: bool = True
 
 
 class Task(NamedTuple):
@@ -66,7 +69,16 @@ class Task(NamedTuple):
         more = self.assume(f"{name} = {z:g} m is too low to be flown", f"{LOWEST:g} m")
         return LOWEST, (*said, more)
 
-    def beside(self, ahead: float, left: float) -> Place:
-        """Return the place so far ahead and to the left of the target in the middle of the shot."""
-        (x, y), way = self.course.at(self.middle), self.course.heading(self.middle)
-        return (x + ahead * cos(way) - left * sin(way), y + ahead * sin(way) + left * cos(way))
+    def along(self, begin: Vec3, end: Vec3) -> Path:
+        """Return the path of a camera that is carried along; begin, end : ahead, left, z."""
+        half = (begin[0] + end[0]) / 2, (begin[1] + end[1]) / 2, (begin[2] + end[2]) / 2
+        return (
+            self.beside(begin, self.start),
+            self.beside(half, self.middle),
+            self.beside(end, self.start + self.lasts),
+        )
+
+    def beside(self, spot: Vec3, t: float) -> Vec3:
+        """Return the place that lies ahead of the target, to its left, and z over the ground."""
+        (x, y), way, (ahead, left, z) = self.course.at(t), self.course.heading(t), spot
+        return (x + ahead * cos(way) - left * sin(way), y + ahead * sin(way) + left * cos(way), z)
