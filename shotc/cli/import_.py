@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from shotc.cli import console
+from shotc.cli.inputs import STDIN, STDIN_NAME
 
 FORMATS = ("multidrone",)
 
 FormatArgument = Annotated[str, typer.Argument(metavar="FORMAT", help=f"What it is: {', '.join(FORMATS)}.")]
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="The file to read.")]
+FileArgument = Annotated[
+    str, typer.Argument(metavar="FILE", help="The file to read, or - for standard input.")
+]
 OutputFile = Annotated[
     Path | None,
     typer.Option("-o", "--output", metavar="MISSION", help="The file to write; prints without it."),
@@ -38,11 +42,7 @@ def import_(
 
     if format not in FORMATS:
         raise typer.BadParameter(f"`{format}` is none; there are: {', '.join(FORMATS)}", param_hint="FORMAT")
-    try:
-        data = file.read_bytes()
-    except (OSError, ValueError) as fault:
-        raise typer.BadParameter(f"`{file}` cannot be read: {fault}", param_hint="FILE") from None
-    made = import_multidrone(data, str(file), strict=strict)
+    made = import_multidrone(_read(file), STDIN_NAME if file == STDIN else file, strict=strict)
     console.report(made.diagnostics, made.sources)
     if made.text is None:
         raise typer.Exit(console.EXIT_REJECTED)
@@ -57,6 +57,24 @@ def import_(
     _save(made.text, output)
     counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"
     console.note(f"imported {counts}; {_counted(len(made.diagnostics), 'assumption')}")
+
+
+def _read(file: str) -> bytes:
+    """Return the bytes of a file, or a little more of it than an importer reads."""
+    from shotc.diag.model import Diagnostic, Label
+    from shotc.importers.xml_tree import LARGEST
+    from shotc.source.file import WHOLE_FILE
+
+    try:
+        if file == STDIN:
+            return sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b""
+        with Path(file).open("rb") as stream:
+            return stream.read(LARGEST + 1)
+    except (OSError, ValueError) as fault:
+        reason = getattr(fault, "strerror", None) or fault
+        message = f"`{file}` cannot be read: {reason}"
+        console.report([Diagnostic("I001", message, (Label(file, WHOLE_FILE),))], {})
+        raise typer.Exit(console.EXIT_REJECTED) from None
 
 
 def _counted(number: int, noun: str) -> str:

@@ -58,7 +58,7 @@ class _Stop(Exception):
 def parse_xml(data: bytes) -> Node | XmlFault:
     """Return the root element. A document type is refused, for entities could grow without bound."""
     if len(data) > LARGEST:
-        return XmlFault(f"the file is {len(data) / 1e6:.1f} MB; at most {LARGEST / 1e6:.0f} MB are read")
+        return XmlFault(f"the file is larger than {LARGEST / 1e6:.0f} MB")
     reader = _Reader()
     parser = expat.ParserCreate()
     parser.buffer_text = True
