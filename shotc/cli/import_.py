@@ -19,7 +19,9 @@ FileArgument = Annotated[
 ]
 OutputFile = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="MISSION", help="The file to write; prints without it."),
+    typer.Option(
+        "-o", "--output", metavar="MISSION", help="The file to write; without it, or with -, prints."
+    ),
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Refuse what would have to be assumed.")]
 
@@ -29,9 +31,13 @@ def import_(
 ) -> None:
     """Start a mission from one of another tool.
 
-    `multidrone` reads the XML of the MultiDrone project's dashboard. What the file leaves open or has wrong
-    is assumed: each assumption is a warning with its line, and a comment in the mission. What is written is
-    a mission that `shotc check` accepts, or nothing is.
+    `multidrone` reads the XML of the MultiDrone project's dashboard. Shooting actions become shots with
+    their distances and times, sequences become drones, trajectories become the tracks of targets, and
+    `RULE_OF_THIRDS` becomes a third with room on the side to which the target moves.
+
+    What the file leaves open, has wrong or says twice is assumed: each assumption is a warning with its
+    line and column, and a comment in the mission, where it is easily changed. `--strict` refuses instead.
+    What is written is a mission that `shotc check` accepts, or nothing is.
 
     Example: `shotc import multidrone karting.xml -o karting.yaml`
     """
@@ -82,7 +88,7 @@ def _counted(number: int, noun: str) -> str:
 
 
 def _save(text: str, output: Path | None) -> None:
-    if output is None:
+    if output is None or output == Path("-"):
         console.out(text.rstrip("\n"))
         return
     from shotc.emit.base import Artifact
