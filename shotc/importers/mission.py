@@ -11,7 +11,7 @@ from shotc.importers.multidrone.frames import frame_of, without_far
 from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, label, told
-from shotc.importers.xml_tree import XmlFault, parse_xml
+from shotc.importers.xml_tree import XmlFault, parse_xml, shown
 from shotc.source.file import SourceFile, Span
 
 MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
@@ -38,7 +38,7 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
 
     data : any bytes; name : how to show the file; strict : refuse instead of assuming anything
     """
-    source = SourceFile(name, data.decode("utf-8-sig", "replace"))
+    source = SourceFile(name, shown(data))
     sources = {name: source}
     root = parse_xml(data)
     if isinstance(root, XmlFault):

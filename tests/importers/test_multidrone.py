@@ -400,6 +400,33 @@ def test_any_bytes_are_read_without_a_traceback(data: bytes) -> None:
     import_multidrone(data, "m.xml", strict=False)
 
 
+@settings(deadline=None, max_examples=150)
+@given(st.data())
+def test_a_mission_that_lost_or_gained_something_is_read_without_a_traceback(data: st.DataObject) -> None:
+    text = mapped(POINT.format(x=100, y=50, t=0) + EARTH.format(47.001, 8.0, 40), "8.0,47.0 8.0,47.001")
+    text = MISSION.format(actions=text + action("ORBIT", '{"r_0": 9}') + action("FLY_THROUGH", "{}"))
+    for _ in range(data.draw(st.integers(1, 3))):
+        lines = text.splitlines(keepends=True)
+        i = data.draw(st.integers(1, len(lines) - 1))
+        lines[i] = data.draw(
+            st.sampled_from(["", lines[i] * 2, "<role>secondary</role>", "<x>1,5</x>", "&#0;"])
+        )
+        text = "".join(lines)
+    made = import_multidrone(text.encode(), "m.xml", strict=False)
+    assert made.text is None or yaml.safe_load(made.text)["shots"]
+
+
+def test_a_secondary_sequence_gives_way() -> None:
+    between = (
+        "</shootingActions></shootingActionSequence><shootingActionSequence><name>S2</name><shootingActions>"
+    )
+    lateral = action("LATERAL", '{"y_0": 8, "z_0": 5}')
+    text = MISSION.format(actions=lateral + between + lateral).replace(">main<", ">secondary<", 1)
+    made = import_multidrone(text.encode(), "m.xml", strict=False)
+    drones = yaml.safe_load(made.text or "")["drones"]
+    assert [drones[name]["priority"] for name in ("cam1", "cam2")] == [2, 1]
+
+
 GARBLED = st.sampled_from(
     ["", "nan", "1e999", "-1,5", "x", "{", "[]", '{"x_s": "a"}', "0", "9999999", "<b/>", "é"]
 )

@@ -68,10 +68,11 @@ class Action(NamedTuple):
 
 
 class Sequence(NamedTuple):
-    """Actions that one formation films one after the other."""
+    """Actions that one formation films one after the other; main : whether it goes before a secondary one."""
 
     node: Node
     name: str
+    main: bool
     actions: tuple[Action, ...]
 
 
@@ -82,7 +83,7 @@ def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
         actions = [_action(child, notes) for child in below(node, "shootingAction")]
         kept = tuple(action for action in actions if action is not None)
         if kept:
-            found.append(Sequence(node, node.value("name"), kept))
+            found.append(Sequence(node, node.value("name"), node.value("role") != "secondary", kept))
         else:
             notes.assume(
                 node, "a sequence without a shooting action that can be read", "the sequence is left out"
