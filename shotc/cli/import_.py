@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from shotc.cli import console
+from shotc.cli.inputs import STDIN, STDIN_NAME
 
 FORMATS = ("multidrone",)
 
 FormatArgument = Annotated[str, typer.Argument(metavar="FORMAT", help=f"What it is: {', '.join(FORMATS)}.")]
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="The file to read.")]
+FileArgument = Annotated[
+    str, typer.Argument(metavar="FILE", help="The file to read, or - for standard input.")
+]
 OutputFile = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="MISSION", help="The file to write; prints without it."),
+    typer.Option(
+        "-o", "--output", metavar="MISSION", help="The file to write; without it, or with -, prints."
+    ),
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Refuse what would have to be assumed.")]
 
@@ -25,9 +31,13 @@ def import_(
 ) -> None:
     """Start a mission from one of another tool.
 
-    `multidrone` reads the XML of the MultiDrone project's dashboard. What the file leaves open or has wrong
-    is assumed: each assumption is a warning with its line, and a comment in the mission. What is written is
-    a mission that `shotc check` accepts, or nothing is.
+    `multidrone` reads the XML of the MultiDrone project's dashboard. Shooting actions become shots with
+    their distances and times, sequences become drones, trajectories become the tracks of targets, and
+    `RULE_OF_THIRDS` becomes a third with room on the side to which the target moves.
+
+    What the file leaves open, has wrong or says twice is assumed: each assumption is a warning with its
+    line and column, and a comment in the mission, where it is easily changed. `--strict` refuses instead.
+    What is written is a mission that `shotc check` accepts, or nothing is.
 
     Example: `shotc import multidrone karting.xml -o karting.yaml`
     """
@@ -38,11 +48,7 @@ def import_(
 
     if format not in FORMATS:
         raise typer.BadParameter(f"`{format}` is none; there are: {', '.join(FORMATS)}", param_hint="FORMAT")
-    try:
-        data = file.read_bytes()
-    except (OSError, ValueError) as fault:
-        raise typer.BadParameter(f"`{file}` cannot be read: {fault}", param_hint="FILE") from None
-    made = import_multidrone(data, str(file), strict=strict)
+    made = import_multidrone(_read(file), STDIN_NAME if file == STDIN else file, strict=strict)
     console.report(made.diagnostics, made.sources)
     if made.text is None:
         raise typer.Exit(console.EXIT_REJECTED)
@@ -59,12 +65,30 @@ def import_(
     console.note(f"imported {counts}; {_counted(len(made.diagnostics), 'assumption')}")
 
 
+def _read(file: str) -> bytes:
+    """Return the bytes of a file, or a little more of it than an importer reads."""
+    from shotc.diag.model import Diagnostic, Label
+    from shotc.importers.xml_tree import LARGEST
+    from shotc.source.file import WHOLE_FILE
+
+    try:
+        if file == STDIN:
+            return sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b""
+        with Path(file).open("rb") as stream:
+            return stream.read(LARGEST + 1)
+    except (OSError, ValueError) as fault:
+        reason = getattr(fault, "strerror", None) or fault
+        message = f"`{file}` cannot be read: {reason}"
+        console.report([Diagnostic("I001", message, (Label(file, WHOLE_FILE),))], {})
+        raise typer.Exit(console.EXIT_REJECTED) from None
+
+
 def _counted(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def _save(text: str, output: Path | None) -> None:
-    if output is None:
+    if output is None or output == Path("-"):
         console.out(text.rstrip("\n"))
         return
     from shotc.emit.base import Artifact

@@ -7,12 +7,15 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
-from shotc.importers.multidrone.frames import frame_of
-from shotc.importers.multidrone.read import sequences_of
+from shotc.importers.multidrone.frames import frame_of, without_far
+from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, label, told
-from shotc.importers.xml_tree import XmlFault, parse_xml
+from shotc.importers.xml_tree import XmlFault, parse_xml, shown
 from shotc.source.file import SourceFile, Span
+
+MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
+"""How many of an element are read: more is no mission, and would take minutes."""
 
 
 class Imported(NamedTuple):
@@ -35,7 +38,7 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
 
     data : any bytes; name : how to show the file; strict : refuse instead of assuming anything
     """
-    source = SourceFile(name, data.decode("utf-8-sig", "replace"))
+    source = SourceFile(name, shown(data))
     sources = {name: source}
     root = parse_xml(data)
     if isinstance(root, XmlFault):
@@ -46,8 +49,13 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
     if root.tag != "mission":
         message = f"`{name}` is no mission of the MultiDrone project: its root is `{root.tag[:30]}`"
         return Imported(None, (Diagnostic("I002", message, (label(name, root),)),), sources)
+    for tag, most in MOST.items():
+        found = below(root, tag)
+        if len(found) > most:
+            message = f"`{name}` cannot be read: it has {len(found)} `{tag}`; at most {most} are read"
+            return Imported(None, (Diagnostic("I001", message, (label(name, found[most]),)),), sources)
     notes = Notes()
-    sequences = sequences_of(root, notes)
+    sequences = without_far(sequences_of(root, notes), notes)
     frame = frame_of(sequences, notes)
     made = written_mission(PurePath(name).stem, root, sequences, frame, notes)
     if made is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -51,6 +52,12 @@ class XmlFault(NamedTuple):
     column: int = 1
 
 
+def shown(data: bytes) -> str:
+    """Return the text of a file to show its lines, whatever it is."""
+    wide = data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
+    return data.decode("utf-16" if wide else "utf-8-sig", "replace")
+
+
 class _Stop(Exception):
     """Leave expat at the first fault."""
 
@@ -58,7 +65,7 @@ class _Stop(Exception):
 def parse_xml(data: bytes) -> Node | XmlFault:
     """Return the root element. A document type is refused, for entities could grow without bound."""
     if len(data) > LARGEST:
-        return XmlFault(f"the file is {len(data) / 1e6:.1f} MB; at most {LARGEST / 1e6:.0f} MB are read")
+        return XmlFault(f"the file is larger than {LARGEST / 1e6:.0f} MB")
     reader = _Reader()
     parser = expat.ParserCreate()
     parser.buffer_text = True
@@ -68,7 +75,7 @@ def parse_xml(data: bytes) -> Node | XmlFault:
     parser.CharacterDataHandler = reader.text
     reader.parser = parser
     try:
-        parser.Parse(data, True)
+        parser.Parse(data.removeprefix(BOM_UTF8), True)  # which would count as a column
     except _Stop:
         assert reader.fault is not None
         return reader.fault

@@ -16,8 +16,9 @@ CODES: tuple[CodeInfo, ...] = (
         1,
         "import-unreadable",
         "a file to import cannot be read",
-        "The importer for `multidrone` reads XML without a document type, of at most 4 MB. The message says what the "
-        "file is instead, or where it breaks off. Export it again.",
+        "The importer for `multidrone` reads XML without a document type: at most 4 MB, 100 shooting actions with 200 "
+        "roles and 2000 points, which is more than a mission can be. The message says what the file is instead, or "
+        "where it breaks off. Export it again.",
     ),
     _code(
         2,
@@ -37,7 +38,7 @@ CODES: tuple[CodeInfo, ...] = (
         "import-assumed",
         "something in an imported file had to be assumed",
         "The file leaves something open, contradicts itself or has a slip in it: a decimal comma, a missing value, "
-        "times that do not rise, two frames of reference. What is taken instead stands in the message, and as a "
+        "times that do not rise, a speed that is not that of the times, two frames of reference. What is taken instead stands in the message, and as a "
         "comment in the mission, where it is easily changed. `--strict` refuses instead.",
     ),
     _code(

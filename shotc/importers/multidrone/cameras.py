@@ -10,7 +10,9 @@ from shotc.importers.multidrone.read import Role
 from shotc.importers.multidrone.task import NEAREST, Made, Said, Task
 
 BESIDE = 8.0  # metres to the East of a target on whose place a camera would stand
+LEAST = 0.1  # metres that an elevator goes
 LEVEL = 90.0  # degrees; the tilt of a camera that looks at the horizon
+MOST_PAN = 720.0  # degrees
 LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
 
 
@@ -19,6 +21,10 @@ def elevator(task: Task) -> Made:
     low, one = task.altitude("z_s")
     high, two = task.altitude("z_e")
     place, (lower, upper), said = _stand(task, low, high)
+    if abs(high - low) < LEAST:
+        kept = task.assume("an elevator that neither rises nor sinks", "a still camera")
+        params = f"at: {lower}, look_at: {task.target}"
+        return Made("static", params, ((*place, low),) * 3, (*one, *two, *said, kept))
     points = f"points: [{lower}, {upper}], look_at: {task.target}"
     path = ((*place, low), (*place, (low + high) / 2), (*place, high))
     return Made("follow-path", points, path, (*one, *two, *said))
@@ -71,9 +77,15 @@ def _panned(task: Task, poses: list[tuple[str, float]]) -> tuple[str, Said]:
     poses : places with the way there, rad, from which a pan counts
     """
     params = task.role.params
-    pans, tilts = (
-        (params.get(f"{n}_s", o), params.get(f"{n}_e", o)) for n, o in (("pan", 0.0), ("tilt", LEVEL))
-    )
+    pans, tilts = (_ends(params, "pan", 0.0), _ends(params, "tilt", LEVEL))
+    node = task.role.node.first("targetIdentifierParams") or task.role.node
+    message = "pan and tilt in degrees without a frame"
+    taken = "pan counter-clockwise from the way, tilt from straight down: 90 is level"
+    said: Said = (task.notes.assume(node, message, taken),)
+    if max(map(abs, pans)) > MOST_PAN:
+        message = f"a pan of {pans[0]:g} to {pans[1]:g} deg is none that can be meant"
+        said = (*said, task.notes.assume(node, message, "the camera keeps to the way"))
+        pans = (0.0, 0.0)
     rows, last = [], None
     for i, (at, way) in enumerate(poses):
         share = i / (len(poses) - 1)
@@ -84,10 +96,6 @@ def _panned(task: Task, poses: list[tuple[str, float]]) -> tuple[str, Said]:
         last = heading
         pitch = max(LOWEST_PITCH, min(HIGHEST_PITCH, tilt - LEVEL))
         rows.append(f"{{at: {at}, heading: {heading:.1f} deg, pitch: {pitch:g} deg}}")
-    node = task.role.node.first("targetIdentifierParams") or task.role.node
-    message = "pan and tilt in degrees without a frame"
-    taken = "pan counter-clockwise from the way, tilt from straight down: 90 is level"
-    said: Said = (task.notes.assume(node, message, taken),)
     if not LOWEST_PITCH + LEVEL <= min(tilts) <= max(tilts) <= HIGHEST_PITCH + LEVEL:
         shown = f"{min(tilts):g} to {max(tilts):g} deg"
         said = (
@@ -95,6 +103,13 @@ def _panned(task: Task, poses: list[tuple[str, float]]) -> tuple[str, Said]:
             task.notes.assume(node, f"a tilt of {shown} is out of a gimbal's range", "its nearest end"),
         )
     return f"keyframes: [{', '.join(rows)}]", said
+
+
+def _ends(params: dict[str, float], name: str, otherwise: float) -> tuple[float, float]:
+    """Return an angle at the start and at the end; one alone is kept."""
+    start, end = params.get(f"{name}_s"), params.get(f"{name}_e")
+    first = start if start is not None else end if end is not None else otherwise
+    return first, end if end is not None else first
 
 
 def _sweeps(pans: tuple[float, float]) -> bool:

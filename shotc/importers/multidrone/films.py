@@ -9,7 +9,7 @@ from typing import NamedTuple
 from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Action, Sequence
 from shotc.importers.multidrone.targets import LEAD, NEAR, SAME, Course, courses_of, gap, route_of
-from shotc.importers.notes import Notes
+from shotc.importers.notes import Notes, plain
 
 
 class Film(NamedTuple):
@@ -17,6 +17,7 @@ class Film(NamedTuple):
 
     target : its name, empty where the cameras fly through, and the course is their own
     start, lasts : mission time and length, seconds; first : number of the first of its drones
+    main : whether its drones are planned before those of a secondary sequence
     """
 
     id: str
@@ -26,6 +27,7 @@ class Film(NamedTuple):
     start: float
     lasts: float
     first: int
+    main: bool
     comments: tuple[str, ...]
 
 
@@ -51,7 +53,11 @@ def films_of(sequences: Rows[Sequence], frame: Frame, notes: Notes) -> Iterator[
                 continue
             course = route_of(action, frame, start) if known is None else known
             name, said = ("", ()) if known is None else _name(action, known, targets, notes)
-            yield Film(f"s{number}-{k}", action, course, name, start, action.duration, first, said)
+            if k == 1:
+                said = (f"sequence `{plain(sequence.name, 60)}`", *said)
+            yield Film(
+                f"s{number}-{k}", action, course, name, start, action.duration, first, sequence.main, said
+            )
         first += max(len(action.roles) for action in sequence.actions)
 
 

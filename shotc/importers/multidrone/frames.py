@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence as Rows
-from math import cos, dist, radians
+from math import cos, dist, hypot, radians
+from statistics import median
 from typing import NamedTuple
 
 from shotc.geom.geodetic import to_world
@@ -14,6 +15,7 @@ from shotc.importers.notes import Notes
 Place = tuple[float, float]
 
 AGREES = 15.0  # metres within which a map shows what the points say
+FARTHEST = 10_000.0  # metres from most points to one that can be meant
 AWAY = 30.0  # metres beyond which it does not
 DEGREE = 111_320.0  # metres of a degree of latitude, roughly
 
@@ -43,6 +45,28 @@ class Frame(NamedTuple):
         return written(self.place(point), z)
 
 
+def without_far(sequences: Rows[Sequence], notes: Notes) -> list[Sequence]:
+    """Return sequences without the points that lie too far from most others to be flown to."""
+    points = [p for s in sequences for a in s.actions for p in a.places]
+    far: set[int] = set()
+    for group in ([p for p in points if p.on_earth], [p for p in points if not p.on_earth]):
+        if not group:
+            continue
+        middle = (median(p.at[0] for p in group), median(p.at[1] for p in group))
+        for point in group:
+            off = hypot(*_world(point.at, middle)) if point.on_earth else dist(point.at, middle)
+            if off > FARTHEST:
+                message = f"a point that is {off / 1000:.0f} km from most others"
+                notes.assume(point.node, message, "the point is left out")
+                far.add(id(point))
+    return [s._replace(actions=tuple(_kept(a, far) for a in s.actions)) for s in sequences]
+
+
+def _kept(action: Action, far: set[int]) -> Action:
+    origin = None if id(action.origin) in far else action.origin
+    return action._replace(points=tuple(p for p in action.points if id(p) not in far), origin=origin)
+
+
 def written(place: Place, z: float) -> str:
     """Return a place in metres as a position of our language."""
     return f"[{place[0]:.2f}, {place[1]:.2f}, {z:g}]".replace("-0.00,", "0.00,")
@@ -51,7 +75,7 @@ def written(place: Place, z: float) -> str:
 def frame_of(sequences: Rows[Sequence], notes: Notes) -> Frame:
     """Choose the origin, and say what does not fit."""
     actions = [action for sequence in sequences for action in sequence.actions]
-    points = [p for a in actions for p in (*a.points, *((a.origin,) if a.origin else ()))]
+    points = [p for a in actions for p in a.places]
     earthly, local = [p for p in points if p.on_earth], [p for p in points if not p.on_earth]
     if not earthly:
         return Frame(None, False, _unplaced(actions, notes))

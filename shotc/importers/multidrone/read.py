@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
 
-LARGEST = 1e6  # metres or seconds; what is beyond is damage
+LARGEST = 5e4  # metres or seconds; what is beyond is damage
+SHORTEST = 1.0  # seconds; the project's own planner cuts durations to whole ones, and 0 is none
 KMH = 3.6  # the dashboard writes `formationSpeed` in km/h
 PARAMS = frozenset(("x_s", "x_e", "y_0", "z_0", "z_s", "z_e", "r_0", "azimuth_s", "azimuth_speed"))
 PARAMS |= frozenset(("pan_s", "pan_e", "tilt_s", "tilt_e", "ID"))
@@ -56,16 +57,22 @@ class Action(NamedTuple):
     roles: tuple[Role, ...]
 
     @property
+    def places(self) -> tuple[Point, ...]:
+        """Its points, and where the formation begins."""
+        return self.points if self.origin is None else (*self.points, self.origin)
+
+    @property
     def flies(self) -> bool:
         """Whether its trajectory is that of its cameras: it flies through, and follows no target."""
         return all(role.kind in FLIES for role in self.roles)
 
 
 class Sequence(NamedTuple):
-    """Actions that one formation films one after the other."""
+    """Actions that one formation films one after the other; main : whether it goes before a secondary one."""
 
     node: Node
     name: str
+    main: bool
     actions: tuple[Action, ...]
 
 
@@ -76,7 +83,7 @@ def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
         actions = [_action(child, notes) for child in below(node, "shootingAction")]
         kept = tuple(action for action in actions if action is not None)
         if kept:
-            found.append(Sequence(node, node.value("name"), kept))
+            found.append(Sequence(node, node.value("name"), node.value("role") != "secondary", kept))
         else:
             notes.assume(
                 node, "a sequence without a shooting action that can be read", "the sequence is left out"
@@ -125,7 +132,7 @@ def _action(node: Node, notes: Notes) -> Action | None:
         notes.assume(node, "an action without a shooting role", taken)
         roles = [Role(node, node, kind.upper(), "", "", {})]
     duration = number(node.first("duration"), notes)
-    if duration is None or duration <= 0:
+    if duration is None or duration < SHORTEST:
         duration = 20.0
         message = "an action without a duration lasts to the next event, which the file does not tell"
         notes.assume(node.first("duration") or node, message, "20 s")

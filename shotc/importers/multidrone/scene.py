@@ -94,11 +94,14 @@ def drones(films: Rows[Film], number: int, root: Node, notes: Notes) -> Iterator
     course = films[0].course
     way = course.heading(0.0)
     x, y = course.places[0]
+    aside = {f.first + k for f in films if not f.main for k in range(len(f.action.roles))}
+    order = sorted(range(1, number + 1), key=lambda drone: drone in aside)
     for i in range(number):
         along = APART * (i - 0.5 * (number - 1))
         home = (x + along * cos(way) - AWAY * sin(way), y + along * sin(way) + AWAY * cos(way))
         named = f"  # {plain(team[i].value('name'), 60)}" if i < len(team) else ""
-        yield f"  cam{i + 1}: {{model: pro, home: {written(home, 0.0)}, priority: {i + 1}}}{named}"
+        place, rank = written(home, 0.0), order.index(i + 1) + 1
+        yield f"  cam{i + 1}: {{model: pro, home: {place}, priority: {rank}}}{named}"
     taken = "1.5 m over the ground, for its shots are low, and out of each other's pictures where that can be"
     yield f"# {notes.assume(root, 'the file has no rules for its drones', taken)}"
     yield "rules: {ground_clearance: 1.5, mutual_visibility: {strength: prefer}}"

@@ -15,6 +15,8 @@ from shotc.importers.multidrone.task import NEAREST, Made, Said, Task
 from shotc.importers.notes import plain
 
 TURNS = 19 * pi  # rad; the most that an orbit turns
+NEARER = 1.0  # metres
+LEAST_TURN = radians(5.0)
 FOLLOWING = frozenset(("CHASE", "LEAD", "LATERAL", "FLYBY", "FLY_BY", "FLYOVER"))
 
 
@@ -85,6 +87,9 @@ def _orbit(task: Task) -> Made:
         )
         sweep = TURNS if sweep > 0 else -TURNS
         two = (*two, task.assume(message, f"{TURNS / (2 * pi):g} turns, the most that are flown, and slower"))
+    if abs(sweep) < LEAST_TURN:
+        two = (*two, task.assume("an orbit that does not turn", f"{degrees(LEAST_TURN):.0f} deg"))
+        sweep = LEAST_TURN
     # From the way the target goes, counter-clockwise; ours is a compass bearing.
     bearing = degrees(pi / 2 - task.course.heading(task.start) - begin) % 360
     turned = f"sweep: {degrees(sweep):.1f} deg, start_azimuth: {bearing:.1f} deg"
@@ -108,6 +113,9 @@ def _establish(task: Task) -> Made:
     bearing = degrees(pi / 2 - heading + (pi if far < 0 else 0.0)) % 360
     begins, apart = _apart(task, abs(far))
     ends, close = _apart(task, abs(near))
+    if max(abs(ends - begins), abs(last - high)) < NEARER / 2:
+        close = (*close, task.assume("an approach that goes nowhere", f"it begins {NEARER:g} m farther away"))
+        begins += NEARER
     params = f"azimuth: {bearing:.1f} deg, distance: [{begins:g}, {ends:g}], altitude: [{high:g}, {last:g}]"
     side = -1.0 if far < 0 else 1.0
     path = task.along((side * begins, 0.0, high), (side * ends, 0.0, last))

@@ -139,10 +139,10 @@ def _clock(
         _compare(action, sum(ways) / (given[-1] - given[0]), said, notes)
         return [begins + t - given[0] for t in given]
     node, message = wrong
-    if action.speed is not None and action.speed >= SLOWEST:
+    if action.speed is not None and SLOWEST <= action.speed <= FASTEST:
         pace, taken = action.speed, f"its points are passed at formationSpeed, {action.speed * KMH:g} km/h"
     else:
-        pace, taken = 1.0, "its points are passed at 1 m/s, for formationSpeed is missing or 0"
+        pace, taken = 1.0, "its points are passed at 1 m/s, for formationSpeed is of no use"
     said.append(notes.assume(node.node.first("time") or node.node, message, taken))
     clock = [begins]
     for way in ways:

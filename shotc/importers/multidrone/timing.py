@@ -50,6 +50,10 @@ def _cut(film: Film, change: float, notes: Notes) -> Film:
         message = "the action begins as the last one ends"
         said.append(notes.assume(action.node, message, f"the drones change places for {change:g} s"))
         start, lasts = round(start + change, 2), round(lasts - change, 2)
+    if start < film.course.times[0]:
+        start = film.course.times[0]
+        message = "the action begins before its target is anywhere"
+        said.append(notes.assume(action.node, message, f"it begins at {start:g} s"))
     known = film.course.times[-1] - start
     goes_along = any(role.kind.replace(" ", "_") not in WATCHING for role in action.roles)
     if goes_along and not film.course.stands and SHORTEST < known < lasts - OVERLAP:
