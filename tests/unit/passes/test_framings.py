@@ -117,6 +117,20 @@ def test_a_free_bearing_goes_round_what_hides_the_subject() -> None:
     assert claim(planned(text("target: runner, size: 0.15", world=wall)), "runner visible") == 1.0
 
 
+def test_two_subjects_are_seen_from_where_a_wall_does_not_hide_them() -> None:
+    wall = "world: {zones: {wall: {keep: out, box: {center: [55, -5, 5], size: [40, 1, 10]}}}}\n"
+    pair = ("target: runner, frame: [-0.27, 0]", "target: rider, frame: [0.27, 0]")
+    plain, walled = (placed(text(*pair, world=w))[0] for w in ("", wall))
+    assert plain is not None
+    assert walled is not None
+    course = course_of(walled.mission, walled.mission.shots[0], 15.0)
+    assert course.hidden == 0.0
+    assert course.blocked == 0.0
+    assert course_of(walled.mission, plain.mission.shots[0], 15.0).poses == course.poses
+    for t, pose in zip(course.times, course.poses, strict=True):
+        assert all(hides(walled.mission, name, pose[:3], t) is None for name in ("runner", "rider"))
+
+
 def test_silence_on_screen_is_the_middle_of_the_composition_or_where_it_is_whole() -> None:
     ir = clean(text("target: runner, size: 0.3"))
     assert ir.shots[0].subjects[0].reference == (0.0, 0.0)
