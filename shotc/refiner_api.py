@@ -22,6 +22,7 @@ from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
 from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.turns import steady
+from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.pictures import least_out
@@ -39,6 +40,7 @@ __all__ = [
     "Deviation",
     "Drone",
     "Fit",
+    "Looker",
     "NoTransit",
     "PlacedKeyframe",
     "PlacedShot",

@@ -29,10 +29,8 @@ def mission(drones: int) -> bytes:
         lines.append(f"  cam{i + 1}: {{model: x500, home: {home}, priority: {i + 1}}}")
     lines += ["rules: {allow: [jump-cut, fast-pan, crossing-the-line]}", "shots:"]
     for i in range(drones):
-        lines.append(
-            f"  - {{id: s{i + 1}, kind: orbit, drone: cam{i + 1}, target: runner, radius: 18, altitude: 9,"
-        )
-        lines.append(f"     sweep: 40 deg, start_azimuth: {360 * i / drones:.1f} deg,")
+        lines.append(f"  - {{id: s{i + 1}, kind: orbit, drone: cam{i + 1}, target: runner, radius: 18,")
+        lines.append(f"     altitude: 9, sweep: 40 deg, start_azimuth: {360 * i / drones:.1f} deg,")
         lines.append(f"     timing: {{start: 30, duration: {FILM}}}}}")
     return "\n".join([*lines, ""]).encode()
 
@@ -51,9 +49,8 @@ def fleets() -> None:
         passes(DRONES[0], refiner)  # imports are paid once
         found = {n: [passes(n, refiner) for _ in range(REPEATS)] for n in DRONES}
         sizes = " | ".join(f"{n} drone{'s' * (n > 1)}" for n in DRONES)
-        print(
-            f"\n| {FILM} s of film each, refiner {refiner}, median of {REPEATS} | {sizes} | for x{DRONES[-1]} drones |"
-        )
+        title = f"{FILM} s of film each, refiner {refiner}, median of {REPEATS}"
+        print(f"\n| {title} | {sizes} | for x{DRONES[-1]} drones |")
         print("|---|" + "---|" * (len(DRONES) + 1))
         names = [name for name in found[1][0] if found[DRONES[-1]][0][name] > 0.005]
         rows = {name: [statistics.median(t[name] for t in found[n]) for n in DRONES] for name in names}

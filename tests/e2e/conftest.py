@@ -7,14 +7,16 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from shotc import api
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
-from tests.e2e import tables
+from tests.e2e import tables, written
 from tests.e2e.tables import Table
+from tests.e2e.written import Course, Written
 
 ROOT = Path(__file__).parents[2]
 MISSIONS = sorted([*ROOT.glob("specs/*.yaml"), *ROOT.glob("shotc/templates/*.yaml")])
@@ -37,6 +39,26 @@ class Planned:
         (track,) = self.plan.trajectory.drones
         return track
 
+    @property
+    def tracks(self) -> dict[str, DroneTrajectory]:
+        return {track.drone: track for track in self.plan.trajectory.drones}
+
+    @cached_property
+    def written(self) -> Written:
+        """The mission as a user reads it."""
+        return written.read(self.path)
+
+    @cached_property
+    def courses(self) -> dict[str, Course]:
+        """Where every target is over mission time, of those that move by the mission as it is written."""
+        tracks = {name: target.get("track") for name, target in self.written["targets"].items()}
+        return {
+            target.name: written.course(track)
+            if (track := tracks[target.name])
+            else Course(np.zeros(1), np.array([target.centre]))
+            for target in self.mission.targets
+        }
+
     @cached_property
     def files(self) -> dict[str, bytes]:
         """plan.json and the two tables."""
@@ -45,6 +67,19 @@ class Planned:
     @cached_property
     def motion(self) -> Table:
         return tables.read(self.files["trajectory.csv"])
+
+    @cached_property
+    def flights(self) -> dict[str, Table]:
+        """The rows of trajectory.csv of each drone."""
+        return {str(name): self.motion.where(drone=name) for name in dict.fromkeys(self.motion["drone"])}
+
+    @cached_property
+    def filmed_by(self) -> dict[str, str]:
+        """The drone of each shot, by trajectory.csv."""
+        pairs = set(zip(self.motion["shot"].tolist(), self.motion["drone"].tolist(), strict=True))
+        found = {shot: drone for shot, drone in pairs if shot}
+        assert len(found) == sum(bool(shot) for shot, _ in pairs), "a shot of two drones"
+        return found
 
     @cached_property
     def framing(self) -> Table:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
+from tests.e2e.tables import Table
 
 
 def signed_distance(solid: Solid, points: Array) -> Array:
@@ -33,8 +36,19 @@ def _to_polygon(corners: tuple[tuple[float, float], ...], points: Array) -> Arra
     return np.where(np.abs(turns) > 0.5, -distance, distance)
 
 
-def least_on_the_way(solid: Solid, eyes: Array, point: Array, steps: int = 300) -> Array:
-    """Return the least signed distance on the straight lines from eyes (M, 3) to a point (3,), metres."""
+def least_on_the_way(solid: Solid, eyes: Array, points: Array, steps: int = 300) -> Array:
+    """Return the least signed distance on the straight lines from eyes (M, 3) to points (M, 3), metres."""
     at = np.linspace(0, 1, steps)[:, None, None]
-    line = eyes + at * (point - eyes)
+    line = eyes + at * (points - eyes)
     return signed_distance(solid, line.reshape(-1, 3)).reshape(steps, -1).min(axis=0)
+
+
+def body(flight: Table, t: Array) -> Array:
+    """Return a drone's places at times (M,), shape (M, 3): on its pad after its last row."""
+    return np.stack([np.interp(t, flight["t_s"], flight[name]) for name in ("x_m", "y_m", "z_m")], axis=1)
+
+
+def apart(flights: Mapping[str, Table], one: str, other: str) -> Array:
+    """Return how far two drones are from each other at all samples, centre to centre, metres."""
+    t = max((flights[one]["t_s"], flights[other]["t_s"]), key=len)
+    return np.asarray(np.linalg.norm(body(flights[one], t) - body(flights[other], t), axis=1))

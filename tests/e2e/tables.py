@@ -33,6 +33,10 @@ class Table:
         mask = np.ones(len(self.columns[self.header[0]]), dtype=bool)
         for name, value in wanted.items():
             mask &= self.columns[name] == value
+        return self.rows(mask)
+
+    def rows(self, mask: Any) -> Table:
+        """Return the rows for which this is true."""
         return Table(self.header, {name: column[mask] for name, column in self.columns.items()})
 
     def every(self, count: int) -> Table:

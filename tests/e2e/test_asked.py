@@ -9,12 +9,17 @@ import pytest
 
 from shotc.ir.trajectory import Phase
 from tests.e2e.conftest import Plan, Planned, each_mission
+from tests.e2e.tables import Table
 
 pytestmark = pytest.mark.parametrize("path", each_mission())
 
 
 def phases(planned: Planned) -> dict[str, Phase]:
-    return {phase.shot: phase for phase in planned.track.phases if phase.shot is not None}
+    return {p.shot: p for track in planned.tracks.values() for p in track.phases if p.shot is not None}
+
+
+def times_reached(planned: Planned) -> dict[tuple[str, int], float]:
+    return {(k.shot, k.index): k.time for track in planned.tracks.values() for k in track.keyframes}
 
 
 def test_durations_and_starts_are_met(plan: Plan, path: Path) -> None:
@@ -42,25 +47,26 @@ def test_rows_of_a_shot_are_those_between_its_ends(plan: Plan, path: Path) -> No
 def test_keyframes_are_met_where_and_when_they_were_placed(plan: Plan, path: Path) -> None:
     planned = plan(path)
     flown = phases(planned)
-    reached = {(k.shot, k.index): k.time for k in planned.track.keyframes}
+    reached = times_reached(planned)
     for shot in planned.mission.shots:
+        motion = planned.flights[planned.filmed_by[shot.id]]
         times = [reached[shot.id, index] for index in range(len(shot.keyframes))]
         assert times == sorted(times)
         for keyframe, time in zip(shot.keyframes, times, strict=True):
             if keyframe.time is not None:
                 assert time - flown[shot.id].start == pytest.approx(keyframe.time, abs=1e-6)
             if keyframe.placed:
-                assert position(planned, time) == pytest.approx(keyframe.at, abs=1e-3)
-            hfov = np.interp(time, planned.motion["t_s"], planned.motion["hfov_rad"])
+                assert position(motion, time) == pytest.approx(keyframe.at, abs=1e-3)
+            hfov = np.interp(time, motion["t_s"], motion["hfov_rad"])
             assert hfov == pytest.approx(keyframe.hfov, abs=1e-3)
 
 
-def position(planned: Planned, time: float) -> list[float]:
+def position(motion: Table, time: float) -> list[float]:
     """The position at any time, from the rows next to it, which lie close to a parabola."""
-    row = int(np.argmin(np.abs(planned.motion["t_s"] - time)))
-    late = time - planned.motion["t_s"][row]
+    row = int(np.argmin(np.abs(motion["t_s"] - time)))
+    late = time - motion["t_s"][row]
     x, v, a = (
-        planned.motion.numbers(*names)[row]
+        motion.numbers(*names)[row]
         for names in (
             ("x_m", "y_m", "z_m"),
             ("vx_m_s", "vy_m_s", "vz_m_s"),
@@ -72,7 +78,7 @@ def position(planned: Planned, time: float) -> list[float]:
 
 def test_holds_are_at_rest_and_as_long_as_asked(plan: Plan, path: Path) -> None:
     planned = plan(path)
-    reached = {(k.shot, k.index): k.time for k in planned.track.keyframes}
+    reached = times_reached(planned)
     for shot in planned.mission.shots:
         for index, keyframe in enumerate(shot.keyframes):
             if keyframe.hold == 0:

@@ -1,18 +1,18 @@
-"""The demo's trajectory.csv, flown by a quadrotor with thrust and attitude lag in gusty wind."""
+"""Rows of trajectory.csv, every drone's, flown by a quadrotor with thrust and attitude lag in gusty wind."""
 
 from __future__ import annotations
 
 import csv
 import io
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
-from shotc.api import PlanOptions, compile_source
 from shotc.geom.camera import View
+from tests.e2e import written
+from tests.e2e.conftest import ROOT
 
-MISSION = Path(__file__).parents[2] / "specs" / "tower-reveal.yaml"
 GRAVITY = np.array([0.0, 0.0, -9.81])
 STEP = 0.005
 ATTITUDE_LAG, THRUST_LAG, GIMBAL_LAG = 0.08, 0.05, 0.05
@@ -20,19 +20,34 @@ DRAG = 0.25
 """Specific drag, 1/s, of a multirotor of about 2 kg."""
 
 
-@pytest.fixture(scope="module")
-def plan():
-    return compile_source(
-        MISSION.read_bytes(), "tower-reveal.yaml", MISSION.parent, PlanOptions(refiner="none")
-    ).plan
+@dataclass(frozen=True)
+class Allowed:
+    """How far a drone may be off in still air, metres, and its target on screen in gusts, half frames."""
+
+    still: float
+    screen: float
 
 
-@pytest.fixture(scope="module")
-def rows(plan):
-    from shotc.emit.csv_table import EMITTER
+ALLOWED = {
+    "tower-reveal": Allowed(0.10, 0.03),
+    # Higher jerk; and the runner is near: 0.2 m at 7 m are 0.07 of half a frame's height.
+    "rotsee-sculler": Allowed(0.16, 0.03),
+    "runner-three-cameras": Allowed(0.12, 0.08),
+}
+FLOWN = [
+    pytest.param((name, drone), id=f"{name}-{drone}", marks=pytest.mark.xdist_group(name))
+    for name in ALLOWED
+    for drone in written.read(ROOT / "specs" / f"{name}.yaml")["drones"]
+]
 
-    (table,) = [a for a in EMITTER.emit(plan).artifacts if a.name == "trajectory.csv"]
-    return list(csv.DictReader(io.StringIO(table.data.decode())))
+
+@pytest.fixture(params=FLOWN)
+def flight(request, plan):
+    """The mission, planned; the name of one of its drones, and its rows of trajectory.csv."""
+    name, drone = request.param
+    planned = plan(ROOT / "specs" / f"{name}.yaml")
+    rows = list(csv.DictReader(io.StringIO(planned.files["trajectory.csv"].decode())))
+    return planned, drone, [row for row in rows if row["drone"] == drone]
 
 
 def columns(rows, *names):
@@ -66,17 +81,21 @@ def fly(rows, gust):
     return position, flown, looked
 
 
-@pytest.mark.parametrize(("gust", "allowed"), [(0.0, 0.10), (1.0, 0.40)], ids=["still air", "gusts"])
-def test_a_lagging_quadrotor_stays_on_the_trajectory(rows, gust, allowed):
+@pytest.mark.parametrize("gust", [0.0, 1.0], ids=["still air", "gusts"])
+def test_a_lagging_quadrotor_stays_on_the_trajectory(flight, gust):
+    planned, _, rows = flight
     wanted, flown, _ = fly(rows, gust)
+    allowed = 0.40 if gust else ALLOWED[planned.path.stem].still
     assert np.linalg.norm(flown - wanted, axis=1).max() < allowed
 
 
-def test_the_flown_camera_keeps_the_composition(plan, rows):
-    """In gusts the target stays within 3 % of half a frame of where the plan shows it."""
+def test_the_flown_camera_keeps_the_composition(flight):
+    """In gusts the target stays within a few hundredths of half a frame of where the plan shows it."""
+    planned, name, rows = flight
     _, flown, looked = fly(rows, 1.0)
-    drone = plan.trajectory.keyframes.mission.drones[0]
-    centre = np.array(plan.trajectory.keyframes.mission.targets[0].centre)
+    drone = planned.mission.drone(name)
+    (course,) = planned.courses.values()
+    centre = course.at(columns(rows, "t_s")[:, 0])
     filmed = np.array([row["phase"] == "shot" for row in rows])
     half = np.tan(columns(rows, "hfov_rad")[:, 0] / 2)
 
@@ -88,5 +107,5 @@ def test_the_flown_camera_keeps_the_composition(plan, rows):
         return np.array(view.project(tuple((centre - position).T))[:2])[:, filmed]
 
     seen = project(flown, looked)
-    planned = project(columns(rows, "x_m", "y_m", "z_m"), columns(rows, "cam_yaw_rad", "cam_pitch_rad"))
-    assert np.hypot(*(seen - planned)).max() < 0.03
+    wanted = project(columns(rows, "x_m", "y_m", "z_m"), columns(rows, "cam_yaw_rad", "cam_pitch_rad"))
+    assert np.hypot(*(seen - wanted)).max() < ALLOWED[planned.path.stem].screen

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Array
-from shotc.geom.solids import Cylinder
-from shotc.ir.mission import Composition, MissionIR, Target
+from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.mission import Composition, Target
 from tests.e2e.conftest import Plan, Planned, each_mission
 from tests.e2e.space import least_on_the_way, signed_distance
 from tests.e2e.tables import Table
@@ -23,22 +23,21 @@ EVERY = 7
 
 
 def rim_points(target: Target) -> Array:
-    """Points of both rims, whose hull is the cylinder; shape (2 POINTS, 3)."""
+    """Points of both rims, whose hull is the cylinder, about its centre; shape (2 POINTS, 3)."""
     angle = np.linspace(0, 2 * pi, POINTS, endpoint=False)
-    x, y, z = target.centre
-    ring = np.stack([x + target.radius * np.cos(angle), y + target.radius * np.sin(angle)], axis=1)
-    levels = (z - target.height / 2, z + target.height / 2)
+    ring = np.stack([target.radius * np.cos(angle), target.radius * np.sin(angle)], axis=1)
+    levels = (-target.height / 2, target.height / 2)
     return np.concatenate([np.column_stack([ring, np.full(POINTS, level)]) for level in levels])
 
 
 def on_screen(poses: Table, aspect: float, points: Array) -> tuple[Array, Array, Array]:
-    """Project points (K, 3) at every pose: u, v and depth, each (M, K)."""
+    """Project points (M, K, 3), K of them at every pose: u, v and depth, each (M, K)."""
     yaw, pitch = poses["cam_yaw_rad"], poses["cam_pitch_rad"]
     zero = np.zeros_like(yaw)
     forward = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=1)
     right = np.stack([np.sin(yaw), -np.cos(yaw), zero], axis=1)
     up = np.cross(right, forward)
-    offset = points[None] - poses.numbers("x_m", "y_m", "z_m")[:, None]
+    offset = points - poses.numbers("x_m", "y_m", "z_m")[:, None]
     depth, across, above = (np.einsum("mkd,md->mk", offset, axis) for axis in (forward, right, up))
     half = np.tan(poses["hfov_rad"] / 2)[:, None]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -65,21 +64,24 @@ def test_there_is_a_row_for_every_sample_of_every_subject(plan: Plan, path: Path
     for pair in pairs(planned):
         framing, motion = rows_of(planned, *pair)
         assert framing["t_s"].tolist() == motion["t_s"].tolist()
-    assert (np.diff(planned.framing["t_s"]) >= 0).all()
+        assert set(framing["drone"]) == {planned.filmed_by[pair[0]]}
+    assert planned.framing["drone"].tolist() == sorted(planned.framing["drone"])
+    for drone in planned.flights:
+        assert (np.diff(planned.framing.where(drone=drone)["t_s"]) >= 0).all()
 
 
 def test_the_centre_and_the_size_are_where_the_camera_sees_them(plan: Plan, path: Path) -> None:
     planned = plan(path)
-    aspect = planned.mission.drones[0].aspect
     for shot, name in pairs(planned):
         framing, poses = (table.every(EVERY) for table in rows_of(planned, shot, name))
-        target = planned.mission.target(name)
-        u, v, depth = on_screen(poses, aspect, np.array([target.centre]))
+        target, aspect = planned.mission.target(name), planned.mission.drone(planned.filmed_by[shot]).aspect
+        centres = planned.courses[name].at(poses["t_s"])[:, None]
+        u, v, depth = on_screen(poses, aspect, centres)
         before = depth[:, 0] > 0
         assert framing["u"][before] == pytest.approx(u[before, 0], abs=1e-6)
         assert framing["v"][before] == pytest.approx(v[before, 0], abs=1e-6)
         assert np.isnan(framing["u"][~before]).all()
-        _, v, depth = on_screen(poses, aspect, rim_points(target))
+        _, v, depth = on_screen(poses, aspect, centres + rim_points(target))
         whole = (depth > 0).all(axis=1)
         size = (v.max(axis=1) - v.min(axis=1)) / 2
         assert framing["size"][whole] == pytest.approx(size[whole], rel=1e-4)
@@ -89,8 +91,8 @@ def test_in_frame_means_the_whole_silhouette(plan: Plan, path: Path) -> None:
     planned = plan(path)
     for shot, name in pairs(planned):
         framing, poses = (table.every(EVERY) for table in rows_of(planned, shot, name))
-        points = rim_points(planned.mission.target(name))
-        u, v, depth = on_screen(poses, planned.mission.drones[0].aspect, points)
+        points = planned.courses[name].at(poses["t_s"])[:, None] + rim_points(planned.mission.target(name))
+        u, v, depth = on_screen(poses, planned.mission.drone(planned.filmed_by[shot]).aspect, points)
         reach = np.where(depth > 0, np.maximum(np.abs(u), np.abs(v)), np.inf).max(axis=1)
         # The points lie on the silhouette or inside it, at most a sagitta of 1e-5 of its size.
         assert set(framing["in_frame"]) <= {0.0, 1.0}
@@ -102,30 +104,37 @@ def test_occluded_means_something_stands_on_the_line_of_sight(plan: Plan, path: 
     planned = plan(path)
     for shot, name in pairs(planned):
         framing, poses = (table.every(4 * EVERY) for table in rows_of(planned, shot, name))
-        least = clearest_sight(planned.mission, name, poses.numbers("x_m", "y_m", "z_m"))
+        least = clearest_sight(planned, name, poses)
         assert (framing["occluded"][least < -0.2] == 1).all()
         assert (framing["occluded"][least > 0.01] == 0).all()
 
 
-def clearest_sight(mission: MissionIR, name: str, eyes: Array) -> Array:
+def clearest_sight(planned: Planned, name: str, poses: Table) -> Array:
     """How near the lines of sight to a target come to what may hide it, negative where they pass through."""
-    centre = np.array(mission.target(name).centre)
+    t, eyes = poses["t_s"], poses.numbers("x_m", "y_m", "z_m")
+    centres = planned.courses[name].at(t)
     least = np.full(len(eyes), np.inf)
-    others = [
-        Cylinder(t.centre[:2], t.radius, t.centre[2] - t.height / 2, t.centre[2] + t.height / 2)
-        for t in mission.targets
-        if t.name != name
+    # A target that moves stands still where everything is seen from its centre.
+    in_the_way: list[tuple[Solid, Array]] = [
+        (
+            Cylinder((0.0, 0.0), other.radius, -other.height / 2, other.height / 2),
+            planned.courses[other.name].at(t),
+        )
+        for other in planned.mission.targets
+        if other.name != name
     ]
-    for solid in [*others, *(zone.solid for zone in mission.zones if zone.keep == "out")]:
-        if signed_distance(solid, centre[None])[0] > 0:
-            least = np.minimum(least, least_on_the_way(solid, eyes, centre))
+    in_the_way += [(z.solid, np.zeros_like(eyes)) for z in planned.mission.zones if z.keep == "out"]
+    for solid, at in in_the_way:
+        on_the_way = least_on_the_way(solid, eyes - at, centres - at)
+        around = signed_distance(solid, centres - at) <= 0
+        least = np.minimum(least, np.where(around, np.inf, on_the_way))
     return least
 
 
 def test_references_are_on_the_composition_and_met_at_the_keyframes(plan: Plan, path: Path) -> None:
     planned = plan(path)
     cropped = {d.labels[0].span.line for d in planned.diagnostics if d.code == "G011"}
-    reached = {(k.shot, k.index): k.time for k in planned.track.keyframes}
+    reached = {(k.shot, k.index): k.time for t in planned.tracks.values() for k in t.keyframes}
     for shot in planned.mission.shots:
         if cropped & lines_of(planned, shot.path):
             continue  # the warning says that the set is left there
@@ -141,6 +150,17 @@ def test_references_are_on_the_composition_and_met_at_the_keyframes(plan: Plan, 
                 assert np.isnan([u_ref, v_ref]).all(), (shot.id, index)
             else:
                 assert max(off, np.hypot(u - u_ref, v - v_ref)) < 0.01, (shot.id, index)
+
+
+def test_references_of_moving_targets_are_on_the_composition_all_the_time(plan: Plan, path: Path) -> None:
+    planned = plan(path)
+    for shot in planned.mission.shots:
+        for subject in shot.subjects:
+            rows = planned.framing.where(shot=shot.id, target=subject.target)
+            for u, v in np.unique(rows.numbers("u_ref", "v_ref"), axis=0):
+                off = to_composition(subject.composition, u, v)
+                assert off is not None
+                assert off < 1e-6, (shot.id, u, v)
 
 
 def lines_of(planned: Planned, path: tuple[str | int, ...]) -> set[int]:

@@ -22,6 +22,11 @@ SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
     "pisa-campanile": {"emit": [("E102", 13)]},
     "river-path": {},
     "rooftop-survey": {},
+    "rotsee-sculler": {"emit": [("E107", 19)]},
+    "runner-three-cameras": {
+        "plan": [("M008", 17), ("M008", 19), ("M008", 21)],
+        "emit": [("E107", 17), ("E107", 19), ("E107", 21)],
+    },
     "statue-moves": {"emit": [("E101", 1)]},
     "tower-fly-past": {"plan": [("V030", 19)]},
     "tower-reveal": {"emit": [("E105", 22)]},
@@ -56,9 +61,9 @@ def test_all_outputs_are_made(plan: Plan, path: Path) -> None:
     emitted = api.emit_plan(planned.plan, EMITTERS)
     assert said(emitted.diagnostics) == expected.get("emit", [])
     files = {artifact.name: artifact.data for artifact in emitted.artifacts}
-    mavlink = {"cam1.plan"} if planned.mission.origin else set()
-    if mavlink and planned.mission.drones[0].autopilot == "ardupilot":
-        mavlink.add("cam1.waypoints")
+    flown = [d for d in planned.mission.drones if planned.mission.origin]
+    mavlink = {f"{d.name}.plan" for d in flown}
+    mavlink |= {f"{d.name}.waypoints" for d in flown if d.autopilot == "ardupilot"}
     tables = {"plan.json", "trajectory.csv", "framing.csv"}
     assert set(files) == tables | mavlink | {"storyboard.png", "mission.rrd"}
     assert files["storyboard.png"].startswith(b"\x89PNG\r\n\x1a\n")

@@ -29,7 +29,7 @@ def blocks(language):
 
 
 def test_the_first_mission_plans_without_a_warning_but_the_missing_origin():
-    (mission,) = blocks("yaml")
+    mission = blocks("yaml")[0]
     done = compile_source(mission.encode(), "readme.yaml", None, PlanOptions())
     assert done.diagnostics == ()
     assert done.plan is not None
@@ -40,7 +40,7 @@ def test_the_answer_to_an_impossible_duration_is_what_it_says():
     from shotc.diag.render.text import render
 
     (shown,) = re.findall(r"^```\n(error\[.*?)\n```", README, re.DOTALL | re.MULTILINE)
-    (mission,) = blocks("yaml")
+    mission = blocks("yaml")[0]
     asked = re.search(r"timing: \{duration: [^}]*\}", shown)
     assert asked is not None
     short = mission.replace("    target: tower\n", f"    target: tower\n    {asked[0]}\n")

@@ -6,16 +6,18 @@ largest rate. The differences are taken here, so nothing is believed that the fi
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import GeoOrigin
+from shotc.ir.mission import Drone, GeoOrigin, Target
 from tests.e2e.conftest import Plan, Planned, each_mission
 from tests.e2e.space import signed_distance
 from tests.e2e.tables import Table
+from tests.e2e.written import Course
 
 pytestmark = pytest.mark.parametrize("path", each_mission())
 
@@ -30,9 +32,12 @@ ACCELERATION = ("ax_m_s2", "ay_m_s2", "az_m_s2")
 ROUNDING, ROUNDING_TWICE = 1e-4, 5e-3
 
 
-def flown(plan: Plan, path: Path) -> tuple[Planned, Table, float]:
+def flown(plan: Plan, path: Path) -> Iterator[tuple[Planned, Drone, Table, float]]:
+    """Every drone's rows, and the seconds between two of them."""
     planned = plan(path)
-    return planned, planned.motion, 1 / planned.mission.rate
+    assert set(planned.flights) == set(planned.written["drones"])
+    for name, table in planned.flights.items():
+        yield planned, planned.mission.drone(name), table, 1 / planned.mission.rate
 
 
 def rates(table: Table, step: float, *names: str) -> Array:
@@ -45,12 +50,14 @@ def largest(values: Array) -> float:
 
 
 def test_columns_and_clock(plan: Plan, path: Path) -> None:
-    planned, table, step = flown(plan, path)
-    geodetic = ",lat_deg,lon_deg,alt_m" if planned.mission.origin else ""
-    assert table.header == tuple((COLUMNS + geodetic).split(","))
-    assert table["t_s"] == pytest.approx(np.arange(len(table)) * step, abs=1e-9)
-    assert (len(table) - 2) * step < planned.track.curve.end <= (len(table) - 1) * step + 1e-9
-    assert set(table["drone"]) == {"cam1"}
+    for planned, drone, table, step in flown(plan, path):
+        geodetic = ",lat_deg,lon_deg,alt_m" if planned.mission.origin else ""
+        assert table.header == tuple((COLUMNS + geodetic).split(","))
+        assert table["t_s"] == pytest.approx(np.arange(len(table)) * step, abs=1e-9)
+        end = planned.tracks[drone.name].curve.end
+        assert (len(table) - 2) * step < end <= (len(table) - 1) * step + 1e-9
+    planned = plan(path)
+    assert planned.motion["drone"].tolist() == sorted(planned.motion["drone"])
     assert all(len(cell.lstrip("-0.").replace(".", "").split("e")[0]) <= 9 for cell in cells(planned))
 
 
@@ -61,12 +68,13 @@ def cells(planned: Planned) -> list[str]:
 
 
 def test_phases_follow_one_another(plan: Plan, path: Path) -> None:
-    planned, table, _ = flown(plan, path)
-    changes = [0, *(np.flatnonzero((table["phase"][1:] != table["phase"][:-1]) | new_shot(table)) + 1)]
-    order = [(str(table["phase"][i]), str(table["shot"][i])) for i in changes]
-    assert [order[0], *order[-2:]] == [("takeoff", ""), ("return", ""), ("land", "")]
-    assert {phase for phase, _ in order[1:-2]} <= {"transit", "shot"}
-    assert [shot for phase, shot in order if phase == "shot"] == [shot.id for shot in planned.mission.shots]
+    for planned, drone, table, _ in flown(plan, path):
+        changes = [0, *(np.flatnonzero((table["phase"][1:] != table["phase"][:-1]) | new_shot(table)) + 1)]
+        order = [(str(table["phase"][i]), str(table["shot"][i])) for i in changes]
+        assert [order[0], *order[-2:]] == [("takeoff", ""), ("return", ""), ("land", "")]
+        assert {phase for phase, _ in order[1:-2]} <= {"transit", "shot"}
+        own = [shot["id"] for shot in planned.written["shots"] if planned.filmed_by[shot["id"]] == drone.name]
+        assert [shot for phase, shot in order if phase == "shot"] == own
 
 
 def new_shot(table: Table) -> Array:
@@ -74,97 +82,103 @@ def new_shot(table: Table) -> Array:
 
 
 def test_it_starts_and_ends_at_rest_at_home(plan: Plan, path: Path) -> None:
-    planned, table, _ = flown(plan, path)
-    home = planned.mission.drones[0].home
-    for row in (0, -1):
-        assert table.numbers(*POSITION)[row] == pytest.approx(home, abs=1e-6)
-        assert table.numbers(*VELOCITY)[row] == pytest.approx([0, 0, 0], abs=1e-9)
-        assert table.numbers("cam_yaw_rate_rad_s", "cam_pitch_rate_rad_s")[row] == pytest.approx(0, abs=1e-9)
-    assert table.numbers(*ACCELERATION)[-1] == pytest.approx([0, 0, 0], abs=1e-9)
+    for _, drone, table, _ in flown(plan, path):
+        home = drone.home
+        for row in (0, -1):
+            assert table.numbers(*POSITION)[row] == pytest.approx(home, abs=1e-6)
+            assert table.numbers(*VELOCITY)[row] == pytest.approx([0, 0, 0], abs=1e-9)
+            assert table.numbers("cam_yaw_rate_rad_s", "cam_pitch_rate_rad_s")[row] == pytest.approx(
+                0, abs=1e-9
+            )
+        assert table.numbers(*ACCELERATION)[-1] == pytest.approx([0, 0, 0], abs=1e-9)
 
 
 def test_take_off_and_landing_are_vertical_at_home(plan: Plan, path: Path) -> None:
-    planned, table, _ = flown(plan, path)
-    home = planned.mission.drones[0].home
-    for phase in ("takeoff", "land"):
-        x, y, z = table.where(phase=phase).numbers(*POSITION).T
-        assert np.hypot(x - home[0], y - home[1]).max() < 1e-5
-        assert z.min() > home[2] - 1e-5
-        assert (np.diff(z) * (1 if phase == "takeoff" else -1) > -1e-6).all()
+    for _, drone, table, _ in flown(plan, path):
+        home = drone.home
+        for phase in ("takeoff", "land"):
+            x, y, z = table.where(phase=phase).numbers(*POSITION).T
+            assert np.hypot(x - home[0], y - home[1]).max() < 1e-5
+            assert z.min() > home[2] - 1e-5
+            assert (np.diff(z) * (1 if phase == "takeoff" else -1) > -1e-6).all()
 
 
 def test_velocity_and_acceleration_are_the_derivatives_of_position(plan: Plan, path: Path) -> None:
     """The corrected trapezoid of a smooth function errs by h^5; a jump of one derivative shows at once."""
-    planned, table, step = flown(plan, path)
-    jerk = planned.mission.drones[0].limits.jerk
-    x, v, a = (table.numbers(*names)[:-1] for names in (POSITION, VELOCITY, ACCELERATION))
-    gained = np.diff(x, axis=0) - step / 2 * (v[1:] + v[:-1]) + step**2 / 12 * np.diff(a, axis=0)
-    # What remains is the third derivative's variation over one step, which the jerk limit bounds.
-    assert largest(gained) < step**3 / 12 * jerk + 1e-6
-    quickened = np.diff(v, axis=0) - step / 2 * (a[1:] + a[:-1])
-    assert largest(quickened) < step**2 / 4 * jerk + 1e-6
-    for name in ("cam_yaw", "cam_pitch"):
-        angle, rate = table[f"{name}_rad"][:-1], table[f"{name}_rate_rad_s"][:-1]
-        assert largest(np.diff(angle) - step / 2 * (rate[1:] + rate[:-1])) < 1e-3 * step
+    for _, drone, table, step in flown(plan, path):
+        jerk = drone.limits.jerk
+        x, v, a = (table.numbers(*names)[:-1] for names in (POSITION, VELOCITY, ACCELERATION))
+        gained = np.diff(x, axis=0) - step / 2 * (v[1:] + v[:-1]) + step**2 / 12 * np.diff(a, axis=0)
+        # What remains is the third derivative's variation over one step, which the jerk limit bounds.
+        assert largest(gained) < step**3 / 12 * jerk + 1e-6
+        quickened = np.diff(v, axis=0) - step / 2 * (a[1:] + a[:-1])
+        assert largest(quickened) < step**2 / 4 * jerk + 1e-6
+        for name in ("cam_yaw", "cam_pitch"):
+            angle, rate = table[f"{name}_rad"][:-1], table[f"{name}_rate_rad_s"][:-1]
+            assert largest(np.diff(angle) - step / 2 * (rate[1:] + rate[:-1])) < 1e-3 * step
 
 
 def test_speeds_and_accelerations_keep_their_limits(plan: Plan, path: Path) -> None:
-    planned, table, step = flown(plan, path)
-    limits = planned.mission.drones[0].limits
-    for vx, vy, vz in (table.numbers(*VELOCITY).T, rates(table, step, *POSITION).T):
-        assert np.hypot(vx, vy).max() <= limits.speed + ROUNDING
-        assert vz.max() <= limits.climb + ROUNDING
-        assert -vz.min() <= limits.descent + ROUNDING
-    for a in (table.numbers(*ACCELERATION), rates(table, step, *VELOCITY)):
-        assert np.linalg.norm(a, axis=1).max() <= limits.acceleration + ROUNDING
-    assert np.linalg.norm(rates(table, step, *ACCELERATION), axis=1).max() <= limits.jerk + ROUNDING
+    for _, drone, table, step in flown(plan, path):
+        limits = drone.limits
+        for vx, vy, vz in (table.numbers(*VELOCITY).T, rates(table, step, *POSITION).T):
+            assert np.hypot(vx, vy).max() <= limits.speed + ROUNDING
+            assert vz.max() <= limits.climb + ROUNDING
+            assert -vz.min() <= limits.descent + ROUNDING
+        for a in (table.numbers(*ACCELERATION), rates(table, step, *VELOCITY)):
+            assert np.linalg.norm(a, axis=1).max() <= limits.acceleration + ROUNDING
+        assert np.linalg.norm(rates(table, step, *ACCELERATION), axis=1).max() <= limits.jerk + ROUNDING
 
 
 def test_body_and_gimbal_keep_their_limits(plan: Plan, path: Path) -> None:
-    planned, table, step = flown(plan, path)
-    drone = planned.mission.drones[0]
-    body, pitch = table["body_yaw_rad"], table["cam_pitch_rad"]
-    gimbal = table["cam_yaw_rad"] - body
-    for angle, allowed in ((gimbal, drone.gimbal.yaw), (pitch, drone.gimbal.pitch)):
-        assert allowed[0] - 1e-6 <= angle.min() <= angle.max() <= allowed[1] + 1e-6
-    axes = (
-        (body, drone.limits.yaw_rate, drone.limits.yaw_acceleration),
-        (gimbal, drone.gimbal.rate, drone.gimbal.acceleration),
-        (pitch, drone.gimbal.rate, drone.gimbal.acceleration),
-    )
-    for angle, rate, acceleration in axes:
-        assert largest(np.diff(angle)) / step <= rate + ROUNDING
-        assert largest(np.diff(angle, 2)[:-1]) / step**2 <= acceleration + ROUNDING_TWICE
+    for _, drone, table, step in flown(plan, path):
+        body, pitch = table["body_yaw_rad"], table["cam_pitch_rad"]
+        gimbal = table["cam_yaw_rad"] - body
+        for angle, allowed in ((gimbal, drone.gimbal.yaw), (pitch, drone.gimbal.pitch)):
+            assert allowed[0] - 1e-6 <= angle.min() <= angle.max() <= allowed[1] + 1e-6
+        axes = (
+            (body, drone.limits.yaw_rate, drone.limits.yaw_acceleration),
+            (gimbal, drone.gimbal.rate, drone.gimbal.acceleration),
+            (pitch, drone.gimbal.rate, drone.gimbal.acceleration),
+        )
+        for angle, rate, acceleration in axes:
+            assert largest(np.diff(angle)) / step <= rate + ROUNDING
+            assert largest(np.diff(angle, 2)[:-1]) / step**2 <= acceleration + ROUNDING_TWICE
 
 
 def test_zones_ground_and_targets_are_kept_clear(plan: Plan, path: Path) -> None:
-    planned, table, _ = flown(plan, path)
-    mission, radius = planned.mission, planned.mission.drones[0].radius
-    upright = np.isin(table["phase"], ["takeoff", "land"])
-    free = table.numbers(*POSITION)[~upright]
-    assert free[:, 2].min() >= mission.rules.ground_clearance + radius - 1e-5
-    for zone in mission.zones:
-        away = signed_distance(zone.solid, free)
-        if zone.keep == "out":
-            everywhere = signed_distance(zone.solid, table.numbers(*POSITION))
-            assert min(away.min(), everywhere.min()) >= radius - 1e-5, zone.name
-        else:
-            assert away.max() <= -radius + 1e-5, zone.name
-    for target in mission.targets:
-        x, y, z = target.centre
-        sideways = np.hypot(free[:, 0] - x, free[:, 1] - y) - target.radius
-        upwards = np.abs(free[:, 2] - z) - target.height / 2
-        away = np.hypot(np.maximum(sideways, 0), np.maximum(upwards, 0))
-        assert away.min() >= radius + mission.rules.target_clearance - 1e-5, target.name
+    for planned, drone, table, _ in flown(plan, path):
+        mission, radius = planned.mission, drone.radius
+        upright = np.isin(table["phase"], ["takeoff", "land"])
+        free = table.numbers(*POSITION)[~upright]
+        assert free[:, 2].min() >= mission.rules.ground_clearance + radius - 1e-5
+        for zone in mission.zones:
+            away = signed_distance(zone.solid, free)
+            if zone.keep == "out":
+                everywhere = signed_distance(zone.solid, table.numbers(*POSITION))
+                assert min(away.min(), everywhere.min()) >= radius - 1e-5, zone.name
+            else:
+                assert away.max() <= -radius + 1e-5, zone.name
+        for target in mission.targets:
+            away = from_target(target, planned.courses[target.name], table)
+            assert away[~upright].min() >= radius + mission.rules.target_clearance - 1e-5, target.name
+            assert away.min() >= radius - 1e-5, target.name
+
+
+def from_target(target: Target, course: Course, table: Table) -> Array:
+    """The distance to a target's cylinder, where that is at the time of each row."""
+    x, y, z = (table.numbers(*POSITION) - course.at(table["t_s"])).T
+    sideways, upwards = np.hypot(x, y) - target.radius, np.abs(z) - target.height / 2
+    return np.hypot(np.maximum(sideways, 0), np.maximum(upwards, 0))
 
 
 def test_latitude_longitude_and_altitude(plan: Plan, path: Path) -> None:
-    planned, table, _ = flown(plan, path)
-    origin = planned.mission.origin
-    if origin is None:
-        return
-    back = east_north_up(origin, table.numbers("lat_deg", "lon_deg", "alt_m"))
-    assert back == pytest.approx(table.numbers(*POSITION), abs=0.002)
+    for planned, _, table, _ in flown(plan, path):
+        origin = planned.mission.origin
+        if origin is None:
+            continue
+        back = east_north_up(origin, table.numbers("lat_deg", "lon_deg", "alt_m"))
+        assert back == pytest.approx(table.numbers(*POSITION), abs=0.002)
 
 
 def east_north_up(origin: GeoOrigin, places: Array) -> Array:

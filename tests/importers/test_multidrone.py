@@ -148,9 +148,8 @@ def test_two_roles_of_an_action_are_two_drones() -> None:
 
 def test_actions_one_after_the_other_follow_one_target_and_leave_time_to_change() -> None:
     later = ((60, 20, 40), (60, 90, 60))
-    found = shots(
-        imported(action("CHASE", '{"x_s": -9, "z_0": 5}'), action("LATERAL", '{"y_0": 8, "z_0": 5}', later))
-    )
+    chase = action("CHASE", '{"x_s": -9, "z_0": 5}', duration="40")
+    found = shots(imported(chase, action("LATERAL", '{"y_0": 8, "z_0": 5}', later)))
     assert {shot["target"] for shot in found} == {"target1"}
     first, second = (shot["timing"] for shot in found)
     assert first == {"start": 40, "duration": 40}

@@ -18,7 +18,7 @@ from tests.papers.report import Section, html, markdown, text
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "papers"
 PAGE = ROOT / "shotc" / "docs" / "papers.md"
-PARTS = ("framing", "yaw", "retiming", "multidrone")
+PARTS = ("framing", "yaw", "retiming", "multidrone", "fleets")
 MISSIONS = 60
 
 
@@ -61,6 +61,10 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
 
         say("multidrone")
         found.append(multidrone.section())
+    if "fleets" in parts and "ours" in installed:
+        from tests.papers import fleets
+
+        found.append(fleets.section(say))
     return found
 
 

@@ -54,6 +54,8 @@ NOTES = (
     "off (Table 1's yaw range forbids ending straight ahead, and its pitch range of 45 deg a pass nearer "
     "than the height); baseline of the RMSE from rest to rest along the straight line, a cubic in time; the "
     "first guess goes round on one side.",
+    "With more weight on pitch, distance, RMSE and acceleration rise as in the paper. The jerks fall to a "
+    "tenth at once and stay there: at the highest weight what is left is where the drone sets out and stops.",
     "Distance is to the border of the no-fly circle. Jerks are means of third differences at the steps.",
     "Receding: at 1 Hz with N = 50, or what is left of the shot; until the end is in sight the wanted state "
     "is that of the shot's phase. The paper says about 7 ms there and about 100 ms for N = 100.",

@@ -3,30 +3,45 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import product
 
 import casadi as ca
 import numpy as np
 import pytest
-from shotc_casadi.derivatives import derived, laid_out
-from shotc_casadi.symbols import INPUTS, STATES, WIDTH, size, stage
+from shotc_casadi.clock import symbols as clock
+from shotc_casadi.derivatives import derived, differentiated, laid_out
+from shotc_casadi.symbols import STATES, WIDTH, size, stage
 
 N = 3
+KINDS = [*product(("none", "points", "silhouette", "clock"), (0, 2))]
 
 
 @cache
-def plain(visibility, planes):
+def made(kind, planes):
+    """A stage of a shot with keyframes, or of one on its own clock."""
+    return clock.stage(planes) if kind == "clock" else stage(kind, planes)
+
+
+def sizes(s):
+    """How many states, unknowns and parameters a stage has."""
+    return s.following.numel(), s.z.numel(), s.p.numel()
+
+
+@cache
+def plain(kind, planes):
     """Cost, constraints and their derivatives by CasADi on one expression graph, stage after stage."""
-    s = stage(visibility, planes)
+    s = made(kind, planes)
+    states, width, each = sizes(s)
     of = ca.Function("stage", [s.z, s.p], [s.node + s.passing, s.following, ca.vertcat(s.held, s.driven)])
     last = ca.Function("last", [s.z, s.p], [s.node, s.held])
-    x, p = ca.MX.sym("x", N * WIDTH + STATES), ca.MX.sym("p", (N + 1) * size(planes))
+    x, p = ca.MX.sym("x", N * width + states), ca.MX.sym("p", (N + 1) * each)
     cost, rows = 0, []
     for k in range(N):
-        z, following = x[k * WIDTH : (k + 1) * WIDTH], x[(k + 1) * WIDTH : (k + 1) * WIDTH + STATES]
-        value, end, bound = of(z, p[k * size(planes) : (k + 1) * size(planes)])
+        z, following = x[k * width : (k + 1) * width], x[(k + 1) * width : (k + 1) * width + states]
+        value, end, bound = of(z, p[k * each : (k + 1) * each])
         cost += value
         rows += [following - end, bound]
-    value, bound = last(ca.vertcat(x[N * WIDTH :], ca.MX(INPUTS, 1)), p[N * size(planes) :])
+    value, bound = last(ca.vertcat(x[N * width :], ca.MX(width - states, 1)), p[N * each :])
     cost, g = cost + value, ca.vertcat(*rows, bound)
     lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", g.numel())
     curvature, slope = ca.hessian(lam_f * cost + ca.dot(lam_g, g), x)
@@ -37,14 +52,15 @@ def plain(visibility, planes):
     )
 
 
-def point(seed, planes):
+def point(seed, s):
     """A random point: a target in the neighbourhood, mostly in the frame; everything weighs."""
+    states, width, each = sizes(s)
     draw = np.random.default_rng(seed)
-    x = draw.normal(0, 1, N * WIDTH + STATES)
-    p = draw.uniform(0.2, 1.5, ((N + 1), size(planes)))
+    x = draw.normal(0, 1, N * width + states)
+    p = draw.uniform(0.2, 1.5, ((N + 1), each))
     p[:, :3] += draw.normal(0, 3, 3)
-    rows = N * (STATES + 3 + planes) + 2 + planes
-    return x, p.ravel(), draw.normal(), draw.normal(0, 1, rows)
+    held, driven = s.held.numel(), s.driven.numel()
+    return x, p.ravel(), draw.normal(), draw.normal(0, 1, N * (states + held + driven) + held)
 
 
 def close(ours, theirs):
@@ -53,17 +69,17 @@ def close(ours, theirs):
     assert a == pytest.approx(b, rel=1e-9, abs=1e-9 * (1 + np.abs(b).max()))
 
 
-@pytest.mark.parametrize("planes", [0, 2])
-@pytest.mark.parametrize("visibility", ["none", "points", "silhouette"])
-def test_what_the_solvers_get_is_what_casadi_derives(visibility, planes):
-    reference, d = plain(visibility, planes), derived(visibility, planes)
-    x, p = ca.MX.sym("x", N * WIDTH + STATES), ca.MX.sym("p", (N + 1) * size(planes))
-    fatrop, ipopt = (laid_out(d, solver, N, x, p) for solver in ("fatrop", "ipopt"))
+@pytest.mark.parametrize(("kind", "planes"), KINDS)
+def test_what_the_solvers_get_is_what_casadi_derives(kind, planes):
+    reference, s = plain(kind, planes), made(kind, planes)
+    states, width, each = sizes(s)
+    x, p = ca.MX.sym("x", N * width + states), ca.MX.sym("p", (N + 1) * each)
+    fatrop, ipopt = (laid_out(differentiated(s), solver, N, x, p) for solver in ("fatrop", "ipopt"))
     for seed in range(4):
-        at = point(seed, planes)
+        at = point(seed, s)
         cost, gradient, g, jacobian, slope, curvature = reference(*at)
-        for made in (fatrop, ipopt):
-            value, matrix = made["nlp_jac_g"](*at[:2])
+        for given in (fatrop, ipopt):
+            value, matrix = given["nlp_jac_g"](*at[:2])
             close(value, g)
             close(matrix, jacobian)
         close(fatrop["nlp_grad_f"](*at[:2]), gradient)
@@ -78,7 +94,7 @@ def test_what_the_solvers_get_is_what_casadi_derives(visibility, planes):
 
 
 def test_only_what_may_be_nonzero_is_laid_out():
-    made = laid_out(
+    found = laid_out(
         derived("silhouette", 2),
         "fatrop",
         N,
@@ -86,5 +102,5 @@ def test_only_what_may_be_nonzero_is_laid_out():
         ca.MX.sym("p", (N + 1) * size(2)),
     )
     for name, out in (("nlp_jac_g", 1), ("nlp_hess_l", 1)):
-        ours = made[name].sparsity_out(out)
+        ours = found[name].sparsity_out(out)
         assert ours.nnz() < 0.35 * ours.numel()

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 from shotc_casadi import problem
+from shotc_casadi.clock import weights
+from shotc_casadi.clock.problem import STAGES
 from shotc_casadi.patience import PATIENCE
 from shotc_casadi.refiner import ANG, LOOK_AT, OURS, OURS_4PT
 
@@ -21,16 +23,29 @@ WEIGHTS = {
     "pace": problem.PACE,
     "lag": problem.LAG,
     "pins": problem.PIN,
+    "place": weights.PLACE,
+    "given place": weights.PLACED,
+    "leash": weights.LEASH,
+    "place jerk": weights.JERK,
+    "turn acceleration": weights.TURN[2],
+    "turn jerk": weights.TURN[4],
+    "steep": weights.STEEP,
 }
 
 
 @pytest.mark.parametrize("term", list(WEIGHTS))
 def test_a_weight_is_the_one_that_is_used(term):
     (line,) = (row for row in README.splitlines() if row.startswith(f"| {term} | "))
-    assert float(line.split("|")[2]) == WEIGHTS[term]
+    assert float(line.split("|")[2].split()[0]) == WEIGHTS[term]
 
 
 def test_every_condition_is_there():
     for made in (OURS, OURS_4PT, LOOK_AT, ANG):
         assert f"| `{made.name}` |" in README
     assert PATIENCE == 30.0  # "half a minute"
+
+
+def test_yaw_and_pitch_weigh_the_same_and_rates_nothing():
+    assert weights.TURN[:2] == (0.0, 0.0)
+    assert weights.TURN[2:5:2] == weights.TURN[3:6:2]
+    assert f"{STAGES} stages a film" in README

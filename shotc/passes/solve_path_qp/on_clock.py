@@ -29,8 +29,8 @@ from shotc.passes.solve_path_qp.legs import (
 )
 from shotc.passes.solve_path_qp.shots import Failure, ShotCurve
 from shotc.passes.timed_route.clock import lead_in
+from shotc.passes.timed_route.flights import flight
 from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_shot
-from shotc.passes.timed_route.surroundings import flight
 
 TRIES = 6
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start

@@ -9,8 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
 from shotc.geom.camera import Vec2
-from shotc.ir.keyframes import PlacedSubject
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import Drone
 from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.position import NEARLY, at_rest
@@ -35,23 +34,20 @@ class Turned:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Watch:
-    """Whose camera turns and what it watches.
+    """Whose camera turns, and how.
 
-    subjects : that the camera follows; none to look where it goes
-    kept : (yaw, pitch) that it keeps instead, rad
+    kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the looker's subjects
     ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
     """
 
-    mission: MissionIR
-    drone: Drone
-    subjects: tuple[PlacedSubject, ...]
+    looker: Looker
     kept: Vec2 | None = None
     ends: Array | None = None
 
 
 def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
     """Return the camera's angles along a position curve."""
-    drone = watch.drone
+    drone = watch.looker.drone
     breaks = clock.breaks
     inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
@@ -91,12 +87,11 @@ def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
     """Return the yaw and the pitch that put the subjects in their places, unwrapped; shape (M, 2)."""
     if watch.kept is not None:
         return np.tile(np.array(watch.kept), (len(times), 1))
-    if not watch.subjects:
+    if not watch.looker.subjects:
         yaw = _motion(position.derivative()(times)[:, :2])
         return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])
-    looker = Looker(watch.mission, watch.drone, watch.subjects)
-    found = aims_at(looker, times, position(times)[:, :3])
-    low, high = watch.drone.gimbal.pitch
+    found = aims_at(watch.looker, times, position(times)[:, :3])
+    low, high = watch.looker.drone.gimbal.pitch
     return np.column_stack([_wound(watch, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
 
 

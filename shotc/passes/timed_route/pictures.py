@@ -9,8 +9,8 @@ import numpy as np
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathIR
+from shotc.passes.timed_route.flights import flights
 from shotc.passes.timed_route.others import flying
-from shotc.passes.timed_route.surroundings import flights
 
 STEP = 0.1  # seconds between the pictures that are looked at
 
@@ -26,7 +26,7 @@ def least_out(path: PathIR) -> float:
         return inf
     for name, flight in found.items():
         for phase in (p for p in flight.phases if p.shot is not None):
-            times = np.arange(phase.start, phase.end, STEP)
+            times = np.append(np.arange(phase.start, phase.end, STEP), phase.end)
             pose = flight.curve(times)
             aspect = mission.drone(name).aspect
             cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)

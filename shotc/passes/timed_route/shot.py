@@ -68,7 +68,7 @@ def timed_shot(
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
     kept = None if shot.ideal is None else shot.ideal.aim
-    turned = turn(Watch(mission, drone, placed.subjects, kept), clock, flown.curve)
+    turned = turn(Watch(looker, kept), clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
     lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)

@@ -10,19 +10,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray
 from shotc.geom.corridor import Room, kept, shortfall
-from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import PathIR, TimedLeg, TimedPath
-from shotc.ir.trajectory import DroneTrajectory
-from shotc.passes.parameterize_time.estimate import leg_motion
-from shotc.passes.parameterize_time.flight import Flight
+from shotc.ir.mission import Drone
+from shotc.ir.path import PathIR
 from shotc.passes.solve_path_qp.room import flight_room
+from shotc.passes.timed_route.aims import Looker
+from shotc.passes.timed_route.flights import flights
 from shotc.passes.timed_route.moving import Even, evened, moving_targets, shortfalls, sides, standing
 from shotc.passes.timed_route.others import other_drones
-
-LATE = 1e-6  # seconds
+from shotc.passes.timed_route.sights import Sights, keep_free, sights_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,11 +29,31 @@ class Surroundings:
 
     breaks : of the motion's pieces, shape (P + 1,), seconds
     walls : the room without its obstacles; motions : its obstacles and what moves, even on those pieces
+    pictures : of the other drones' flights, those that count
     """
 
     breaks: Array
     walls: Room
     motions: tuple[Even, ...]
+    pictures: Sights
+
+    def free(self, looker: Looker, span: tuple[float, float], course: Piecewise) -> Planes:
+        """Put half-spaces beside pictures, linearised about a course on these pieces.
+
+        span : of the film. On each piece the one that the course is nearest to counts, as far as the course
+        itself keeps it.
+        """
+        found: dict[int, tuple[float, Array, float]] = {}
+        for floors in keep_free(looker, self.pictures, span, self.breaks, course).floors:
+            for piece, normal, offset in zip(floors.rows.piece, floors.normal, floors.offset, strict=True):
+                length = float(np.linalg.norm(normal))
+                slack = float((course.ctrl[piece] @ normal).min() - offset) / length
+                if piece not in found or slack < found[piece][0]:
+                    found[piece] = slack, normal / length, offset / length + min(0.0, slack)
+        pieces = np.array(sorted(found), dtype=np.intp)
+        normals = np.array([found[k][1] for k in pieces]).reshape(-1, 3)
+        borders = np.array([found[k][2] for k in pieces])
+        return Planes(pieces, normals, np.repeat(borders[:, None], 2, axis=1))
 
     def lacking(self, hulls: Array) -> Array:
         """Return by how much pieces fail to prove their clearances, metres; shape (P,), <= 0 is proved.
@@ -87,48 +105,27 @@ class Planes:
     normal: Array
     border: Array
 
+    def and_also(self, other: Planes) -> Planes:
+        """Return these and those of another."""
+        return Planes(
+            np.concatenate([self.piece, other.piece]),
+            np.concatenate([self.normal, other.normal]),
+            np.concatenate([self.border, other.border]),
+        )
+
 
 def surroundings(path: PathIR, drone: Drone, breaks: Array) -> Surroundings:
     """Return what a drone of a path keeps clear of on pieces of mission time."""
     mission, room = path.keyframes.mission, flight_room(path.keyframes.mission, drone)
+    flown = flights(path)
     moving = (
         *standing(room),
         *moving_targets(mission, drone),
-        *other_drones(mission, drone.name, flights(path)),
+        *other_drones(mission, drone.name, flown),
     )
     return Surroundings(
-        breaks, Room((), room.walls, room.discs), tuple(evened(what, breaks) for what in moving)
+        breaks,
+        Room((), room.walls, room.discs),
+        tuple(evened(what, breaks) for what in moving),
+        sights_of(mission, drone, flown),
     )
-
-
-def flights(path: PathIR) -> dict[str, DroneTrajectory]:
-    """Return the flights of the drones of a path on the clock, by name; one has no others."""
-    if len(path.timed) < 2:
-        return {}
-    ends: dict[str, float] = {}
-    return {flown.drone: flight(path.keyframes.mission, flown, ends) for flown in path.timed}
-
-
-def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> DroneTrajectory:
-    """Return a drone's flight as the time pass will fly it, up to a shot that it would be late for.
-
-    ends : of the shots of drones before it, by id, seconds; its own are added
-    """
-    drone, made = mission.drone(flown.drone), Flight(flown.drone)
-    after = {shot.id: shot.timing.after for shot in mission.shots}
-    for leg in flown.legs:
-        if isinstance(leg, TimedLeg):
-            if made.clock > leg.curve.start + LATE:
-                break
-            made.wait(float(leg.curve.start), leg.pose)
-            made.film(leg)
-            ends[leg.shot] = leg.end
-            continue
-        motion = leg_motion(mission, drone, leg)
-        waited = ends.get(after.get(leg.shot or "") or "", 0.0)
-        made.wait(max(made.clock, leg.start or 0.0, waited), leg.pose)
-        if motion is not None:
-            made.fly(leg, motion)
-        if leg.shot is not None:
-            ends[leg.shot] = made.clock
-    return made.trajectory()

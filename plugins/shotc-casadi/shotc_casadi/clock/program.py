@@ -15,7 +15,7 @@ from shotc_casadi.clock.symbols import INPUTS, POINTS, STATES, derived
 from shotc_casadi.patience import PATIENCE, Endless, within
 from shotc_casadi.program import Solver, Status, built
 
-TOLERANCE = 1e-6
+TOLERANCE = 1e-5
 FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
 WIDTH = STATES + INPUTS
 ROWS = ("speed", "acceleration", "jerk", "speed", "climb and descent")

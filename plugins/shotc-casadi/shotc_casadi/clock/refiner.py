@@ -23,8 +23,10 @@ from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.patience import PATIENCE
 
-NOTICE = 0.5  # metres off the ideal that are worth telling
+NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
+STEP = 0.1  # seconds between the places that are compared with it
 KEPT = "kept: the guide shows more"
+OUT = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
 CALM = "a calmer camera, and the drone's limits"
 
 
@@ -34,14 +36,17 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
     name : of the refiner. A shot that cannot be refined keeps its guide, with an error that says why.
     """
     told: list[Diagnostic] = []
-    for shot in [leg.shot for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]:
+    # What several subjects ask for together is not in this problem: their guide is flown.
+    shared = {p.shot.id for p in path.keyframes.shots if len(p.subjects) > 1}
+    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
+    for shot in [leg.shot for leg in legs if leg.shot not in shared]:
         ctx.progress(f"refine shot {shot}")
         subject = subject_of(path, shot)
         refined = refine_clock(subject)
         said = _report(path, subject, refined, name)
         told += [] if said is None else [said]
         moved = path if refined.leg is None else with_leg(path, refined.leg)
-        if moved is not path and least_out(moved) < min(0.0, least_out(path)):
+        if moved is not path and least_out(moved) < min(OUT, least_out(path)):
             refined, moved = replace(refined, leg=None), path
         path = replace(moved, stats=(*moved.stats, *_stats(refined)))
     return path, tuple(told)
@@ -69,20 +74,27 @@ def with_leg(path: PathIR, leg: TimedLeg) -> PathIR:
     moved = replace(path, timed=timed)
     others = tuple(d for d in path.deviations if d.shot != leg.shot)
     mine = tuple(d for d in path.deviations if d.shot == leg.shot)
-    return replace(moved, deviations=(*others, *_deviation(subject_of(moved, leg.shot), mine)))
+    return replace(moved, deviations=(*others, *_deviations(subject_of(moved, leg.shot), mine)))
 
 
-def _deviation(subject: ClockSubject, before: tuple[Deviation, ...]) -> tuple[Deviation, ...]:
-    """Return the most by which a shot leaves its ideal; what moved its guide there before is why."""
+def _deviations(subject: ClockSubject, before: tuple[Deviation, ...]) -> tuple[Deviation, ...]:
+    """Return the worst of every stretch off the ideal; what moved the guide nearest to there is why."""
     leg = subject.leg
-    t = np.linspace(leg.start, leg.end, 201)
+    t = np.append(np.arange(leg.start, leg.end, STEP), leg.end)
     ideal = [ideal_place(subject.mission, subject.placed.shot, leg.start, float(u)) for u in t]
     away = np.linalg.norm(leg.curve(t)[:, :3] - np.array(ideal), axis=1)
-    k = int(away.argmax())
-    if away[k] < NOTICE:
-        return ()
-    near = min(before, key=lambda d: abs(d.s - t[k]), default=None)
-    return (Deviation(leg.shot, float(away[k]), float(t[k]), CALM if near is None else near.cause),)
+    off = np.flatnonzero(away > LEFT)
+    runs = np.split(off, np.flatnonzero(np.diff(off) > 1) + 1) if len(off) else []
+    worst = [int(run[away[run].argmax()]) for run in runs]
+    return tuple(
+        Deviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k])))
+        for k in worst
+        if away[k] > NOTICE
+    )
+
+
+def _cause(before: tuple[Deviation, ...], t: float) -> str:
+    return min(before, key=lambda d: abs(d.s - t)).cause if before else CALM
 
 
 def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: str) -> Diagnostic | None:

@@ -4,25 +4,17 @@ anew, and solved again while that helps; then the camera.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import dataclass
 
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import (
-    BODY_YAW,
-    CAM_PITCH,
-    CAM_YAW,
-    HFOV,
     Array,
-    Clock,
+    Looker,
     TimedLeg,
-    Watch,
-    quintic_hermite,
     restrict,
     surroundings,
-    turn,
 )
+from shotc_casadi.clock.curve import curve_of, filmed
 from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
 from shotc_casadi.clock.program import ClockSolution, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
@@ -66,7 +58,8 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
     wanted = wishes(subject, breaks)
     guide = restrict(leg.curve.channels(0, 1, 2), breaks)
     over = passes(subject, breaks, wanted)
-    hulls, start, share = guide.ctrl, guess(led(guide, wanted, over), breaks), NEARLY
+    course, start, share = guide, guess(led(guide, wanted, over), breaks), NEARLY
+    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
     best: tuple[Piecewise, ClockSolution] | None = None
     first: ClockSolution | None = None
     gap: Gap | None = None
@@ -74,10 +67,15 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
     rounds = 0
     while rounds < ROUNDS:
         rounds += 1
-        planes = held(around.half_spaces(hulls, reach, SHARE), wanted, over)
+        planes = held(around.half_spaces(course.ctrl, reach, SHARE), wanted, over)
+        planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
         task = problem(subject, breaks, wanted, planes, share, start)
-        solution, failed = _solved(task)
+        solution, failed = _solved(task, SOLVERS if best is None and not over else SOLVERS[:1])
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
+        if solution.status != "solved" and best is None and over:
+            # The room may leave no place on that side; a camera that cannot follow then is not taken.
+            over, start = [], guess(guide, breaks)
+            continue
         if solution.status != "solved":
             break
         first = first or failed
@@ -85,61 +83,26 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
         gap = gap_in(subject.drone, around, found)
         if gap is not None:
             reach, share = (2 * reach, share) if gap.unit == "m" else (reach, share * NEARLY)
-            hulls = found.ctrl
+            course = found
             continue
         gained = best is None or solution.objective < (1 - GAIN) * best[1].objective
         if best is None or solution.objective < best[1].objective:
             best = found, solution
         if not gained:
             break
-        hulls, start = found.ctrl, (solution.states, solution.inputs)
+        course, start = found, (solution.states, solution.inputs)
     if best is None:
         return ClockRefined(leg.shot, None, breaks, rounds, solution, seconds, first, gap)
-    whole, unaimed = _filmed(subject, best[0]), Gap(leg.start, "the camera's limits", float("nan"), "")
+    whole, unaimed = filmed(subject, best[0]), Gap(leg.start, "the camera's limits", float("nan"), "")
     if whole is None:
         return ClockRefined(leg.shot, None, breaks, rounds, best[1], seconds, first, unaimed)
     worse = astray(subject, whole) > max(ALLOWED, astray(subject, leg))
     return ClockRefined(leg.shot, None if worse else whole, breaks, rounds, best[1], seconds, first, None)
 
 
-def _solved(task: ClockProblem) -> tuple[ClockSolution, ClockSolution | None]:
+def _solved(task: ClockProblem, solvers: tuple[Solver, ...]) -> tuple[ClockSolution, ClockSolution | None]:
     """Solve by the first of the solvers, or else by the second; the second value is the first's failure."""
-    solution = solve(task, SOLVERS[0])
-    return (solution, None) if solution.status == "solved" else (solve(task, SOLVERS[1]), solution)
-
-
-def curve_of(subject: ClockSubject, breaks: Array, solution: ClockSolution) -> Piecewise:
-    """Return the position of a solution, C2, with the guide's ends to the last digit.
-
-    What the nodes at both ends are off is taken back over the ways into and out of the film.
-    """
-    states = solution.states.copy()
-    leg = subject.leg
-    rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]])[0]
-    for k, edge in ((0, leg.start), (-1, leg.end)):
-        off = (rest[k] - states[k]).reshape(3, 1, 3)
-        zero = np.zeros((1, 3))
-        ends = [np.concatenate([o, zero] if k == 0 else [zero, o]) for o in off]
-        over = np.sort(np.array([breaks[k], edge]))
-        blend = quintic_hermite(over, ends[0], ends[1], ends[2])
-        mine = (breaks >= over[0]) & (breaks <= over[1])
-        for order in range(3):
-            states[mine, 3 * order : 3 * order + 3] += blend.derivative(order)(breaks[mine])
-        states[k] = rest[k]
-    return quintic_hermite(breaks, states[:, :3], states[:, 3:6], states[:, 6:])
-
-
-def _filmed(subject: ClockSubject, position: Piecewise) -> TimedLeg | None:
-    """Return the leg with a new position and the camera that follows from it, or None without one."""
-    leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
-    ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
-    clock = Clock(leg.curve.breaks, leg.start, leg.end)
-    watch = Watch(subject.mission, subject.drone, subject.placed.subjects, subject.kept, ends)
-    turned = turn(watch, clock, position)
-    if turned.curve is None:
-        return None
-    breaks = position.breaks
-    parts = [position, restrict(turned.curve, breaks), restrict(leg.curve.channels(HFOV), breaks)]
-    ctrl = np.concatenate([part.ctrl for part in parts], axis=2)
-    ctrl[0, 0], ctrl[-1, -1] = leg.curve.ctrl[0, 0], leg.curve.ctrl[-1, -1]
-    return replace(leg, curve=Piecewise(breaks, ctrl))
+    solution = solve(task, solvers[0])
+    if solution.status == "solved" or len(solvers) == 1:
+        return solution, None
+    return solve(task, solvers[1]), solution

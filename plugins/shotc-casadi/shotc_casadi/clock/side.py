@@ -18,15 +18,21 @@ from shotc_casadi.clock.wishes import ClockSubject, ClockWishes
 NEAR = 0.35  # of the usual distance: passes over ground that are nearer are held to their side
 ASIDE = 0.3  # metres that the camera keeps to its side
 LED = 0.3  # of the usual distance by which the guess is led aside
+HELD = 1.0  # seconds before and after the nearest place, at which the side is held
+ALONG = 0.1  # of a direction: what is less across is along
 SPREAD = 2.0  # seconds to either side over which it is
 
 
 class Pass(NamedTuple):
-    """A way over a target: the stages near it, when it is nearest, and the side to keep (3,), level."""
+    """A way over a target: the stages near it, when it is nearest, and the side to keep there (M, 3), level.
+
+    least : index among the stages of the nearest one
+    """
 
     stages: NDArray[np.intp]
     time: float
-    side: Array
+    sides: Array
+    least: int
 
 
 def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> list[Pass]:
@@ -36,33 +42,37 @@ def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> list[Pa
         return []
     relative = leg.curve(breaks)[:, :2] - wanted.target[:, :2]
     distance = np.linalg.norm(relative, axis=1)
-    filmed = (breaks >= leg.start) & (breaks <= leg.end)
+    filmed = (breaks >= leg.start) & (breaks < leg.end)
     near = np.flatnonzero((distance < NEAR * wanted.usual) & filmed)
     if not len(near):
         return []
     found = []
     for run in np.split(near, np.flatnonzero(np.diff(near) > 1) + 1):
-        k = int(run[distance[run].argmin()])
-        yaw = float(leg.curve(breaks[k])[CAM_YAW])
-        away = -np.array([np.cos(yaw), np.sin(yaw)])
-        way = relative[min(k + 1, len(breaks) - 1)] - relative[max(k - 1, 0)]
-        across = np.array([-way[1], way[0]])
-        if np.linalg.norm(across) > 1e-6 and abs(across @ away) > 0.1 * np.linalg.norm(across):
-            away = across * np.sign(across @ away) / np.linalg.norm(across)
-        found.append(Pass(run[run < len(breaks) - 1], float(breaks[k]), np.append(away, 0.0)))
+        nearest = int(run[distance[run].argmin()])
+        stages = run[np.abs(breaks[run] - breaks[nearest]) <= HELD]
+        yaw = float(leg.curve(breaks[nearest])[CAM_YAW])
+        sides = _across(np.gradient(relative, breaks, axis=0)[stages], -np.array([np.cos(yaw), np.sin(yaw)]))
+        least = int(np.flatnonzero(stages == nearest)[0])
+        found.append(Pass(stages, float(breaks[nearest]), np.column_stack([sides, 0 * sides[:, 0]]), least))
     return found
+
+
+def _across(way: Array, away: Array) -> Array:
+    """Return the directions across ways (M, 2) that point to the side of ``away``, units; itself if along."""
+    across = np.column_stack([-way[:, 1], way[:, 0]])
+    length = np.linalg.norm(across, axis=1)[:, None]
+    across = across / np.maximum(length, 1e-6)
+    across *= np.sign(across @ away)[:, None]
+    return np.asarray(np.where((length > 1e-3) & ((across @ away)[:, None] > ALONG), across, away))
 
 
 def held(planes: Planes, wanted: ClockWishes, over: list[Pass]) -> Planes:
     """Return half-spaces with those that keep the nodes near a target on their side."""
-    pieces, normals, borders = [planes.piece], [planes.normal], [planes.border]
-    for one in over:
-        stages = one.stages
-        at = wanted.target[:, :3] @ one.side + ASIDE
-        pieces.append(stages)
-        normals.append(np.tile(one.side, (len(stages), 1)))
-        borders.append(np.column_stack([at[stages], at[stages + 1]]))
-    return Planes(np.concatenate(pieces), np.concatenate(normals), np.concatenate(borders))
+    for stages, _, sides, _ in over:
+        target = wanted.target[:, :3]
+        ends = [np.einsum("md,md->m", target[k], sides) + ASIDE for k in (stages, stages + 1)]
+        planes = planes.and_also(Planes(stages, sides, np.column_stack(ends)))
+    return planes
 
 
 def led(curve: Piecewise, wanted: ClockWishes, over: list[Pass]) -> Piecewise:
@@ -74,5 +84,5 @@ def led(curve: Piecewise, wanted: ClockWishes, over: list[Pass]) -> Piecewise:
         bump = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 3 * (LED * wanted.usual)
         for order in range(3):
             shape = bump.deriv(order)(x) if order else bump(x)
-            values[order] = values[order] + (shape / spread**order)[:, None] * one.side
+            values[order] = values[order] + (shape / spread**order)[:, None] * one.sides[one.least]
     return quintic_hermite(curve.breaks, *values)

@@ -32,8 +32,13 @@ class ClockSubject:
 
     @property
     def watched(self) -> PlacedSubject | None:
-        """What is framed foremost."""
-        return self.placed.subjects[0] if self.placed.subjects else None
+        """What the camera follows, None where it keeps an aim or looks where it goes."""
+        return self.placed.subjects[0] if self.placed.subjects and self.aim is None else None
+
+    @property
+    def aim(self) -> tuple[float, float] | None:
+        """The yaw and pitch that the camera keeps, if the author gave them."""
+        return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim
 
     @property
     def kept(self) -> tuple[float, float] | None:

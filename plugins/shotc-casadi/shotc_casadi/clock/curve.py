@@ -1,0 +1,63 @@
+"""From a solution to a leg: the position between the given ends, and the camera that follows from it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import (
+    BODY_YAW,
+    CAM_PITCH,
+    CAM_YAW,
+    HFOV,
+    Array,
+    Clock,
+    Looker,
+    TimedLeg,
+    Watch,
+    quintic_hermite,
+    restrict,
+    turn,
+)
+from shotc_casadi.clock.problem import guess
+from shotc_casadi.clock.program import ClockSolution
+from shotc_casadi.clock.wishes import ClockSubject
+
+
+def curve_of(subject: ClockSubject, breaks: Array, solution: ClockSolution) -> Piecewise:
+    """Return the position of a solution, C2, with the guide's ends to the last digit.
+
+    What the nodes at both ends are off is taken back over the ways into and out of the film.
+    """
+    states = solution.states.copy()
+    leg = subject.leg
+    rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]])[0]
+    for k, edge in ((0, leg.start), (-1, leg.end)):
+        off = (rest[k] - states[k]).reshape(3, 1, 3)
+        zero = np.zeros((1, 3))
+        ends = [np.concatenate([o, zero] if k == 0 else [zero, o]) for o in off]
+        over = np.sort(np.array([breaks[k], edge]))
+        blend = quintic_hermite(over, ends[0], ends[1], ends[2])
+        mine = (breaks >= over[0]) & (breaks <= over[1])
+        for order in range(3):
+            states[mine, 3 * order : 3 * order + 3] += blend.derivative(order)(breaks[mine])
+        states[k] = rest[k]
+    return quintic_hermite(breaks, states[:, :3], states[:, 3:6], states[:, 6:])
+
+
+def filmed(subject: ClockSubject, position: Piecewise) -> TimedLeg | None:
+    """Return the leg with a new position and the camera that follows from it, or None without one."""
+    leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
+    ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
+    clock = Clock(leg.curve.breaks, leg.start, leg.end)
+    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
+    turned = turn(Watch(looker, subject.aim, ends), clock, position)
+    if turned.curve is None:
+        return None
+    breaks = position.breaks
+    parts = [position, restrict(turned.curve, breaks), restrict(leg.curve.channels(HFOV), breaks)]
+    ctrl = np.concatenate([part.ctrl for part in parts], axis=2)
+    ctrl[0, 0], ctrl[-1, -1] = leg.curve.ctrl[0, 0], leg.curve.ctrl[-1, -1]
+    return replace(leg, curve=Piecewise(breaks, ctrl))
