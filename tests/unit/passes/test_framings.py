@@ -293,6 +293,22 @@ def test_a_size_that_the_geometry_decides_is_told_with_what_would_give_it(shot: 
     assert not has_errors(told(mission))
 
 
+def test_a_shot_begins_later_where_the_way_to_it_would_meet_its_subjects() -> None:
+    mission = text().split("targets:")[0]
+    mission += """\
+targets:
+  a: {track: {points: [[0, 0, 0.9], [-198.4, 25.1, 0.9]], speed: 1.99}, radius: 0.4, height: 1.8}
+  b: {track: {points: [[-1.0, 1.6, 0.9], [-198.6, 32.0, 0.9]], speed: 2.14}, radius: 0.4, height: 1.8}
+drones: {cam1: {model: x500, home: [10, -30, 0]}}
+shots:
+  - {id: both, kind: framing, drone: cam1, timing: {duration: 8},
+     subjects: [{target: a, frame: [-0.38, 0.10]}, {target: b, frame: [0.38, 0.10]}]}
+"""
+    plan = planned(mission)
+    assert claim(plan, "target a") >= 1.0
+    assert claim(plan, "target b") >= 1.0
+
+
 def test_check_knows_all_of_it_without_a_solver() -> None:
     report = check_source(text("target: runner, size: 0.3", "target: rider").encode(), "m.yaml", None)
     assert not has_errors(report.diagnostics)
