@@ -250,6 +250,13 @@ def test_subjects_too_far_apart_for_their_sizes_are_told_with_the_size_there_is(
     assert found.help.startswith(f"ask for {there:.3g} or less")
 
 
+def test_what_depends_on_a_start_that_is_not_known_is_no_error_yet() -> None:
+    mission = text("target: runner, size: 0.3", "target: rider, size: 0.4")
+    mission = mission.replace("[60, 3, 1]", "[60, 80, 1]").replace("[0, 3, 1]", "[0, 80, 1]")
+    found = only(mission.replace("start: 15, ", ""), "M034")
+    assert found.notes[-1].startswith("so it is where the shot begins at 0.0 s")
+
+
 def test_a_framing_says_how_long_it_lasts() -> None:
     mission = text("target: tower").replace(", duration: 8", "")
     assert only(mission, "M003").message.startswith("how long does this framing last")
