@@ -358,7 +358,7 @@ def _moved(pose: Pose, i: int, step: float) -> Pose:
 
 
 def _dot(a: Residuals, b: Residuals) -> float:
-    return sum(map(mul, a, b))
+    return float(sum(map(mul, a, b)))
 
 
 def _minus(a: Vec3, b: Vec3) -> Vec3:
