@@ -55,8 +55,12 @@ def import_(
         console.report([failed], {})
         raise typer.Exit(console.EXIT_REJECTED)
     _save(made.text, output)
-    assumed = len(made.diagnostics)
-    console.note(f"imported {made.shots} shots with {assumed} assumptions, each a comment in the mission")
+    counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"
+    console.note(f"imported {counts}; {_counted(len(made.diagnostics), 'assumption')}")
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def _save(text: str, output: Path | None) -> None:

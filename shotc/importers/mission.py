@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
+from shotc.importers.multidrone.frames import frame_of
 from shotc.importers.multidrone.read import sequences_of
-from shotc.importers.multidrone.targets import frame_of
-from shotc.importers.multidrone.write import mission_text
+from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, label, told
 from shotc.importers.xml_tree import XmlFault, parse_xml
 from shotc.source.file import SourceFile, Span
@@ -19,12 +19,14 @@ class Imported(NamedTuple):
     """What an importer makes.
 
     text : the mission, or None where a diagnostic is an error
-    shots : how many; sources : the text that the diagnostics point into
+    sources : the text that the diagnostics point into
+    drones, shots : how many
     """
 
     text: str | None
     diagnostics: tuple[Diagnostic, ...]
     sources: dict[str, SourceFile]
+    drones: int = 0
     shots: int = 0
 
 
@@ -47,11 +49,9 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
     notes = Notes()
     sequences = sequences_of(root, notes)
     frame = frame_of(sequences, notes)
-    kinds = [kind.value("name") for types in root.all("targetTypes") for kind in types.all("targetType")]
-    if not any(action.points or action.origin for s in sequences for action in s.actions):
+    made = written_mission(PurePath(name).stem, root, sequences, frame, notes)
+    if made is None:
         message = f"`{name}` holds no shooting action that says where it is filmed"
         return Imported(None, (Diagnostic("I003", message, (label(name, root),)),), sources)
-    text = mission_text(PurePath(name).stem, kinds, sequences, frame, notes)
     said = told(name, notes, strict=strict)
-    shots = sum(len(action.roles) for s in sequences for action in s.actions)
-    return Imported(None if has_errors(said) else text, said, sources, shots)
+    return Imported(None if has_errors(said) else made.text, said, sources, made.drones, made.shots)

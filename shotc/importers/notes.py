@@ -19,19 +19,37 @@ class Note(NamedTuple):
     message: str
     taken: str
 
+    @property
+    def comment(self) -> str:
+        """The words for a comment."""
+        return f"assumed: {self.taken} (line {self.node.line}: {self.message})"
+
 
 class Notes:
     """Assumptions in the order in which they are made, each once."""
 
     def __init__(self) -> None:
-        self.found: list[Note] = []
+        self._found: dict[tuple[int, str], Note] = {}
+
+    @property
+    def found(self) -> tuple[Note, ...]:
+        """All of them."""
+        return tuple(self._found.values())
 
     def assume(self, node: Node, message: str, taken: str) -> str:
         """Note an assumption, and return the comment that goes with it."""
-        note = Note(node, message, taken)
-        if all((n.node is not node or n.message != message) for n in self.found):
-            self.found.append(note)
-        return f"assumed: {taken} (line {node.line}: {message})"
+        note = Note(node, plain(message), plain(taken))
+        return self._found.setdefault((id(node), note.message), note).comment
+
+    def below(self, node: Node) -> list[str]:
+        """Return the comments that are about an element or what is in it."""
+        inside = {id(n) for n in node.everything()}
+        return [note.comment for note in self.found if id(note.node) in inside]
+
+
+def plain(text: str, most: int | None = None) -> str:
+    """Return a text on one line, with nothing in it that would end a comment; at most so many characters."""
+    return "".join(c if c.isprintable() else " " for c in text[:most])
 
 
 def label(file: str, node: Node) -> Label:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 from xml.parsers import expat
@@ -29,6 +30,12 @@ class Node:
     def all(self, tag: str) -> list[Node]:
         """Return the children of that name."""
         return [child for child in self.children if child.tag == tag]
+
+    def everything(self) -> Iterator[Node]:
+        """Yield this element and all in it."""
+        yield self
+        for child in self.children:
+            yield from child.everything()
 
     def value(self, tag: str) -> str:
         """Return the text of the first child of that name, without space round it; empty if there is none."""

@@ -1,6 +1,6 @@
 """Static: the camera stands still and films."""
 
-from math import pi
+from math import hypot, pi
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -14,6 +14,7 @@ from shotc.spec.fields import Angle, LookAt, Pitch, Position
 from shotc.spec.model import OneOf
 from shotc.spec.shot import AIM, ShotBase
 
+SAME = 1e-3  # metres within which a camera looks at its own place
 WATCH = Composition("fixed")  # the camera does not turn to its target
 
 
@@ -35,6 +36,8 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
     target = None if followed is None else scene.targets.get(followed)
     if followed is not None and target is not None and target.track is not None:
         aim = _kept(shot, scene)
+        if isinstance(aim, Diagnostic):
+            return Expansion.of([aim])
         subject = scene.framed(shot, followed)
         if aim is not None:
             subject = subject._replace(composition=WATCH)
@@ -54,16 +57,18 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
     return Expansion.of([keyframe])
 
 
-def _kept(shot: StaticShot, scene: Scene) -> Vec2 | None:
+def _kept(shot: StaticShot, scene: Scene) -> Vec2 | Diagnostic | None:
     """Return (yaw, pitch) of a camera that looks one way while its target goes through the picture."""
     if shot.heading is not None and shot.pitch is not None:
         return (yaw_of(shot.heading), shot.pitch)
     if shot.look_at is None or isinstance(shot.look_at, str):
         return None
     point, eye = scene.place(shot.look_at), scene.place(shot.at)
-    # The middle of the screen can be turned to any point but the camera's own place.
     offset = (point[0] - eye[0], point[1] - eye[1], point[2] - eye[2])
-    return aim_at(offset, (0.0, 0.0), 1.0, 1.0) or (pi / 2, 0.0)
+    if hypot(*offset) < SAME:
+        return scene.fault("G014", "the camera looks at its own place", "look at another point", "look_at")
+    # The middle of the screen can be turned to any other point.
+    return aim_at(offset, (0.0, 0.0), 1.0, 1.0, pi / 2)
 
 
 KIND = Kind("static", "stand still and film", StaticShot, expand)

@@ -4,28 +4,38 @@ from __future__ import annotations
 
 import json
 import re
-from math import isfinite
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from shotc.importers.notes import Notes
+from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
 
 LARGEST = 1e6  # metres or seconds; what is beyond is damage
+KMH = 3.6  # the dashboard writes `formationSpeed` in km/h
+PARAMS = frozenset(("x_s", "x_e", "y_0", "z_0", "z_s", "z_e", "r_0", "azimuth_s", "azimuth_speed"))
+PARAMS |= frozenset(("pan_s", "pan_e", "tilt_s", "tilt_e", "ID"))
+FLIES = frozenset(("FLY_THROUGH", "FLY THROUGH", "FLYTHROUGH"))
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_COMMA = re.compile(r"[+-]?\d+,\d+", re.ASCII)
 
 
 class Point(NamedTuple):
-    """A place of a trajectory: (x, y) in metres, or (lat, lon) where ``on_earth``; time or None."""
+    """A place: (x, y) in metres, or (lat, lon) where ``on_earth``; altitude and time, None if missing."""
 
     node: Node
     at: tuple[float, float]
     on_earth: bool
+    z: float | None
     time: float | None
 
 
 class Role(NamedTuple):
-    """What one drone does in an action: the kind of shot, and its parameters."""
+    """What one drone does in an action: the kind of shot, and its parameters.
+
+    given : the element of the parameters, or the role's where it has none
+    """
 
     node: Node
+    given: Node
     kind: str
     framing: str
     composition: str
@@ -33,15 +43,22 @@ class Role(NamedTuple):
 
 
 class Action(NamedTuple):
-    """One shooting action: its target's way, where the formation starts, and who films how."""
+    """One shooting action: its target's way, where the formation starts, and who films how.
+
+    speed : of the formation, m/s, or None
+    """
 
     node: Node
-    name: str
     duration: float
-    speed: float
+    speed: float | None
     points: tuple[Point, ...]
     origin: Point | None
     roles: tuple[Role, ...]
+
+    @property
+    def flies(self) -> bool:
+        """Whether its trajectory is that of its cameras: it flies through, and follows no target."""
+        return all(role.kind in FLIES for role in self.roles)
 
 
 class Sequence(NamedTuple):
@@ -55,8 +72,8 @@ class Sequence(NamedTuple):
 def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
     """Return all shooting action sequences that hold something to film."""
     found = []
-    for node in _below(root, "shootingActionSequence"):
-        actions = [_action(child, notes) for child in _below(node, "shootingAction")]
+    for node in below(root, "shootingActionSequence"):
+        actions = [_action(child, notes) for child in below(node, "shootingAction")]
         kept = tuple(action for action in actions if action is not None)
         if kept:
             found.append(Sequence(node, node.value("name"), kept))
@@ -67,57 +84,56 @@ def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
     return tuple(found)
 
 
+def below(node: Node, tag: str) -> list[Node]:
+    """Return the elements of that name at any depth, in order; the tree is no deeper than it may be."""
+    found = []
+    for child in node.children:
+        found += [child] if child.tag == tag else below(child, tag)
+    return found
+
+
 def number(node: Node | None, notes: Notes) -> float | None:
     """Return the number in an element, None where there is none; a decimal comma is read, and noted."""
     if node is None or not node.text.strip():
         return None
-    text = node.text.strip()
-    if re.fullmatch(r"[+-]?\d+,\d+", text):
+    return _number(node.text.strip(), "", node, notes)
+
+
+def _number(text: str, name: str, node: Node, notes: Notes) -> float | None:
+    """Return a number as written in an element; name : of the parameter there, or empty."""
+    shown = f"{name} = `{text[:30]}`" if name else f"`{text[:30]}`"
+    if _COMMA.fullmatch(text):
         mended = text.replace(",", ".")
-        notes.assume(node, f"`{text}` has a decimal comma", mended)
+        notes.assume(node, f"{shown} has a decimal comma", mended)
         text = mended
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
-    if isfinite(value) and abs(value) <= LARGEST:
+    if _NUMBER.fullmatch(text) and abs(value := float(text)) <= LARGEST:
         return value
-    notes.assume(node, f"`{text[:30]}` is no number that can be meant", "it counts as missing")
+    notes.assume(node, f"{shown} is no number that can be meant", "it counts as missing")
     return None
-
-
-def _below(node: Node, tag: str) -> list[Node]:
-    """Return the elements of that name at any depth, in order; the tree is no deeper than it may be."""
-    found = []
-    for child in node.children:
-        found += [child] if child.tag == tag else _below(child, tag)
-    return found
 
 
 def _action(node: Node, notes: Notes) -> Action | None:
     kind = node.attributes.get("shootingActionTemplateRef", "")
-    points = [_point(p, notes) for p in _below(node, "RTTrajectoryPoint")]
+    points = [_point(p, notes) for p in below(node, "RTTrajectoryPoint")]
     origin = node.first("originOfFormation")
-    roles = [_role(r, kind, notes) for r in _below(node, "shootingRole")]
+    roles = [_role(r, kind, notes) for r in below(node, "shootingRole")]
     if not roles:
         if not kind:
             notes.assume(node, "an action that neither names its shot nor has a role", "it is left out")
             return None
-        notes.assume(node, "an action without a shooting role", f"one {kind} with its usual parameters")
-        roles = [Role(node, kind, "", "", {})]
+        taken = f"one {plain(kind, 30)} with its usual parameters"
+        notes.assume(node, "an action without a shooting role", taken)
+        roles = [Role(node, node, kind.upper(), "", "", {})]
     duration = number(node.first("duration"), notes)
     if duration is None or duration <= 0:
         duration = 20.0
-        notes.assume(node.first("duration") or node, "an action without a duration", "20 s")
+        message = "an action without a duration lasts to the next event, which the file does not tell"
+        notes.assume(node.first("duration") or node, message, "20 s")
     speed = number(node.first("formationSpeed"), notes)
-    if speed is None or speed < 0:
-        speed = 1.0
-        notes.assume(node.first("formationSpeed") or node, "an action without a formation speed", "1 m/s")
     return Action(
         node,
-        node.value("name"),
         duration,
-        speed,
+        None if speed is None or speed < 0 else speed / KMH,
         tuple(p for p in points if p is not None),
         None if origin is None else _point(origin, notes),
         tuple(roles),
@@ -134,7 +150,8 @@ def _point(node: Node, notes: Notes) -> Point | None:
         if a is None or b is None or (on_earth and (abs(a) > 90 or abs(b) > 180)):
             notes.assume(node, f"a point whose {first} and {second} are no place", "the point is left out")
             return None
-        return Point(node, (a, b), on_earth, number(node.first("time"), notes))
+        z, time = number(node.first("altitude"), notes), number(node.first("time"), notes)
+        return Point(node, (a, b), on_earth, z, time)
     notes.assume(node, "a point without a place", "the point is left out")
     return None
 
@@ -152,7 +169,21 @@ def _role(node: Node, kind: str, notes: Notes) -> Role:
             continue
         for name, value in table.items() if isinstance(table, dict) else ():
             given = value.get("value") if isinstance(value, dict) else value
-            if isinstance(given, int | float) and not isinstance(given, bool) and abs(given) <= LARGEST:
-                params[str(name)] = float(given)
+            read = _parameter(name, given, written, notes) if name in PARAMS else None
+            if read is not None:
+                params[name] = read
     name = node.value("name") or kind
-    return Role(node, name.upper(), node.value("framingTypeName"), node.value("shootingTypeName"), params)
+    given_in = node.first("params") or node
+    return Role(
+        node, given_in, name.upper(), node.value("framingTypeName"), node.value("shootingTypeName"), params
+    )
+
+
+def _parameter(name: str, value: Any, node: Node, notes: Notes) -> float | None:
+    if isinstance(value, str) and value.strip():
+        return _number(value.strip(), name, node, notes)
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST:
+        return float(value)
+    shown = plain(str(value), 30)
+    notes.assume(node, f"{name} = `{shown}` is no number that can be meant", "it counts as missing")
+    return None

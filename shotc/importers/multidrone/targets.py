@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import atan2, dist, hypot, pi
+from math import atan2, dist, pi
 from typing import NamedTuple
 
-from shotc.geom.geodetic import to_world
-from shotc.importers.multidrone.read import Point, Sequence
+from shotc.importers.multidrone.frames import Frame, Place
+from shotc.importers.multidrone.read import KMH, Action, Point, Sequence
 from shotc.importers.notes import Notes
 
 LEAD = 40.0  # seconds from take-off to the first frame
@@ -16,30 +16,35 @@ FASTEST = 40.0  # m/s; what is faster between two points is a slip of the times
 NEAR = 1.5  # metres within which two courses are those of one target
 OVERLAP = 0.5  # seconds by which a trajectory may last longer than its action
 SLOWEST = 0.05  # m/s; what is slower stands
-
-Place = tuple[float, float]
+DIFFERS = 1.5  # by which factor two speeds may differ and count as one
 
 
 class Course(NamedTuple):
-    """Where a target is, on the ground: East and North in metres, and mission times in seconds.
+    """Where a target is, on the ground: mission times in seconds, East and North in metres.
 
-    comments : what had to be assumed
+    points : the same places as the file has them; comments : what had to be assumed
     """
 
     times: tuple[float, ...]
     places: tuple[Place, ...]
+    points: tuple[Point, ...]
     comments: tuple[str, ...]
 
     @property
     def stands(self) -> bool:
         """Whether it does not move."""
-        return len(self.places) < 2
+        return all(dist(self.places[0], place) < SAME for place in self.places)
+
+    def moves(self, t: float) -> bool:
+        """Tell whether it moves at a time."""
+        return dist(self.at(t - 0.5), self.at(t + 0.5)) >= SLOWEST
 
     def heading(self, t: float) -> float:
-        """Return the way it goes, rad counter-clockwise from East; before it goes, the first way."""
+        """Return the way it goes, rad counter-clockwise from East; while it stands, the way it will go."""
         legs = [
             (b, atan2(q[1] - p[1], q[0] - p[0]))
             for (_, b), (p, q) in zip(pairwise(self.times), pairwise(self.places), strict=True)
+            if dist(p, q) >= SAME
         ]
         return next((way for end, way in legs if t < end), legs[-1][1] if legs else pi / 2)
 
@@ -52,68 +57,36 @@ class Course(NamedTuple):
         return self.places[-1]
 
 
-class Frame(NamedTuple):
-    """Where W's origin is: latitude and longitude in degrees, or None where everything is local."""
-
-    origin: tuple[float, float] | None
-
-    def place(self, point: Point) -> Place:
-        """Return a point as East and North of the origin, metres."""
-        if not point.on_earth or self.origin is None:
-            return point.at
-        x, y, _ = to_world((*point.at, 0.0), (*self.origin, 0.0))
-        return (x, y)
-
-
-def frame_of(sequences: tuple[Sequence, ...], notes: Notes) -> Frame:
-    """Choose the origin: the first place on the earth, if there is one."""
-    points = [
-        p for s in sequences for a in s.actions for p in (*a.points, *((a.origin,) if a.origin else ()))
-    ]
-    earthly, local = [p for p in points if p.on_earth], [p for p in points if not p.on_earth]
-    if not earthly:
-        return Frame(None)
-    if local:
-        notes.assume(
-            local[0].node,
-            f"{len(local)} points in metres stand beside {len(earthly)} in latitude and longitude",
-            f"metres count from the first place on the earth, {earthly[0].at[0]:.6f}, {earthly[0].at[1]:.6f}",
-        )
-    return Frame(earthly[0].at)
-
-
 def courses_of(sequence: Sequence, frame: Frame, notes: Notes) -> tuple[Course | None, ...]:
-    """Return the course of every action's target: one for actions that take up where the last one ended."""
+    """Return the course of every action's target: one for actions that take up where the last one ended.
+
+    None for an action that films no target, or says nowhere where it is.
+    """
     runs: list[_Run] = []
     found: list[int | None] = []
     begins = LEAD
     for action in sequence.actions:
-        points, said = [(p, frame.place(p)) for p in action.points], []
+        points, said = list(action.points), []
         if not points and action.origin is not None:
-            said.append(
-                notes.assume(action.node, "an action without a trajectory", "its target stands at its origin")
-            )
-            points = [(action.origin, frame.place(action.origin))]
-        if not points:
+            taken = "its target stands where the formation begins"
+            said.append(notes.assume(action.node, "an action without a trajectory", taken))
+            points = [action.origin]
+        if not points or action.flies:
             found.append(None)
         else:
             follows = begins
             if runs and begins < runs[-1].times[-1] - OVERLAP:
                 follows = runs[-1].times[-1]
-                said.append(
-                    notes.assume(
-                        action.node,
-                        "the trajectory before lasts longer than its action",
-                        "it is finished first",
-                    )
-                )
-            clock = _clock(action.speed, points, follows, said, notes)
-            if not runs or not runs[-1].takes_up(clock[0], points[0][1]):
-                runs.append(_Run([], [], []))
-            runs[-1].add(clock, [place for _, place in points], said)
+                message = "the trajectory before lasts longer than its action"
+                said.append(notes.assume(action.node, message, "it is finished first"))
+            places = [frame.place(p) for p in points]
+            clock = _clock(action, points, places, follows, said, notes)
+            if not runs or not runs[-1].takes_up(clock[0], places[0]):
+                runs.append(_Run([], [], [], []))
+            runs[-1].add(clock, places, points, said)
             found.append(len(runs) - 1)
         begins += action.duration
-    courses = [Course(tuple(r.times), tuple(r.places), tuple(r.comments)) for r in runs]
+    courses = [Course(tuple(r.times), tuple(r.places), tuple(r.points), tuple(r.comments)) for r in runs]
     return tuple(None if k is None else courses[k] for k in found)
 
 
@@ -122,47 +95,82 @@ class _Run(NamedTuple):
 
     times: list[float]
     places: list[Place]
+    points: list[Point]
     comments: list[str]
 
     def takes_up(self, t: float, place: Place) -> bool:
         """Tell whether a target can be at a place at a time after what it did so far."""
         return dist(self.places[-1], place) <= max(SAME, FASTEST * (t - self.times[-1]))
 
-    def add(self, clock: list[float], places: list[Place], comments: list[str]) -> None:
-        """Add places with their times; what repeats the one before is dropped."""
+    def add(self, clock: list[float], places: list[Place], points: list[Point], comments: list[str]) -> None:
+        """Add places with their times; what repeats the one before, place and time, is dropped."""
         self.comments.extend(comments)
-        for t, place in zip(clock, places, strict=True):
-            if self.places and dist(self.places[-1], place) < SAME:
+        for t, place, point in zip(clock, places, points, strict=True):
+            if self.places and dist(self.places[-1], place) < SAME and t < self.times[-1] + 0.1:
                 continue
             self.times.append(max(t, self.times[-1] + 0.1) if self.times else t)
             self.places.append(place)
+            self.points.append(point)
 
 
-def alike(one: Course, other: Course) -> bool:
-    """Tell whether two courses are those of one target: never far from each other while both are known."""
-    times = sorted({*one.times, *other.times})
-    return all(dist(one.at(t), other.at(t)) < NEAR for t in times)
+def route_of(action: Action, frame: Frame, begins: float) -> Course:
+    """Return the way of a fly-through, which is its camera's own, evenly over the action's time."""
+    points = action.points or ((action.origin,) if action.origin else ())
+    share = action.duration / max(len(points) - 1, 1)
+    times = tuple(begins + i * share for i in range(len(points)))
+    return Course(times, tuple(frame.place(p) for p in points), points, ())
+
+
+def gap(one: Course, other: Course) -> float:
+    """Return how far two courses are apart, at most, in metres."""
+    return max(dist(one.at(t), other.at(t)) for t in {*one.times, *other.times})
 
 
 def _clock(
-    speed: float, points: list[tuple[Point, Place]], begins: float, comments: list[str], notes: Notes
+    action: Action, points: list[Point], places: list[Place], begins: float, said: list[str], notes: Notes
 ) -> list[float]:
     """Return the mission time of every point: as written where that can be meant, else by the speed."""
-    written = [p.time for p, _ in points]
-    given = [t for t in written if t is not None]
-    if len(given) == len(points) and all(b > a for a, b in pairwise(given)):
-        clock = [begins + t - given[0] for t in given]
-        ways = [hypot(q[0] - p[0], q[1] - p[1]) for (_, p), (_, q) in pairwise(points)]
-        if all(way / (b - a) <= FASTEST for way, (a, b) in zip(ways, pairwise(clock), strict=True)):
-            return clock
-        wrong = f"the times ask for more than {FASTEST:g} m/s between two points"
-    elif len(points) < 2:
+    ways = [dist(p, q) for p, q in pairwise(places)]
+    if sum(ways) < SAME:
         return [begins] * len(points)
+    given = [p.time for p in points if p.time is not None]
+    wrong = _wrong(points, given, ways)
+    if wrong is None:
+        _compare(action, sum(ways) / (given[-1] - given[0]), said, notes)
+        return [begins + t - given[0] for t in given]
+    node, message = wrong
+    if action.speed is not None and action.speed >= SLOWEST:
+        pace, taken = action.speed, f"its points are passed at formationSpeed, {action.speed * KMH:g} km/h"
     else:
-        wrong = "the times of the trajectory are missing, or do not rise"
-    pace = speed if speed >= SLOWEST else 1.0
-    comments.append(notes.assume(points[0][0].node, wrong, f"the points are passed at {pace:g} m/s"))
+        pace, taken = 1.0, "its points are passed at 1 m/s, for formationSpeed is missing or 0"
+    said.append(notes.assume(node.node.first("time") or node.node, message, taken))
     clock = [begins]
-    for (_, p), (_, q) in pairwise(points):
-        clock.append(clock[-1] + max(dist(p, q) / pace, 0.1))
+    for way in ways:
+        clock.append(clock[-1] + max(way / pace, 0.1))
     return clock
+
+
+def _wrong(points: list[Point], given: list[float], ways: list[float]) -> tuple[Point, str] | None:
+    """Return the first point whose time cannot be meant, and why."""
+    missing = next((p for p in points if p.time is None), None)
+    if missing is not None:
+        return missing, "a point of the trajectory has no time"
+    if not any(given):
+        return points[0], "the times of the trajectory are all 0"
+    for (a, b), way, point in zip(pairwise(given), ways, points[1:], strict=True):
+        if b <= a:
+            return point, f"the times of the trajectory do not rise: {b:g} s follows {a:g} s"
+        if way / (b - a) > FASTEST:
+            return point, f"the times ask for {way / (b - a):.0f} m/s up to this point"
+    return None
+
+
+def _compare(action: Action, pace: float, said: list[str], notes: Notes) -> None:
+    """Say where the times and the formation's speed contradict each other."""
+    node = action.node.first("formationSpeed")
+    if node is None or action.speed is None:
+        return
+    if pace <= action.speed * DIFFERS and action.speed <= pace * DIFFERS:
+        return
+    message = f"formationSpeed says {action.speed:.2f} m/s, the times of the trajectory {pace:.2f} m/s"
+    said.append(notes.assume(node, message, "the times hold"))

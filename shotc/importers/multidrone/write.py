@@ -4,170 +4,96 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from math import cos, sin
+from collections.abc import Sequence as Rows
 from typing import NamedTuple
 
-from shotc.importers.multidrone.read import Action, Role, Sequence
-from shotc.importers.multidrone.shots import THIRDS, Task, shot_of
-from shotc.importers.multidrone.targets import LEAD, Course, Frame, alike, courses_of
-from shotc.importers.notes import Notes
+from shotc.importers.multidrone.films import Film, films_of
+from shotc.importers.multidrone.frames import Frame
+from shotc.importers.multidrone.framing import composition_of, size_of
+from shotc.importers.multidrone.read import Sequence
+from shotc.importers.multidrone.scene import drones, targets, world
+from shotc.importers.multidrone.shots import shot_of
+from shotc.importers.multidrone.targets import LEAD
+from shotc.importers.multidrone.timing import task_of, timed
+from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
 
-SIZES = {"TARGET_BOAT": (2.0, 1.5), "TARGET_CYCLIST": (0.9, 1.8), "TARGET_RUNNER": (0.4, 1.8)}
-USUAL = (1.0, 1.8)  # radius and height of a target of no known sort, metres
-APART = 6.0  # metres between two homes
-CHANGE, SHARE = 16.0, 0.6  # seconds to change from shot to shot, and the most of a shot that takes
-AWAY = 20.0  # metres from the first target's start to the homes
+HEAD = "# Imported from a mission of the MultiDrone project."
 
 
-class Filmed(NamedTuple):
-    """An action with its target, as it is filmed.
+class Written(NamedTuple):
+    """A mission as text, and how many drones film how many shots in it."""
 
-    start, lasts : mission time and length, seconds; first : number of the first of its drones
-    """
-
-    id: str
-    action: Action
-    course: Course
-    target: str
-    start: float
-    lasts: float
-    first: int
-    comments: tuple[str, ...]
+    text: str
+    drones: int
+    shots: int
 
 
-def mission_text(
-    name: str, kinds: Iterable[str], sequences: tuple[Sequence, ...], frame: Frame, notes: Notes
-) -> str:
-    """Return a mission.
-
-    name : of the mission; kinds : names of the sorts of targets, as the file says them
-    """
-    filmed = list(_filmed(sequences, frame, notes))
-    head = sequences[0].node
-    lines = ["# Imported from a mission of the MultiDrone project.", "shotc: 1", f"mission: {_safe(name)}"]
-    if frame.origin is not None:
-        lines += [f"world: {{origin: {{lat: {frame.origin[0]:.7f}, lon: {frame.origin[1]:.7f}, alt: 0}}}}"]
-    lines += ["targets:", *_targets(filmed, list(kinds), head, notes)]
-    lines += ["drones:", *_drones(filmed, head, notes)]
-    lines += ["rules: {ground_clearance: 1.5, mutual_visibility: {strength: prefer}}", "shots:"]
-    for film in filmed:
-        for k, role in enumerate(film.action.roles):
-            task = Task(film.action, role, film.course, frame, film.start, film.target, notes)
-            lines += _lines(task, film, k)
-    return "\n".join([*lines, ""])
-
-
-def _filmed(sequences: tuple[Sequence, ...], frame: Frame, notes: Notes) -> Iterator[Filmed]:
-    targets: list[tuple[Course, str]] = []
-    first = 1
-    for number, sequence in enumerate(sequences, 1):
-        begins, said = LEAD, False
-        for k, (action, course) in enumerate(
-            zip(sequence.actions, courses_of(sequence, frame, notes), strict=True), 1
-        ):
-            start, begins = begins, begins + action.duration
-            if course is None:
-                notes.assume(action.node, "an action that says nowhere where its target is", "it is left out")
-                continue
-            name = next((n for known, n in targets if alike(known, course)), "")
-            if not name:
-                name = f"target{len(targets) + 1}"
-                targets.append((course, name))
-            change = 0.0
-            comments: tuple[str, ...] = ()
-            if said:
-                change = min(CHANGE, SHARE * action.duration)
-                told = notes.assume(
-                    action.node,
-                    "the next shot begins as the last one ends",
-                    f"the drones change places for {change:g} s",
-                )
-                comments = (told,)
-            said = True
-            yield Filmed(
-                f"s{number}-{k}",
-                action,
-                course,
-                name,
-                start + change,
-                action.duration - change,
-                first,
-                comments,
-            )
-        first += max(len(action.roles) for action in sequence.actions)
-
-
-def _lines(task: Task, film: Filmed, k: int) -> list[str]:
-    made = shot_of(task)
-    role = task.role
-    target = "" if "heading: along" in made.params else f" target: {task.target},"
-    composition, said = _composition(role, made.composition, task.notes)
-    wanted = f" composition: {composition}," if composition else ""
-    which = f"-{k + 1}" if len(task.action.roles) > 1 else ""
-    id_ = f"{film.id}{which}-{_safe(role.kind).lower()}"
-    return [
-        *(f"  # {text}" for text in [*film.comments, *made.comments, *_framing(role), *said]),
-        f"  - {{id: {id_}, kind: {made.kind}, drone: cam{film.first + k},{target}{wanted}",
-        f"     {made.params},",
-        f"     timing: {{{_timing(task)}duration: {film.lasts:g}}}}}",
+def written_mission(
+    name: str, root: Node, sequences: Rows[Sequence], frame: Frame, notes: Notes
+) -> Written | None:
+    """Return a mission, None where nothing is left to film; name : of the mission."""
+    films = list(timed(films_of(sequences, frame, notes), frame, notes))
+    if not films:
+        return None
+    number = max(film.first + len(film.action.roles) - 1 for film in films)
+    lines = [
+        "shotc: 1",
+        f"mission: {_safe(name)}",
+        *world(frame),
+        *targets(films, root, frame, notes),
+        *drones(films, number, root, notes),
+        "shots:",
+        f"  # {_event(root, notes)}",
     ]
+    said = set(lines)
+    for film in films:
+        shots = [line for k in range(len(film.action.roles)) for line in _shot(film, k, frame, notes)]
+        said.update(shots)
+        lines += [*_unsaid(notes.below(film.action.node), said), *shots]
+        said.update(lines)
+    lines = [HEAD, *(line.strip() for line in _unsaid(notes.below(root), said)), *lines]
+    return Written("\n".join([*lines, ""]), number, sum(len(film.action.roles) for film in films))
 
 
-def _timing(task: Task) -> str:
-    """Return the start of a shot that films what moves; one of what stands takes its turn."""
-    return "" if task.course.stands or task.role.kind.startswith("FLY_THR") else f"start: {task.start:g}, "
+def _unsaid(comments: Iterable[str], said: set[str]) -> Iterator[str]:
+    """Return the lines of comments that no line says yet, whatever its indent."""
+    for comment in comments:
+        if not {f"# {comment}", f"  # {comment}"} & said:
+            yield f"  # {comment}"
 
 
-def _framing(role: Role) -> list[str]:
-    if not role.framing:
-        return []
-    return [f"the file asks for {role.framing}; the distances that it gives are flown"]
+def _event(root: Node, notes: Notes) -> str:
+    event = plain(root.attributes.get("eventRef", ""), 40)
+    name = f"its event `{event}`" if event else "an event that it does not name"
+    message = f"the file counts time from {name}, whose time is not known"
+    return notes.assume(root, message, f"the event is {LEAD:g} s after the first take-off")
 
 
-def _composition(role: Role, ours: str, notes: Notes) -> tuple[str, list[str]]:
-    if not ours:
-        return "", []
-    if role.composition == THIRDS:
-        return ours, [f"{THIRDS}: {ours}, with the room on the side to which the target goes"]
-    if role.composition in {"", "CENTRAL", "CENTER", "CENTERED"}:
-        return "center", []
-    node = role.node.first("shootingTypeName") or role.node
-    return "center", [notes.assume(node, f"the composition `{role.composition[:30]}` is not known", "center")]
-
-
-def _targets(filmed: list[Filmed], kinds: list[str], head: Node, notes: Notes) -> Iterator[str]:
-    known = next((kind for kind in kinds if kind in SIZES), None)
-    radius, height = SIZES[known] if known is not None else USUAL
-    size = f"radius {radius:g} m, height {height:g} m"
-    yield f"  # {notes.assume(head, 'the file does not say how large its targets are', size)}"
-    ground = notes.assume(head, "its altitudes of targets are -1 or missing", "they go on the ground, z = 0")
-    yield f"  # {ground}"
-    for name, course in {film.target: film.course for film in reversed(filmed)}.items():
-        yield from (f"  # {comment}" for comment in course.comments)
-        places = [f"[{x:.2f}, {y:.2f}, {height / 2:g}]" for x, y in course.places]
-        body = f"radius: {radius:g}, height: {height:g}}}"
-        if course.stands:
-            yield f"  {name}: {{at: {places[0]}, {body}"
-            continue
-        yield f"  {name}:"
-        yield f"    {{track: {{points: [{', '.join(places)}],"
-        yield f"      times: [{', '.join(f'{t:.2f}' for t in course.times)}]}}, {body}"
-
-
-def _drones(filmed: list[Filmed], head: Node, notes: Notes) -> Iterator[str]:
-    homes = f"folding camera drones, {APART:g} m apart, {AWAY:g} m beside where the first target begins"
-    yield f"  # {notes.assume(head, 'the file does not name its drones nor their homes', homes)}"
-    course = filmed[0].course
-    way = course.heading(0.0)
-    x, y = course.places[0]
-    number = max(film.first + len(film.action.roles) - 1 for film in filmed)
-    for i in range(number):
-        along = APART * (i - 0.5 * (number - 1))
-        home = (
-            f"[{x + along * cos(way) - AWAY * sin(way):.2f}, {y + along * sin(way) + AWAY * cos(way):.2f}, 0]"
-        )
-        yield f"  cam{i + 1}: {{model: pro, home: {home}, priority: {i + 1}, endurance: 45 min}}"
+def _shot(film: Film, k: int, frame: Frame, notes: Notes) -> list[str]:
+    role = film.action.roles[k]
+    task = task_of(film, role, frame, notes)
+    made = shot_of(task)
+    which = f"-{k + 1}" if len(film.action.roles) > 1 else ""
+    fields = [
+        f"id: {film.id}{which}-{_safe(role.kind).lower()}",
+        f"kind: {made.kind}",
+        f"drone: cam{film.first + k}",
+    ]
+    size, said = size_of(role, made.watches, made.fixed, notes)
+    if made.watches:
+        composition, why = composition_of(role, film.course, made.path[1][:2], task.middle, notes)
+        said += why
+        fields += [f"target: {film.target}", f"composition: {composition}"]
+    if size:
+        fields.append(f"size: {size}")
+    comments = [*(film.comments if k == 0 else ()), *made.comments, *said]
+    return [
+        *(f"  # {text}" for text in comments),
+        f"  - {{{', '.join(fields)},",
+        f"     {made.params},",
+        f"     timing: {{start: {film.start:g}, duration: {film.lasts:g}}}}}",
+    ]
 
 
 def _safe(name: str) -> str:

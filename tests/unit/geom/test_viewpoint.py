@@ -111,8 +111,8 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
     for subject in subjects:
         seen = judged(found, LENS, subject)
         assert seen is not None
-        assert seen.screen < 0.01
-        assert seen.size == pytest.approx(subject.size, rel=0.02)
+        assert seen.screen < 0.03
+        assert seen.size == pytest.approx(subject.size, rel=0.05)
 
 
 @pytest.mark.parametrize("seed", range(8))

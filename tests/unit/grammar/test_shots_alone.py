@@ -127,6 +127,11 @@ def test_an_aim_that_the_gimbal_does_not_reach_is_told() -> None:
     assert [d.code for d in found] == ["G013"]
 
 
+def test_a_camera_cannot_look_at_its_own_place() -> None:
+    text = mission(WATCH.format(aim="look_at: [30, -20, 4]", start=12, lasts=16))
+    assert [d.code for d in resolved(text)[1]] == ["G014"]
+
+
 def test_an_unknown_name_is_told_with_the_nearest() -> None:
     text = mission(sweep(20, "{duration: 10}", more=", allow: [fast-pans]"), allow="jump-cuts")
     found = loaded(text)[1]

@@ -40,11 +40,6 @@ class ClockSubject:
         """The yaw and pitch that the camera keeps, if the author gave them."""
         return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim
 
-    @property
-    def kept(self) -> tuple[float, float] | None:
-        """Yaw and pitch that the camera keeps, rad, or None where it follows what it films."""
-        return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockWishes:

@@ -1,0 +1,130 @@
+"""Cameras that go with nobody: they stand, rise, or fly through, and some pan and tilt by themselves."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import atan2, degrees, hypot, pi
+
+from shotc.importers.multidrone.frames import Place, written
+from shotc.importers.multidrone.read import Role
+from shotc.importers.multidrone.task import NEAREST, Made, Said, Task
+
+BESIDE = 8.0  # metres to the East of a target on whose place a camera would stand
+LEVEL = 90.0  # degrees; the tilt of a camera that looks at the horizon
+LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
+
+
+def elevator(task: Task) -> Made:
+    """Return a camera that rises or sinks in its place and watches its target."""
+    low, one = task.altitude("z_s")
+    high, two = task.altitude("z_e")
+    place, (lower, upper), said = _stand(task, low, high)
+    points = f"points: [{lower}, {upper}], look_at: {task.target}"
+    path = ((*place, low), (*place, (low + high) / 2), (*place, high))
+    return Made("follow-path", points, path, (*one, *two, *said))
+
+
+def static(task: Task) -> Made:
+    """Return a camera that stands, and watches its target or turns by itself."""
+    z, low = task.altitude()
+    place, (at,), said = _stand(task, z)
+    path = ((*place, z),) * 3
+    if not _turned(task.role):
+        if not task.target:
+            heading = degrees(pi / 2 - task.course.heading(task.start)) % 360
+            params = f"at: {at}, heading: {heading:.1f} deg, pitch: 0 deg"
+            return Made("static", params, path, (*low, *said), watches=False)
+        return Made("static", f"at: {at}, look_at: {task.target}", path, (*low, *said))
+    poses = [(at, task.course.heading(task.start))] * 2
+    rows, more = _panned(task, poses)
+    return Made("keyframes", rows, path, (*low, *said, *more), watches=False)
+
+
+def fly_through(task: Task) -> Made:
+    """Return a camera that flies along the trajectory itself, and turns by itself or looks where it goes."""
+    z, low = task.altitude()
+    points, frame = task.action.points, task.frame
+    way = [frame.place(point) for point in points]
+    if len(way) < 2 or hypot(way[-1][0] - way[0][0], way[-1][1] - way[0][1]) < 1.0:
+        message = "a fly-through without a way"
+        still = task.notes.assume(task.action.node, message, "a still camera at the origin of the formation")
+        made = static(task)
+        return made._replace(comments=(still, *made.comments))
+    path = ((*way[0], z), (*way[len(way) // 2], z), (*way[-1], z))
+    if _turned(task.role):
+        rows, said = _panned(task, [(frame.written(p, z), _course(way, i)) for i, p in enumerate(points)])
+        return Made("keyframes", rows, path, (*low, *said), watches=False)
+    joined = ", ".join(frame.written(p, z) for p in points)
+    ahead = task.assume("a fly-through without pan and tilt", "the camera looks along the way, level")
+    params = f"points: [{joined}], heading: along"
+    return Made("follow-path", params, path, (*low, ahead), watches=False)
+
+
+def _turned(role: Role) -> bool:
+    """Tell whether a role turns its camera by itself, and watches nothing."""
+    return "pan_s" in role.params or "tilt_s" in role.params
+
+
+def _panned(task: Task, poses: list[tuple[str, float]]) -> tuple[str, Said]:
+    """Return keyframes whose camera pans and tilts from start to end, and comments.
+
+    poses : places with the way there, rad, from which a pan counts
+    """
+    params = task.role.params
+    pans, tilts = (
+        (params.get(f"{n}_s", o), params.get(f"{n}_e", o)) for n, o in (("pan", 0.0), ("tilt", LEVEL))
+    )
+    rows, last = [], None
+    for i, (at, way) in enumerate(poses):
+        share = i / (len(poses) - 1)
+        pan, tilt = (a + share * (b - a) for a, b in (pans, tilts))
+        heading = 90.0 - degrees(way) - pan
+        if last is not None and not _sweeps(pans):
+            heading += 360.0 * round((last - heading) / 360.0)
+        last = heading
+        pitch = max(LOWEST_PITCH, min(HIGHEST_PITCH, tilt - LEVEL))
+        rows.append(f"{{at: {at}, heading: {heading:.1f} deg, pitch: {pitch:g} deg}}")
+    node = task.role.node.first("targetIdentifierParams") or task.role.node
+    message = "pan and tilt in degrees without a frame"
+    taken = "pan counter-clockwise from the way, tilt from straight down: 90 is level"
+    said: Said = (task.notes.assume(node, message, taken),)
+    if not LOWEST_PITCH + LEVEL <= min(tilts) <= max(tilts) <= HIGHEST_PITCH + LEVEL:
+        shown = f"{min(tilts):g} to {max(tilts):g} deg"
+        said = (
+            *said,
+            task.notes.assume(node, f"a tilt of {shown} is out of a gimbal's range", "its nearest end"),
+        )
+    return f"keyframes: [{', '.join(rows)}]", said
+
+
+def _sweeps(pans: tuple[float, float]) -> bool:
+    return abs(pans[1] - pans[0]) >= 180.0
+
+
+def _course(way: list[Place], i: int) -> float:
+    """Return the way at a point, rad counter-clockwise from East: to the next, at the end as before."""
+    k = min(i, len(way) - 2)
+    legs = [(q[0] - p[0], q[1] - p[1]) for p, q in pairwise(way)]
+    x, y = next((leg for leg in (*legs[k:], *legs[k::-1]) if hypot(*leg) > 1e-3), (0.0, 1.0))
+    return atan2(y, x)
+
+
+def _stand(task: Task, *altitudes: float) -> tuple[Place, list[str], Said]:
+    """Return where a camera that goes with nobody stands: the formation's origin, but beside the target.
+
+    The place comes as East and North, and as positions of our language at the altitudes.
+    """
+    x, y = task.course.at(task.start)
+    origin = task.action.origin
+    if origin is not None:
+        place = task.frame.place(origin)
+        if hypot(place[0] - x, place[1] - y) >= NEAREST:
+            return place, [task.frame.written(origin, z) for z in altitudes], ()
+    message = "the camera would stand where its target begins"
+    said = task.notes.assume(
+        task.action.node.first("originOfFormation") or task.action.node,
+        message,
+        f"{BESIDE:g} m to the East of there",
+    )
+    place = (x + BESIDE, y)
+    return place, [written(place, z) for z in altitudes], (said,)

@@ -1,0 +1,77 @@
+"""Which action is filmed when, of which target, by which drones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from collections.abc import Sequence as Rows
+from typing import NamedTuple
+
+from shotc.importers.multidrone.frames import Frame
+from shotc.importers.multidrone.read import Action, Sequence
+from shotc.importers.multidrone.targets import LEAD, NEAR, SAME, Course, courses_of, gap, route_of
+from shotc.importers.notes import Notes
+
+
+class Film(NamedTuple):
+    """An action with its target, as it is filmed.
+
+    target : its name, empty where the cameras fly through, and the course is their own
+    start, lasts : mission time and length, seconds; first : number of the first of its drones
+    """
+
+    id: str
+    action: Action
+    course: Course
+    target: str
+    start: float
+    lasts: float
+    first: int
+    comments: tuple[str, ...]
+
+
+class _Target(NamedTuple):
+    """A target that has been seen; identity : the number that the file gives it, or None."""
+
+    name: str
+    course: Course
+    identity: float | None
+
+
+def films_of(sequences: Rows[Sequence], frame: Frame, notes: Notes) -> Iterator[Film]:
+    """Return all that is filmed, sequence by sequence; a sequence has drones of its own."""
+    targets: list[_Target] = []
+    first = 1
+    for number, sequence in enumerate(sequences, 1):
+        begins = LEAD
+        courses = courses_of(sequence, frame, notes)
+        for k, (action, known) in enumerate(zip(sequence.actions, courses, strict=True), 1):
+            start, begins = begins, begins + action.duration
+            if known is None and not (action.flies and (action.points or action.origin)):
+                notes.assume(action.node, "an action that says nowhere where its target is", "it is left out")
+                continue
+            course = route_of(action, frame, start) if known is None else known
+            name, said = ("", ()) if known is None else _name(action, known, targets, notes)
+            yield Film(f"s{number}-{k}", action, course, name, start, action.duration, first, said)
+        first += max(len(action.roles) for action in sequence.actions)
+
+
+def _name(
+    action: Action, course: Course, targets: list[_Target], notes: Notes
+) -> tuple[str, tuple[str, ...]]:
+    """Return the name of the target with this course, which may be a new one, and comments."""
+    identity = next((role.params["ID"] for role in action.roles if "ID" in role.params), None)
+    node = action.node.first("RTTrajectory") or action.node
+    for known in targets:
+        apart = gap(known.course, course)
+        if apart < NEAR and (known.identity == identity or None in (known.identity, identity)):
+            if apart < SAME:
+                return known.name, ()
+            message = f"the way of one target is told again, and up to {apart:.1f} m beside"
+            return known.name, (notes.assume(node, message, f"{known.name}, as it was told first"),)
+    name = f"target{len(targets) + 1}"
+    other = next((t.name for t in targets if identity is not None and t.identity == identity), None)
+    targets.append(_Target(name, course, identity))
+    if other is None:
+        return name, ()
+    message = f"target {identity:g} goes another way here than before"
+    return name, (notes.assume(node, message, f"{name}, beside {other}"),)

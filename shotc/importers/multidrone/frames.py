@@ -1,0 +1,119 @@
+"""Where a mission's points are: metres, latitude and longitude, or both in one file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence as Rows
+from math import cos, dist, radians
+from typing import NamedTuple
+
+from shotc.geom.geodetic import to_world
+from shotc.importers.multidrone.kml import drawn
+from shotc.importers.multidrone.read import Action, Point, Sequence
+from shotc.importers.notes import Notes
+
+Place = tuple[float, float]
+
+AGREES = 15.0  # metres within which a map shows what the points say
+AWAY = 30.0  # metres beyond which it does not
+DEGREE = 111_320.0  # metres of a degree of latitude, roughly
+
+
+class Frame(NamedTuple):
+    """How places are written, and where they are.
+
+    origin : latitude and longitude of W's origin in degrees, or None where everything is local
+    geodetic : whether all places are on the earth, and are written so
+    comments : what had to be assumed
+    """
+
+    origin: Place | None
+    geodetic: bool
+    comments: tuple[str, ...]
+
+    def place(self, point: Point) -> Place:
+        """Return a point as East and North of the origin, metres."""
+        if not point.on_earth or self.origin is None:
+            return point.at
+        return _world(point.at, self.origin)
+
+    def written(self, point: Point, z: float) -> str:
+        """Return a point as a position of our language; z : metres over the ground."""
+        if self.geodetic and point.on_earth:
+            return f"{{lat: {_degrees(point.at[0])}, lon: {_degrees(point.at[1])}, height: {z:g}}}"
+        return written(self.place(point), z)
+
+
+def written(place: Place, z: float) -> str:
+    """Return a place in metres as a position of our language."""
+    return f"[{place[0]:.2f}, {place[1]:.2f}, {z:g}]".replace("-0.00,", "0.00,")
+
+
+def frame_of(sequences: Rows[Sequence], notes: Notes) -> Frame:
+    """Choose the origin, and say what does not fit."""
+    actions = [action for sequence in sequences for action in sequence.actions]
+    points = [p for a in actions for p in (*a.points, *((a.origin,) if a.origin else ()))]
+    earthly, local = [p for p in points if p.on_earth], [p for p in points if not p.on_earth]
+    if not earthly:
+        return Frame(None, False, _unplaced(actions, notes))
+    if not local:
+        return Frame(earthly[0].at, True, _elsewhere(actions, notes))
+    message = f"{len(local)} points in metres stand beside {len(earthly)} in latitude and longitude"
+    found = next((o for o in map(_anchor, actions) if o is not None), None)
+    how = "where the map (KML) of the same action shows the first of them"
+    if found is None:
+        found, how = earthly[0].at, "and no map says where they count from: the first place on the earth"
+    taken = f"metres count from {_degrees(found[0])}, {_degrees(found[1])}, {how}"
+    return Frame(found, False, (notes.assume(local[0].node, message, taken),))
+
+
+def _unplaced(actions: Rows[Action], notes: Notes) -> tuple[str, ...]:
+    """Say that a map stands beside points in metres, whose origin is not in the file."""
+    found = next((d for d in map(drawn, actions) if d is not None), None)
+    if found is None:
+        return ()
+    message = "a map (KML) in the description shows a trajectory on the earth, but the points are in metres"
+    taken = "the metres hold, and `world.origin` is left out: add it for flight plans"
+    return (notes.assume(found.node, message, taken),)
+
+
+def _elsewhere(actions: Rows[Action], notes: Notes) -> tuple[str, ...]:
+    """Say where a map shows another place than the points do."""
+    said = []
+    for action in actions:
+        found = drawn(action)
+        if found is None or not action.points:
+            continue
+        first = action.points[0].at
+        off = min(dist((0.0, 0.0), _world(p, first)) for p in found.points)
+        if off > AWAY:
+            message = f"the map (KML) in the description begins {off:.0f} m from the trajectory"
+            said.append(notes.assume(found.node, message, "the points of the trajectory hold"))
+    return tuple(said)
+
+
+def _anchor(action: Action) -> Place | None:
+    """Return where W's origin is, if the map of an action of both frames says it."""
+    found = drawn(action)
+    if found is None or len(found.points) != len(action.points):
+        return None
+    pairs = list(zip(action.points, found.points, strict=True))
+    known = [(p.at, on_map) for p, on_map in pairs if p.on_earth]
+    local = [(p.at, on_map) for p, on_map in pairs if not p.on_earth]
+    if not known or not local or any(dist((0, 0), _world(a, b)) > AGREES for a, b in known):
+        return None
+    at, place = local[0]
+    lat, lon = place
+    for _ in range(4):  # Newton on a plane that is nearly flat
+        x, y = _world(place, (lat, lon))
+        lat += (y - at[1]) / DEGREE
+        lon += (x - at[0]) / (DEGREE * max(cos(radians(lat)), 0.01))
+    return (lat, lon) if abs(lat) <= 90 and abs(lon) <= 180 else None
+
+
+def _world(place: Place, origin: Place) -> Place:
+    x, y, _ = to_world((*place, 0.0), (*origin, 0.0))
+    return (x, y)
+
+
+def _degrees(angle: float) -> str:
+    return f"{angle:.7f}".rstrip("0").rstrip(".")

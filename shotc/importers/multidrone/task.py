@@ -1,0 +1,84 @@
+"""What a shot is made of, and what comes out: an action's role with its target and its time."""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import NamedTuple
+
+from shotc.importers.multidrone.frames import Frame
+from shotc.importers.multidrone.read import Action, Role
+from shotc.importers.multidrone.targets import Course
+from shotc.importers.notes import Notes, plain
+
+NEAREST = 3.0  # metres beside a target that a shot keeps where nothing is said
+LOWEST = 2.0  # metres over the ground
+
+Said = tuple[str, ...]
+Vec3 = tuple[float, float, float]
+Path = tuple[Vec3, Vec3, Vec3]
+
+
+class Made(NamedTuple):
+    """A shot as written: its kind and parameters as YAML, and the comments above it.
+
+    path : where the camera is at the beginning, in the middle and at the end: East, North, Up in metres
+    fixed : whether the file gives its distance; watches : whether it films a target
+    """
+
+    kind: str
+    params: str
+    path: Path
+    comments: Said
+    fixed: bool = True
+    watches: bool = True
+
+
+class Task(NamedTuple):
+    """One role to be made a shot, from mission time ``start`` on, for ``lasts`` seconds."""
+
+    action: Action
+    role: Role
+    course: Course
+    frame: Frame
+    start: float
+    lasts: float
+    target: str
+    notes: Notes
+
+    @property
+    def middle(self) -> float:
+        """The mission time in the middle of the shot."""
+        return self.start + self.lasts / 2
+
+    def assume(self, message: str, taken: str) -> str:
+        """Note an assumption about the parameters of the role, and return the comment that goes with it."""
+        return self.notes.assume(self.role.given, message, taken)
+
+    def param(self, name: str, otherwise: float) -> tuple[float, Said]:
+        """Return a parameter, or what is taken where it is missing, with the comment for that."""
+        if name in self.role.params:
+            return self.role.params[name], ()
+        kind = plain(self.role.kind, 30)
+        return otherwise, (self.assume(f"{kind} without `{name}`", f"{name} = {otherwise:g}"),)
+
+    def altitude(self, name: str = "z_0") -> tuple[float, Said]:
+        """Return an altitude over the ground, on which the target stands."""
+        z, said = self.param(name, 5.0)
+        if z >= LOWEST:
+            return z, said
+        more = self.assume(f"{name} = {z:g} m is too low to be flown", f"{LOWEST:g} m")
+        return LOWEST, (*said, more)
+
+    def along(self, begin: Vec3, end: Vec3) -> Path:
+        """Return the path of a camera that is carried along; begin, end : ahead, left, z."""
+        half = (begin[0] + end[0]) / 2, (begin[1] + end[1]) / 2, (begin[2] + end[2]) / 2
+        return (
+            self.beside(begin, self.start),
+            self.beside(half, self.middle),
+            self.beside(end, self.start + self.lasts),
+        )
+
+    def beside(self, spot: Vec3, t: float) -> Vec3:
+        """Return the place that lies ahead of the target, to its left, and z over the ground."""
+        (x, y), way, (ahead, left, z) = self.course.at(t), self.course.heading(t), spot
+        return (x + ahead * cos(way) - left * sin(way), y + ahead * sin(way) + left * cos(way), z)
