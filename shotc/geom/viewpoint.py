@@ -8,6 +8,7 @@ hold enters as a steep hinge (the target whole in the frame, its clearance, the 
 
 from collections.abc import Sequence
 from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
+from operator import mul
 from typing import NamedTuple
 
 from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
@@ -229,7 +230,7 @@ def viewpoint(
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
         found = _residuals(pose, subjects, lens, room.near, (since, reach))
-        return found, inf if found is None else sum(r * r for r in found)
+        return found, inf if found is None else _dot(found, found)
 
     low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
     high = (inf, inf, inf, inf, lens.pitch[1])
@@ -357,7 +358,7 @@ def _moved(pose: Pose, i: int, step: float) -> Pose:
 
 
 def _dot(a: Residuals, b: Residuals) -> float:
-    return sum(p * q for p, q in zip(a, b, strict=True))
+    return float(sum(map(mul, a, b)))
 
 
 def _minus(a: Vec3, b: Vec3) -> Vec3:

@@ -44,6 +44,7 @@ WIDE = pi / 6  # and for several
 NEARLY = 0.02  # of cost by which another bearing is as good
 LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
 BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects do not go faster themselves
+BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed
 AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
 
@@ -273,7 +274,7 @@ def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
             pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, scene.room, pose)
         found.append((cost, pose, settled))
     least = min(cost for cost, _, _ in found)
-    good = [f for f in found if f[0] <= least + NEARLY]
+    good = [f for f in found if f[0] <= least + NEARLY][:BEST]
     if len(good) == 1:
         return _polished(scene, good[0])
     every = max(1, len(scene.times) // 6)

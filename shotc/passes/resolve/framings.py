@@ -121,7 +121,7 @@ def _blocked(mission: MissionIR, course: Course) -> Diagnostic | None:
             path = (*subject.path[:-1], "view", "elevation")
             known = path if path in mission.origins.values else (*shot.path, "kind")
             return beyond_gimbal(mission, drone, known, pitch)
-    if course.blocked < 1.0:
+    if course.blocked < 1.0 or not _known(mission, shot):
         return None
     t, pose = course.times[0], course.poses[0]
     what, name, lack = max(lacks(mission, drone, (pose[0], pose[1], pose[2]), t), key=lambda found: found[2])
@@ -196,15 +196,21 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
             found = judged(pose, lens, wanted)
             if found is not None:
                 seen.append((t, found, wanted))
-        apart = _apart(mission, course, subject, seen)
+        apart = _apart(mission, course, subject, seen) if _known(mission, shot) else None
         if apart is not None:
             yield apart
             return
+        if not seen:
+            continue
         said = _compromise(subject, seen)
         if said:
             notes.append(f"`{subject.target}` is {', '.join(said)}")
             labels.append(mission.origins.value(subject.path))
     if notes:
+        if not _known(mission, shot):
+            notes.append(
+                f"so it is where the shot begins at {course.times[0]:.1f} s; the plan says when it does"
+            )
         yield Diagnostic(
             "M034",
             f"the subjects of shot `{shot.id}` cannot all appear as asked at once",
@@ -212,6 +218,12 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
             tuple(notes),
             "leave out what matters least, or hold to what matters by `require`",
         )
+
+
+def _known(mission: MissionIR, shot: Shot) -> bool:
+    """Tell whether a framing is the same whenever the shot begins, or when it does is written."""
+    moves = any(mission.target(s.target).track is not None for s in shot.subjects)
+    return shot.timing.start is not None or not moves
 
 
 def _apart(

@@ -34,6 +34,7 @@ from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_sho
 
 TRIES = 6
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
+LATER = (2.0, 5.0, 10.0)  # seconds that such a shot may begin later where something is met on the way to it
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,6 +173,8 @@ class Flown:
             reached = self._reached(placed, start)
         if not isinstance(reached, _Reached):
             return reached
+        if fixed is None and not reached.way.clear:
+            reached = self._later(placed, start) or reached
         self._take(reached.way)
         leg = _shifted(reached.shot.leg, turns_to(reached.shot.leg.pose, end_of(self.legs)))
         self.legs.append(leg)
@@ -179,6 +182,14 @@ class Flown:
         self.ends[shot.id] = leg.end
         self.deviations += reached.shot.deviations
         self.stats += reached.shot.stats
+        return None
+
+    def _later(self, placed: PlacedShot, start: float) -> _Reached | None:
+        """Return the first of some later starts to which there is a way on which nothing is met."""
+        for more in LATER:
+            reached = self._reached(placed, start + more)
+            if isinstance(reached, _Reached) and reached.late <= 0.0 and reached.way.clear:
+                return reached
         return None
 
     def _reached(self, placed: PlacedShot, start: float) -> _Reached | Trouble:
