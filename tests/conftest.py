@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import os
+import pkgutil
+from importlib import import_module
 
 import pytest
 from hypothesis import settings
 
+import shotc
+
 # A loaded machine is no bug; and CI runs the same examples every time.
-settings.register_profile("shotc", deadline=None, derandomize=bool(os.environ.get("CI")), print_blob=True)
+CI = bool(os.environ.get("CI"))
+settings.register_profile("shotc", deadline=None, derandomize=CI, print_blob=True)
 settings.load_profile("shotc")
+if CI:
+    # Hypothesis also tries the constants of whatever modules are loaded: so all of them are.
+    for module in pkgutil.walk_packages(shotc.__path__, "shotc."):
+        if not module.name.endswith("__main__"):
+            import_module(module.name)
 
 
 def pytest_addoption(parser):
@@ -17,5 +27,5 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    if config.getoption("--bless") and os.environ.get("CI"):
+    if config.getoption("--bless") and CI:
         raise pytest.UsageError("golden files are blessed by people, not by CI")

@@ -6,8 +6,10 @@ it are timed here as the time pass will time them.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import product
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import PlacedShot
@@ -28,6 +30,7 @@ from shotc.passes.solve_path_qp.legs import (
     way_to,
 )
 from shotc.passes.solve_path_qp.shots import Failure, ShotCurve
+from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import lead_in
 from shotc.passes.timed_route.flights import flight
 from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_shot
@@ -35,6 +38,7 @@ from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_sho
 TRIES = 6
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
 LATER = (2.0, 5.0, 10.0)  # seconds that such a shot may begin later where something is met on the way to it
+STAND = 3.0  # seconds that a drone waits clear of what passes, where something is met on the way or at its end
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,8 +177,9 @@ class Flown:
             reached = self._reached(placed, start)
         if not isinstance(reached, _Reached):
             return reached
-        if fixed is None and not reached.way.clear:
-            reached = self._later(placed, start) or reached
+        if not reached.way.clear:
+            delays = (0.0,) if fixed is not None else (0.0, *LATER)
+            reached = self._undisturbed(placed, start, delays) or reached
         self._take(reached.way)
         leg = _shifted(reached.shot.leg, turns_to(reached.shot.leg.pose, end_of(self.legs)))
         self.legs.append(leg)
@@ -184,20 +189,23 @@ class Flown:
         self.stats += reached.shot.stats
         return None
 
-    def _later(self, placed: PlacedShot, start: float) -> _Reached | None:
-        """Return the first of some later starts to which there is a way on which nothing is met."""
-        for more in LATER:
-            reached = self._reached(placed, start + more)
+    def _undisturbed(self, placed: PlacedShot, start: float, delays: Sequence[float]) -> _Reached | None:
+        """Return the shot after the first of some delays with which nothing is met on the way to it."""
+        for delay, stand in product(delays, (0.0, STAND)):
+            if not delay and not stand:
+                continue
+            reached = self._reached(placed, start + delay, stand)
             if isinstance(reached, _Reached) and reached.late <= 0.0 and reached.way.clear:
                 return reached
         return None
 
-    def _reached(self, placed: PlacedShot, start: float) -> _Reached | Trouble:
-        """Plan a shot for a start, and the way to it."""
+    def _reached(self, placed: PlacedShot, start: float, stand: float = 0.0) -> _Reached | Trouble:
+        """Plan a shot for a start, and the way to it; ``stand`` is as in ``timed_shot``."""
         outside = self._outside(placed, start)
         if outside is not None:
             return outside
-        made = timed_shot(self.mission, self.drone, self.flight.room, self.around, placed, start)
+        looker = Looker(self.mission, self.drone, placed.subjects)
+        made = timed_shot(looker, self.flight.room, self.around, placed, start, stand)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)

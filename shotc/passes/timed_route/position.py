@@ -177,9 +177,23 @@ def _base(task: Task) -> SplineProblem:
         Goal(_scaled(rows, weight), weight[:, None] * _ideal(task, times)),
         Goal(_scaled(jerk, SMOOTH**3 * gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
     )
-    rest = at_rest(breaks)
+    rest = _standing(breaks) if task.clock.stands else at_rest(breaks)
     still = Equalities(rest, np.zeros((len(rest.piece), 3)))
     return SplineProblem(count(breaks), goals, still, (), limits_of(task.drone.limits, breaks))
+
+
+def _standing(breaks: Array) -> Rows:
+    """Return the rows of a spline that stands on its first piece and rests at its end.
+
+    A quintic at rest at both its ends that ends where it begins is constant.
+    """
+    rest, value = at_rest(breaks), control_rows(breaks)
+    parts = [(rest.piece, rest.weight), (value.piece[:1], value.weight[5:6] - value.weight[:1])]
+    for order in (1, 2):
+        rows = control_rows(breaks, order)
+        last = 5 - order
+        parts.append((rows.piece[last : last + 1], rows.weight[last : last + 1]))
+    return Rows(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
 
 
 def at_rest(breaks: Array) -> Rows:

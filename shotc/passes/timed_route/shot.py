@@ -56,12 +56,15 @@ class NoMotion:
 
 
 def timed_shot(
-    mission: MissionIR, drone: Drone, room: Room, around: Around, placed: PlacedShot, start: float
+    looker: Looker, room: Room, around: Around, placed: PlacedShot, start: float, stand: float = 0.0
 ) -> TimedShot | NoMotion:
-    """Return the motion of a shot whose first frame is at mission time ``start``."""
+    """Return the motion of a shot whose first frame is at mission time ``start``.
+
+    stand : seconds that the drone waits where the motion begins, clear of what passes there
+    """
+    mission, drone = looker.mission, looker.drone
     shot = at_start(mission, placed.shot, start)
-    clock = clock_of(mission, drone, shot, start)
-    looker = Looker(mission, drone, placed.subjects)
+    clock = clock_of(mission, drone, shot, start, stand)
     motions = tuple(evened(m, clock.breaks) for m in (*standing(room), *around.moving))
     task = Task(looker, shot, clock, room, motions, around.sights)
     flown = fly(task)

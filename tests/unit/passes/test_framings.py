@@ -6,7 +6,7 @@ from math import atan2, degrees, hypot, pi, radians
 
 import numpy as np
 import pytest
-from hypothesis import Phase, assume, given, settings
+from hypothesis import Phase, assume, example, given, settings
 from hypothesis import strategies as st
 
 from shotc.api import PlanOptions, check_source, compile_source
@@ -330,6 +330,8 @@ def test_check_knows_all_of_it_without_a_solver() -> None:
     direction=st.floats(0, 2 * pi),
     speed=st.floats(0.3, 3.0),
 )
+# Its subject passes where the drone would wait for it.
+@example(size=0.4416, azimuth=0.0, elevation=0.356, uv=(0.15, 0.0), direction=4.8804, speed=2.5)
 def test_any_framing_that_can_be_had_is_flown(size, azimuth, elevation, uv, direction, speed) -> None:
     x, y = 300 * np.cos(direction), 300 * np.sin(direction)
     subject = (
