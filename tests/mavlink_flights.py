@@ -6,7 +6,8 @@ import numpy as np
 
 from shotc.geom.bernstein import concatenate, quintic_hermite
 from shotc.ir.mission import MissionIR
-from shotc.ir.trajectory import DroneTrajectory, Phase, Reference, VerifiedIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory, Reference, VerifiedIR
 from tests.records import replace
 from tests.samples import orbit_mission, orbit_plan
 

@@ -9,7 +9,8 @@ import numpy as np
 from shotc.geom.camera import aim_at
 from shotc.geom.solids import Cylinder, Prism, Solid, distance
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Target, Timing, Zone
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Target, Zone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.solve_path_qp import SolvePathQp

@@ -9,31 +9,23 @@ import numpy as np
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
+from shotc.ir.limits import Limits, Timing
 from shotc.ir.mission import (
     Composition,
     Drone,
     GeoOrigin,
     Gimbal,
     Keyframe,
-    Limits,
     MissionIR,
     Promise,
     Rules,
     Shot,
     Target,
-    Timing,
     Zone,
 )
 from shotc.ir.origin import OriginMap
-from shotc.ir.trajectory import (
-    Claim,
-    DroneTrajectory,
-    KeyframeTime,
-    Phase,
-    Reference,
-    TrajectoryIR,
-    VerifiedIR,
-)
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, DroneTrajectory, KeyframeTime, Reference, TrajectoryIR, VerifiedIR
 
 CENTER = Composition("center", points=((0.0, 0.0),))
 HFOV = radians(70)

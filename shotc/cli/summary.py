@@ -9,7 +9,8 @@ from textwrap import wrap
 
 from shotc.cli.table import table
 from shotc.emit.screen import percent
-from shotc.ir.trajectory import Claim, Phase, VerifiedIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, VerifiedIR
 
 WIDTH = 100
 GLUE = "\N{NO-BREAK SPACE}"

@@ -15,8 +15,9 @@ from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
 from shotc.ir.comparison import FlownShot, Score, Trace
 from shotc.ir.path import X, Y, Z
+from shotc.ir.phases import Phase
 from shotc.ir.sampling import cameras, cylinder, subjects
-from shotc.ir.trajectory import DroneTrajectory, Phase, VerifiedIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.framing import view_of
 

@@ -14,8 +14,9 @@ from shotc.emit.base import Artifact, Emission
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
-from shotc.ir.trajectory import DroneTrajectory, Phase, VerifiedIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 NUMBER = "%.9g"
 DEGREES = "%.9f"

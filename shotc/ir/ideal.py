@@ -3,7 +3,8 @@
 from bisect import bisect_right
 from math import cos, sin
 
-from shotc.ir.mission import MissionIR, Shot, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR, Shot
 
 
 def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:

@@ -2,7 +2,8 @@
 
 from typing import NamedTuple
 
-from shotc.ir.mission import MissionIR, Shot, Vec2, Vec3, ViewAngles
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import MissionIR, Shot, ViewAngles
 from shotc.ir.origin import KeyPath
 
 

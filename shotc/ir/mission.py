@@ -8,11 +8,10 @@ from typing import Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
 from shotc.geom.track import Track
+from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.show import Display, Fleet
 
-Vec2 = tuple[float, float]
-Vec3 = tuple[float, float, float]
-Range = tuple[float, float]
 ViewAngles = tuple[float | None, float | None]
 
 
@@ -53,25 +52,6 @@ class Target(NamedTuple):
     def at(self, t: float) -> Vec3:
         """Return its centre at a mission time, metres."""
         return self.centre if self.track is None else self.track.at(t)
-
-
-class Limits(NamedTuple):
-    """What a drone may do; norms as in the language definition.
-
-    speed : horizontal speed over ground, world.wind already taken off, m/s
-    climb, descent : vertical speed, both positive, m/s
-    acceleration : 3D norm, m/s^2
-    jerk : 3D norm, m/s^3
-    yaw_rate, yaw_acceleration : of the body, rad/s, rad/s^2
-    """
-
-    speed: float
-    climb: float
-    descent: float
-    acceleration: float
-    jerk: float
-    yaw_rate: float
-    yaw_acceleration: float
 
 
 class Gimbal(NamedTuple):
@@ -193,14 +173,6 @@ class Subject(NamedTuple):
     path: KeyPath
 
 
-class Timing(NamedTuple):
-    """When a shot is filmed; all None is ``auto``. Seconds; ``after`` names a shot."""
-
-    start: float | None = None
-    after: str | None = None
-    duration: float | None = None
-
-
 class Promise(NamedTuple):
     """What a shot promises and verification holds it to (``require``); None promises nothing.
 
@@ -269,6 +241,8 @@ class MissionIR(NamedTuple):
     emit : emitters the mission asks for
     source_sha256 : of the mission file's bytes, hexadecimal
     deferred : what only a later version can plan; planning refuses it, checking does not
+    displays : the shots of fleets, in the order they are written
+    files : (name, bytes) of the files that displays draw; no plan carries them
     """
 
     name: str
@@ -284,6 +258,9 @@ class MissionIR(NamedTuple):
     source_sha256: str
     deferred: tuple[Deferred, ...]
     origins: OriginMap
+    fleets: tuple[Fleet, ...] = ()
+    displays: tuple[Display, ...] = ()
+    files: tuple[tuple[str, bytes], ...] = ()
 
     def drone(self, name: str) -> Drone:
         """Return the drone of that name; KeyError if there is none."""

@@ -11,7 +11,7 @@ from typing import Literal
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.mission import Vec2
+from shotc.ir.limits import Vec2
 from shotc.ir.origin import KeyPath
 
 PhaseName = Literal["takeoff", "transit", "shot", "return", "land"]

@@ -18,7 +18,8 @@ from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.track_array import places, seen_from
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.trajectory import DroneTrajectory, Phase
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory
 
 SAME_TIME = 1e-9
 """Seconds within which a tick counts as being on a boundary."""

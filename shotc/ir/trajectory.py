@@ -6,21 +6,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from shotc.geom.bernstein import Piecewise
+from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import Deviation, PhaseName
+from shotc.ir.path import Deviation
+from shotc.ir.phases import Phase
 
 Method = Literal["exact", "bounded", "sampled"]
-
-
-@dataclass(frozen=True, slots=True)
-class Phase:
-    """A stretch of mission time, seconds; ``shot`` is set where phase is "shot"."""
-
-    name: PhaseName
-    shot: str | None
-    start: float
-    end: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,12 +55,13 @@ class DroneTrajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrajectoryIR:
-    """All drones' motion on one clock. stats as in PathIR."""
+    """All drones' motion on one clock, and all fleets'. stats as in PathIR."""
 
     keyframes: KeyframeIR
     drones: tuple[DroneTrajectory, ...]
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
+    fleets: tuple[FleetTrajectory, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

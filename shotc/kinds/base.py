@@ -10,19 +10,8 @@ from typing import Any, NamedTuple, Protocol, Self
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
 from shotc.geom.geodetic import to_world
-from shotc.ir.mission import (
-    Composition,
-    Deferred,
-    Drone,
-    GeoOrigin,
-    Ideal,
-    Keyframe,
-    Rules,
-    Subject,
-    Target,
-    Vec2,
-    Vec3,
-)
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Rules, Subject, Target
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.files import FileFault
 from shotc.spec.fields import Geodetic

@@ -8,7 +8,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred, Ideal, Vec2, Vec3
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import Deferred, Ideal
 from shotc.kinds.base import Aim, Expansion, Kind, Part, Place, Scene
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.gpx import read_gpx

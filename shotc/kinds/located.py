@@ -2,7 +2,8 @@
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.geodetic import to_world
-from shotc.ir.mission import GeoOrigin, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.earth import stray
 from shotc.kinds.files import Table

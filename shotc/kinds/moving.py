@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from shotc.ir.mission import Ideal, Subject, Target, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import Ideal, Subject, Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.spec.shot import ShotBase
 

@@ -7,7 +7,8 @@ from pydantic import Field
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import aim_at, yaw_of
-from shotc.ir.mission import Composition, Deferred, Ideal, Vec2
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition, Deferred, Ideal
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.kinds.moving import evenly, timed
 from shotc.spec.fields import Angle, LookAt, Pitch, Position

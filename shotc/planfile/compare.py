@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, VerifiedIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 
 SHARES = np.linspace(0.0, 1.0, 2001)
 """Shares of a shot at which positions are compared."""

@@ -168,7 +168,7 @@ def _decode(document: Any, decoder: Decoder) -> tuple[TrajectoryIR, tuple[Claim,
     decoder.fields({"name": str, "version": str}, parts.get("tool"), "tool")
     source = decoder.fields({"file": str, "sha256": str}, parts.get("source"), "source")
     spans = decoder.fields({"keys": _Spans, "values": _Spans}, parts.get("origins"), "origins")
-    kinds = {k: v for k, v in hints(MissionIR).items() if k not in ("origins", "source_sha256")}
+    kinds = {k: v for k, v in hints(MissionIR).items() if k not in ("origins", "source_sha256", "files")}
     fields = decoder.fields(kinds, parts.get("mission"), "mission")
     if decoder.faults:
         return None, ()  # type: ignore[return-value]

@@ -50,8 +50,8 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
 
 
 def encode_mission(mission: MissionIR) -> dict[str, Any]:
-    """Return the fields of a mission, without the map of its origins."""
-    names = (name for name in MissionIR._fields if name != "origins")
+    """Return the fields of a mission, without the map of its origins and without its files."""
+    names = (name for name in MissionIR._fields if name not in ("origins", "files"))
     return {name: encode(getattr(mission, name)) for name in names}
 
 

@@ -5,7 +5,8 @@ Screen coordinates (u, v) in [-1, 1]^2, u right, v up.
 
 from __future__ import annotations
 
-from shotc.ir.mission import Composition, Vec2
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition
 
 _THIRD = 1 / 3
 _PHI = 0.236

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi, radians
 from typing import Annotated
 
-from shotc.ir.mission import Vec2, Vec3
+from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.fieldtypes import Flag, Integer, NamedOr, Text
 from shotc.spec.places import NAME, Geodetic, LookAt, Position
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.ir.mission import Vec3
+from shotc.ir.limits import Vec3
 from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType, Text
 from shotc.spec.model import Model

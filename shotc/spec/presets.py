@@ -8,7 +8,8 @@ accelerations of gimbals, and jerks, are hardly ever published; they are what sm
 from math import radians
 from typing import Literal, NamedTuple
 
-from shotc.ir.mission import Gimbal, Limits
+from shotc.ir.limits import Limits
+from shotc.ir.mission import Gimbal
 
 Body = Literal["forward", "follow-camera", "free"]
 

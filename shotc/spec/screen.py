@@ -9,7 +9,8 @@ from typing import Annotated, Any
 
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.ir.mission import Composition, Vec2
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition
 from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
 from shotc.spec.faults import fault, read_each
 from shotc.spec.fieldtypes import FieldType, NamedOr

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shotc.ir.trajectory import Phase
+from shotc.ir.phases import Phase
 from tests.e2e.conftest import Plan, Planned, each_mission
 from tests.e2e.tables import Table
 

@@ -11,7 +11,8 @@ from shotc.api import check_source
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.path import Leg, Mark
-from shotc.ir.trajectory import DroneTrajectory, Phase
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory
 from tests.papers import page
 from tests.papers.framing import one, quality, solve_times
 from tests.papers.missions import ASPECT, HFOV, convex_path, keyframes_of, missions

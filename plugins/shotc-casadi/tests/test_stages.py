@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from shotc_casadi.stages import MOST, STAGES
 
-from shotc.ir.mission import Timing
+from shotc.ir.limits import Timing
 from tests.path_scenes import TOWER, circle, mission, shot
 from tests.records import replace as changed
 from tests.refiner_scenes import arc, nodes_of, subject

@@ -34,7 +34,8 @@ from shotc.emit.mavlink.speed import Speeds, adapted, seconds
 from shotc.emit.mavlink.steps import SAME, Step
 from shotc.emit.mavlink.style import Command, Style, select, turns_body
 from shotc.emit.mavlink.track import Poses, Track
-from shotc.ir.mission import Drone, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import Drone
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from pymap3d import enu2geodetic, geodetic2enu
 
 from shotc.emit.mavlink.items import Place
-from shotc.ir.mission import GeoOrigin, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import GeoOrigin
 
 Array = NDArray[np.float64]
 DEGREE_DECIMALS = 9  # a tenth of a millimetre

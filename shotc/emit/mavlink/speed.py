@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import inf
 
-from shotc.ir.mission import Limits
+from shotc.ir.limits import Limits
 
 SHARE = 0.15  # a leg whose mean speed differs by more than this share gets a speed item of its own
 SLOWEST = 0.1  # m/s; autopilots take no slower speed seriously

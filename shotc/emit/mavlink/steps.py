@@ -12,7 +12,7 @@ from shotc.emit.mavlink.speed import SLOWEST
 from shotc.emit.mavlink.style import Command, Style, command_of, region_of
 from shotc.emit.mavlink.thin import Leg
 from shotc.emit.mavlink.track import Track
-from shotc.ir.mission import Vec3
+from shotc.ir.limits import Vec3
 
 Array = NDArray[np.float64]
 

@@ -18,8 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink.track import Poses, Track, project
-from shotc.ir.mission import Drone, MissionIR, Vec3
-from shotc.ir.trajectory import DroneTrajectory, Phase
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import degrees, isfinite
 
 from shotc.emit.screen import percent, screen_tracks, summary
-from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, VerifiedIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 
 HOW = {"bounded": "every instant", "exact": "arithmetic", "sampled": "samples"}
 BOOKKEEPING = ("jump", "rate at", "distance from", "drift", "depth", "times", "error of", "targets not")

@@ -9,7 +9,8 @@ import numpy as np
 from shotc.emit.screen import ScreenSummary, certified
 from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Target, Vec2
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Target
 from shotc.ir.sampling import SAME_TIME, references, seen
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
 

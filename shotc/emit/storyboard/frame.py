@@ -14,7 +14,8 @@ from shotc.emit.storyboard.content import Moment
 from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.scene import Picture, draw_scene, name_places, picture
 from shotc.geom.camera import heading_of
-from shotc.ir.mission import Composition, MissionIR, Vec2, Vec3
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import Composition, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import frozen
 

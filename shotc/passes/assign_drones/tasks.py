@@ -7,7 +7,8 @@ from math import dist
 from typing import NamedTuple
 
 from shotc.ir.ideal import ideal_place
-from shotc.ir.mission import Drone, MissionIR, Shot, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.kinds.base import Kind
 from shotc.passes.base import PassContext
 from shotc.passes.resolve import Resolve

@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import Leg, TimedLeg
-from shotc.ir.trajectory import Phase
+from shotc.ir.phases import Phase
 from shotc.passes.parameterize_time.binding import (
     Holdup,
     binding_labels,

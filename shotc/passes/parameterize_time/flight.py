@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.ir.path import FramingSpan, Leg, TimedLeg
-from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Phase, Reference
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Reference
 from shotc.passes.parameterize_time.leg import TINY, LegMotion, rest
 from shotc.passes.parameterize_time.profile import Profile
 

@@ -10,7 +10,8 @@ from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
 from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, view
-from shotc.ir.mission import Composition, Range
+from shotc.ir.limits import Range
+from shotc.ir.mission import Composition
 
 TOUCH = 1e-6  # metres out of the frame, or past the gimbal's stop at the target, that are rounding
 TIE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from shotc.ir.mission import Shot, Timing
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Shot
 
 
 def flown_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:

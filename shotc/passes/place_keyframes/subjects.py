@@ -11,7 +11,8 @@ from math import pi
 from shotc.diag.model import Diagnostic
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedSubject
-from shotc.ir.mission import Composition, MissionIR, Shot, Subject, Vec2
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition, MissionIR, Shot, Subject
 from shotc.passes.place_keyframes.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
 
 MIDDLE = (0.0, 0.0)

@@ -7,7 +7,8 @@ from itertools import combinations
 from math import dist, inf
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Drone, MissionIR, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import Drone, MissionIR
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, move, obstacles_of, outward, signed_distance
 
 

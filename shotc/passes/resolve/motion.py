@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import hypot, sqrt
 
-from shotc.ir.mission import Keyframe, Limits, Vec3
+from shotc.ir.limits import Limits, Vec3
+from shotc.ir.mission import Keyframe
 
 
 def least_travel(points: Sequence[Vec3], limits: Limits, *, rests: bool = True) -> float:

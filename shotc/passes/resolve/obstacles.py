@@ -12,7 +12,8 @@ from shotc.geom.solids import (
     edges,
     inside_polygon,
 )
-from shotc.ir.mission import Drone, MissionIR, Vec2, Vec3
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 
 ROUNDING = 1e-6  # metres

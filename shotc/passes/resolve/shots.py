@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target, Timing
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.spec.mission import MissionSpec

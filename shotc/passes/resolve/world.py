@@ -11,7 +11,8 @@ from pydantic import BaseModel
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.geom.track import Track
-from shotc.ir.mission import Drone, Gimbal, Limits, Target, Vec2, Vec3, Zone
+from shotc.ir.limits import Limits, Vec2, Vec3
+from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import OriginMap
 from shotc.spec.drones import DroneSpec
 from shotc.spec.fields import Geodetic

@@ -38,7 +38,7 @@ from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_sho
 TRIES = 6
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
 LATER = (2.0, 5.0, 10.0)  # seconds that such a shot may begin later where something is met on the way to it
-STAND = 3.0  # seconds that a drone waits clear of what passes, where something is met on the way or at its end
+STAND = 3.0  # seconds that a drone waits clear of what passes, where something is met on the way there
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ from shotc.geom.bspline import (
     value_rows,
 )
 from shotc.geom.corridor import Room, shortfall
-from shotc.ir.mission import Limits
+from shotc.ir.limits import Limits
 from shotc.passes.solve_path_qp.corridor import Around, with_corridor
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (

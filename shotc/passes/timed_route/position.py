@@ -10,7 +10,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
 from shotc.geom.corridor import Room, shortfall
 from shotc.ir.ideal import ideal_place
-from shotc.ir.mission import Drone, Limits, MissionIR, Shot
+from shotc.ir.limits import Limits
+from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.solve_path_qp.corridor import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock

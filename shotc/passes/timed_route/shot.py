@@ -12,7 +12,6 @@ from shotc.geom.corridor import Room, breaches
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn

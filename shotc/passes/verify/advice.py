@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from math import ceil, isfinite
 
 from shotc.ir.mission import MissionIR
-from shotc.ir.trajectory import Claim, Phase
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim
 from shotc.passes.verify.numbers import DIGITS, away, enough, measure
 
 REPLAN = "plan the mission again"

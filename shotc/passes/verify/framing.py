@@ -12,8 +12,9 @@ from shotc.geom.bernstein import Array
 from shotc.geom.framing import Frames
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
+from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed, references, seen, subjects
-from shotc.ir.trajectory import Claim, Method, Phase, TrajectoryIR
+from shotc.ir.trajectory import Claim, Method, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 from shotc.passes.verify.close import errors_close, margins_close
 from shotc.passes.verify.reference import held, wanted_framing

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Promise
+from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed, references
-from shotc.ir.trajectory import Claim, Phase
+from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 
 OFF = 0.01

@@ -8,7 +8,8 @@ from math import isfinite
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, TrajectoryIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help

@@ -14,8 +14,9 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.path import HFOV
+from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock
-from shotc.ir.trajectory import Claim, Phase, TrajectoryIR
+from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
 
 ON_TIME = 1e-3

@@ -19,8 +19,9 @@ from shotc.geom.proof import Bound, norm, sup_convex
 from shotc.geom.sight import WITHIN, off_axis, outside
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.phases import Phase
 from shotc.ir.sampling import SAME_TIME, cameras, clock
-from shotc.ir.trajectory import Claim, DroneTrajectory, Phase
+from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, slack
 
 ENDING = " out of the picture"

@@ -8,7 +8,8 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR
-from shotc.ir.trajectory import Claim, DroneTrajectory, Phase, TrajectoryIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.numbers import measure, told_apart
 from shotc.passes.verify.sight import ENDING, PATH, Sight, ticks

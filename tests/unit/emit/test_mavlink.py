@@ -13,7 +13,8 @@ from shotc.emit.mavlink.items import Item
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.path import HFOV
-from shotc.ir.trajectory import DroneTrajectory, Phase
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory
 from tests.mavlink_flights import flight, plan, retold, straight
 from tests.records import replace
 from tests.samples import orbit_mission, orbit_plan

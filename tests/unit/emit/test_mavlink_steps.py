@@ -11,7 +11,7 @@ from shotc.emit.mavlink.speed import DEFAULTS, Speeds, adapted, is_steep, second
 from shotc.emit.mavlink.steps import CORNER_ACCELERATION, CORNER_CUT, Step, _radius, whole_seconds
 from shotc.emit.mavlink.style import Command
 from shotc.emit.mavlink.thin import Leg
-from shotc.ir.mission import Limits
+from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
 from tests.mavlink_flights import Move, flight, plan, straight
 

@@ -6,7 +6,8 @@ from math import radians, tan
 
 import pytest
 
-from shotc.ir.mission import Composition, Ideal, MissionIR, Shot, Subject, Timing
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Composition, Ideal, MissionIR, Shot, Subject
 from shotc.passes.resolve.grammar import check_grammar
 from tests.front import resolved
 from tests.grammar_missions import codes, grammar, mission

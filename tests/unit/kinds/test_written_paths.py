@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.geom.geodetic import to_world
-from shotc.ir.mission import Keyframe, Vec3
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import Keyframe
 from shotc.kinds.follow_path import thin
 from tests.front import resolved
 

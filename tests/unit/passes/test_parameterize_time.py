@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.mission import Limits
+from shotc.ir.limits import Limits
 from shotc.ir.path import Stop
 from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.ir.mission import Timing
+from shotc.ir.limits import Timing
 from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from tests.path_scenes import (

@@ -9,7 +9,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from shotc.geom.camera import silhouette_bounds, view
-from shotc.ir.mission import Composition, Vec2
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition
 from shotc.passes.place_keyframes.candidates import (
     TOUCH,
     Line,

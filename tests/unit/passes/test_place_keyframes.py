@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import silhouette_bounds, view
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
-from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target, Timing
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.passes.place_keyframes.flown_order import flown_order

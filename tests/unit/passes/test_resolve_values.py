@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.geom.solids import Cylinder, Prism, depth, distance
-from shotc.ir.mission import Limits, MissionIR, Promise, Timing, Vec3
+from shotc.ir.limits import Limits, Timing, Vec3
+from shotc.ir.mission import MissionIR, Promise
 from shotc.passes.resolve.motion import least_shot, least_travel
 from shotc.passes.resolve.obstacles import signed_distance
 from shotc.spec.presets import PRESETS

@@ -11,7 +11,7 @@ from shotc.api import PlanOptions, check_source, compile_source
 from shotc.diag.codes.convex import CODES
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism
-from shotc.ir.mission import Timing
+from shotc.ir.limits import Timing
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from tests.path_scenes import (
     FIELD,

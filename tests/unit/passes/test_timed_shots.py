@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.ir.mission import Timing
+from shotc.ir.limits import Timing
 from shotc.ir.path import PathIR, Stop
 from tests.records import replace
 from tests.timed_flights import (

@@ -8,7 +8,8 @@ import pytest
 from shotc.diag.registry import registry
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder, Prism, box
-from shotc.ir.mission import Promise, Target, Timing
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Promise, Target
 from shotc.ir.path import HFOV
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge

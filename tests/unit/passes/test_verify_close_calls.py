@@ -7,7 +7,8 @@ import pytest
 
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.geom.solids import Cylinder
-from shotc.ir.mission import Timing, Zone
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.passes.verify import judge

@@ -13,7 +13,8 @@ from math import acos, ceil, cos, hypot, pi, tan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Keyframe, MissionIR, Shot, Vec2, Vec3
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.place_keyframes import explicit_aim
 from shotc.passes.place_keyframes.turns import ROUNDING, TURN, wrapped
 from shotc.passes.resolve.grammar.places import lasting

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from shotc.geom.track import AROUND, MOVES, Track
 from shotc.ir.ideal import ideal_place
-from shotc.ir.mission import Drone, MissionIR, Shot, Vec2, Vec3
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import Drone, MissionIR, Shot
 
 STRAIGHT = 1e-6  # sine of the angle between two stretches that go the same way
 

@@ -1,0 +1,63 @@
+"""The motion of a whole fleet: cubic B-splines over one set of breaks, one row of control points a drone.
+
+The curve of *display* Eq. 4, with breaks that need not be even. Before the first break and after the last
+one the knots go on in steps of the first and the last piece, so that three equal control points at an end
+are a start or an end at rest.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import BSpline
+
+from shotc.geom.bernstein import Array
+
+DEGREE = 3
+
+
+def knots(breaks: Array) -> Array:
+    """Return the knots of the splines over breaks of shape (P + 1,); shape (P + 7,), for P + 3 points."""
+    first, last = breaks[1] - breaks[0], breaks[-1] - breaks[-2]
+    steps = np.arange(1.0, DEGREE + 1.0)
+    return np.concatenate([breaks[0] - first * steps[::-1], breaks, breaks[-1] + last * steps])
+
+
+def centres(breaks: Array) -> Array:
+    """Return the time that each control point stands for (its Greville abscissa), shape (P + 3,)."""
+    t = knots(breaks)
+    return np.asarray((t[1:-3] + t[2:-2] + t[3:-1]) / 3.0)
+
+
+def differences(breaks: Array, order: int) -> Array:
+    """Return the matrix from control points to those of a derivative, shape (P + 3 - order, P + 3).
+
+    The derivative lies in the hull of its control points: a bound on them holds for all t.
+    """
+    t = knots(breaks)
+    matrix = np.eye(len(breaks) + 2)
+    for k in range(order):
+        degree = DEGREE - k
+        inner = t[k : len(t) - k]
+        widths = inner[degree + 1 : len(inner) - 1] - inner[1 : len(inner) - degree - 1]
+        matrix = np.diff(matrix, axis=0) * (degree / widths)[:, None]
+    return matrix
+
+
+def places(breaks: Array, coef: Array, times: Array, order: int = 0) -> Array:
+    """Return positions, or their derivative, at times of shape (T,), which are clamped to the range.
+
+    coef : shape (n, P + 3, 3); result : shape (n, T, 3)
+    """
+    spline = BSpline(knots(breaks), np.moveaxis(coef, 1, 0), DEGREE)
+    if order:
+        spline = spline.derivative(order)
+    return np.asarray(np.moveaxis(spline(np.clip(times, breaks[0], breaks[-1])), 0, 1))
+
+
+def pieces(breaks: Array, coef: Array) -> Array:
+    """Return the Bernstein control points of every piece, shape (n, P, 4, 3)."""
+    at = places(breaks, coef, breaks)
+    rate = places(breaks, coef, breaks, 1)
+    third = (np.diff(breaks) / 3.0)[None, :, None]
+    first, last = at[:, :-1], at[:, 1:]
+    return np.stack([first, first + third * rate[:, :-1], last - third * rate[:, 1:], last], axis=2)

@@ -1,0 +1,34 @@
+"""Numbers that drones, fleets and shots share: vectors, limits of motion, times."""
+
+from typing import NamedTuple
+
+Vec2 = tuple[float, float]
+Vec3 = tuple[float, float, float]
+Range = tuple[float, float]
+
+
+class Limits(NamedTuple):
+    """What a drone may do; norms as in the language definition.
+
+    speed : horizontal speed over ground, world.wind already taken off, m/s
+    climb, descent : vertical speed, both positive, m/s
+    acceleration : 3D norm, m/s^2
+    jerk : 3D norm, m/s^3
+    yaw_rate, yaw_acceleration : of the body, rad/s, rad/s^2
+    """
+
+    speed: float
+    climb: float
+    descent: float
+    acceleration: float
+    jerk: float
+    yaw_rate: float
+    yaw_acceleration: float
+
+
+class Timing(NamedTuple):
+    """When a shot is filmed; all None is ``auto``. Seconds; ``after`` names a shot."""
+
+    start: float | None = None
+    after: str | None = None
+    duration: float | None = None

@@ -1,0 +1,159 @@
+"""Fleets and what they draw, resolved. Plain Python, no numpy; part of MissionIR.
+
+World frame W, metres, radians, seconds. A fleet's drones carry a light and no camera.
+"""
+
+from typing import Literal, NamedTuple
+
+from shotc.ir.limits import Limits, Timing, Vec3
+from shotc.ir.origin import KeyPath
+
+Color = tuple[int, int, int]
+
+
+class Apart(NamedTuple):
+    """How far two drones of a fleet stay apart, centre to centre, at every instant.
+
+    shape : "ellipsoid": (dx^2 + dy^2) / h^2 + dz^2 / v^2 >= 1 with h, v the two distances and the margin
+        beyond each; "cylinder": at least h apart horizontally, or v vertically
+    horizontal, vertical : metres; the vertical one is the longer where rotors push air down
+    margin : metres beyond both, for how far a drone may be from where it should be
+    """
+
+    shape: Literal["ellipsoid", "cylinder"]
+    horizontal: float
+    vertical: float
+    margin: float
+
+    @property
+    def across(self) -> float:
+        """Horizontal distance that is kept, margin included, metres."""
+        return self.horizontal + self.margin
+
+    @property
+    def upright(self) -> float:
+        """Vertical distance that is kept, margin included, metres."""
+        return self.vertical + self.margin
+
+
+class Fleet(NamedTuple):
+    """Drones of one model that draw together.
+
+    pads : p_WB of every drone at rest, in the order of their numbers
+    rise : metres above its pad to which each drone rises, straight up, before it goes anywhere
+    radius : of the body sphere, m; endurance : s
+    """
+
+    name: str
+    model: str
+    pads: tuple[Vec3, ...]
+    rise: float
+    limits: Limits
+    radius: float
+    endurance: float
+    apart: Apart
+    path: KeyPath
+
+
+class Sphere(NamedTuple):
+    """A ball."""
+
+    centre: Vec3
+    radius: float
+
+
+class Box(NamedTuple):
+    """A box; size : along its own east, north and up; heading : by which it is turned, compass sense."""
+
+    centre: Vec3
+    size: Vec3
+    heading: float
+
+
+class Torus(NamedTuple):
+    """A ring; radius : from its centre to the middle of the tube; tube : radius of that.
+
+    heading, tilt : of its axis: 0 tilt lies flat, a quarter turn stands upright, its axis along the heading
+    """
+
+    centre: Vec3
+    radius: float
+    tube: float
+    heading: float
+    tilt: float
+
+
+class Lettering(NamedTuple):
+    """A text that stands upright, read by who looks along the heading; height : of its capitals, metres.
+
+    font : a file of the mission's, or the name of a font of the system's, or None
+    """
+
+    text: str
+    centre: Vec3
+    height: float
+    heading: float
+    font: str | None
+
+
+class Drawing(NamedTuple):
+    """The shapes of an SVG file, upright as lettering; height : of all of it, metres."""
+
+    file: str
+    centre: Vec3
+    height: float
+    heading: float
+
+
+class Model(NamedTuple):
+    """Meshes or point clouds, one a frame.
+
+    files : names, in order of the frames; period : seconds from frame to frame, of several
+    centre : where the middle of the first frame's bounding box goes, None to leave it where it is
+    height : to which the first frame is scaled, all others alike, metres, or None
+    heading : by which all are turned about the vertical through that middle, compass sense
+    """
+
+    files: tuple[str, ...]
+    period: float | None
+    centre: Vec3 | None
+    height: float | None
+    heading: float
+
+
+Source = Sphere | Box | Torus | Lettering | Drawing | Model
+
+
+class Picture(NamedTuple):
+    """One picture, or an animation of several frames.
+
+    fill : what of it the drones stand in: all of the inside, the surface, or (flat shapes) the edges
+    color : of every light; None where the file says, white where it does not
+    transition : seconds to it from the picture before it, None for as fast as the pace allows
+    hold : seconds that its last frame stands
+    """
+
+    source: Source
+    fill: Literal["volume", "surface", "outline"]
+    color: Color | None
+    transition: float | None
+    hold: float
+    path: KeyPath
+
+
+class Display(NamedTuple):
+    """A shot of a fleet: pictures in their order.
+
+    viewpoint : where the audience is, p_W, or None
+    weight : the paper's c-bar: 0 is the best picture from the viewpoint, infinity the best volume
+    timing : start is when its first picture stands; pace as of any shot
+    """
+
+    id: str
+    fleet: str
+    pictures: tuple[Picture, ...]
+    viewpoint: Vec3 | None
+    weight: float
+    timing: Timing
+    pace: float
+    path: KeyPath
