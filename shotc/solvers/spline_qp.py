@@ -121,9 +121,9 @@ def minimise(problem: SplineProblem) -> SplineSolution:
     if coef is not None:
         return SplineSolution(Status.SOLVED, coef + centre, _energy(problem, coef), 0.0)
     found = _programme(problem)
-    if found.coef is None:
+    if found.coef is None and (unit := _dearest(problem)) > 1.0:
         # Costs of many orders above the constraints pass for a certificate that there is no solution.
-        found = _programme(problem, _dearest(problem))
+        found = _programme(problem, unit)
     return found if found.coef is None else replace(found, coef=found.coef + centre)
 
 

@@ -41,6 +41,7 @@ REACH = 4.0  # metres beyond its clearance within which something that stands co
 SHARES = (0.5, 0.95)  # as in solve_path_qp.position
 PROVED = 1e-6  # metres
 GAIN = 0.01
+HOPE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,7 +131,7 @@ def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
     best: SplineSolution | None = None
     problem = base
     reach = REACH
-    status, relaxation = Status.INFEASIBLE, None
+    status, relaxation, lacked = Status.INFEASIBLE, None, np.inf
     for rounds in range(1, ROUNDS + 1):
         problem = _walled(task, base, hulls, reach, share)
         problem = replace(problem, floors=(*problem.floors, *free))
@@ -141,6 +142,9 @@ def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
             # curve that breaks them least there are better ones.
             relaxation = relax(problem, len(task.owners)) if status is Status.INFEASIBLE else None
             if best is not None or relaxation is None or relaxation.coef is None:
+                break
+            before, lacked = lacked, float(relaxation.floor_lack.sum())
+            if free and lacked > HOPE * before:
                 break
             hulls, share = control_rows(breaks).apply(relaxation.coef).reshape(-1, 6, 3), SHARES[0]
             continue
