@@ -15,6 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.mission import Drone, MissionIR
 
 BACKGROUND = (24, 27, 32, 255)
+TOGETHER = 4  # cameras whose pictures are shown at once
 SKY = (96, 118, 140, 255)
 
 
@@ -29,15 +30,14 @@ def blueprint(
     cameras = [
         camera_view(mission, drone, camera_entity(drone), f"What {drone.name} sees") for drone in drones
     ]
-    views = [
-        _series(drone, plot, flown[drone.name][0], many=len(drones) > 1)
-        for drone in drones
-        for plot in flown[drone.name][1]
+    plots = [
+        rrb.Grid(
+            *(_series(drone, plot, end) for plot in plots), grid_columns=4, name=f"Motion of {drone.name}"
+        )
+        for drone, (end, plots) in ((drone, flown[drone.name]) for drone in drones)
     ]
     facts = rrb.TextDocumentView(origin="summary", name="Mission and certificate")
-    right = rrb.Vertical(
-        cameras[0] if len(cameras) == 1 else rrb.Tabs(*cameras), facts, row_shares=[3.0, 2.0]
-    )
+    right = rrb.Vertical(_side_by_side(cameras), facts, row_shares=[3.0, 2.0])
     return rrb.Blueprint(
         rrb.Vertical(
             rrb.Horizontal(
@@ -45,13 +45,20 @@ def blueprint(
                 right,
                 column_shares=[1.35, 1.0],
             ),
-            rrb.Grid(*views, grid_columns=4),
+            plots[0] if len(plots) == 1 else rrb.Tabs(*plots),
             row_shares=[2.3, 1.0],
         ),
         *panels(),
         auto_layout=False,
         auto_views=False,
     )
+
+
+def _side_by_side(cameras: list[Any]) -> Any:
+    """Return all pictures beside each other, as long as they are large enough to be looked at."""
+    if len(cameras) == 1:
+        return cameras[0]
+    return rrb.Grid(*cameras, grid_columns=2) if len(cameras) <= TOGETHER else rrb.Tabs(*cameras)
 
 
 def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
@@ -109,10 +116,10 @@ def camera_view(mission: MissionIR, drone: Drone, camera: str, name: str) -> Any
     )
 
 
-def _series(drone: Drone, plot: Plot, end: float, *, many: bool) -> Any:
+def _series(drone: Drone, plot: Plot, end: float) -> Any:
     return rrb.TimeSeriesView(
         origin=f"plots/{drone.name}/{plot.name}",
-        name=f"{drone.name}: {plot.title}" if many else plot.title,
+        name=plot.title,
         axis_x=time_axis(end),
         plot_legend=rrb.PlotLegend(visible=len(plot.lines) > 2, corner=rrb.Corner2D.RightTop),
     )
