@@ -16,11 +16,11 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath
+from shotc.passes.corridor.room import flight_room
 from shotc.passes.parameterize_time.estimate import rough_times, shortest_time
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
-from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.turns import steady
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn

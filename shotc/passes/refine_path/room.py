@@ -18,10 +18,10 @@ from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, sup_channel
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg
+from shotc.passes.corridor.room import flight_room, named, owner_path
 from shotc.passes.refine_path.faults import leg_of, place
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.form import UPRIGHT
-from shotc.passes.solve_path_qp.room import flight_room, named, owner_path
 
 TOLERANCE = 2e-6
 """Metres and radians beyond a limit that still keep it, as where the convex path is made."""

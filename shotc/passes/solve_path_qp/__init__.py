@@ -18,6 +18,7 @@ from shotc.ir.mission import Drone
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.base import Outcome, PassContext
+from shotc.passes.corridor.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.faults import (
     cut_framing,
     failure,
@@ -29,7 +30,6 @@ from shotc.passes.solve_path_qp.faults import (
 from shotc.passes.solve_path_qp.legs import Flight, drone_legs
 from shotc.passes.solve_path_qp.on_clock import Flown, OutsideTrack
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
-from shotc.passes.solve_path_qp.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
 from shotc.passes.timed_route.faults import left_place, stopped_on_clock
 from shotc.passes.timed_route.moving import moving_targets

@@ -13,12 +13,12 @@ from shotc.geom.corridor import Room
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation
+from shotc.passes.corridor.room import GROUND, named, owner_path
 from shotc.passes.solve_path_qp.angles import NOTICE, Cut
 from shotc.passes.solve_path_qp.gap import lower_clearance, narrow_gap, opening
 from shotc.passes.solve_path_qp.lines import NoWay, TooNear
 from shotc.passes.solve_path_qp.pad import PadBlocked
 from shotc.passes.solve_path_qp.remedy import conflict, needed, remedy
-from shotc.passes.solve_path_qp.room import GROUND, named, owner_path
 from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, Stuck
 from shotc.passes.solve_path_qp.swings import Swing
 from shotc.solvers.conic import Status

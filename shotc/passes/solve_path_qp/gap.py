@@ -13,7 +13,7 @@ from shotc.geom.convex import closest_points, support
 from shotc.geom.corridor import MARGIN, Obstacle, Room, Wall
 from shotc.geom.route import find_route
 from shotc.ir.mission import Drone, MissionIR
-from shotc.passes.solve_path_qp.room import GROUND, flight_room, named
+from shotc.passes.corridor.room import GROUND, flight_room, named
 
 HALVINGS = 7
 MOST = 0.8  # of the body's radius that a smaller drone may lack

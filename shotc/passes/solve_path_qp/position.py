@@ -25,7 +25,7 @@ from shotc.geom.bspline import (
 )
 from shotc.geom.corridor import Room, shortfall
 from shotc.ir.limits import Limits
-from shotc.passes.solve_path_qp.corridor import Around, with_corridor
+from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
     Cones,

@@ -15,10 +15,10 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import restrict
 from shotc.ir.mission import Drone
 from shotc.ir.path import BODY_YAW, HFOV, DronePath, Leg, PathIR
+from shotc.passes.corridor.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.body import BodyTask, body_line
 from shotc.passes.solve_path_qp.legs import Flight, drone_legs
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
-from shotc.passes.solve_path_qp.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.shots import ShotCurve, stack
 from shotc.solvers.conic import Status
 

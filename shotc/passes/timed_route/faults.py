@@ -7,7 +7,7 @@ from math import ceil
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import Deviation
-from shotc.passes.solve_path_qp.room import named, owner_path
+from shotc.passes.corridor.room import named, owner_path
 from shotc.passes.timed_route.shot import LIMITS, PICTURES, NoMotion
 
 

@@ -12,7 +12,7 @@ from shotc.geom.corridor import Room, shortfall
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Limits
 from shotc.ir.mission import Drone, MissionIR, Shot
-from shotc.passes.solve_path_qp.corridor import Around, with_corridor
+from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.moving import Even, Sides, shortfalls, sides

@@ -15,7 +15,7 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.corridor import Room, kept, shortfall
 from shotc.ir.mission import Drone
 from shotc.ir.path import PathIR
-from shotc.passes.solve_path_qp.room import flight_room
+from shotc.passes.corridor.room import flight_room
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.flights import flights
 from shotc.passes.timed_route.moving import Even, evened, moving_targets, shortfalls, sides, standing

@@ -9,9 +9,9 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Solid
+from shotc.passes.corridor.room import flight_room
 from shotc.passes.solve_path_qp.faults import failure
 from shotc.passes.solve_path_qp.position import Solved, Stretch, solve_stretch
-from shotc.passes.solve_path_qp.room import flight_room
 from shotc.passes.solve_path_qp.shots import Stuck
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import Relaxation
