@@ -10,7 +10,8 @@ from shotc.kinds.files import LARGEST, FileFault, too_large
 
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon"}
 _ACTIVE = {"script": "a script", "foreignObject": "a page of another sort"}
-_OUTSIDE = re.compile(r"@import|url\(\s*['\"]?\s*(?!#)", re.IGNORECASE)
+# Possessive, so that no run of spaces is gone through twice.
+_OUTSIDE = re.compile(r"@import|url\(\s*+['\"]?+\s*+[^#\s'\"]", re.IGNORECASE)
 _OWN = "export it as a plain SVG, with all that it draws in the file itself"
 
 

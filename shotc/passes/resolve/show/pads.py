@@ -17,6 +17,7 @@ from shotc.passes.resolve.home import take_off_room
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
 
 _AROUND = tuple(product((-1, 0, 1), repeat=3))
+UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
 Cell = tuple[int, int, int]
 
 
@@ -161,7 +162,7 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     label = _place(mission, fleet)
     low = min(range(len(fleet.pads)), key=lambda i: fleet.pads[i][2])
     z = fleet.pads[low][2]
-    if z < -ROUNDING:
+    if z < -UNEVEN:
         note = f"pad {low + 1} is {-z:.2f} m under z = 0, the ground"
         message = f"fleet `{fleet.name}` stands underground"
         yield Diagnostic("D006", message, (label,), (note,), f"raise the layout by {_up(-z)} m")
