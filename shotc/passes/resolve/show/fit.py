@@ -15,6 +15,7 @@ ROGERS = 0.7797
 """Most of a truncated Voronoi cell that its ball fills, in space (Rogers 1958)."""
 TRUNCATED = sqrt(1.5)
 """Radius at which the cells are truncated in that theorem, in radii of the ball."""
+ROUNDING = 1e-9
 
 
 def spacing(apart: Apart) -> float:
@@ -63,11 +64,9 @@ def _on_surface(source: Sphere | Box | Torus, gap: float, stretch: float) -> flo
 
 def _on_sphere(gap: float) -> float:
     """Return how many points of a unit sphere are ``gap`` apart: at most 2q / (q - 1) (Fejes Toth 1943)."""
-    if gap >= 2:
-        return 2.0
-    if gap >= sqrt(3.0):
-        return 3.0
-    q = 6 / pi * asin(1 / sqrt(4 - gap * gap))
+    if gap > sqrt(3.0) + ROUNDING:
+        return 2.0 if gap <= 2 + ROUNDING else 1.0
+    q = 6 / pi * asin(min(1.0, 1 / sqrt(4 - gap * gap)))
     return 2 * q / (q - 1)
 
 

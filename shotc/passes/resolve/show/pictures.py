@@ -48,7 +48,7 @@ def _viewed(mission: MissionIR, display: Display, fleet: Fleet, picture: Picture
 def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Diagnostic]:
     """Refuse a shape that cannot hold the fleet at its spacing, however the drones are put into it."""
     most, count = most_drones(picture, fleet.apart), len(fleet.pads)
-    if count <= most:
+    if count <= most + ROUNDING:
         return
     where = "on" if picture.fill == "surface" else "in"
     word = word_of(picture)
