@@ -56,6 +56,8 @@ def _flat(value: Any) -> bool:
 def _scalar(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.{DIGITS}g}"
+    if isinstance(value, bytes):
+        return f"{len(value)} bytes"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_scalar(v) for v in value) + "]"
     return str(value)

@@ -13,6 +13,7 @@ from shotc.geom.geodetic import to_world
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Rules, Subject, Target
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.show import Display
 from shotc.kinds.files import FileFault
 from shotc.spec.fields import Geodetic
 from shotc.spec.shot import ShotBase
@@ -50,6 +51,7 @@ class Expansion(NamedTuple):
 
     ideal, subjects : instead of keyframes, where a target moves
     lasts : seconds that such a shot takes where its timing does not say
+    display : instead of all these, what a fleet shows
     """
 
     keyframes: tuple[Keyframe, ...] = ()
@@ -58,6 +60,7 @@ class Expansion(NamedTuple):
     ideal: Ideal | None = None
     subjects: tuple[Subject, ...] = ()
     lasts: float | None = None
+    display: Display | None = None
 
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Self:
@@ -78,6 +81,8 @@ class Scene(NamedTuple):
     path : of the shot in the mission; origins : spans of the mission file
     origin : of W on the earth, if the mission gives one; geodetic positions need it
     read : bytes of a file that the mission names under a key path, or what is wrong with it
+    match : names of the files that a pattern under a key path stands for, 2 before 10, or what is wrong
+    pace : of the mission's rules; fleets : their names
     """
 
     drone: Drone
@@ -88,6 +93,8 @@ class Scene(NamedTuple):
     origins: OriginMap
     origin: GeoOrigin | None
     read: Callable[[str, KeyPath], bytes | Diagnostic]
+    match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
+    pace: float
     fleets: tuple[str, ...] = ()
 
     def subject(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:

@@ -1,24 +1,47 @@
-"""Display: a fleet draws pictures in the air. Checked, but not planned yet."""
+"""Display: a fleet draws pictures in the air."""
 
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Iterator
+from math import inf
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
+from pydantic.json_schema import JsonSchemaValue
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred
+from shotc.ir.limits import Timing
+from shotc.ir.show import Display, Picture
 from shotc.kinds.base import Expansion, Kind, Scene
-from shotc.spec.fields import Duration, Name, Position, RelativePath
-from shotc.spec.model import Model, OneOf
-from shotc.spec.quantities import Quantity
-from shotc.spec.shot import ShotBase
+from shotc.kinds.pictures import FilesSpec, Frames, PictureSpec
+from shotc.kinds.sources import picture_of
+from shotc.spec.faults import fault
+from shotc.spec.fields import Name, Position
+from shotc.spec.fieldtypes import FieldType
+from shotc.spec.model import OneOf
+from shotc.spec.shot import NO_DRONE, ShotBase
 from shotc.spec.words import nearest
+from shotc.units import clip, describe
+
+BALANCED = 0.5  # between the best picture from the viewpoint and the best volume
+OF_CAMERAS = ("target", "composition", "size", "require", "refine", "allow")
 
 
-class FramesSpec(Model):
-    """The animation's frames."""
+class WeightType(FieldType):
+    """A number from 0 to infinity, which is written `.inf`."""
 
-    files: RelativePath = Field(description="point clouds or meshes, a pattern such as walk/*.ply")
-    period: Duration = Field(description="time from frame to frame")
+    label = "ViewpointWeight"
+
+    def read(self, value: Any) -> float:
+        """Return the number."""
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            help_ = "write 0 for the best picture from the viewpoint, .inf for the best volume"
+            raise fault("wrong-type", f"expected a number, got {describe(value)}", help_)
+        if not value >= 0:
+            raise fault("out-of-range", f"`{clip(str(value))}` is below 0", "give 0 or more, or .inf")
+        return float(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a number schema."""
+        return {"type": "number", "minimum": 0}
 
 
 class DisplayShot(ShotBase):
@@ -27,23 +50,67 @@ class DisplayShot(ShotBase):
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("fleet",), ("drone",)), required=False),)
 
     kind: Literal["display"] = Field(description="what sort of shot it is")
-    drone: Name = Field(default="auto", description="not for a display: it has a fleet")
+    drone: Name = Field(default=NO_DRONE, description="not for a display: it has a fleet")
     fleet: Name = Field(description="name of the fleet that draws")
-    frames: FramesSpec = Field(description="what it draws")
+    frames: Frames = Field(description="what it draws: pictures in order, or the files of an animation")
     viewpoint: Position | None = Field(default=None, description="where the audience is")
-    viewpoint_weight: Annotated[float, Quantity("ViewpointWeight", "ratio", 0.0, 1.0)] = Field(
-        default=0.0, description="how much the view from there counts"
+    viewpoint_weight: Annotated[float, WeightType()] | None = Field(
+        default=None,
+        description="0 for the best picture from the viewpoint, .inf for the best volume; 0.5 if silent",
     )
 
 
 def expand(shot: DisplayShot, scene: Scene) -> Expansion:
-    """Check the fleet's name; planning waits for a later version."""
-    later = Deferred("a shot of kind `display`", (*scene.path, "kind"))
+    """Return the display, or what is wrong with its own words; what is in its files is judged later."""
+    frames = shot.frames
+    written: tuple[FilesSpec | PictureSpec, ...] = (frames,) if isinstance(frames, FilesSpec) else frames
+    pictures = [picture_of(spec, scene, i) for i, spec in enumerate(written)]
+    wrong = [picture for picture in pictures if isinstance(picture, Diagnostic)]
+    faults = [*_unknown_fleet(shot, scene), *_useless(shot, scene), *wrong]
+    if faults:
+        return Expansion.of(faults)
+    shown = _display(shot, scene, tuple(p for p in pictures if isinstance(p, Picture)))
+    return Expansion(display=shown)
+
+
+def _display(shot: DisplayShot, scene: Scene, pictures: tuple[Picture, ...]) -> Display:
+    weight = BALANCED if shot.viewpoint_weight is None else shot.viewpoint_weight
+    return Display(
+        id=shot.id,
+        fleet=shot.fleet,
+        pictures=pictures,
+        viewpoint=None if shot.viewpoint is None else scene.place(shot.viewpoint),
+        weight=inf if shot.viewpoint is None else weight,
+        timing=Timing(shot.timing.start, shot.timing.after),
+        pace=shot.pace or scene.pace,
+        path=scene.path,
+    )
+
+
+def _unknown_fleet(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
     if shot.fleet in scene.fleets:
-        return Expansion.of([later])
+        return
     help_ = nearest(shot.fleet, dict.fromkeys(scene.fleets)) if scene.fleets else "define it under `fleets`"
     label = scene.origins.value((*scene.path, "fleet"))
-    return Expansion.of([Diagnostic("N003", f"unknown fleet `{shot.fleet}`", (label,), help=help_), later])
+    yield Diagnostic("N003", f"unknown fleet `{shot.fleet}`", (label,), help=help_)
 
 
-KIND = Kind("display", "let a fleet draw pictures in the air", DisplayShot, expand, planned=False)
+def _useless(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
+    """Yield the keys that say nothing of a display: those of cameras, and what its pictures say already."""
+    for key in OF_CAMERAS:
+        if key in shot.model_fields_set:
+            yield _no_such(scene, key, "it is for what a camera films", f"remove `{key}`", key)
+    if shot.timing.duration is not None:
+        note = "its pictures' `transition` and `hold` say how long it lasts"
+        yield _no_such(scene, "duration", note, "remove it, and give those times", "timing", "duration")
+    if shot.viewpoint_weight is not None and shot.viewpoint is None:
+        note = "it weighs the picture from a viewpoint, and the display has none"
+        yield _no_such(scene, "viewpoint_weight", note, "add `viewpoint`, or remove it", "viewpoint_weight")
+
+
+def _no_such(scene: Scene, key: str, note: str, help: str, *path: str) -> Diagnostic:
+    label = scene.origins.key((*scene.path, *path))
+    return Diagnostic("D008", f"this display has no use for `{key}`", (label,), (note,), help)
+
+
+KIND = Kind("display", "let a fleet draw pictures in the air", DisplayShot, expand)

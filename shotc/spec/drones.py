@@ -1,4 +1,4 @@
-"""Drones and fleets as a mission writes them: a preset, and what overrides it."""
+"""Drones as a mission writes them: a preset, and what overrides it."""
 
 from math import atan, degrees
 from typing import Annotated, Any, ClassVar, Literal, Self
@@ -14,7 +14,6 @@ from shotc.spec.fields import (
     AngularAcceleration,
     AngularRate,
     Aspect,
-    Count,
     Duration,
     FieldOfView,
     Jerk,
@@ -158,24 +157,3 @@ class DroneSpec(Model):
     body: Literal["forward", "follow-camera", "free"] | None = Field(
         default=None, description="where the body points: along the path, with the camera, or anywhere"
     )
-
-
-class GridSpec(Model):
-    """Drones in a square grid."""
-
-    spacing: PositiveLength = Field(description="distance between neighbours")
-    origin: Position = Field(default=(0.0, 0.0, 0.0), description="corner of the grid")
-
-
-class LayoutSpec(Model):
-    """How a fleet stands on the ground."""
-
-    grid: GridSpec = Field(description="a square grid")
-
-
-class FleetSpec(Model):
-    """Many drones of one model."""
-
-    count: Count = Field(description="number of drones")
-    layout: LayoutSpec = Field(description="where they stand before and after")
-    model: ModelName = Field(default="show-drone", description="preset of every drone")

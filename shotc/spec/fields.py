@@ -108,7 +108,7 @@ Size3 = Annotated[Vec3, Tuple("Size3", (_POSITIVE_LENGTH,) * 3, "[width, depth, 
 Velocity = Annotated[Vec3, Tuple("Velocity", (_VELOCITY,) * 3, "[east, north, up]")]
 
 Switch = Annotated[bool, Flag()]
-Count = Annotated[int, Integer("Count", 1, 10_000)]
+Count = Annotated[int, Integer("Count", 1, 5_000)]
 Priority = Annotated[int, Integer("Priority", 1, 1_000)]
 
 Name = Annotated[str, NAME]

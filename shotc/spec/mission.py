@@ -5,9 +5,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, PlainValidator, ValidationInfo
 
-from shotc.spec.drones import DroneSpec, FleetSpec
+from shotc.spec.drones import DroneSpec
 from shotc.spec.faults import fault
 from shotc.spec.fields import Name
+from shotc.spec.fleets import FleetSpec
 from shotc.spec.model import Model, section
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase

@@ -21,6 +21,7 @@ TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racin
 PACE = 0.75
 RATE = 50.0
 SHOW_RATE = 5.0
+RISE = 10.0  # metres over its pad to which a fleet's drone rises before it goes anywhere
 EMIT = ("csv", "mavlink", "storyboard", "rerun")
 DEFAULT_MODEL = "x500"
 

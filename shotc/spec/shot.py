@@ -36,6 +36,7 @@ from shotc.units import SMALLEST, clip, describe
 # The two ways to aim a camera: at something, or by compass heading and pitch.
 AIM = OneOf((("look_at",), ("heading", "pitch")))
 AIM_IF_ANY = OneOf(AIM.forms, required=False)
+NO_DRONE = ""  # what stands for the drone of a shot that a fleet flies
 
 
 _DURATION = Hinted(

@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 
 ROOT = Path(__file__).parents[2]
 MISSIONS = sorted([*ROOT.glob("specs/*.yaml"), *ROOT.glob("shotc/templates/*.yaml")])
-TEXTS = [path.read_bytes() for path in MISSIONS]
+SHOWS = sorted(Path(__file__).with_name("shows").glob("*.yaml"))
+CHECKED = [*MISSIONS, *SHOWS, *SHOWS, *SHOWS]  # shows are few
+TEXTS = [path.read_bytes() for path in CHECKED]
 TREES = [yaml.safe_load(text) for text in TEXTS]
 
 NUMBERS: list[Any] = [math.nan, math.inf, -math.inf, 1e300, -1e300, 1e-300, 0, -1, 0.5, 10**400, True, None]
@@ -38,6 +40,7 @@ WORDS = [
     *("a\x1b[31mb", "\u202egnp.exe", "\U0001f4a5", "a\u2028b"),
     *("tower", "nobody", "cam1", "left-third", "thirds", "auto", "keep", "center", "along"),
     *("framing", "display", "chase", "keyframes", "orbit", "follow-path"),
+    *("swarm", "first", "*.obj", "walk/*", "*/*.ply", "star.svg", "pads.csv", "#ff0", "cylinder", "outline"),
 ]
 LISTS: list[Any] = [
     *([], [[[[]]]], [1, 2], [1, 2, 3, 4], [5, 5], [math.nan, 0, 0], ["1 m", "2 s", None], ["10 m", "5 m"]),
@@ -51,6 +54,11 @@ MAPPINGS: list[Any] = [
         {"box": {"center": [0, 0, 0], "size": [0, -1, 2]}},
     ),
     *({"lat": 91, "lon": 500, "height": 3}, {"lat": 47.3769, "lon": 8.5417, "height": 30}),
+    *(
+        {"grid": {"spacing": 1e-4}},
+        {"circle": {"radius": 1e-4}},
+        {"sphere": {"center": [0, 0, 40], "radius": 1e5}},
+    ),
     *({"start": -5}, {"start": 3}, {"duration": 1e-9}, {"duration": 1e12}, {"after": "reveal"}),
 ]
 HOSTILE = [*NUMBERS, *QUANTITIES, *WORDS, *LISTS, *MAPPINGS]
@@ -114,19 +122,19 @@ EDITS = (replace, replace, replace, replace, drop, rename, add, wrap, borrow)
 @st.composite
 def damaged_trees(draw: st.DrawFn) -> tuple[bytes, Path]:
     """A mission with one to three edits, and the folder of its files."""
-    index = draw(st.integers(0, len(TREES) - 1))
+    index = draw(st.integers(0, len(CHECKED) - 1))
     tree = copy.deepcopy(TREES[index])
     for _ in range(draw(st.integers(1, 3))):
         if found := places(tree):
             edit, place, value = (draw(st.sampled_from(x)) for x in (EDITS, found, HOSTILE))
             edit(tree, place, copy.deepcopy(value))
-    return written(tree), MISSIONS[index].parent
+    return written(tree), CHECKED[index].parent
 
 
 @st.composite
 def bent_trees(draw: st.DrawFn) -> tuple[bytes, Path]:
     """A mission with one or two numbers scaled, which may still be one, and the folder of its files."""
-    index = draw(st.integers(0, len(TREES) - 1))
+    index = draw(st.integers(0, len(MISSIONS) - 1))
     tree = copy.deepcopy(TREES[index])
     numbers = [p for p in places(tree) if type(at(tree, p)) in (int, float) and p != ("shotc",)]
     for _ in range(draw(st.integers(1, 2))):
@@ -162,4 +170,4 @@ def damaged_bytes(draw: st.DrawFn) -> tuple[bytes, Path]:
             data[:start],
         )
         data = ways[draw(st.sampled_from([0, 0, 0, 1, 1, 2, 3]))]
-    return data, MISSIONS[index].parent
+    return data, CHECKED[index].parent

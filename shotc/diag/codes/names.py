@@ -14,11 +14,11 @@ targets:
 drones:
   cam1: {model: x500, home: [0, -60, 0]}
 fleets:
-  swarm: {count: 20, layout: {grid: {spacing: 4}}}
+  swarm: {count: 20, layout: {grid: {spacing: 4, origin: [100, 0, 0]}}}
 shots:
   - {id: wide, kind: static, drone: cam1, at: [0, -50, 15], look_at: tower}
   - {id: side, kind: static, drone: cam1, at: [50, 0, 15], look_at: tower, timing: {after: wide}}
-  - {id: show, kind: display, fleet: swarm, frames: {files: walk/*.ply, period: 2}}
+  - {id: show, kind: display, fleet: swarm, frames: [{sphere: {center: [100, 0, 40], radius: 20}}]}
 output: {emit: [csv]}
 """
 

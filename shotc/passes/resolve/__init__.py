@@ -9,16 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from functools import partial
-from typing import ClassVar, Final
+from typing import ClassVar, Final, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
 from shotc.ir.mission import GeoOrigin, MissionIR, Rules
+from shotc.ir.show import Display, Fleet
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.deferred import deferred_features
 from shotc.passes.resolve.earth import check_earth, geo_origin
-from shotc.passes.resolve.files import read_file
+from shotc.passes.resolve.files import match_files, read_file
 from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.framings import with_framings
 from shotc.passes.resolve.geometry import check_places
@@ -30,10 +31,10 @@ from shotc.passes.resolve.recordings import Ground
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.tracks import read_tracks
-from shotc.passes.resolve.world import check_targets, drones, resolve_drone, targets, zones
+from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
-from shotc.spec.presets import RATE
+from shotc.spec.presets import RATE, SHOW_RATE
 from shotc.spec.rules import RulesSpec
 
 ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
@@ -62,7 +63,8 @@ class Resolve:
         found_drones, drone_faults = drones(spec, put, origins)
         rules = _rules(spec.rules)
         read = partial(read_file, ir.folder, origins)
-        tracks = read_tracks(spec, put, Ground(origin, origins, read))
+        ground = Ground(origin, origins, read)
+        tracks = read_tracks(spec, put, ground)
         found_targets = targets(spec, put, tracks.tracks)
         ctx.progress("expanding the shots")
         cast = Cast(
@@ -73,8 +75,10 @@ class Resolve:
             origin or (ANYWHERE if astray else None),
             origins,
             read,
+            partial(match_files, ir.folder, origins),
         )
         shots = expand_shots(spec, cast, lambda: resolve_drone("spare", DroneSpec(), put, 0.0))
+        show = _show(ir, put, ground, shots.displays)
         faults = once(
             [
                 *astray,
@@ -84,6 +88,7 @@ class Resolve:
                 *tracks.diagnostics,
                 *check_names(spec, origins, self.emitters),
                 *shots.diagnostics,
+                *show.diagnostics,
             ]
         )
         mission = MissionIR(
@@ -95,20 +100,46 @@ class Resolve:
             drones=tuple(found_drones.values()),
             rules=rules,
             shots=shots.shots,
-            rate=spec.output.rate or RATE,
+            rate=spec.output.rate or (SHOW_RATE if shots.displays and not shots.shots else RATE),
             emit=spec.output.emit,
             source_sha256=ir.sha256,
             deferred=deferred_features(spec, shots.deferred),
             origins=origins,
+            fleets=show.fleets,
+            displays=shots.displays,
+            files=show.files,
         )
         mission, framings = with_framings(mission)
         faults += framings
         faults += _static_faults(
             mission, geometry=not astray, timing=not drone_faults, order=not has_errors(faults)
         )
+        if spec.fleets and not astray:
+            from shotc.passes.resolve.show import check_show
+
+            faults += check_show(mission, spec, order=not has_errors(faults))
         if not has_errors(faults):
             faults += check_grammar(mission, allowed(spec))
         return Outcome(None if stops(faults) else mission, tuple(faults))
+
+
+class _Show(NamedTuple):
+    """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others."""
+
+    fleets: tuple[Fleet, ...] = ()
+    files: tuple[tuple[str, bytes], ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def _show(ir: LoadedMission, put: Put, ground: Ground, displays: tuple[Display, ...]) -> _Show:
+    """Resolve the fleets, and read what their displays draw; a mission without them loads none of this."""
+    if not ir.spec.fleets:
+        return _Show()
+    from shotc.passes.resolve.show import fleets_of, read_material
+
+    fleets, wrong = fleets_of(ir.spec, put, ground)
+    files, missing = read_material(displays, ir.folder, ir.origins)
+    return _Show(fleets, files, (*wrong, *missing))
 
 
 def _rules(spec: RulesSpec) -> Rules:

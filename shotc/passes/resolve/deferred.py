@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from shotc.ir.mission import Deferred
 from shotc.spec.mission import MissionSpec
+from shotc.spec.shot import NO_DRONE
 
 
 def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[Deferred, ...]:
@@ -19,5 +20,6 @@ def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[D
 def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
     if spec.world.scene is not None:
         yield Deferred("a scene file (`world.scene`)", ("world", "scene"))
-    for name in spec.fleets:
-        yield Deferred("a fleet", ("fleets", name))
+    drawn = [i for i, shot in enumerate(spec.shots) if shot.drone == NO_DRONE]
+    if 0 < len(drawn) < len(spec.shots):
+        yield Deferred("a mission with both cameras and displays", ("shots", drawn[0], "kind"))

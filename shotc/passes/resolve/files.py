@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from fnmatch import translate
 from pathlib import Path
 
 from shotc.diag.model import Diagnostic
@@ -10,14 +12,18 @@ from shotc.kinds.base import bad_file
 from shotc.kinds.files import LARGEST, FileFault
 from shotc.spec.words import closest
 
+MOST_FILES = 5_000  # frames of an animation
+_WILD = re.compile(r"[*?]")
 NO_FOLDER = "a mission read from standard input has no folder; save it to a file"
 
 
-def read_file(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
+def read_file(
+    folder: Path | None, origins: OriginMap, name: str, path: KeyPath, most: int = LARGEST
+) -> bytes | Diagnostic:
     """Return the bytes of the file that the mission names at ``path``, or what is wrong with it.
 
-    Links are followed as far as they stay inside the folder. At most one byte more than a file may
-    have is read, so that a device or a huge file costs nothing.
+    Links are followed as far as they stay inside the folder. A file of more than ``most`` bytes is not
+    read, and no more than one byte beyond that of what has no size, so that neither costs anything.
     """
     label = (origins.value(path),)
     if folder is None:
@@ -32,15 +38,68 @@ def read_file(folder: Path | None, origins: OriginMap, name: str, path: KeyPath)
         if not place.is_file():
             note = f"looked for it in the folder of the mission, as `{name}`"
             return Diagnostic("N008", f"cannot find the file `{name}`", label, (note,), _neighbours(place))
-        with place.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
+        size = place.stat().st_size
+        if size <= most:
+            with place.open("rb") as stream:
+                data = stream.read(most + 1)
+            size = len(data)
     except (OSError, ValueError, RuntimeError) as error:
         reason = getattr(error, "strerror", None) or "the path cannot be followed"
         return Diagnostic("N008", f"cannot read `{name}`", label, (str(reason).lower(),), "check the file")
-    if len(data) > LARGEST:
-        wrong = FileFault(f"the file has more than {LARGEST / 1e6:.0f} MB", None, "thin it")
-        return bad_file(origins, path, name, wrong)
+    if size > most:
+        message = f"the file has {size / 1e6:.1f} MB, and no more than {most / 1e6:.0f} MB are read"
+        return bad_file(origins, path, name, FileFault(message, None, "thin it"))
     return data
+
+
+def match_files(
+    folder: Path | None, origins: OriginMap, pattern: str, path: KeyPath
+) -> tuple[str, ...] | Diagnostic:
+    """Return the names of the files that a pattern at ``path`` stands for, or what is wrong with it.
+
+    `*` and `?` stand for letters of the file's name, not of its folders. Numbers in names are sorted by
+    their size, so that frame-2 comes before frame-10. A name without either is itself, there or not.
+    """
+    where, slash, last = pattern.rpartition("/")
+    if not _WILD.search(pattern):
+        return (pattern,)
+    label = (origins.value(path),)
+    if _WILD.search(where):
+        help_ = "put `*` into the file's name, after the last `/`"
+        return Diagnostic("N008", f"`{pattern}` is a pattern of folders", label, help=help_)
+    if folder is None:
+        note = "the mission has no folder"
+        return Diagnostic("N008", f"cannot look for `{pattern}`", label, (note,), NO_FOLDER)
+    found = _listed(folder, where, last)
+    if isinstance(found, str):
+        return Diagnostic("N008", f"cannot look for `{pattern}`", label, (found,), "check the folder's name")
+    if not found:
+        note = f"looked for it in the folder of the mission, as `{pattern}`"
+        return Diagnostic("N008", f"no file is called `{pattern}`", label, (note,), "check the pattern")
+    if len(found) > MOST_FILES:
+        message = f"`{pattern}` stands for {len(found)} files, and no more than {MOST_FILES} are read"
+        return Diagnostic("N008", message, label, help="take a narrower pattern, or fewer frames")
+    return tuple(f"{where}{slash}{name}" for name in sorted(found, key=_in_order))
+
+
+def _listed(folder: Path, where: str, pattern: str) -> list[str] | str:
+    """Return the names in a folder that fit a pattern, or why they cannot be listed."""
+    fits = re.compile(translate(pattern.replace("[", "[[]")))
+    try:
+        root = folder.resolve()
+        place = (root / where).resolve()
+        if not place.is_relative_to(root):
+            return "its folder, or a link on the way, is outside the folder of the mission"
+        names = [found.name for found in place.iterdir() if fits.match(found.name) and found.is_file()]
+    except (OSError, ValueError, RuntimeError) as error:
+        return str(getattr(error, "strerror", None) or "the path cannot be followed").lower()
+    return [name for name in names if pattern[0] == "." or name[0] != "."]
+
+
+def _in_order(name: str) -> tuple[list[str | int], str]:
+    """Return what sorts names as people count: text and numbers by turns."""
+    parts = re.split(r"([0-9]+)", name)
+    return [int(part) if i % 2 else part for i, part in enumerate(parts)], name
 
 
 def _neighbours(place: Path) -> str:

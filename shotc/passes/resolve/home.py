@@ -60,24 +60,31 @@ def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[str, str] | None:
     """Return what stands against a home, and the numbers; None where nothing does."""
     top = max(drone.home[2], mission.rules.ground_clearance + drone.radius)
+    room = take_off_room(drone.home, top, obstacle)
+    if room >= drone.radius - ROUNDING:
+        return None
     if obstacle.role == "in":
-        walls = obstacle.solid._replace(bottom=-inf)
-        room = min(-signed_distance(walls, p) for p in (drone.home, (drone.home[0], drone.home[1], top)))
-        if room >= drone.radius - ROUNDING:
-            return None
         where = f"{room:.2f} m from its border" if room > 0 else f"{abs(room):.2f} m outside"
         note = f"the take-off is {where}; the body radius of {drone.radius:.2f} m must be free"
         return f"the home of `{drone.name}` is outside keep-in zone `{obstacle.name}`", note
-    near = signed_distance(obstacle.solid, _nearest_level(drone.home, top, obstacle))
-    if near >= drone.radius - ROUNDING:
-        return None
     what = "target" if obstacle.role == "target" else "zone"
     where = "in" if signed_distance(obstacle.solid, drone.home) < drone.radius else "under"
-    reach = f"comes within {near:.2f} m" if near > 0 else f"reaches {-near:.2f} m into it"
+    reach = f"comes within {room:.2f} m" if room > 0 else f"reaches {-room:.2f} m into it"
     note = (
         f"between the ground and {top:.2f} m it {reach}; the body radius of {drone.radius:.2f} m must be free"
     )
     return f"the home of `{drone.name}` is {where} {what} `{obstacle.name}`", note
+
+
+def take_off_room(home: Vec3, top: float, obstacle: Obstacle) -> float:
+    """Return the free metres about the way straight up from a pad to z = ``top``; negative in an obstacle.
+
+    The floors of keep-in zones do not apply on it.
+    """
+    if obstacle.role == "in":
+        walls = obstacle.solid._replace(bottom=-inf)
+        return min(-signed_distance(walls, p) for p in (home, (home[0], home[1], top)))
+    return signed_distance(obstacle.solid, _nearest_level(home, top, obstacle))
 
 
 def _remedy(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> str:

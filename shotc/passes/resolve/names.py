@@ -8,6 +8,7 @@ from typing import Any
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.mission import MissionSpec
+from shotc.spec.shot import NO_DRONE
 from shotc.spec.words import nearest
 
 AUTO = "auto"
@@ -50,7 +51,7 @@ def _drones(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
     return [
         _unknown("N002", "drone", shot.drone, spec.drones, origins, ("shots", i, "drone"))
         for i, shot in enumerate(spec.shots)
-        if shot.drone != AUTO and shot.drone not in spec.drones
+        if shot.drone not in (AUTO, NO_DRONE) and shot.drone not in spec.drones
     ]
 
 

@@ -7,6 +7,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.show import Display
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
@@ -25,12 +26,14 @@ class Cast(NamedTuple):
     origin: GeoOrigin | None
     origins: OriginMap
     read: Callable[[str, KeyPath], bytes | Diagnostic]
+    match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
 
 
 class Shots(NamedTuple):
-    """Shots that have keyframes, and what stands against the others."""
+    """Shots that have keyframes, those of fleets, and what stands against the others."""
 
     shots: tuple[Shot, ...]
+    displays: tuple[Display, ...]
     diagnostics: tuple[Diagnostic, ...]
     deferred: tuple[Deferred, ...]
 
@@ -38,6 +41,7 @@ class Shots(NamedTuple):
 def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> Shots:
     """Expand every shot; one without a drone of its own is checked with what ``spare`` makes and left out."""
     shots: list[Shot] = []
+    displays: list[Display] = []
     diagnostics: list[Diagnostic] = []
     deferred: list[Deferred] = []
     for i, written in enumerate(spec.shots):
@@ -48,9 +52,11 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> S
         expansion = _expand(spec, written, cast, cast.drones.get(written.drone) or spare(), path)
         diagnostics += expansion.diagnostics
         deferred += expansion.deferred
-        if (expansion.keyframes or expansion.ideal) and written.drone in cast.drones:
+        if expansion.display is not None:
+            displays.append(expansion.display)
+        elif (expansion.keyframes or expansion.ideal) and written.drone in cast.drones:
             shots.append(_shot(spec, written, expansion, path))
-    return Shots(tuple(shots), tuple(diagnostics), tuple(deferred))
+    return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred))
 
 
 def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: KeyPath) -> Expansion:
@@ -63,6 +69,8 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
         origins=cast.origins,
         origin=cast.origin,
         read=cast.read,
+        match=cast.match,
+        pace=spec.rules.pace,
         fleets=tuple(spec.fleets),
     )
     return cast.kinds[shot.kind].expand(shot, scene)

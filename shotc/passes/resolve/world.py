@@ -14,10 +14,11 @@ from shotc.geom.track import Track
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import OriginMap
-from shotc.spec.drones import DroneSpec
+from shotc.ir.show import Fleet
+from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic
 from shotc.spec.mission import MissionSpec
-from shotc.spec.presets import PRESETS
+from shotc.spec.presets import PRESETS, Preset
 from shotc.spec.world import ZoneSpec
 
 Put = Callable[[Vec3 | Geodetic], Vec3]
@@ -105,8 +106,7 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
     wind = spec.world.wind
     for name, drone in spec.drones.items():
         resolved = resolve_drone(name, drone, put, wind)
-        if resolved.limits.speed < LEAST_SPEED:
-            faults.append(_becalmed(resolved, wind, origins))
+        faults += becalmed("drone", resolved, wind, origins)
         found[name] = resolved
     return found, faults
 
@@ -114,14 +114,12 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
 def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: float) -> Drone:
     """Return a drone as its preset and what the mission puts in its place; wind in m/s."""
     preset = PRESETS[spec.model]
-    limits = _over(preset.limits, spec.limits)
-    limits["speed"] -= wind
     camera = spec.camera
     return Drone(
         name=name,
         model=spec.model,
         home=put(spec.home),
-        limits=Limits(**limits),
+        limits=limits_of(preset, spec.limits, wind),
         gimbal=Gimbal(**_over(preset.gimbal, spec.gimbal)),
         hfov=camera.field_of_view or preset.hfov,
         aspect=camera.aspect_ratio or preset.aspect,
@@ -134,22 +132,33 @@ def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: float) -> Drone:
     )
 
 
+def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:
+    """Return the preset's limits with what the mission gives in their place, less the wind, m/s."""
+    limits = _over(preset.limits, spec)
+    limits["speed"] -= wind
+    return Limits(**limits)
+
+
 def _over(preset: Limits | Gimbal, spec: BaseModel) -> dict[str, Any]:
     """Return the preset's fields, with what the mission gives in their place."""
     given = {key: getattr(spec, key) for key in type(spec).model_fields}
     return {key: getattr(preset, key) if given[key] is None else given[key] for key in given}
 
 
-def _becalmed(drone: Drone, wind: float, origins: OriginMap) -> Diagnostic:
+def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -> list[Diagnostic]:
+    """Return the fault of a drone, or of a fleet's drones, to which the wind leaves no speed."""
+    if drone.limits.speed >= LEAST_SPEED:
+        return []
     speed = drone.limits.speed + wind
     labels = (
         origins.value(("world", "wind")),
-        origins.value((*drone.path, "limits", "speed"), f"drone `{drone.name}`"),
+        origins.value((*drone.path, "limits", "speed"), f"{what} `{drone.name}`"),
     )
-    return Diagnostic(
+    found = Diagnostic(
         "K011",
-        f"the wind leaves drone `{drone.name}` no speed",
+        f"the wind leaves {what} `{drone.name}` no speed",
         labels,
         (f"it flies {speed:.1f} m/s at most, and the wind takes {wind:.1f} m/s of that",),
         f"wait for wind below {max(0.0, speed - LEAST_SPEED):.1f} m/s, or take a faster drone",
     )
+    return [found]

@@ -125,7 +125,7 @@ positions = st.tuples(st.floats(-50, 50), st.floats(-50, 50), st.floats(0, 50))
 def test_a_straight_trapezoidal_flight_is_never_faster_than_the_bound(p: Vec3, q: Vec3) -> None:
     # Fly straight with each axis scaled to its own limit: a feasible flight, so the bound lies below it.
     across = ((q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2) ** 0.5
-    rise = q[2] - p[2]
+    rise = q[2] - p[2] if abs(q[2] - p[2]) > 1e-9 else 0.0
     way = (across**2 + rise**2) ** 0.5
     if way < 1e-6:
         return

@@ -215,7 +215,7 @@ def test_the_whole_language_loads(loads, whole_language):
     assert spec.drones["cam3"].home == (0.0, 0.0, 0.0)
     assert spec.shots[0].require.in_frame == 1.0
     assert spec.shots[0].keyframes[1].frame.points == ((-1 / 3, 0.0),)
-    assert loaded.mission.origins.value(("shots", 1, "pitch")).span.line == 57
+    assert loaded.mission.origins.value(("shots", 1, "pitch")).span.line == 66
 
 
 def test_models_are_frozen(loads):
@@ -253,6 +253,7 @@ def value_at(tree, path):
 def allows_mapping(path):
     """Positions and timings may be mappings, whose own keys are judged then; so may a missing `kind`."""
     names = {"at", "home", "origin", "center", "start", "viewpoint", "look_at", "timing", "points", "kind"}
+    names |= {"separation", "frames"}
     return path[-1] in names or (len(path) > 1 and path[-2] == "points") or path[:-1] == ("shots",)
 
 

@@ -1,0 +1,163 @@
+"""The pictures of a display as a mission writes them: shapes, letters, drawings, models."""
+
+from functools import partial
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, GetCoreSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from shotc.spec.colors import LightColor
+from shotc.spec.faults import fault, read_each
+from shotc.spec.fields import (
+    Angle,
+    Duration,
+    NonNegativeDuration,
+    Position,
+    PositiveLength,
+    RelativePath,
+)
+from shotc.spec.fieldtypes import FieldType, Text
+from shotc.spec.model import Model, OneOf
+from shotc.units import describe
+
+MOST_PICTURES = 500
+
+# One line that shows something: no control characters, no line ends.
+Letters = Annotated[
+    str,
+    Text(
+        "LineOfText",
+        r"^(?=.*\S)[^\x00-\x1f\x7f-\x9f\u2028\u2029]{1,100}$",
+        "wrong-length",
+        'give one line of at most 100 characters, such as "SHOTC"',
+    ),
+]
+
+
+class SphereSpec(Model):
+    """A ball."""
+
+    center: Position = Field(description="middle of the ball")
+    radius: PositiveLength = Field(description="radius")
+
+
+class CubeSpec(Model):
+    """A cube."""
+
+    center: Position = Field(description="middle of the cube")
+    size: PositiveLength = Field(description="length of an edge")
+    heading: Angle = Field(default=0.0, description="compass bearing to which it is turned")
+
+
+class TorusSpec(Model):
+    """A ring."""
+
+    center: Position = Field(description="middle of the ring")
+    radius: PositiveLength = Field(description="from its middle to the middle of the tube")
+    tube: PositiveLength = Field(description="radius of the tube")
+    heading: Angle = Field(default=0.0, description="compass bearing to which its axis leans")
+    tilt: Angle = Field(default=0.0, description="how far it leans: 0 lies flat, 90 deg stands upright")
+
+
+class TextSpec(Model):
+    """A text that stands upright."""
+
+    text: Letters = Field(description="what it says, one line")
+    center: Position = Field(description="middle of the text")
+    height: PositiveLength = Field(description="height of its capitals")
+    heading: Angle = Field(default=0.0, description="the way one looks who reads it, compass bearing")
+    font: RelativePath | None = Field(
+        default=None, description="a font file (.ttf, .otf), or the name of a font of the system"
+    )
+
+
+class DrawingSpec(Model):
+    """A drawing that stands upright."""
+
+    file: RelativePath = Field(description="an SVG file")
+    center: Position = Field(description="middle of the drawing")
+    height: PositiveLength = Field(description="height of the whole drawing")
+    heading: Angle = Field(default=0.0, description="the way one looks at it, compass bearing")
+
+
+class FilesSpec(Model):
+    """Meshes or point clouds, one file a frame."""
+
+    files: RelativePath = Field(description="PLY, OBJ or STL: one file, or a pattern such as walk/*.ply")
+    period: Duration | None = Field(default=None, description="time from frame to frame, of several")
+    center: Position | None = Field(
+        default=None, description="where the middle of the first frame goes; where it is if silent"
+    )
+    height: PositiveLength | None = Field(
+        default=None, description="height of the first frame; as it is, in metres, if silent"
+    )
+    heading: Angle = Field(default=0.0, description="compass bearing to which all are turned")
+
+
+class PictureSpec(Model):
+    """One picture of a display."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (
+        OneOf((("sphere",), ("cube",), ("torus",), ("text",), ("svg",), ("model",))),
+    )
+
+    sphere: SphereSpec | None = Field(default=None, description="a ball")
+    cube: CubeSpec | None = Field(default=None, description="a cube")
+    torus: TorusSpec | None = Field(default=None, description="a ring")
+    text: TextSpec | None = Field(default=None, description="a text")
+    svg: DrawingSpec | None = Field(default=None, description="a drawing")
+    model: FilesSpec | None = Field(default=None, description="meshes or point clouds, one or many")
+    fill: Literal["volume", "surface", "outline"] = Field(
+        default="volume",
+        description="where the drones stand: all of its inside, its surface, or a flat shape's edges",
+    )
+    color: LightColor | None = Field(
+        default=None, description="of all lights; the file's, or white, if silent"
+    )
+    transition: Duration | None = Field(
+        default=None, description="time to it from the picture before; as fast as the pace allows if silent"
+    )
+    hold: NonNegativeDuration = Field(default=0.0, description="how long its last frame stands")
+
+
+class FramesType(FieldType):
+    """What a display shows: a list of pictures, or the files of an animation alone."""
+
+    label = "Frames"
+
+    def read(self, value: Any) -> "FilesSpec | tuple[PictureSpec, ...]":
+        """Return the pictures, or the one animation."""
+        if isinstance(value, dict):
+            return FilesSpec.model_validate(value)
+        if not isinstance(value, list):
+            help_ = "write a list of pictures, or the files of an animation"
+            raise fault("wrong-type", f"expected pictures, got {describe(value)}", help_)
+        if not value:
+            raise fault("empty-display", "the display shows no picture", "give one picture or more")
+        if len(value) > MOST_PICTURES:
+            message = f"the display shows {len(value)} pictures; at most {MOST_PICTURES} are"
+            raise fault("wrong-length", message, "cut it into several displays")
+        return tuple(read_each(((i,), partial(_picture, item)) for i, item in enumerate(value)))
+
+    def schema(self) -> JsonSchemaValue:
+        """Return nothing of its own: the schema is that of both forms."""
+        return {}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        listed = core_schema.list_schema(
+            handler.generate_schema(PictureSpec), min_length=1, max_length=MOST_PICTURES
+        )
+        both = core_schema.union_schema([handler.generate_schema(FilesSpec), listed])
+        return core_schema.no_info_wrap_validator_function(lambda value, _: self.read(value), both)
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: Any) -> JsonSchemaValue:
+        found: JsonSchemaValue = handler(core)
+        return found
+
+
+def _picture(value: Any) -> PictureSpec:
+    return PictureSpec.model_validate(value)
+
+
+Frames = Annotated[FilesSpec | tuple[PictureSpec, ...], FramesType()]

@@ -1,0 +1,98 @@
+"""The pictures of a display made records of MissionIR: places put into W, files named one by one."""
+
+from collections.abc import Sequence
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus
+from shotc.kinds.base import Scene
+from shotc.kinds.pictures import DrawingSpec, FilesSpec, PictureSpec, TextSpec
+
+MESHES = (".ply", ".obj", ".stl")
+FONTS = (".ttf", ".otf", ".ttc")
+DRAWINGS = (".svg",)
+
+
+def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Picture | Diagnostic:
+    """Return one picture of a display, or the first thing that is wrong with it.
+
+    spec : a picture, or the files that a display gives in place of its list of pictures
+    """
+    if isinstance(spec, FilesSpec):
+        path: KeyPath = (*scene.path, "frames")
+        alone = _model(spec, scene, path)
+        return alone if isinstance(alone, Diagnostic) else Picture(alone, "volume", None, None, 0.0, path)
+    path = (*scene.path, "frames", index)
+    source = _source(spec, scene, path)
+    if isinstance(source, Diagnostic):
+        return source
+    if spec.fill == "outline" and not isinstance(source, Lettering | Drawing):
+        label = scene.origins.value((*path, "fill"))
+        note = "only the flat ones have an outline: `text` and `svg`"
+        help_ = "write `fill: surface`, or remove it"
+        return Diagnostic("D009", "this picture has no outline", (label,), (note,), help_)
+    return Picture(source, spec.fill, spec.color, spec.transition, spec.hold, path)
+
+
+def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:
+    """Return what a picture shows; its model has made sure that it is one thing."""
+    if spec.sphere is not None:
+        return Sphere(scene.place(spec.sphere.center), spec.sphere.radius)
+    if spec.cube is not None:
+        cube = spec.cube
+        return Box(scene.place(cube.center), (cube.size, cube.size, cube.size), cube.heading)
+    if spec.torus is not None:
+        ring = spec.torus
+        return Torus(scene.place(ring.center), ring.radius, ring.tube, ring.heading, ring.tilt)
+    if spec.text is not None:
+        return _lettering(spec.text, scene, (*path, "text"))
+    if spec.svg is not None:
+        return _drawing(spec.svg, scene, (*path, "svg"))
+    assert spec.model is not None
+    return _model(spec.model, scene, (*path, "model"))
+
+
+def _lettering(spec: TextSpec, scene: Scene, path: KeyPath) -> Lettering | Diagnostic:
+    font = spec.font
+    if font is not None and "." in font:  # a file; names of fonts have no ending
+        wrong = _unreadable(scene, [font], FONTS, "a font", (*path, "font"))
+        if wrong is not None:
+            return wrong
+    return Lettering(spec.text, scene.place(spec.center), spec.height, spec.heading, font)
+
+
+def _drawing(spec: DrawingSpec, scene: Scene, path: KeyPath) -> Drawing | Diagnostic:
+    wrong = _unreadable(scene, [spec.file], DRAWINGS, "a drawing", (*path, "file"))
+    return wrong or Drawing(spec.file, scene.place(spec.center), spec.height, spec.heading)
+
+
+def _model(spec: FilesSpec, scene: Scene, path: KeyPath) -> Model | Diagnostic:
+    where = (*path, "files")
+    names = scene.match(spec.files, where)
+    if isinstance(names, Diagnostic):
+        return names
+    wrong = _unreadable(scene, names, MESHES, "a mesh or point cloud", where)
+    if wrong is not None:
+        return wrong
+    if len(names) > 1 and spec.period is None:
+        note = f"`{spec.files}` matches {len(names)} files, `{names[0]}` to `{names[-1]}`"
+        label = scene.origins.value(where)
+        return Diagnostic(
+            "D010", "this animation has no period", (label,), (note,), "add `period`, such as 1 s"
+        )
+    centre = None if spec.center is None else scene.place(spec.center)
+    return Model(names, spec.period, centre, spec.height, spec.heading)
+
+
+def _unreadable(
+    scene: Scene, names: Sequence[str], endings: Sequence[str], what: str, path: KeyPath
+) -> Diagnostic | None:
+    """Return the diagnostic of the first file that is of another format, by its ending."""
+    strange = next((name for name in names if not name.lower().endswith(tuple(endings))), None)
+    if strange is None:
+        return None
+    message = f"`{strange}` is in no format that {what} is read from"
+    label = scene.origins.value(path)
+    *most, last = endings
+    known = f"{', '.join(most)} or {last}" if most else last
+    return Diagnostic("D011", message, (label,), help=f"give a file that ends in {known}")

@@ -1,0 +1,111 @@
+"""Drawings that a mission names: is the SVG well-formed, and nothing but a drawing."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, NamedTuple
+from xml.parsers import expat
+
+from shotc.kinds.files import LARGEST, FileFault, too_large
+
+SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon"}
+_ACTIVE = {"script": "a script", "foreignObject": "a page of another sort"}
+# Possessive, so that no run of spaces is gone through twice.
+_OUTSIDE = re.compile(r"@import|url\(\s*+['\"]?+\s*+[^#\s'\"]", re.IGNORECASE)
+_OWN = "export it as a plain SVG, with all that it draws in the file itself"
+
+
+class Wrong(NamedTuple):
+    """What is wrong with a drawing; unsafe : whether it asks for more than to be drawn."""
+
+    fault: FileFault
+    unsafe: bool = False
+
+
+def svg_fault(data: bytes) -> Wrong | None:
+    """Return why a file cannot be drawn, or None.
+
+    A document type declaration is refused, for entities could grow without bound; so are scripts and
+    all that refers to anything outside of the file: nothing is ever fetched.
+    """
+    if len(data) > LARGEST:
+        return Wrong(too_large(data))
+    reader = _Svg()
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = reader.doctype
+    parser.buffer_text = True
+    parser.ProcessingInstructionHandler = reader.instruction
+    parser.StartElementHandler = reader.start
+    parser.EndElementHandler = reader.end
+    parser.CharacterDataHandler = reader.text
+    reader.parser = parser
+    try:
+        parser.Parse(data, True)
+    except _Stop:
+        return reader.wrong
+    except expat.ExpatError as error:
+        return Wrong(FileFault(f"not well-formed XML: {expat.ErrorString(error.code)}", error.lineno))
+    except (LookupError, ValueError):  # what expat does not know it asks Python for
+        return Wrong(FileFault("the XML is in an encoding that cannot be read", 1, "save it as UTF-8"))
+    if not reader.shapes:
+        help_ = f"turn what it shows into shapes: {', '.join(sorted(SHAPES))}"
+        return Wrong(FileFault("the drawing has no shapes", None, help_))
+    return None
+
+
+class _Stop(Exception):
+    """The reader has found its first fault and leaves expat."""
+
+
+class _Svg:
+    """Expat's handlers; count shapes until the first fault."""
+
+    def __init__(self) -> None:
+        self.parser: Any = None
+        self.wrong: Wrong | None = None
+        self.shapes = 0
+        self._root = ""
+        self._style = 0  # how many style elements are open
+
+    def doctype(self, *_: Any) -> None:
+        self._stop("it has a document type declaration", "remove the <!DOCTYPE ...> line")
+
+    def instruction(self, target: str, _: str) -> None:
+        if target.lower() == "xml-stylesheet":
+            self._stop("it asks for a style sheet from outside", _OWN)
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        name = tag.rsplit(":", 1)[-1]
+        if not self._root:
+            self._root = name
+            if name != "svg":
+                self._stop(f"its root is `{name[:30]}`, not `svg`", "export it as SVG", unsafe=False)
+        if name in _ACTIVE:
+            self._stop(f"it holds {_ACTIVE[name]}", f"remove the <{name}> element")
+        self.shapes += name in SHAPES
+        self._style += name == "style"
+        for key, value in attributes.items():
+            self._attribute(key.rsplit(":", 1)[-1], value)
+
+    def end(self, tag: str) -> None:
+        self._style -= tag.rsplit(":", 1)[-1] == "style"
+
+    def text(self, data: str) -> None:
+        if self._style:
+            self._no_reference(data)
+
+    def _attribute(self, key: str, value: str) -> None:
+        if key.lower().startswith("on"):
+            self._stop(f"it holds a script, in `{key[:30]}`", f"remove `{key[:30]}`")
+        if key == "href" and not value.lstrip().startswith("#"):
+            self._stop(f"it refers to `{value[:60]}`", _OWN)
+        self._no_reference(value)
+
+    def _no_reference(self, text: str) -> None:
+        found = _OUTSIDE.search(text)
+        if found is not None:
+            self._stop(f"it refers to `{text[found.start() : found.start() + 60]}`", _OWN)
+
+    def _stop(self, message: str, help: str, *, unsafe: bool = True) -> None:
+        self.wrong = Wrong(FileFault(message, self.parser.CurrentLineNumber, help), unsafe)
+        raise _Stop

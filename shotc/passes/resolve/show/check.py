@@ -1,0 +1,41 @@
+"""All that numbers tell of a show before it is planned."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR
+from shotc.passes.resolve.show.clock import check_clock
+from shotc.passes.resolve.show.pads import check_pads
+from shotc.passes.resolve.show.pictures import check_pictures
+from shotc.spec.mission import MissionSpec
+
+
+def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Diagnostic]:
+    """Return what is wrong with pads, pictures and times.
+
+    order : whether to judge the times; they need displays whose names and waits all stand
+    """
+    fleets = {fleet.name: fleet for fleet in mission.fleets}
+    faults = [*_idle(mission, spec), *check_pads(mission)]
+    for display in mission.displays:
+        if display.fleet in fleets:
+            faults += check_pictures(mission, display, fleets[display.fleet])
+    if order:
+        faults += check_clock(mission)
+    return faults
+
+
+def _idle(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
+    """Yield the fleets that no display names."""
+    used = {getattr(shot, "fleet", None) for shot in spec.shots} - {None}
+    if not used <= spec.fleets.keys():  # a name is unknown, which is told, and may be meant for any of them
+        return
+    for fleet in mission.fleets:
+        if fleet.name not in used:
+            label = mission.origins.key(fleet.path)
+            message = f"fleet `{fleet.name}` shows nothing"
+            note = "it takes off, if at all, for its displays alone"
+            help_ = f"add a shot of `kind: display` with `fleet: {fleet.name}`, or remove it"
+            yield Diagnostic("D023", message, (label,), (note,), help_)

@@ -1,0 +1,210 @@
+"""When displays can be shown: in an order that ends, in time, within the endurance. Lower bounds only."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import ceil, hypot
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.limits import Limits, Vec3
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display, Fleet, Model, Picture
+from shotc.passes.resolve.motion import least_travel
+from shotc.passes.resolve.show.places import key_of, word_of
+from shotc.passes.resolve.show.shape import bounds
+from shotc.passes.resolve.timing import EARLIEST, SHORTEST
+
+SLACK = 1e-6  # seconds of rounding
+
+
+def check_clock(mission: MissionIR) -> list[Diagnostic]:
+    """Return the transitions, orders and starts that no drone can meet, or else flights that are too long."""
+    fleets = {fleet.name: fleet for fleet in mission.fleets}
+    shown = [d for d in mission.displays if d.fleet in fleets]
+    faults = [fault for d in shown for fault in _transitions(mission, d, fleets[d.fleet])]
+    order = _in_order(shown)
+    if len(order) < len(shown):
+        return [*faults, _never(mission, next(d for d in shown if d not in order))]
+    if not faults:
+        faults = _starts(mission, order, fleets)
+    if not faults:
+        faults = [fault for fleet in mission.fleets for fault in _endurance(mission, fleet)]
+    return faults
+
+
+def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
+    """Yield transitions shorter than the way from one picture's box to the next one's."""
+    for before, after in pairwise(display.pictures):
+        least = _between(before, after, fleet.limits)
+        if after.transition is None or after.transition >= least - SLACK:
+            continue
+        labels = (
+            mission.origins.value((*after.path, "transition")),
+            mission.origins.key(key_of(before), "the picture before"),
+        )
+        limits = fleet.limits
+        note = (
+            f"every drone has {_gap(before, after):.1f} m to fly at least, which takes {_up(least)} s at "
+            f"{limits.speed:.1f} m/s across, {limits.climb:.1f} m/s up, {limits.descent:.1f} m/s down and "
+            f"{limits.acceleration:.1f} m/s^2"
+        )
+        message = (
+            f"no drone gets from this {word_of(before)} to the {word_of(after)} in {after.transition:.1f} s"
+        )
+        yield Diagnostic("D019", message, labels, (note,), f"give it more than {_up(least)} s; {SHORTEST}")
+
+
+def _way(before: Picture, after: Picture) -> Vec3:
+    """Return the components of the shortest way from one picture's box to the next one's; 0 if unknown."""
+    one, other = bounds(before.source), bounds(after.source)
+    if one is None or other is None:
+        return (0.0, 0.0, 0.0)
+    east, north, up = (
+        max(0.0, other[0][k] - one[1][k]) - max(0.0, one[0][k] - other[1][k]) for k in range(3)
+    )
+    return (east, north, up)
+
+
+def _gap(before: Picture, after: Picture) -> float:
+    return hypot(*_way(before, after))
+
+
+def _between(before: Picture, after: Picture, limits: Limits) -> float:
+    return least_travel([(0.0, 0.0, 0.0), _way(before, after)], limits)
+
+
+def _change(before: Picture, after: Picture, limits: Limits) -> float:
+    """Return the least seconds from the end of one picture to the beginning of the next."""
+    return max(after.transition or 0.0, _between(before, after, limits))
+
+
+def least_display(display: Display, limits: Limits) -> float:
+    """Return the least seconds from a display's first picture, standing, to the end of its last."""
+    changes = sum(_change(a, b, limits) for a, b in pairwise(display.pictures))
+    return changes + sum(p.hold + _animation(p) for p in display.pictures)
+
+
+def _animation(picture: Picture) -> float:
+    source = picture.source
+    if isinstance(source, Model) and source.period is not None:
+        return (len(source.files) - 1) * source.period
+    return 0.0
+
+
+def _before(displays: Sequence[Display]) -> dict[str, Display | None]:
+    """Return the display that the fleet of each shows before it, by id."""
+    last: dict[str, Display] = {}
+    found: dict[str, Display | None] = {}
+    for display in displays:
+        found[display.id] = last.get(display.fleet)
+        last[display.fleet] = display
+    return found
+
+
+def _in_order(displays: Sequence[Display]) -> list[Display]:
+    """Return the displays so that each comes after all that it waits for; some may never come."""
+    before = _before(displays)
+    known = {d.id for d in displays}
+    done: dict[str, Display] = {}
+    waiting = list(displays)
+    while waiting:
+        ready = [d for d in waiting if _ready(d, before[d.id], known, done)]
+        if not ready:
+            break
+        done |= {d.id: d for d in ready}
+        waiting = [d for d in waiting if d.id not in done]
+    return list(done.values())
+
+
+def _ready(display: Display, before: Display | None, known: set[str], done: dict[str, Display]) -> bool:
+    after = display.timing.after
+    return (before is None or before.id in done) and (after not in known or after in done)
+
+
+def _never(mission: MissionIR, display: Display) -> Diagnostic:
+    label = mission.origins.value((*display.path, "timing", "after"))
+    note = "the displays of one fleet are shown in the order in which they are written"
+    message = f"display `{display.id}` waits for one that is shown later"
+    return Diagnostic("D024", message, (label,), (note,), "write them in the order in which they are shown")
+
+
+class _Free(NamedTuple):
+    """When a fleet is free, and what it shows then; None on its pads."""
+
+    time: float
+    picture: Picture | None
+
+
+def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Fleet]) -> list[Diagnostic]:
+    """Fold over the displays with the earliest times at which each can begin and end."""
+    faults: list[Diagnostic] = []
+    free = {name: _Free(_rise_time(fleet), None) for name, fleet in fleets.items()}
+    ends: dict[str, float] = {}
+    for display in order:
+        limits, last = fleets[display.fleet].limits, free[display.fleet]
+        first = display.pictures[0]
+        there = last.time
+        if last.picture is not None:
+            there += _change(last.picture, first, limits)
+        waits = ends.get(display.timing.after or "", 0.0)
+        start = display.timing.start
+        if start is not None and start < max(there, waits) - SLACK:
+            faults.append(_early(mission, display, there, waits))
+        begin = max(start or 0.0, there, waits)
+        ends[display.id] = begin + least_display(display, limits)
+        free[display.fleet] = _Free(ends[display.id], display.pictures[-1])
+    return faults
+
+
+def _rise_time(fleet: Fleet) -> float:
+    return least_travel([(0.0, 0.0, 0.0), (0.0, 0.0, fleet.rise)], fleet.limits)
+
+
+def _early(mission: MissionIR, display: Display, there: float, waits: float) -> Diagnostic:
+    label = mission.origins.value((*display.path, "timing", "start"))
+    start = display.timing.start or 0.0
+    why = f"its fleet takes off or shows something else until {_up(there)} s at least"
+    if waits > there:
+        why = f"`{display.timing.after}`, for which it waits, ends at {_up(waits)} s at the earliest"
+    message = f"display `{display.id}` cannot stand at {start:.1f} s"
+    return Diagnostic(
+        "D020", message, (label,), (why,), f"start it later than {_up(max(there, waits))} s; {EARLIEST}"
+    )
+
+
+def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
+    """Yield a fleet whose displays alone last longer than it can stay in the air."""
+    shown = [d for d in mission.displays if d.fleet == fleet.name]
+    if not shown:
+        return
+    limits = fleet.limits
+    pictures = sum(least_display(d, limits) for d in shown)
+    changes = sum(_change(a.pictures[-1], b.pictures[0], limits) for a, b in pairwise(shown))
+    first, last = shown[0].timing.start, shown[-1].timing.start
+    if first is not None and last is not None:
+        between = last - first + least_display(shown[-1], limits)
+    else:
+        between = 0.0
+    down = least_travel([(0.0, 0.0, fleet.rise), (0.0, 0.0, 0.0)], limits)
+    flight = max(pictures + changes, between) + _rise_time(fleet) + down
+    if flight <= fleet.endurance:
+        return
+    labels = (
+        mission.origins.value((*fleet.path, "endurance")),
+        mission.origins.key((*shown[-1].path, "frames"), "its last pictures"),
+    )
+    note = (
+        f"its pictures with the ways between take at least {_up(flight)} s, its endurance is "
+        f"{fleet.endurance:.1f} s"
+    )
+    message = f"the displays of fleet `{fleet.name}` take longer than it can stay in the air"
+    yield Diagnostic(
+        "D021", message, labels, (note,), "shorten holds and transitions, or cut the show in two"
+    )
+
+
+def _up(seconds: float) -> str:
+    """Write seconds rounded up to a tenth, so that the number given is enough."""
+    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"

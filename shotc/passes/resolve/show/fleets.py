@@ -1,0 +1,119 @@
+"""Fleets resolved: presets filled in, layouts made pads."""
+
+from __future__ import annotations
+
+from math import ceil, cos, pi, sin, sqrt
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.limits import Vec3
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Apart, Fleet
+from shotc.kinds.base import bad_file
+from shotc.kinds.files import FileFault, read_table
+from shotc.kinds.located import in_world
+from shotc.passes.resolve.recordings import Ground
+from shotc.passes.resolve.world import Put, becalmed, limits_of
+from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec
+from shotc.spec.mission import MissionSpec
+from shotc.spec.presets import PRESETS
+
+ROWS = (("x", "y", "z"), ("lat", "lon", "height"))
+
+
+def fleets_of(spec: MissionSpec, put: Put, ground: Ground) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:
+    """Return the fleets whose layouts can be read, and what is wrong with the others."""
+    found: list[Fleet] = []
+    faults: list[Diagnostic] = []
+    for name, written in spec.fleets.items():
+        path = ("fleets", name)
+        pads = _pads(written, put, ground, path)
+        if isinstance(pads, Diagnostic):
+            faults.append(pads)
+            continue
+        fleet = _fleet(name, written, spec, pads)
+        wrong = [*becalmed("fleet", fleet, spec.world.wind, ground.origins), *_touching(fleet, ground)]
+        faults += wrong
+        if not has_errors(wrong):
+            found.append(fleet)
+    return tuple(found), faults
+
+
+def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, ...]) -> Fleet:
+    preset = PRESETS[written.model]
+    return Fleet(
+        name=name,
+        model=written.model,
+        pads=pads,
+        rise=written.rise,
+        limits=limits_of(preset, written.limits, spec.world.wind),
+        radius=written.radius or preset.radius,
+        endurance=written.endurance or preset.endurance,
+        apart=_apart(written, spec.rules.separation),
+        path=("fleets", name),
+    )
+
+
+def _apart(written: FleetSpec, separation: float) -> Apart:
+    """Return how far the drones stay apart: as the fleet says, or else as the mission's rules do."""
+    own = written.separation
+    if own is None:
+        return Apart("ellipsoid", separation, separation, 0.0)
+    return Apart(own.shape, own.horizontal, own.vertical or own.horizontal, own.margin)
+
+
+def _touching(fleet: Fleet, ground: Ground) -> list[Diagnostic]:
+    """Refuse a separation at which the bodies of two drones may touch."""
+    least = min(fleet.apart.horizontal, fleet.apart.vertical)
+    bodies = 2 * fleet.radius
+    if least >= bodies:
+        return []
+    path = (*fleet.path, "separation")
+    label = ground.origins.value(path if path in ground.origins.keys else ("rules", "separation"))
+    if path not in ground.origins.keys and ("rules", "separation") not in ground.origins.keys:
+        label = ground.origins.key(fleet.path)
+    note = f"their centres may come within {least:.2f} m, and each body has a radius of {fleet.radius:.2f} m"
+    message = f"two drones of fleet `{fleet.name}` may touch"
+    return [Diagnostic("D003", message, (label,), (note,), f"ask for {bodies:.2f} m or more either way")]
+
+
+def _pads(written: FleetSpec, put: Put, ground: Ground, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
+    layout = written.layout
+    if layout.grid is not None:
+        return _grid(layout.grid, written.count, put)
+    if layout.circle is not None:
+        return _circle(layout.circle, written.count, put)
+    assert layout.file is not None
+    return _from_file(layout.file, written.count, ground, (*path, "layout", "file"))
+
+
+def _grid(grid: GridSpec, count: int, put: Put) -> tuple[Vec3, ...]:
+    """Return the pads of a square grid: rows from west to east, one after the other to the north."""
+    x, y, z = put(grid.origin)
+    columns = ceil(sqrt(count))
+    return tuple((x + i % columns * grid.spacing, y + i // columns * grid.spacing, z) for i in range(count))
+
+
+def _circle(circle: CircleSpec, count: int, put: Put) -> tuple[Vec3, ...]:
+    """Return the pads of a circle: evenly, clockwise from its north."""
+    x, y, z = put(circle.center)
+    turns = (2 * pi * i / count for i in range(count))
+    return tuple((x + circle.radius * sin(a), y + circle.radius * cos(a), z) for a in turns)
+
+
+def _from_file(name: str, count: int, ground: Ground, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
+    data = ground.read(name, path)
+    if isinstance(data, Diagnostic):
+        return data
+    table = read_table(data, ROWS)
+    if isinstance(table, FileFault):
+        return bad_file(ground.origins, path, name, table)
+    pads = in_world(table, name, ground.origin, ground.origins, path)
+    if isinstance(pads, Diagnostic):
+        return pads
+    if len(pads) != count:
+        labels = (ground.origins.value(path), ground.origins.value((*path[:-2], "count"), "the count"))
+        note = f"`{name}` has {len(pads)} rows, and the fleet has {count} drones"
+        help_ = f"write `count: {len(pads)}`, or give {count} rows"
+        return Diagnostic("D004", "the layout has not one row a drone", labels, (note,), help_)
+    return tuple(pads)

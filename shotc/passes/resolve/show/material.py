@@ -1,0 +1,86 @@
+"""The files that displays draw: meshes, drawings, fonts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import partial
+from pathlib import Path
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.show import Display, Drawing, Lettering, Model, Picture
+from shotc.kinds.base import bad_file
+from shotc.kinds.files import LARGEST, FileFault
+from shotc.kinds.svg import svg_fault
+from shotc.passes.resolve.files import read_file
+from shotc.passes.resolve.show.places import key_of
+
+LARGEST_MESH = 64_000_000  # bytes of one mesh or font
+MOST = 256_000_000  # bytes of all that one mission draws
+
+Material = tuple[tuple[str, bytes], ...]
+
+
+def read_material(
+    displays: Iterable[Display], folder: Path | None, origins: OriginMap
+) -> tuple[Material, list[Diagnostic]]:
+    """Return (name, bytes) of every file that displays draw, each once, and what is wrong with others.
+
+    Of the files of one pattern, the first that cannot be used is told.
+    """
+    found: dict[str, bytes] = {}
+    faults: dict[KeyPath, Diagnostic] = {}
+    read = partial(_usable, folder, origins)
+    for name, path in (named for display in displays for named in _named(display)):
+        if name in found or path in faults:
+            continue
+        data = read(name, path)
+        total = sum(map(len, found.values()))
+        if not isinstance(data, Diagnostic) and total + len(data) > MOST:
+            message = f"with this file the mission's displays have more than {MOST / 1e6:.0f} MB"
+            data = bad_file(origins, path, name, FileFault(message, None, "thin the meshes, or take fewer"))
+        if isinstance(data, Diagnostic):
+            faults[path] = data
+        else:
+            found[name] = data
+    return tuple(found.items()), list(faults.values())
+
+
+def _named(display: Display) -> Iterator[tuple[str, KeyPath]]:
+    """Yield the files of a display, in its order, with where the mission names them."""
+    for picture in display.pictures:
+        yield from ((name, _where(picture)) for name in files_of(picture))
+
+
+def files_of(picture: Picture) -> tuple[str, ...]:
+    """Return the names of the files that a picture is drawn from; a font of the system's is none."""
+    source = picture.source
+    if isinstance(source, Model):
+        return source.files
+    if isinstance(source, Drawing):
+        return (source.file,)
+    if isinstance(source, Lettering) and source.font is not None and "." in source.font:
+        return (source.font,)
+    return ()
+
+
+def _where(picture: Picture) -> KeyPath:
+    key = {Model: "files", Drawing: "file"}.get(type(picture.source), "font")
+    return (*key_of(picture), key)
+
+
+def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
+    drawing = name.lower().endswith(".svg")
+    data = read_file(folder, origins, name, path, LARGEST if drawing else LARGEST_MESH)
+    if isinstance(data, Diagnostic):
+        return data
+    if not data:
+        return bad_file(origins, path, name, FileFault("the file is empty", None, "export it again"))
+    wrong = svg_fault(data) if drawing else None
+    if wrong is None:
+        return data
+    if not wrong.unsafe:
+        return bad_file(origins, path, name, wrong.fault)
+    note = f"{name}, line {wrong.fault.line}"
+    message = f"`{name}` is more than a drawing: {wrong.fault.message}"
+    return Diagnostic("D022", message, (origins.value(path),), (note,), wrong.fault.help)

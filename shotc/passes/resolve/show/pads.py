@@ -1,0 +1,224 @@
+"""Pads: apart from each other and from other fleets', on the ground, with a free way straight up."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations, product
+from math import ceil, dist, floor, hypot, pi, sin
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Apart, Fleet
+from shotc.passes.resolve.home import take_off_room
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
+
+_AROUND = tuple(product((-1, 0, 1), repeat=3))
+UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
+Cell = tuple[int, int, int]
+
+
+class Pair(NamedTuple):
+    """Two pads; share : of the separation that is between them, 1 where it is just kept."""
+
+    one: int
+    other: int
+    share: float
+
+
+def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the pads of each fleet, and between those of different ones."""
+    spaced: list[Fleet] = []
+    for fleet in mission.fleets:
+        crowded = _crowded(mission, fleet)
+        if crowded is None:
+            spaced.append(fleet)
+        else:
+            yield crowded
+        yield from _placed(mission, fleet)
+    for one, other in combinations(spaced, 2):
+        near = _too_near(mission, one, other)
+        if near is not None:
+            yield near
+
+
+def nearest_pair(pads: Sequence[Vec3], apart: Apart) -> Pair | None:
+    """Return the two pads nearest to each other as the fleet measures it, if any are nearer than they may.
+
+    Points go one by one into cells as wide as the least distance so far; the cells are laid anew where a
+    nearer pair is found, which is seldom (Golin et al., randomized data structures for closest pairs).
+    """
+    points = [(x / apart.across, y / apart.across, z / apart.upright) for x, y, z in pads]
+    away = _measure(apart)
+    best = Pair(0, 0, 1.0 - ROUNDING)
+    cells: dict[Cell, list[int]] = defaultdict(list)
+    order = sorted(range(len(points)), key=lambda i: i * 2654435761 % 2**32)  # no row after row
+    for done, i in enumerate(order):
+        near = [(away(points[i], points[j]), j) for j in _around(cells, points[i], best.share)]
+        share, j = min(near, default=(1.0, 0))
+        if share < best.share:
+            best = Pair(min(i, j), max(i, j), share)
+            if share <= ROUNDING:
+                return best
+            cells = defaultdict(list)
+            for k in order[: done + 1]:
+                cells[_cell(points[k], share)].append(k)
+        else:
+            cells[_cell(points[i], best.share)].append(i)
+    return best if best.one != best.other else None
+
+
+def _measure(apart: Apart) -> Callable[[Vec3, Vec3], float]:
+    """Return the distance in shares of the separation, of points in units of it."""
+    if apart.shape == "ellipsoid":
+        return dist
+    return lambda p, q: max(hypot(p[0] - q[0], p[1] - q[1]), abs(p[2] - q[2]))
+
+
+def _cell(p: Vec3, width: float) -> Cell:
+    return (floor(p[0] / width), floor(p[1] / width), floor(p[2] / width))
+
+
+def _around(cells: dict[Cell, list[int]], p: Vec3, width: float) -> Iterator[int]:
+    """Yield the points in the cells at and about ``p``."""
+    a, b, c = _cell(p, width)
+    for i, j, k in _AROUND:
+        yield from cells.get((a + i, b + j, c + k), ())
+
+
+def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
+    """Say which two pads of a fleet are nearest, and what spacing would do."""
+    found = nearest_pair(fleet.pads, fleet.apart)
+    if found is None:
+        return None
+    one, other = fleet.pads[found.one], fleet.pads[found.other]
+    away = dist(one, other)
+    which = f"pads {found.one + 1} and {found.other + 1} are {away:.2f} m apart"
+    help_ = _wider(mission, fleet)
+    if away < 2 * fleet.radius:
+        note = f"{which}, and each body has a radius of {fleet.radius:.2f} m"
+        message = f"drones of fleet `{fleet.name}` stand inside each other"
+        return Diagnostic("D002", message, (_layout(mission, fleet),), (note,), help_)
+    note = f"{which}; the fleet's separation asks for {_asked(fleet.apart)}"
+    message = f"the pads of fleet `{fleet.name}` are too near to each other"
+    return Diagnostic("D001", message, (_layout(mission, fleet),), (note,), help_)
+
+
+def _asked(apart: Apart) -> str:
+    margin = f", its margin of {apart.margin:.2f} m included" if apart.margin else ""
+    return f"{apart.across:.2f} m side by side{margin}"
+
+
+def _wider(mission: MissionIR, fleet: Fleet) -> str:
+    """Say how the layout keeps the separation."""
+    least = max(fleet.apart.across, 2 * fleet.radius)
+    path = (*fleet.path, "layout")
+    if (*path, "grid") in mission.origins.keys:
+        return f"give the grid a spacing of {_up(least)} m or more"
+    if (*path, "circle") in mission.origins.keys:
+        return f"give the circle a radius of {_up(least / (2 * sin(pi / len(fleet.pads))))} m or more"
+    return f"put the pads {_up(least)} m or more apart"
+
+
+def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
+    """Return a label on the number, or the file, that says how near to each other the pads are."""
+    path = (*fleet.path, "layout")
+    ways = (("grid", "spacing"), ("circle", "radius"), ("file",))
+    written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
+    return mission.origins.value(next(written, path), text)
+
+
+def _place(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
+    """Return a label on what says where the pads are."""
+    path = (*fleet.path, "layout")
+    ways = (("grid", "origin"), ("circle", "center"), ("file",))
+    written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
+    return mission.origins.value(next(written, path), text)
+
+
+def _too_near(mission: MissionIR, one: Fleet, other: Fleet) -> Diagnostic | None:
+    """Say which pads of two fleets are nearer than the wider separation of the two."""
+    apart = max((one.apart, other.apart), key=lambda a: a.across)
+    reach = apart.across
+    cells: dict[Cell, list[int]] = defaultdict(list)
+    for i, pad in enumerate(one.pads):
+        cells[_cell(pad, reach)].append(i)
+    for j, pad in enumerate(other.pads):
+        near = min(((dist(one.pads[i], pad), i) for i in _around(cells, pad, reach)), default=(reach, 0))
+        if near[0] < reach - ROUNDING:
+            message = f"the pads of fleets `{one.name}` and `{other.name}` are too near to each other"
+            labels = (_place(mission, other), _place(mission, one, "the other fleet"))
+            which = f"pad {near[1] + 1} of `{one.name}` and pad {j + 1} of `{other.name}`"
+            note = f"{which} are {near[0]:.2f} m apart; {_asked(apart)} is asked for"
+            return Diagnostic("D005", message, labels, (note,), "move one of the fleets")
+    return None
+
+
+def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
+    """Yield what is wrong with where the pads are: underground, in the way of something, too low a rise."""
+    label = _place(mission, fleet)
+    low = min(range(len(fleet.pads)), key=lambda i: fleet.pads[i][2])
+    z = fleet.pads[low][2]
+    if z < -UNEVEN:
+        note = f"pad {low + 1} is {-z:.2f} m under z = 0, the ground"
+        message = f"fleet `{fleet.name}` stands underground"
+        yield Diagnostic("D006", message, (label,), (note,), f"raise the layout by {_up(-z)} m")
+        return
+    obstacles = obstacles_of(mission, fleet)
+    blocked = [found for obstacle in obstacles if (found := _blocked(mission, fleet, obstacle)) is not None]
+    yield from blocked
+    if not blocked:
+        yield from _low_rise(mission, fleet, obstacles, z)
+
+
+def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Obstacle) -> Diagnostic | None:
+    """Say how many pads have an obstacle in or over them, and which has least room."""
+    rooms = [take_off_room(pad, pad[2] + fleet.rise, obstacle) for pad in fleet.pads]
+    lacking = [i for i, room in enumerate(rooms) if room < fleet.radius - ROUNDING]
+    if not lacking:
+        return None
+    worst = min(lacking, key=lambda i: rooms[i])
+    x, y, _ = fleet.pads[worst]
+    what = {"out": "zone", "in": "keep-in zone", "target": "target"}[obstacle.role]
+    message = f"{len(lacking)} of {len(fleet.pads)} drones of fleet `{fleet.name}` cannot rise clear of "
+    if obstacle.role == "in":
+        message = f"{len(lacking)} of {len(fleet.pads)} drones of fleet `{fleet.name}` do not rise inside "
+    room = f"{rooms[worst]:.2f} m are free" if rooms[worst] > 0 else f"it is {-rooms[worst]:.2f} m too far"
+    note = (
+        f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: {room} on its {fleet.rise:.1f} m up, and the "
+        f"body radius of {fleet.radius:.2f} m must be"
+    )
+    labels = (_place(mission, fleet), mission.origins.key(obstacle.path, "the obstacle"))
+    return Diagnostic(
+        "D006", f"{message}{what} `{obstacle.name}`", labels, (note,), "move the fleet, or lower `rise`"
+    )
+
+
+def _low_rise(
+    mission: MissionIR, fleet: Fleet, obstacles: Sequence[Obstacle], lowest: float
+) -> Iterator[Diagnostic]:
+    """Yield where the drones have risen to a height at which they may not fly yet."""
+    floors: list[tuple[float, str, KeyPath]] = [
+        (mission.rules.ground_clearance, "the ground clearance", ("rules", "ground_clearance"))
+    ]
+    floors += [(o.solid.bottom, f"the floor of zone `{o.name}`", o.path) for o in obstacles if o.role == "in"]
+    floor_, what, path = max(floors, key=lambda found: found[0])
+    lacks = floor_ + fleet.radius - lowest - fleet.rise
+    if lacks <= ROUNDING:
+        return
+    label = mission.origins.value((*fleet.path, "rise"))
+    note = (
+        f"it rises {fleet.rise:.2f} m to z = {lowest + fleet.rise:.2f}; {what} of {floor_:.2f} m and the "
+        f"body radius of {fleet.radius:.2f} m need z = {floor_ + fleet.radius:.2f}"
+    )
+    labels = (label, mission.origins.key(path, what)) if path in mission.origins.keys else (label,)
+    message = f"fleet `{fleet.name}` does not rise high enough to fly"
+    yield Diagnostic("D007", message, labels, (note,), f"write `rise: {_up(fleet.rise + lacks)} m` or more")
+
+
+def _up(metres: float) -> str:
+    """Write metres rounded up to a centimetre, so that the number given is enough."""
+    return f"{ceil(metres * 100 - 1e-6) / 100:.2f}"

@@ -1,0 +1,154 @@
+"""Where pictures stand: over the ground, inside the keep-in zones, clear of all else; and their audience."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import ceil, floor, inf
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display, Fleet, Picture
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, signed_distance
+from shotc.passes.resolve.show.fit import most_drones, spacing
+from shotc.passes.resolve.show.places import centre_label, key_of, word_of
+from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
+
+
+def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
+    """Yield what is wrong with each picture of a display, as far as its shape is known without a solver."""
+    obstacles = obstacles_of(mission, fleet)
+    for picture in display.pictures:
+        yield from _viewed(mission, display, fleet, picture)
+        yield from _too_many(mission, fleet, picture)
+        shape = balls(picture.source)
+        if shape:
+            yield from _too_low(mission, fleet, picture, shape)
+            for obstacle in obstacles:
+                yield from _against(mission, fleet, picture, shape, obstacle)
+
+
+def _viewed(mission: MissionIR, display: Display, fleet: Fleet, picture: Picture) -> Iterator[Diagnostic]:
+    """Refuse an audience in the middle of the picture."""
+    if display.viewpoint is None:
+        return
+    deep = depth_in(picture, display.viewpoint, fleet.apart.across)
+    if deep < 0:
+        return
+    labels = (
+        mission.origins.value((*display.path, "viewpoint")),
+        mission.origins.key(key_of(picture), "the picture"),
+    )
+    note = f"it is {deep:.2f} m deep in the {word_of(picture)}, which shows no picture from there"
+    message = f"the viewpoint of `{display.id}` is inside what it looks at"
+    yield Diagnostic(
+        "D013", message, labels, (note,), "put it where the audience is, outside of the pictures"
+    )
+
+
+def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Diagnostic]:
+    """Refuse a shape that cannot hold the fleet at its spacing, however the drones are put into it."""
+    most, count = most_drones(picture, fleet.apart), len(fleet.pads)
+    if count <= most + ROUNDING:
+        return
+    where = "on" if picture.fill == "surface" else "in"
+    word = word_of(picture)
+    notes = (
+        f"goals are {spacing(fleet.apart):.2f} m apart, so that moves between pictures keep the separation",
+        f"no more than {floor(most)} fit {where} this {word}, and fleet `{fleet.name}` has {count}",
+    )
+    growth = (count / most) ** (1 / 2 if picture.fill == "surface" else 1 / 3)
+    labels = (
+        mission.origins.key(key_of(picture)),
+        mission.origins.value((*fleet.path, "count"), "the fleet"),
+    )
+    help_ = f"make it about {ceil(growth * 10) / 10:.1f} times as large, or the separation smaller"
+    yield Diagnostic("D018", f"{count} drones do not fit {where} this {word}", labels, notes, help_)
+
+
+def _too_low(
+    mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]
+) -> Iterator[Diagnostic]:
+    low = lowest(shape)
+    floor_ = mission.rules.ground_clearance + fleet.radius
+    if low >= floor_ - ROUNDING:
+        return
+    where = f"{-low:.2f} m under the ground" if low < 0 else f"{low:.2f} m over the ground"
+    note = (
+        f"the ground clearance of {mission.rules.ground_clearance:.2f} m and the body radius of "
+        f"{fleet.radius:.2f} m need {floor_:.2f} m"
+    )
+    message = f"this {word_of(picture)} reaches too low: down to {where}"
+    label = (centre_label(mission, picture),)
+    yield Diagnostic("D014", message, label, (note,), f"raise its centre by {_up(floor_ - low)} m")
+
+
+def _against(
+    mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], obstacle: Obstacle
+) -> Iterator[Diagnostic]:
+    """Yield how a shape stands to one zone or target."""
+    if obstacle.role == "in":
+        yield from _inside(mission, fleet, picture, shape, obstacle)
+        return
+    gaps = [signed_distance(obstacle.solid, ball.centre) for ball in shape]
+    swallowed = all(gap <= -ball.radius for gap, ball in zip(gaps, shape, strict=True))
+    reach = max(obstacle.room + ball.radius - gap for gap, ball in zip(gaps, shape, strict=True))
+    if reach <= ROUNDING:
+        return
+    labels = (centre_label(mission, picture), mission.origins.key(obstacle.path, "the obstacle"))
+    what = f"{'target' if obstacle.role == 'target' else 'zone'} `{obstacle.name}`"
+    if swallowed:
+        message = f"this {word_of(picture)} is inside {what}"
+        yield Diagnostic("D016", message, labels, ("no drone can stand in it",), "move it out of there")
+        return
+    message = f"this {word_of(picture)} reaches into {what}"
+    note = f"by {reach:.2f} m, the {obstacle.room:.2f} m included that must be free"
+    yield Diagnostic(
+        "D017", message, labels, (note,), "move it clear; the plan refuses drones that stand there"
+    )
+
+
+def _inside(
+    mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], zone: Obstacle
+) -> Iterator[Diagnostic]:
+    """Hold a shape to a zone that it has to be in: to its heights, and to its walls as far as is known."""
+    labels = (centre_label(mission, picture), mission.origins.key(zone.path, "the zone"))
+    word = word_of(picture)
+    # Below the ground clearance it is too low anyway, which is told once.
+    low = max(lowest(shape), mission.rules.ground_clearance + fleet.radius)
+    high = highest(shape)
+    bottom, top = zone.solid.bottom + fleet.radius, zone.solid.top - fleet.radius
+    if low < bottom - ROUNDING or high > top + ROUNDING:
+        note = (
+            f"it reaches from z = {low:.2f} to {high:.2f}; the zone, less the body radius of "
+            f"{fleet.radius:.2f} m, from {bottom:.2f} to {top:.2f}"
+        )
+        message = f"this {word} reaches out of the heights of keep-in zone `{zone.name}`"
+        yield Diagnostic("D015", message, labels, (note,), _fitted(low, high, bottom, top))
+        return
+    walls = zone.solid._replace(bottom=-inf, top=inf)
+    rooms = [-signed_distance(walls, ball.centre) - ball.radius for ball in shape]
+    outside = all(room + 2 * ball.radius <= 0 for room, ball in zip(rooms, shape, strict=True))
+    lacks = fleet.radius - min(rooms)
+    if lacks <= ROUNDING:
+        return
+    if outside:
+        message = f"this {word} is outside keep-in zone `{zone.name}`"
+        yield Diagnostic("D015", message, labels, ("no drone can stand in it",), "move it into the zone")
+        return
+    note = f"by {lacks:.2f} m, the body radius of {fleet.radius:.2f} m included"
+    message = f"this {word} reaches out of keep-in zone `{zone.name}`"
+    yield Diagnostic(
+        "D017", message, labels, (note,), "move it inside; the plan refuses drones that stand there"
+    )
+
+
+def _fitted(low: float, high: float, bottom: float, top: float) -> str:
+    """Say how a shape comes between two heights."""
+    if high - low > top - bottom:
+        return f"make it {_up(high - low - (top - bottom))} m lower, or the zone higher"
+    return f"raise it by {_up(bottom - low)} m" if low < bottom else f"lower it by {_up(high - top)} m"
+
+
+def _up(metres: float) -> str:
+    """Write metres rounded up to a centimetre, so that the number given is enough."""
+    return f"{ceil(metres * 100 - 1e-6) / 100:.2f}"

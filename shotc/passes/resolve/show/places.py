@@ -1,0 +1,26 @@
+"""Where a display's words stand in the mission, for diagnostics."""
+
+from __future__ import annotations
+
+from shotc.diag.model import Label
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Sphere, Torus
+
+KEYS = {Sphere: "sphere", Box: "cube", Torus: "torus", Lettering: "text", Drawing: "svg", Model: "model"}
+
+
+def key_of(picture: Picture) -> KeyPath:
+    """Return the path of what a picture shows; a display may give the files of one animation alone."""
+    alone = picture.path[-1] == "frames"
+    return picture.path if alone else (*picture.path, word_of(picture))
+
+
+def word_of(picture: Picture) -> str:
+    """Return the word by which the mission says what a picture shows."""
+    return KEYS[type(picture.source)]
+
+
+def centre_label(mission: MissionIR, picture: Picture, text: str = "") -> Label:
+    """Return a label on the centre of a picture."""
+    return mission.origins.value((*key_of(picture), "center"), text)

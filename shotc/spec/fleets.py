@@ -1,0 +1,94 @@
+"""Fleets as a mission writes them: how many drones, where they stand, how far apart they stay."""
+
+from typing import Any, ClassVar, Literal
+
+from pydantic import Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from shotc.spec import presets
+from shotc.spec.drones import LimitsSpec, ModelName
+from shotc.spec.fields import (
+    Count,
+    Duration,
+    NonNegativeLength,
+    Position,
+    PositiveLength,
+    RelativePath,
+)
+from shotc.spec.model import Model, OneOf, section
+from shotc.spec.quantities import Quantity
+from shotc.units import SMALLEST
+
+_DISTANCE = Quantity("PositiveLength", "length", SMALLEST["length"])
+
+
+class GridSpec(Model):
+    """Drones in a square grid, row by row."""
+
+    spacing: PositiveLength = Field(description="distance between neighbours")
+    origin: Position = Field(default=(0.0, 0.0, 0.0), description="south-west corner of the grid")
+
+
+class CircleSpec(Model):
+    """Drones on a circle, evenly."""
+
+    radius: PositiveLength = Field(description="radius")
+    center: Position = Field(default=(0.0, 0.0, 0.0), description="middle of the circle")
+
+
+class LayoutSpec(Model):
+    """How a fleet stands on the ground."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("grid",), ("circle",), ("file",))),)
+
+    grid: GridSpec | None = Field(default=None, description="a square grid")
+    circle: CircleSpec | None = Field(default=None, description="a circle")
+    file: RelativePath | None = Field(
+        default=None, description="a CSV file with x,y,z or lat,lon,height, one row a drone"
+    )
+
+
+class SeparationSpec(Model):
+    """How far two drones of a fleet stay apart, centre to centre."""
+
+    horizontal: PositiveLength = Field(description="least distance side by side")
+    vertical: PositiveLength | None = Field(
+        default=None, description="least distance one above the other; the horizontal one if silent"
+    )
+    shape: Literal["ellipsoid", "cylinder"] = Field(
+        default="ellipsoid", description="the volume that they keep free: round, or as strict at its rim"
+    )
+    margin: NonNegativeLength = Field(
+        default=0.0, description="more on either distance, for how far a drone strays from its plan"
+    )
+
+    @classmethod
+    def shorthand(cls, data: Any) -> Any:
+        """Return the mapping for one distance that counts every way."""
+        return {"horizontal": _DISTANCE.read(data)} if isinstance(data, str | int | float) else data
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Return the mapping's schema beside one distance."""
+        schema = handler.resolve_ref_schema(handler(core_schema))
+        return {"anyOf": [_DISTANCE.reference(), schema]}
+
+
+class FleetSpec(Model):
+    """Many drones of one model."""
+
+    count: Count = Field(description="number of drones")
+    layout: LayoutSpec = Field(description="where they stand before and after")
+    model: ModelName = Field(default="show-drone", description="preset of every drone")
+    limits: LimitsSpec = section("what each may do")
+    radius: PositiveLength | None = Field(default=None, description="radius of the sphere round each body")
+    endurance: Duration | None = Field(default=None, description="longest time in the air")
+    separation: SeparationSpec | None = Field(
+        default=None, description="how far apart they stay, one distance or several; the rules' if silent"
+    )
+    rise: PositiveLength = Field(
+        default=presets.RISE, description="how far each rises, straight up, before it goes anywhere"
+    )
