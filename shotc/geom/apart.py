@@ -1,0 +1,47 @@
+"""The metric in which a fleet keeps its distance, and how far apart its goals have to be. Plain Python.
+
+Heights are stretched so that what two drones keep free between them is a ball, or lies in one. Between two
+formations matched by least squared stretched distance, straight synchronous moves keep
+|(1-s) r0 + s r1|^2 >= ((1-s)^2 + s^2) d^2 >= d^2 / 2, for r0.r1 >= 0: goals that are sqrt(2) balls apart
+stay one ball apart all the way.
+"""
+
+from math import sqrt
+from typing import Protocol
+
+
+class Distances(Protocol):
+    """What ``ir.show.Apart`` says: the shape that is kept free, and its half axes with the margin, metres."""
+
+    @property
+    def shape(self) -> str:
+        """Return "ellipsoid" or "cylinder"."""
+        ...
+
+    @property
+    def across(self) -> float:
+        """Return the horizontal distance."""
+        ...
+
+    @property
+    def upright(self) -> float:
+        """Return the vertical distance."""
+        ...
+
+
+def stretch(apart: Distances) -> float:
+    """Return the factor for heights that makes the ellipsoid a ball, or the cylinder as high as it is wide."""
+    return apart.across / apart.upright
+
+
+def ball(apart: Distances) -> float:
+    """Return the stretched distance at which two drones are apart whatever the direction, metres.
+
+    It is exact for an ellipsoid; a cylinder lies in a ball that is sqrt(2) larger.
+    """
+    return apart.across * (sqrt(2.0) if apart.shape == "cylinder" else 1.0)
+
+
+def spacing(apart: Distances) -> float:
+    """Return the least stretched distance of two goals of one formation, metres."""
+    return sqrt(2.0) * ball(apart)
