@@ -8,6 +8,7 @@ from math import ceil
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.geom.apart import spacing, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
@@ -86,8 +87,8 @@ def too_many(mission: MissionIR, fleet: Fleet, picture: Picture, fit: Fit, point
     """Say that a fleet does not fit into a picture, how many would, and what else would do."""
     apart, factor = fleet.apart, 1.0 / fit.share
     note = (
-        f"goals are sqrt(2) times the separation apart, so that drones can pass between pictures: "
-        f"{np.sqrt(2) * apart.across:.2f} m level, {np.sqrt(2) * apart.upright:.2f} m one above the other"
+        f"so that drones can pass each other between pictures, goals are {spacing(apart):.2f} m apart on a "
+        f"level and {spacing(apart) / stretch(apart):.2f} m one above the other"
     )
     ways = [f"use about {fit.number} drones", _larger(picture, factor, points)]
     level, upright = (fit.share * full - apart.margin for full in (apart.across, apart.upright))

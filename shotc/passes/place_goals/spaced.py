@@ -18,7 +18,9 @@ NEIGHBOURS = 12
 """Points that tell how a surface lies near a goal."""
 LOWEST = 0.02
 """Share of the spacing below which no fit is looked for."""
-CLOSE = 1.02
+ENOUGH = 12
+"""Points a goal with which the searches do."""
+CLOSE = 1.04
 """Factor between what fits and what does not at which the searches end."""
 
 
@@ -72,51 +74,48 @@ def placed(setting: Setting, points: Array, before: Placed | None, on_surface: b
     return Placed(goals, _onto(points, shown) if on_surface else shown, points)
 
 
-def spaced(setting: Setting, goals: Placed, room: Room | None = None) -> Array | None:
+def spaced(setting: Setting, goals: Placed) -> Array | None:
     """Return goals as they are shown, moved apart as little as it takes, or None where they do not fit.
 
     Where room is short the cells of the tessellation are made as flat or tall as the drones need, too.
-    room : where goals may be, of the setting's unless given
     """
     scale = np.array([1.0, 1.0, setting.stretch])
-    free = setting.room if room is None else room
+    shape = goals.points * scale
 
     def hold(before: Array, after: Array) -> Array:
-        return np.asarray(free.hold(before / scale, after / scale) * scale)
+        return np.asarray(setting.room.hold(before / scale, after / scale) * scale)
 
-    shape = goals.points * scale
     apart = push_apart(goals.shown * scale, shape, setting.least, hold)
-    if apart is None and len(goals.shown) > 1:
+    if apart is None:
         apart = push_apart(centroids(shape, len(goals.shown)).goals, shape, setting.least, hold)
     return None if apart is None else apart / scale
 
 
 def what_fits(setting: Setting, goals: Placed) -> Fit:
-    """Return how many drones fit, and at what share of the spacing all of them do, by halving intervals."""
-    anywhere = Room((), -np.inf)
+    """Return how many drones fit, and at what share of the spacing all of them do, found by trying."""
+    shape = goals.points * np.array([1.0, 1.0, setting.stretch])
+    full = setting.number
+    even = centroids(shape, full).goals
 
-    def at_share(share: float) -> bool:
-        tighter = Setting(setting.number, setting.least * share, setting.stretch, None, 0.0, anywhere)
-        return spaced(tighter, goals) is not None
+    def fits(number: int, share: float) -> bool:
+        few = shape[:: max(1, len(shape) // (ENOUGH * number))]
+        start = even if number == full else centroids(few, number).goals
+        return push_apart(start, shape, setting.least * share, _anywhere) is not None
 
-    share = _halved(at_share, LOWEST, 1.0)
-
-    def at_number(number: int) -> bool:
-        fewer = Setting(number, setting.least, setting.stretch, None, 0.0, anywhere)
-        return spaced(fewer, placed(fewer, goals.points, None, False)) is not None
-
+    share = _most(lambda s: fits(full, s), LOWEST, 1.0)
     # In a volume the number goes with the third power of the share, along a line with the first.
-    low, high = max(1, round(0.7 * setting.number * share**3)), setting.number
-    while low > 1 and not at_number(low):
-        low //= 2
-    while high - low > max(1, low // 50):
-        middle = round((low * high) ** 0.5)
-        middle = min(max(middle, low + 1), high - 1)
-        low, high = (middle, high) if at_number(middle) else (low, middle)
-    return Fit(low, share)
+    low = max(1.0, 0.7 * full * share**3)
+    while low > 1.0 and not fits(round(low), 1.0):
+        low /= 2.0
+    return Fit(round(_most(lambda n: fits(round(n), 1.0), low, float(full))), share)
 
 
-def _halved(fits: Callable[[float], bool], low: float, high: float) -> float:
+def _anywhere(_: Array, after: Array) -> Array:
+    return after
+
+
+def _most(fits: Callable[[float], bool], low: float, high: float) -> float:
+    """Return about the most that fits, between ``low``, which does, and ``high``, which does not."""
     while high > CLOSE * low:
         middle = (low * high) ** 0.5
         low, high = (middle, high) if fits(middle) else (low, middle)
