@@ -24,7 +24,6 @@ FAMILIES = {
     "E": ("emission", "emission"),
     "I": ("imports", "imports"),
     "P": ("plugins", "plugins and options"),
-    "D": ("flights", "fleets and displays"),
     "X": ("internal", "our bug"),
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from shotc.diag.codes import flights, pictures
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 from shotc.diag.registry import CodeInfo
@@ -309,4 +310,6 @@ CODES: tuple[CodeInfo, ...] = (
         _TWO,
         ("timing: {after: shapes}", "timing: {after: ball}"),
     ),
+    *pictures.CODES,
+    *flights.CODES,
 )

@@ -1,0 +1,83 @@
+"""Goals pushed apart to a least distance, moved as little as it takes, and not off the shape they show."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+
+ROUNDS = 400
+"""Rounds after which goals count as too many; those that fit are apart after 5 to 100."""
+BEYOND = 1e-3
+"""Share of the distance that a push aims beyond it, so that the last pairs are apart after finite rounds."""
+SLACK = 0.25
+"""Share of the distance by which a goal may stand off the shape: less than is seen between two lights."""
+LOOSER = 0.2
+"""Share by which that grows up to the last round: one pair at its end would ground a thousand drones."""
+PATIENCE = 25
+"""Rounds in which what is missing has to fall by a twentieth, or else so many goals do not fit."""
+
+Hold = Callable[[Array, Array], Array]
+"""From goals (n, 3) and where a push takes them, to where they may go."""
+
+
+def push_apart(goals: Array, shape: Array, least: float, hold: Hold) -> Array | None:
+    """Return goals of which no two are nearer than ``least``, or None where so many do not fit.
+
+    goals : shape (n, 3); shape : points (M, 3) that are to be shown, as dense as k-means had them; in the
+    metric of the fleet, both. Every pair that is too near parts along its own line, all pairs at once,
+    each goal by half of what is missing; none goes farther than ``SLACK`` from the shape, or where ``hold``
+    does not let it.
+    """
+    tree = cKDTree(shape)
+    # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
+    leash = np.maximum(SLACK * least, tree.query(goals)[0])
+    missing = float("inf")
+    for done in range(ROUNDS):
+        push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20))
+        if not lacking:
+            return goals
+        if done % PATIENCE == 0:
+            if lacking > 0.95 * missing:
+                return None
+            missing = lacking
+        moving = np.flatnonzero(np.any(push != 0.0, axis=1))
+        wanted = _leashed(goals[moving] + push[moving], tree, leash[moving] * (1.0 + LOOSER * done / ROUNDS))
+        goals = goals.copy()
+        goals[moving] = hold(goals[moving], wanted)
+    return None if _pushes(goals, least, BEYOND)[1] else goals
+
+
+def nearest_pair(goals: Array) -> float:
+    """Return the least distance of two goals, infinite for a single one."""
+    if len(goals) < 2:
+        return float("inf")
+    return float(cKDTree(goals).query(goals, k=2)[0][:, 1].min())
+
+
+def _pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
+    """Return by how much each goal is pushed, (n, 3), and how much distance all pairs lack together."""
+    pairs = cKDTree(goals).query_pairs(least * (1.0 - 1e-12), output_type="ndarray")
+    if not len(pairs):
+        return np.zeros_like(goals), 0.0
+    first, second = pairs[np.lexsort(pairs.T[::-1])].T
+    apart = goals[first] - goals[second]
+    distance = np.sqrt(np.einsum("pd,pd->p", apart, apart))
+    apart[distance < 1e-9] = (1.0, 0.0, 0.0)  # at one place: any way will do
+    share = (least * (1.0 + beyond) - distance) / 2.0 / np.maximum(distance, 1e-9)
+    share[distance < 1e-9] = least / 2.0
+    push = share[:, None] * apart
+    both, halves = np.concatenate([first, second]), np.concatenate([push, -push])
+    pushes = np.column_stack([np.bincount(both, column, len(goals)) for column in halves.T])
+    return np.asarray(pushes, dtype=np.float64), float((least - distance).sum())
+
+
+def _leashed(goals: Array, tree: cKDTree, leash: Array) -> Array:
+    """Draw goals that are farther off the shape than their leash back to its end."""
+    off, nearest = tree.query(goals)
+    foot = np.asarray(tree.data)[nearest]
+    share = np.minimum(1.0, leash / np.maximum(off, 1e-12))
+    return np.asarray(foot + share[:, None] * (goals - foot))
