@@ -8,6 +8,8 @@ its limit, worst value, time, place and method. A plan that breaks a hard claim 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib import import_module
+from types import ModuleType
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
@@ -50,30 +52,40 @@ class Verify:
 
 def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     """Return every claim that can be made about a trajectory, in a fixed order, and what is broken."""
-    broken = tuple(structure(ir))
+    mission = ir.keyframes.mission
+    broken = (*structure(ir), *(_fleets().fleet_structure(ir) if ir.fleets else ()))
     if broken:
         return Verdict((), broken)
-    mission = ir.keyframes.mission
     flights = [Flight(mission, mission.drone(track.drone), track) for track in ir.drones]
     claims: list[Claim] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
     claims += [*separation(ir, flights), *sights(flights)]
+    if ir.fleets:
+        claims += _fleets().fleet_claims(ir, ctx.progress)
     certificate = tuple(claims)
     return Verdict(certificate, (*_grounded(ir), *report(ir, certificate), *losses(ir, certificate)))
 
 
+def _fleets() -> ModuleType:
+    # With scipy's splines and trees, which films do without.
+    return import_module("shotc.passes.verify.fleets")
+
+
 def _grounded(ir: TrajectoryIR) -> list[Diagnostic]:
-    """Report shots whose drone does not fly at all."""
-    mission, flying = ir.keyframes.mission, {track.drone for track in ir.drones}
+    """Report shots whose drone or fleet does not fly at all."""
+    mission = ir.keyframes.mission
+    flying = {track.drone for track in ir.drones} | {track.fleet for track in ir.fleets}
+    flown = [(shot.id, shot.drone, shot.path) for shot in mission.shots]
+    flown += [(display.id, display.fleet, display.path) for display in mission.displays]
     return [
         Diagnostic(
             "V015",
-            f"shot `{shot.id}` is not flown: the plan has no flight of `{shot.drone}`",
-            labels=(mission.origins.key(shot.path),),
+            f"shot `{shot}` is not flown: the plan has no flight of `{who}`",
+            labels=(mission.origins.key(path),),
             help="plan the mission again",
         )
-        for shot in mission.shots
-        if shot.drone not in flying
+        for shot, who, path in flown
+        if who not in flying
     ]
