@@ -273,6 +273,21 @@ def test_time_on_the_pad_is_no_flight() -> None:
     assert claims(ir)["endurance"].worst == float(breaks[-1])
 
 
+def test_a_fleet_may_land_on_its_pads_in_another_order() -> None:
+    def exchange(coef: np.ndarray) -> None:
+        coef[[0, 3], 19:] = coef[[3, 0], 19:]
+        coef[0, 17:19] = (6.0, 10.0, 27.0)
+        coef[3, 17:19] = (6.0, 10.0, 15.0)
+
+    ir = with_coef(exchange)
+    assert not {"V012", "V017", "V022"} & set(codes(ir))
+    assert claims(ir)["distance from home"].worst == pytest.approx(0.0, abs=1e-9)
+    post = show(zone("out", Cylinder((12.6, 0.0), 0.5, 0.0, 2.0)))  # 0.1 m from the last pad
+    moved = replace(post, fleets=ir.fleets)
+    assert claims(moved)["zone extra at home"].holds
+    assert "V022" in codes(with_coef(lambda c: c.__setitem__((0, slice(19, None)), c[3, 19:])))
+
+
 def lift(coef: np.ndarray) -> None:
     coef[1, 7, 2] += 30.0
 

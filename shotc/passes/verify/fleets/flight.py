@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_pieces import FleetPieces
@@ -21,12 +22,15 @@ from shotc.passes.verify.claims import Limit, Worst, held
 UPRIGHT = ("takeoff", "land")
 """Phases in which the drones are above their pads."""
 
+Span = tuple[float, float]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetFlight:
     """One fleet, what it was asked and how it flies.
 
-    names : of its drones, in the order of their numbers; pads : shape (n, 3)
+    names : of its drones, in the order of their numbers
+    pads, ends : the pad that each takes off from, and the one that each ends nearest to, shape (n, 3)
     flown : their positions in Bernstein form, over the whole flight
     """
 
@@ -35,6 +39,7 @@ class FleetFlight:
     track: FleetTrajectory
     names: tuple[str, ...]
     pads: Array
+    ends: Array
     flown: FleetPieces
 
     @staticmethod
@@ -42,7 +47,9 @@ class FleetFlight:
         """Return the flight of a fleet that the mission has."""
         fleet, breaks = mission.fleet(track.fleet), track.breaks
         flown = FleetPieces(breaks[:-1], breaks[1:], pieces(breaks, track.coef))
-        return FleetFlight(mission, fleet, track, drone_names(fleet), np.array(fleet.pads), flown)
+        pads = np.array(fleet.pads)
+        ends = pads[cKDTree(pads).query(flown.ctrl[:, -1, -1])[1]]
+        return FleetFlight(mission, fleet, track, drone_names(fleet), pads, ends, flown)
 
     def key(self, *keys: str) -> KeyPath:
         """Return the key path of one of the fleet's settings."""
@@ -52,9 +59,19 @@ class FleetFlight:
         """Return where all drones are, or a derivative of it, shape (n, 3)."""
         return places(self.track.breaks, self.track.coef, np.array([time]), order)[:, 0]
 
-    def spans(self, *, upright: bool) -> list[tuple[float, float]]:
-        """Return when the drones are above their pads, or else everywhere but there."""
-        return [(p.start, p.end) for p in self.track.phases if (p.name in UPRIGHT) == upright]
+    def free(self) -> list[Span]:
+        """Return when the drones are neither taking off nor landing."""
+        return [(p.start, p.end) for p in self.track.phases if p.name not in UPRIGHT]
+
+    def verticals(self) -> Iterator[tuple[list[Span], Array]]:
+        """Yield when the drones take off and when they land, if they do, and the pads that they are above.
+
+        A drone lands on any pad of its fleet. Two on one pad would be nearer than their separation.
+        """
+        for name, pads in zip(UPRIGHT, (self.pads, self.ends), strict=True):
+            spans = [(p.start, p.end) for p in self.track.phases if p.name == name and p.end > p.start]
+            if spans:
+                yield spans, pads
 
 
 def of_drone(

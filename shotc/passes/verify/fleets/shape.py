@@ -69,7 +69,9 @@ def shape(flight: FleetFlight) -> Iterator[Claim]:
     """Claim the pads and rest at both ends, and endurance."""
     breaks, coef = flight.track.breaks, flight.track.coef
     ends = np.array([breaks[0], breaks[-1]])
-    away = norm(np.stack([flight.at(float(t)) for t in ends], axis=1) - flight.pads[:, None])
+    away = norm(
+        np.stack([flight.at(float(t)) for t in ends], axis=1) - np.stack([flight.pads, flight.ends], 1)
+    )
     home = Limit("distance from home", AT_HOME, "m", flight.key("layout"))
     yield _farthest(flight, home, away, ends)
     still = np.stack([np.abs(flight.at(float(t), n)).max(axis=1) for n in (1, 2) for t in ends], axis=1)

@@ -23,7 +23,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside, cylinder
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap
-from shotc.passes.verify.fleets.flight import FleetFlight, bounded, of_drone
+from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone
 from shotc.passes.verify.space import DRIFT, less
 
 SEEDS = 256
@@ -33,18 +33,19 @@ BATCH = 50_000
 """Pieces that are held against a keep-in zone at once; its footprint may have a thousand corners."""
 
 Gap = Callable[[float], float]
+Upright = list[tuple[FleetPieces, Array]]
 
 
 def space(flight: FleetFlight) -> Iterator[Claim]:
     """Claim zones, ground and target clearance, and vertical motion at the pads."""
-    free = flight.flown.between(flight.spans(upright=False))
-    upright = flight.flown.between(flight.spans(upright=True))
+    free = flight.flown.between(flight.free())
+    upright = [(flight.flown.between(spans), pads) for spans, pads in flight.verticals()]
     for zone in flight.mission.zones:
         if zone.keep == "out":
             limit = _clear(f"zone {zone.name}", 0.0, zone.path)
             yield from _keep_out(flight, limit, zone.solid, (free, upright))
         else:
-            yield _keep_in(flight, zone, free, upright)
+            yield _keep_in(flight, zone, free, [pieces for pieces, _ in upright])
     yield from _ground(flight, free)
     rules = flight.mission.rules
     for target in flight.mission.targets:
@@ -53,7 +54,7 @@ def space(flight: FleetFlight) -> Iterator[Claim]:
             yield from _keep_out(flight, limit, cylinder(target), (free, upright))
         else:
             yield from _keep_from(flight, limit, target)
-    if len(upright.low):
+    if upright:
         yield from _vertical(flight, upright)
 
 
@@ -70,22 +71,27 @@ def _ground(flight: FleetFlight, free: FleetPieces) -> Iterator[Claim]:
 
 
 def _keep_out(
-    flight: FleetFlight, limit: Limit, solid: Solid, parts: tuple[FleetPieces, FleetPieces]
+    flight: FleetFlight, limit: Limit, solid: Solid, parts: tuple[FleetPieces, Upright]
 ) -> Iterator[Claim]:
     free, upright = parts
     radius = flight.fleet.radius
     if len(free.low):
         found = _nearest(free.bag(), solid, gap(radius + limit.value))
         yield bounded(flight, limit, less(found, radius), lambda p: signed_distance(solid, p))
-    if len(upright.low):
-        yield _at_home(flight, limit, solid, upright)
+    if upright:
+        limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
+        yield _worse(limit, [_at_home(flight, limit, solid, part) for part in upright])
 
 
-def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, upright: FleetPieces) -> Claim:
+def _worse(limit: Limit, claims: list[Claim]) -> Claim:
+    return (max if limit.upper else min)(claims, key=lambda claim: claim.worst)
+
+
+def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetPieces, Array]) -> Claim:
     """Claim that no drone comes nearer to a solid on its vertical than its body is on its pad."""
+    upright, pads = part
     radius = flight.fleet.radius
-    near = np.minimum(radius, np.min([separation(s, flight.pads)[0] for s in convex_parts(solid)], axis=0))
-    limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
+    near = np.minimum(radius, np.min([separation(s, pads)[0] for s in convex_parts(solid)], axis=0))
     clear = near >= radius
     worst = Bound(inf, inf, 0.0)
     if clear.any():
@@ -110,19 +116,25 @@ def _nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
 
 def _keep_from(flight: FleetFlight, limit: Limit, target: Target) -> Iterator[Claim]:
     """Claim the distance from a target that moves; on its vertical a drone may be as near as at time 0."""
-    reach = flight.fleet.radius + limit.value
-    free, upright = flight.spans(upright=False), flight.spans(upright=True)
-    if free:
-        yield _from_moving(flight, limit, (target, free), np.full(len(flight.pads), reach))
-    if upright:
-        near = np.minimum(flight.fleet.radius, signed_distance(cylinder(target), flight.pads).clip(0.0))
-        limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
-        yield _from_moving(flight, limit, (target, upright), near)
+    radius, spans = flight.fleet.radius, flight.free()
+    if spans:
+        near = np.full(len(flight.pads), radius + limit.value)
+        yield _from_moving(flight, limit, (target, spans), near)
+    limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
+    found = [
+        _from_moving(flight, limit, (target, upright), np.minimum(radius, _off(target, pads)))
+        for upright, pads in flight.verticals()
+    ]
+    if found:
+        yield _worse(limit, found)
 
 
-def _from_moving(
-    flight: FleetFlight, limit: Limit, of: tuple[Target, list[tuple[float, float]]], near: Array
-) -> Claim:
+def _off(target: Target, points: Array) -> Array:
+    """Return how far points are from a target at time 0, 0 inside."""
+    return np.maximum(signed_distance(cylinder(target), points), 0.0)
+
+
+def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]], near: Array) -> Claim:
     """Bound the distance from a moving target less what each drone is to keep, drone by drone.
 
     Those whose boxes are the nearest come first; they end where boxes alone tell that no other is nearer.
@@ -158,10 +170,10 @@ def _boxes_apart(flown: FleetPieces, target: Target) -> Array:
     return best
 
 
-def _keep_in(flight: FleetFlight, zone: Zone, free: FleetPieces, upright: FleetPieces) -> Claim:
+def _keep_in(flight: FleetFlight, zone: Zone, free: FleetPieces, upright: list[FleetPieces]) -> Claim:
     radius = flight.fleet.radius
     worst, floor = Bound(-inf, -inf, 0.0), True
-    for parts, with_floor in ((free, True), (upright, False)):
+    for parts, with_floor in ((free, True), *((part, False) for part in upright)):
         for pieces in _batches(parts.bag()):
             found = sup_outside(pieces, zone.solid, gap(-radius), floor=with_floor)
             if found.proven > worst.proven:
@@ -178,11 +190,25 @@ def _batches(pieces: Pieces) -> Iterator[Pieces]:
         yield Pieces(pieces.low[part], pieces.high[part], pieces.ctrl[part])
 
 
-def _vertical(flight: FleetFlight, upright: FleetPieces) -> Iterator[Claim]:
-    pads, path = flight.pads, flight.key("layout")
-    from_pad = FleetPieces(upright.low, upright.high, upright.ctrl - pads[:, None, None]).bag()
-    drift = sup_convex(from_pad.channels(0, 1), norm, gap(DRIFT))
-    limit = Limit("drift from the vertical", DRIFT, "m", path)
-    yield bounded(flight, limit, drift, lambda p: norm((p - pads)[:, :2]))
-    sunk = sup_convex(from_pad, lambda c: -c[..., 2], gap(0.0))
-    yield bounded(flight, Limit("depth below home", 0.0, "m", path), sunk, lambda p: (pads - p)[:, 2])
+def _vertical(flight: FleetFlight, upright: Upright) -> Iterator[Claim]:
+    path = flight.key("layout")
+    aside = Limit("drift from the vertical", DRIFT, "m", path)
+    below = Limit("depth below home", 0.0, "m", path)
+    yield _worse(aside, [_drift(flight, aside, part) for part in upright])
+    yield _worse(below, [_sunk(flight, below, part) for part in upright])
+
+
+def _drift(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:
+    pads = part[1]
+    found = sup_convex(_from_pads(*part).channels(0, 1), norm, gap(DRIFT))
+    return bounded(flight, limit, found, lambda p: norm((p - pads)[:, :2]))
+
+
+def _sunk(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:
+    pads = part[1]
+    found = sup_convex(_from_pads(*part), lambda c: -c[..., 2], gap(0.0))
+    return bounded(flight, limit, found, lambda p: (pads - p)[:, 2])
+
+
+def _from_pads(upright: FleetPieces, pads: Array) -> Pieces:
+    return FleetPieces(upright.low, upright.high, upright.ctrl - pads[:, None, None]).bag()
