@@ -8,8 +8,6 @@ its limit, worst value, time, place and method. A plan that breaks a hard claim 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
-from types import ModuleType
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
@@ -53,7 +51,7 @@ class Verify:
 def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     """Return every claim that can be made about a trajectory, in a fixed order, and what is broken."""
     mission = ir.keyframes.mission
-    broken = (*structure(ir), *(_fleets().fleet_structure(ir) if ir.fleets else ()))
+    broken = (*structure(ir), *_fleet_structure(ir))
     if broken:
         return Verdict((), broken)
     flights = [Flight(mission, mission.drone(track.drone), track) for track in ir.drones]
@@ -61,16 +59,26 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
-    claims += [*separation(ir, flights), *sights(flights)]
-    if ir.fleets:
-        claims += _fleets().fleet_claims(ir, ctx.progress)
+    claims += [*separation(ir, flights), *sights(flights), *_fleet_claims(ir, ctx)]
     certificate = tuple(claims)
     return Verdict(certificate, (*_grounded(ir), *report(ir, certificate), *losses(ir, certificate)))
 
 
-def _fleets() -> ModuleType:
-    # With scipy's splines and trees, which films do without.
-    return import_module("shotc.passes.verify.fleets")
+def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:
+    if not ir.fleets:
+        return []
+    # Splines and trees of scipy, which films do without.
+    from shotc.passes.verify.fleets import fleet_structure
+
+    return list(fleet_structure(ir))
+
+
+def _fleet_claims(ir: TrajectoryIR, ctx: PassContext) -> list[Claim]:
+    if not ir.fleets:
+        return []
+    from shotc.passes.verify.fleets import fleet_claims
+
+    return fleet_claims(ir, ctx.progress)
 
 
 def _grounded(ir: TrajectoryIR) -> list[Diagnostic]:

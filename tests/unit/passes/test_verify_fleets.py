@@ -250,6 +250,8 @@ def test_separation_is_stretched_and_between_fleets_the_stricter_counts() -> Non
     assert codes(near) == ["V022"]
     (told,) = judge(near, CONTEXT).diagnostics
     assert "swarm-1 and swarm-2 of swarm" in told.message
+    assert told.help is not None
+    assert "ask for 0.080 m less `separation`" in told.help
     other = fleet(tuple((x + 2.0, y, z) for x, y, z in PADS), "crowd")
     wide = other._replace(apart=other.apart._replace(shape="cylinder", horizontal=1.5))
     both = mission(fleets=(fleet(), wide), displays=(display(), display("ring", "crowd", 1)))
@@ -341,6 +343,14 @@ def test_what_is_broken_is_found(ir: TrajectoryIR, code: str) -> None:
     verdict = judge(ir, CONTEXT)
     assert code in {d.code for d in verdict.diagnostics}
     assert all((d.code in registry() and d.labels) or d.code == "V014" for d in verdict.diagnostics)
+
+
+def test_more_time_is_advised_where_a_display_moves_too_fast() -> None:
+    ir = with_coef(lambda c: c.__setitem__((slice(None), slice(13, 17), 2), 60.0))
+    told = next(d for d in judge(ir, CONTEXT).diagnostics if "climb" in d.message)
+    assert told.help is not None
+    assert told.help.startswith("give the moves of shot `globe` ")
+    assert "raise `limits.climb`" in told.help
 
 
 def test_times_that_are_met() -> None:
