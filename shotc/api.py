@@ -19,7 +19,16 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.passes.base import Outcome, PassContext, silent
 from shotc.passes.resolve.names import AUTO
-from shotc.pipeline import PassReport, default_passes, front_passes, run, run_refined
+from shotc.pipeline import (
+    FRONT_NAMES,
+    PassReport,
+    Run,
+    default_passes,
+    front_passes,
+    run,
+    run_refined,
+    show_passes,
+)
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import LoadedMission, load
@@ -144,18 +153,26 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
         return Compilation(None, front.reports, (*found, *refusals), sources)
-    seat, faults = _seat(options.refiner or plugins.usual_refiner(), front.value.mission)
-    found += faults
-    if seat is None or stops(found):
-        return Compilation(None, front.reports, tuple(found), sources)
-    options.on_mission(front.value.mission)
-    passes = default_passes(kinds.plugins, seat, options.deadline)[len(front.reports) :]
-    keyframes = _with_autopilot(front.value, options.autopilot)
-    back = run_refined(passes, keyframes, ctx, seat, options.stop_after)
+    back = _lower(front.value, kinds.plugins, options, ctx)
     found = [*without_answered(found, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
     plan = None if options.stop_after or has_errors(found) else back.value
     return Compilation(plan, front.reports + back.reports, tuple(found), sources)
+
+
+def _lower(checked: KeyframeIR, kinds: Mapping[str, Any], options: PlanOptions, ctx: PassContext) -> Run:
+    """Plan a mission that has passed the front passes: what fleets display, or what cameras film."""
+    keyframes = _with_autopilot(checked, options.autopilot)
+    if checked.mission.displays:
+        options.on_mission(checked.mission)
+        return run(show_passes(), keyframes, ctx, options.stop_after)
+    seat, faults = _seat(options.refiner or plugins.usual_refiner(), checked.mission)
+    if seat is None or stops(faults):
+        return Run(None, faults, ())
+    options.on_mission(checked.mission)
+    passes = default_passes(kinds, seat, options.deadline)[len(FRONT_NAMES) :]
+    done = run_refined(passes, keyframes, ctx, seat, options.stop_after)
+    return done._replace(diagnostics=(*faults, *done.diagnostics))
 
 
 def _with_drones(

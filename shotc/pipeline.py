@@ -2,6 +2,11 @@
 
 LoadedMission --resolve--> MissionIR --place-keyframes--> KeyframeIR --solve-path-qp--> PathIR
 --refine-path--> PathIR --parameterize-time--> TrajectoryIR --verify--> VerifiedIR
+
+and, for what fleets display,
+
+KeyframeIR --place-goals--> GoalIR --assign-goals--> ShowIR --bound-splines--> ShowIR
+--keep-apart--> TrajectoryIR --verify--> VerifiedIR
 """
 
 import time
@@ -54,14 +59,21 @@ def default_passes(kinds: Any, seat: Any, deadline: float | None = None) -> tupl
     return (*front_passes(kinds), SolvePathQp(), refine, ParameterizeTime(), Verify())
 
 
-PASS_NAMES = (
-    "resolve",
-    "place-keyframes",
-    "solve-path-qp",
-    "refine-path",
-    "parameterize-time",
-    "verify",
-)
+def show_passes() -> tuple[AnyPass, ...]:
+    """Return what follows the front passes in a mission with displays."""
+    from shotc.passes.assign_goals import AssignGoals
+    from shotc.passes.bound_splines import BoundSplines
+    from shotc.passes.keep_apart import KeepApart
+    from shotc.passes.place_goals import PlaceGoals
+    from shotc.passes.verify import Verify
+
+    return (PlaceGoals(), AssignGoals(), BoundSplines(), KeepApart(), Verify())
+
+
+FRONT_NAMES = ("resolve", "place-keyframes")
+CAMERA_NAMES = (*FRONT_NAMES, "solve-path-qp", "refine-path", "parameterize-time", "verify")
+SHOW_NAMES = (*FRONT_NAMES, "place-goals", "assign-goals", "bound-splines", "keep-apart", "verify")
+PASS_NAMES = tuple(dict.fromkeys((*CAMERA_NAMES[:-1], *SHOW_NAMES)))
 
 
 def run(

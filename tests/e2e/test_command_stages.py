@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from shotc.cli import app, console
-from shotc.pipeline import PASS_NAMES
+from shotc.pipeline import CAMERA_NAMES
 from tests.e2e.command import PLAN, SMALL, Result
 
 pytestmark = pytest.mark.xdist_group("command")
@@ -34,7 +34,7 @@ def shotc(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captur
     return call
 
 
-@pytest.mark.parametrize(("name", "gives"), list(zip(PASS_NAMES, GIVES, strict=True)))
+@pytest.mark.parametrize(("name", "gives"), list(zip(CAMERA_NAMES, GIVES, strict=True)))
 def test_every_pass_can_be_dumped(shotc: Shotc, name: str, gives: str) -> None:
     result = shotc(*PLAN, "small.yaml", "--dump-ir", name)
     assert (result.code, result.err) == (0, "")
@@ -44,12 +44,12 @@ def test_every_pass_can_be_dumped(shotc: Shotc, name: str, gives: str) -> None:
     assert not Path("out").exists()
 
 
-@pytest.mark.parametrize("name", PASS_NAMES)
+@pytest.mark.parametrize("name", CAMERA_NAMES)
 def test_stopping_after_a_pass_times_the_passes_and_writes_nothing(shotc: Shotc, name: str) -> None:
     result = shotc(*PLAN, "small.yaml", "--stop-after", name, "--time-passes")
     assert (result.code, result.out) == (0, "")
     times = [line.split() for line in result.err.splitlines()]
-    assert [words[2] for words in times] == list(PASS_NAMES[: PASS_NAMES.index(name) + 1])
+    assert [words[2] for words in times] == list(CAMERA_NAMES[: CAMERA_NAMES.index(name) + 1])
     assert all(float(words[0]) >= 0 and words[1] == "s" for words in times)
     assert not Path("out").exists()
 

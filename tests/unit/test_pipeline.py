@@ -9,7 +9,15 @@ from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import Seat
-from shotc.pipeline import PASS_NAMES, default_passes, mismatches, run
+from shotc.pipeline import (
+    CAMERA_NAMES,
+    SHOW_NAMES,
+    default_passes,
+    front_passes,
+    mismatches,
+    run,
+    show_passes,
+)
 
 
 @dataclass(frozen=True)
@@ -47,7 +55,13 @@ class Spell:
 def test_the_default_passes_fit_together_and_bear_their_names():
     passes = default_passes(plugins.discover("kinds").plugins, Seat())
     assert mismatches(passes) == []
-    assert tuple(p.name for p in passes) == PASS_NAMES
+    assert tuple(p.name for p in passes) == CAMERA_NAMES
+
+
+def test_the_passes_of_a_show_fit_together_and_bear_their_names():
+    passes = (*front_passes(plugins.discover("kinds").plugins), *show_passes())
+    assert mismatches(passes) == []
+    assert tuple(p.name for p in passes) == SHOW_NAMES
 
 
 def test_a_joint_that_does_not_fit_is_named():
