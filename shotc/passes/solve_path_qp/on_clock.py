@@ -6,14 +6,14 @@ it are timed here as the time pass will time them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import product
+from itertools import pairwise
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.parameterize_time.estimate import leg_time
@@ -38,7 +38,6 @@ from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_sho
 TRIES = 6
 SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
 LATER = (2.0, 5.0, 10.0)  # seconds that such a shot may begin later where something is met on the way to it
-STAND = 3.0  # seconds that a drone waits clear of what passes, where something is met on the way there
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,16 +102,21 @@ class Flown:
         return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
     def _back(self, pose: Pose, lift: float) -> list[Leg] | None:
-        """Return the way home, over a height that is so many metres more than its ends'."""
+        """Return the way home, first straight up by so many metres."""
+        top = _at(pose, pose[2] + lift)
+        up = self._through([pose, top], self.drone.path) if lift else []
+        back = way_home(self.flight, top)
+        return [*up, *back] if up is not None and isinstance(back, list) else None
+
+    def _through(self, stops: list[Pose], path: KeyPath) -> list[Leg] | None:
+        """Return the legs from each of some poses to the next."""
         legs: list[Leg] = []
-        if lift:
-            over = _above(pose, (*self.drone.home, *pose[3:]), lift)
-            up = way_to(self.flight, pose, over, self.drone.path)
-            if not isinstance(up, list):
+        for a, b in pairwise(stops):
+            way = way_to(self.flight, a, b, path)
+            if not isinstance(way, list):
                 return None
-            legs, pose = up, over
-        back = way_home(self.flight, pose)
-        return [*legs, *back] if isinstance(back, list) else None
+            legs += way
+        return legs
 
     def _path(self, shot: ShotCurve) -> Trouble | None:
         timing = shot.shot.shot.timing
@@ -151,10 +155,11 @@ class Flown:
         def over(metres: float) -> list[Leg] | None:
             if not metres:
                 return [*lift, *direct]
-            top = _above(pose, near, metres)
-            up = way_to(self.flight, pose, top, path)
-            down = way_to(self.flight, top, near, path)
-            return [*lift, *up, *down] if isinstance(up, list) and isinstance(down, list) else None
+            high = max(pose[2], near[2]) + metres
+            # Straight up from a pad there is the take-off already.
+            stops = [pose, *([] if lift else [_at(pose, high)]), _at(near, high), near]
+            found = self._through(stops, path)
+            return None if found is None else [*lift, *found]
 
         found = choose(self.mission, self.drone, self.around, over, (self.clock, due), then)
         assert found is not None
@@ -177,9 +182,8 @@ class Flown:
             reached = self._reached(placed, start)
         if not isinstance(reached, _Reached):
             return reached
-        if not reached.way.clear:
-            delays = (0.0,) if fixed is not None else (0.0, *LATER)
-            reached = self._undisturbed(placed, start, delays) or reached
+        if fixed is None and not reached.way.clear:
+            reached = self._later(placed, start) or reached
         self._take(reached.way)
         leg = _shifted(reached.shot.leg, turns_to(reached.shot.leg.pose, end_of(self.legs)))
         self.legs.append(leg)
@@ -189,23 +193,21 @@ class Flown:
         self.stats += reached.shot.stats
         return None
 
-    def _undisturbed(self, placed: PlacedShot, start: float, delays: Sequence[float]) -> _Reached | None:
-        """Return the shot after the first of some delays with which nothing is met on the way to it."""
-        for delay, stand in product(delays, (0.0, STAND)):
-            if not delay and not stand:
-                continue
-            reached = self._reached(placed, start + delay, stand)
+    def _later(self, placed: PlacedShot, start: float) -> _Reached | None:
+        """Return the first of some later starts to which there is a way on which nothing is met."""
+        for more in LATER:
+            reached = self._reached(placed, start + more)
             if isinstance(reached, _Reached) and reached.late <= 0.0 and reached.way.clear:
                 return reached
         return None
 
-    def _reached(self, placed: PlacedShot, start: float, stand: float = 0.0) -> _Reached | Trouble:
-        """Plan a shot for a start, and the way to it; ``stand`` is as in ``timed_shot``."""
+    def _reached(self, placed: PlacedShot, start: float) -> _Reached | Trouble:
+        """Plan a shot for a start, and the way to it."""
         outside = self._outside(placed, start)
         if outside is not None:
             return outside
         looker = Looker(self.mission, self.drone, placed.subjects)
-        made = timed_shot(looker, self.flight.room, self.around, placed, start, stand)
+        made = timed_shot(looker, self.flight.room, self.around, placed, start)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)
@@ -229,11 +231,9 @@ class Flown:
         self.clock = way.end
 
 
-def _above(a: Pose, b: Pose, lift: float) -> Pose:
-    """Return the pose half way between two, so many metres over the higher one."""
-    middle = [0.5 * (p + q) for p, q in zip(a, b, strict=True)]
-    middle[2] = max(a[2], b[2]) + lift
-    return tuple(middle)
+def _at(pose: Pose, height: float) -> Pose:
+    """Return a pose moved straight up or down to a height."""
+    return (*pose[:2], height, *pose[3:])
 
 
 def _near(goal: Pose, pose: Pose) -> Pose:

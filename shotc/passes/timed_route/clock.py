@@ -24,13 +24,11 @@ class Clock:
     """Knots over mission time.
 
     breaks : shape (P + 1,), seconds; start, end : of the film, two of them
-    stands : whether the drone hovers all through the first piece
     """
 
     breaks: Array
     start: float
     end: float
-    stands: bool = False
 
     @property
     def filmed(self) -> Mask:
@@ -39,11 +37,8 @@ class Clock:
         return np.asarray((middle > self.start) & (middle < self.end))
 
 
-def clock_of(mission: MissionIR, drone: Drone, shot: Shot, start: float, stand: float = 0.0) -> Clock:
-    """Return the knots of a shot whose first frame is at ``start``.
-
-    stand : seconds that the drone is in place before it sets out
-    """
+def clock_of(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> Clock:
+    """Return the knots of a shot whose first frame is at ``start``."""
     duration = shot.timing.duration or 0.0
     end = start + duration
     pieces = int(min(MOST, max(FEWEST, ceil(duration / PIECE))))
@@ -58,9 +53,7 @@ def clock_of(mission: MissionIR, drone: Drone, shot: Shot, start: float, stand: 
             np.linspace(end, end + after, last + 1)[1:],
         ]
     )
-    if stand:
-        breaks = np.concatenate([breaks[:1] - stand, breaks])
-    return Clock(breaks, start, end, stand > 0.0)
+    return Clock(breaks, start, end)
 
 
 def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> float:

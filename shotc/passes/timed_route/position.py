@@ -15,7 +15,7 @@ from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock
-from shotc.passes.timed_route.moving import Even, Sides, shortfalls, sides
+from shotc.passes.timed_route.moving import Even, Sides, evened, shortfalls, sides
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
@@ -37,6 +37,7 @@ UNSEEN = 0.1  # weight of jerk beyond the film's ends, against that in the film
 NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
 ROUNDS = 6
 LOOKS = 5  # rounds in which pictures are kept free
+STAND = 3.0  # seconds that a drone may stand where a motion begins or ends
 REACH = 4.0  # metres beyond its clearance within which something that stands counts
 SHARES = (0.5, 0.95)  # as in solve_path_qp.position
 PROVED = 1e-6  # metres
@@ -150,7 +151,10 @@ def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
             continue
         points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
         lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
-        if lacking.max() > PROVED:
+        if (
+            max(lacking.max(), *(shortfalls(m, place).max() for m, place, _ in _stands(task, points)))
+            > PROVED
+        ):
             reach *= 2.0
             hulls, share = points if rounds % 2 else chords, SHARES[0]
             continue
@@ -182,23 +186,9 @@ def _base(task: Task) -> SplineProblem:
         Goal(_scaled(rows, weight), weight[:, None] * _ideal(task, times)),
         Goal(_scaled(jerk, SMOOTH**3 * gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
     )
-    rest = _standing(breaks) if task.clock.stands else at_rest(breaks)
+    rest = at_rest(breaks)
     still = Equalities(rest, np.zeros((len(rest.piece), 3)))
     return SplineProblem(count(breaks), goals, still, (), limits_of(task.drone.limits, breaks))
-
-
-def _standing(breaks: Array) -> Rows:
-    """Return the rows of a spline that stands on its first piece and rests at its end.
-
-    A quintic at rest at both its ends that ends where it begins is constant.
-    """
-    rest, value = at_rest(breaks), control_rows(breaks)
-    parts = [(rest.piece, rest.weight), (value.piece[:1], value.weight[5:6] - value.weight[:1])]
-    for order in (1, 2):
-        rows = control_rows(breaks, order)
-        last = 5 - order
-        parts.append((rows.piece[last : last + 1], rows.weight[last : last + 1]))
-    return Rows(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
 
 
 def at_rest(breaks: Array) -> Rows:
@@ -236,10 +226,34 @@ def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
 def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: float) -> SplineProblem:
     breaks = task.clock.breaks
     problem = with_corridor(base, Around(task.walls, breaks, hulls, reach, share))
-    beside = sides(task.motions, hulls)
-    if not len(beside.piece):
-        return problem
-    return replace(problem, floors=(*problem.floors, _floors(breaks, beside, len(task.walls.owners))))
+    first = len(task.walls.owners)
+    floors = [_floors(breaks, sides(task.motions, hulls), first)]
+    for motions, place, row in _stands(task, hulls):
+        floors.append(_standing(breaks, sides(motions, place), first, row))
+    return replace(problem, floors=(*problem.floors, *(f for f in floors if len(f.offset))))
+
+
+def _stands(task: Task, hulls: Array) -> tuple[tuple[tuple[Even, ...], Array, int], ...]:
+    """Return, for both ends, what passes while the drone stands there, where that is, and its control row.
+
+    The place is a piece's hull, shape (1, 2, 3).
+    """
+    begin, end = task.clock.breaks[[0, -1]]
+    found = []
+    for window, place, row in (
+        ((begin - STAND, begin), hulls[0, 0], 0),
+        ((end, end + STAND), hulls[-1, -1], -1),
+    ):
+        passing = tuple(evened(m.what, np.array(window)) for m in task.motions)
+        found.append((passing, np.tile(place, (1, 2, 1)), row))
+    return tuple(found)
+
+
+def _standing(breaks: Array, beside: Sides, first: int, row: int) -> Floors:
+    """Return the half-spaces in which a control point stays all the while."""
+    every, number = control_rows(breaks), len(beside.piece)
+    rows = Rows(np.repeat(every.piece[[row]], number), np.repeat(every.weight[[row]], number, axis=0))
+    return Floors(rows, beside.normal, beside.offset.max(axis=1, initial=-np.inf), first + beside.owner)
 
 
 def _floors(breaks: Array, beside: Sides, first: int) -> Floors:

@@ -55,15 +55,16 @@ class NoMotion:
 
 
 def timed_shot(
-    looker: Looker, room: Room, around: Around, placed: PlacedShot, start: float, stand: float = 0.0
+    looker: Looker, room: Room, around: Around, placed: PlacedShot, start: float
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``.
 
-    stand : seconds that the drone waits where the motion begins, clear of what passes there
+    Where it begins and ends nothing passes for some seconds before and after, so that a drone that comes
+    or leaves has time to.
     """
     mission, drone = looker.mission, looker.drone
     shot = at_start(mission, placed.shot, start)
-    clock = clock_of(mission, drone, shot, start, stand)
+    clock = clock_of(mission, drone, shot, start)
     motions = tuple(evened(m, clock.breaks) for m in (*standing(room), *around.moving))
     task = Task(looker, shot, clock, room, motions, around.sights)
     flown = fly(task)
