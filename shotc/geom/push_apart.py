@@ -34,7 +34,7 @@ def push_apart(goals: Array, shape: Array, least: float, hold: Hold) -> Array | 
     """
     tree = cKDTree(shape)
     # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
-    leash = np.maximum(SLACK * least, tree.query(goals)[0])
+    leash = np.maximum(SLACK * least + _grain(tree), tree.query(goals)[0])
     missing = float("inf")
     for done in range(ROUNDS):
         push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20))
@@ -73,6 +73,14 @@ def _pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
     both, halves = np.concatenate([first, second]), np.concatenate([push, -push])
     pushes = np.column_stack([np.bincount(both, column, len(goals)) for column in halves.T])
     return np.asarray(pushes, dtype=np.float64), float((least - distance).sum())
+
+
+def _grain(tree: cKDTree) -> float:
+    """Return how wide the gaps between drawn points are, which belong to the shape as well."""
+    if tree.n < 2:
+        return 0.0
+    sample = np.asarray(tree.data)[:: max(1, tree.n // 5000)]
+    return float(np.quantile(tree.query(sample, k=2)[0][:, 1], 0.95))
 
 
 def _leashed(goals: Array, tree: cKDTree, leash: Array) -> Array:

@@ -153,8 +153,8 @@ def _placed(task: _Task, setting: Setting, bodies: Sequence[Body]) -> list[Place
 
 def _within(viewpoint: Array, body: Body, points: Array) -> bool:
     # A hollow shape does not enclose its middle, but from there no way of looking is the right one.
-    middle = points.mean(axis=0)
-    return body.encloses(viewpoint) or bool(np.linalg.norm(middle - viewpoint) < 1e-3 * np.ptp(points))
+    off = float(np.linalg.norm(points.mean(axis=0) - viewpoint))
+    return body.encloses(viewpoint) or off < 0.05 * float(np.ptp(points, axis=0).max())
 
 
 def _colors(picture: Picture, body: Body, goals: Array) -> Colors:

@@ -44,7 +44,8 @@ def read_model(name: str, data: bytes) -> Mesh | Unreadable:
     if claim > len(data):
         return Unreadable(f"its header promises {claim} elements in {len(data)} bytes")
     try:
-        parts = _parts(kind, data)
+        with np.errstate(all="ignore"):  # what overflows is found below
+            parts = _parts(kind, data)
     except Exception as error:  # noqa: BLE001  the reader's faults of foreign bytes
         reason = (str(error).splitlines() or [type(error).__name__])[0][:200]
         return Unreadable(f"trimesh says: {reason or type(error).__name__}")

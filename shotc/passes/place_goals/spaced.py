@@ -85,9 +85,12 @@ def spaced(setting: Setting, goals: Placed) -> Array | None:
     def hold(before: Array, after: Array) -> Array:
         return np.asarray(setting.room.hold(before / scale, after / scale) * scale)
 
-    apart = push_apart(goals.shown * scale, shape, setting.least, hold)
+    start = goals.shown * scale
+    apart = push_apart(start, shape, setting.least, hold)
+    if apart is start:
+        return goals.shown
     if apart is None:
-        apart = push_apart(centroids(shape, len(goals.shown)).goals, shape, setting.least, hold)
+        apart = push_apart(centroids(shape, len(start), start).goals, shape, setting.least, hold)
     return None if apart is None else apart / scale
 
 

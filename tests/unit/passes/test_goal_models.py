@@ -1,0 +1,141 @@
+"""Mesh files: read alike from every format, and every sort of broken one told."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.ir.show import Model
+from shotc.passes.place_goals.body import SourceFault
+from shotc.passes.place_goals.frames import model_bodies
+from shotc.passes.place_goals.model import mesh_body, open_edges
+from shotc.passes.place_goals.model_file import Mesh, Unreadable, read_model
+from tests.meshes import box_mesh, obj, ply, sphere_mesh, stl
+
+BALL = sphere_mesh(10.0)
+PLACES = b"property float x\nproperty float y\nproperty float z\n"
+HEADER = b"ply\nformat ascii 1.0\nelement vertex 2\n" + PLACES + b"end_header\n"
+
+
+def read(name: str, data: bytes) -> Mesh:
+    mesh = read_model(name, data)
+    assert isinstance(mesh, Mesh), mesh
+    return mesh
+
+
+@pytest.mark.parametrize(("name", "data"), [("a.ply", ply(BALL)), ("A.STL", stl(BALL)), ("a.obj", obj(BALL))])
+def test_all_formats_give_the_same_closed_mesh(name: str, data: bytes) -> None:
+    mesh = read(name, data)
+    assert len(mesh.triangles) == len(BALL)
+    assert len(mesh.corners) == len(BALL) // 2 + 2  # Euler: V - E + F = 2, with E = 3 F / 2
+    assert open_edges(mesh) == 0
+    body = mesh_body(mesh)
+    points = body.draw("volume", 20_000, np.random.default_rng(0))
+    assert (np.linalg.norm(points, axis=1) < 5).mean() == pytest.approx(0.125, abs=0.01)
+    surface = body.draw("surface", 20_000, np.random.default_rng(0))
+    assert np.linalg.norm(surface, axis=1).min() > 9.9
+    assert surface[:, 2].std() == pytest.approx(10 / 3**0.5, rel=0.02)  # Archimedes: even in height
+    assert body.encloses(np.array([1.0, 2.0, 3.0]))
+    assert not body.encloses(np.array([9.0, 9.0, 3.0]))
+
+
+def test_a_hole_is_counted() -> None:
+    assert open_edges(read("a.ply", ply(BALL[3:]))) > 0
+    assert open_edges(read("a.ply", ply(box_mesh((0, 0, 0), (1, 2, 3))[1:]))) == 3
+
+
+def test_faces_that_do_not_run_alike_are_counted_by_parity() -> None:
+    muddled = BALL.copy()
+    muddled[::7] = muddled[::7, ::-1]
+    body = mesh_body(read("a.stl", stl(muddled)))
+    points = body.draw("volume", 5000, np.random.default_rng(0))
+    assert (np.linalg.norm(points, axis=1) < 5).mean() == pytest.approx(0.125, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "told"),
+    [
+        ("a.glb", b"x", "no format"),
+        ("a.ply", b"", "ply"),
+        ("a.obj", b"", "no points"),
+        ("a.stl", b"", "no points"),
+        ("a.stl", b"solid x\nfacet normal 0 0 0\nouter loop\nvertex 1 2 3", "no points"),
+        ("a.stl", stl(BALL)[:1000], ""),
+        ("a.ply", ply(BALL)[:5000], ""),
+        ("a.ply", HEADER + b"0 0 0\nnan 1 1\n", "1 of its 2 points"),
+        ("a.ply", HEADER + b"0 0 0\n1e300 1 1\n", "1 of its 2 points"),
+        ("a.ply", HEADER + b"1 1 1\n1 1 1\n", "one place"),
+        (
+            "a.ply",
+            HEADER.replace(b"2", b"300000000000", 1).replace(b"ascii", b"binary_little_endian"),
+            "promises",
+        ),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9", ""),
+        ("a.obj", b"\x00\x01\x02" * 100, ""),
+        ("a.ply", b"\x00\x01\x02" * 100, ""),
+    ],
+)
+def test_files_that_are_no_models(name: str, data: bytes, told: str) -> None:
+    fault = read_model(name, data)
+    assert isinstance(fault, Unreadable)
+    assert told in fault.note
+    assert "\n" not in fault.note
+    assert fault.help
+
+
+def frames(files: dict[str, bytes], fill: str = "volume", height: float | None = None):
+    return model_bodies(Model(tuple(files), 1.0, None, height, 0.0), files, fill)  # type: ignore[arg-type]
+
+
+def fault(files: dict[str, bytes], fill: str = "volume", height: float | None = None) -> SourceFault:
+    found = frames(files, fill, height)
+    assert isinstance(found, SourceFault)
+    return found
+
+
+def test_a_mesh_that_is_open_is_filled_by_its_surface_only() -> None:
+    files = {"a.ply": ply(box_mesh((0, 0, 30), (10, 10, 10))[1:])}
+    told = fault(files)
+    assert (told.code, told.notes[0].split()[0]) == ("D051", "3")
+    assert "fill: surface" in told.help
+    assert len(frames(files, "surface")) == 1
+
+
+def test_a_mesh_in_millimetres_needs_a_height() -> None:
+    files = {"a.ply": ply(box_mesh((0, 0, 0), (4000, 9000, 18000)))}
+    told = fault(files)
+    assert told.code == "D052"
+    assert "millimetres" in told.notes[0]
+    assert "a factor of 1000" in told.notes[0]
+    assert "height: 18" in told.help
+    (body,) = frames(files, height=18.0)
+    points = body.draw("volume", 2000, np.random.default_rng(0))
+    assert np.ptp(points, axis=0) == pytest.approx([4, 9, 18], rel=0.02)
+
+
+def test_a_level_mesh_has_no_height_to_scale() -> None:
+    sheet = np.array([[[0.0, 0, 5], [4, 0, 5], [4, 4, 5]]])
+    assert fault({"a.ply": ply(sheet)}, "surface", 10.0).code == "D050"
+
+
+def test_frames_of_different_units() -> None:
+    files = {"a.ply": ply(BALL), "b.ply": ply(BALL * 1.5), "c.ply": ply(BALL * 1500)}
+    told = fault(files)
+    assert told.code == "D053"
+    assert "`b.ply` and `c.ply`" in told.message
+    assert "1e+03" in told.message or "1000" in told.message
+
+
+def test_the_bad_frame_is_named() -> None:
+    told = fault({"a.ply": ply(BALL), "b.ply": b"no"})
+    assert (told.code, "`b.ply`" in told.message) == ("D050", True)
+
+
+def test_a_mesh_of_faces_over_each_other_gets_fewer_columns(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Each face lies over all columns: a file of thousands of them would take all the memory there is.
+    monkeypatch.setattr("shotc.passes.place_goals.model.MOST", 20_000)
+    sheets = np.concatenate([box_mesh((0, 0, 3.0 * k), (50, 50, 1)) for k in range(20)])
+    (body,) = frames({"a.stl": stl(sheets)}, height=100.0)
+    points = body.draw("volume", 4000, np.random.default_rng(0))
+    assert np.ptp(points[:, 2]) == pytest.approx(100.0, rel=0.01)
+    assert len(np.unique(points[:, :2], axis=0)) < 300
