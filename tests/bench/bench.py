@@ -22,6 +22,7 @@ from pathlib import Path
 from shotc import __version__, plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
+from tests.bench import shows
 from tests.bench.fleets import fleets, mission
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -206,7 +207,14 @@ def main() -> None:
         three.write_bytes(mission(3))
         fleet = [*SHOTC, "plan", str(three), "-o", folder]
         processes(3, "cvxpy, casadi, toppra, rerun", {"shotc plan, 3 drones, 60 s each": fleet})
+        rows = {
+            name: [*SHOTC, "plan", str(path), "-o", folder]
+            for name, path in shows.large(Path(folder)).items()
+        }
+        processes(1, "cvxpy, scipy.spatial, rerun", rows)
     fleets()
+    shows.growth()
+    shows.splines()
     growth()
     stages()
 
