@@ -104,7 +104,7 @@ CODES: tuple[CodeInfo, ...] = (
         "apart. Here so many do not fit into the shape, nor within a part of that distance around it. The numbers of "
         "the help are found by trying: how many drones would fit, how large the picture would have to be, and at which "
         "separation all of them would fit.",
-        _PASSING.replace("height: 20}", "height: 9}"),
+        _PASSING.replace("height: 20}", "height: 5}"),
         _PASSING,
         "plan",
     ),
