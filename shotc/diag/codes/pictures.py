@@ -104,7 +104,7 @@ CODES: tuple[CodeInfo, ...] = (
         "apart. Here so many do not fit into the shape, nor within a part of that distance around it. The numbers of "
         "the help are found by trying: how many drones would fit, how large the picture would have to be, and at which "
         "separation all of them would fit.",
-        _PASSING.replace("radius: 15}", "radius: 3}"),
+        _PASSING.replace("height: 20}", "height: 5}"),
         _PASSING,
         "plan",
     ),
@@ -127,7 +127,7 @@ CODES: tuple[CodeInfo, ...] = (
         "The goals of a picture keep out of keep-out zones and of targets, inside keep-in zones, and above the ground "
         "clearance, with the body of a drone all round. Some of them do not. The help gives the shortest shift of the "
         "whole picture, east, north and up, that gives all of them room.",
-        _PASSING.replace("center: [0, 0, 40], radius: 15", "center: [36, 40, 40], radius: 15"),
+        _PASSING.replace("text: GO, center: [0, 0, 40]", "text: GO, center: [40, 40, 40]"),
         _PASSING,
         "plan",
     ),
@@ -139,9 +139,9 @@ CODES: tuple[CodeInfo, ...] = (
         "Goals are spread for the view from `viewpoint`, along the line of sight to the middle of the picture. From "
         "within the shape there is no such line. Put it where the audience stands, or leave it out: then the drones "
         "show the shape alike from all sides.",
-        _PASSING.replace("viewpoint: [0, -100, 2]", "viewpoint: [0, -5, 40]"),
-        _PASSING,
-        "plan",
+        "",
+        "",
+        "other",
     ),
     CodeInfo(
         "D060",

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import pdist
 
+from shotc.diag.codes.pictures import CODES
 from shotc.diag.model import Diagnostic
+from shotc.diag.registry import CodeInfo
 from shotc.geom.apart import spacing, stretch
 from shotc.geom.solids import Cylinder
 from shotc.ir.fleet import GoalIR
@@ -18,6 +20,7 @@ from shotc.ir.mission import Zone
 from shotc.ir.show import Apart, Box, Lettering, Model, Sphere, Torus
 from shotc.passes.base import PassContext
 from shotc.passes.place_goals import PlaceGoals
+from tests.front import KINDS, placed
 from tests.meshes import box_mesh, ply, sphere_mesh
 from tests.shows import APART, display, fleet, picture, show
 
@@ -41,6 +44,17 @@ def fault_of(ir: KeyframeIR) -> Diagnostic:
 
 def nearest(points: np.ndarray, apart: Apart) -> float:
     return float(pdist(points * (1, 1, stretch(apart))).min())
+
+
+@pytest.mark.skipif(not KINDS["display"].planned, reason="the language has no pictures yet")
+@pytest.mark.parametrize("info", [c for c in CODES if c.phase == "plan"], ids=lambda c: c.slug)
+def test_the_examples_that_planning_finds(info: CodeInfo) -> None:
+    for text, codes in ((info.failing, {info.code}), (info.passing, set())):
+        ir, _ = placed(text)
+        assert ir is not None
+        found = PlaceGoals().run(ir, PassContext()).diagnostics
+        assert {d.code for d in found} == codes
+        assert all(d.labels[0].span.line > 10 for d in found)
 
 
 @pytest.mark.parametrize("apart", [APART, Apart("cylinder", 1.0, 2.0, 0.1)])
