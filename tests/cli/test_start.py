@@ -64,3 +64,8 @@ def test_the_version_loads_no_compiler():
     assert code == 0
     assert "shotc.api" not in modules
     assert "yaml" not in modules
+
+
+def test_check_loads_what_shows_need_for_shows_only(checked):
+    late = ("shotc.passes.resolve.show", "shotc.kinds.display", "shotc.kinds.pictures", "shotc.spec.colors")
+    assert not [name for name in checked if name.startswith(late)]

@@ -36,6 +36,6 @@ def _idle(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
         if fleet.name not in used:
             label = mission.origins.key(fleet.path)
             message = f"fleet `{fleet.name}` shows nothing"
-            note = "it takes off, if at all, for its displays alone"
+            note = "it stays on its pads, and others keep clear of it"
             help_ = f"add a shot of `kind: display` with `fleet: {fleet.name}`, or remove it"
             yield Diagnostic("D023", message, (label,), (note,), help_)

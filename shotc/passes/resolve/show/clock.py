@@ -151,7 +151,7 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
         waits = ends.get(display.timing.after or "", 0.0)
         start = display.timing.start
         if start is not None and start < max(there, waits) - SLACK:
-            faults.append(_early(mission, display, there, waits))
+            faults.append(_early(mission, display, last, there, waits))
         begin = max(start or 0.0, there, waits)
         ends[display.id] = begin + least_display(display, limits)
         free[display.fleet] = _Free(ends[display.id], display.pictures[-1])
@@ -162,10 +162,12 @@ def _rise_time(fleet: Fleet) -> float:
     return least_travel([(0.0, 0.0, 0.0), (0.0, 0.0, fleet.rise)], fleet.limits)
 
 
-def _early(mission: MissionIR, display: Display, there: float, waits: float) -> Diagnostic:
+def _early(mission: MissionIR, display: Display, last: _Free, there: float, waits: float) -> Diagnostic:
     label = mission.origins.value((*display.path, "timing", "start"))
     start = display.timing.start or 0.0
-    why = f"its fleet takes off or shows something else until {_up(there)} s at least"
+    why = f"its drones rise for {_up(there)} s at least"
+    if last.picture is not None:
+        why = f"its fleet shows something else and changes over until {_up(there)} s at least"
     if waits > there:
         why = f"`{display.timing.after}`, for which it waits, ends at {_up(waits)} s at the earliest"
     message = f"display `{display.id}` cannot stand at {start:.1f} s"

@@ -181,19 +181,27 @@ def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Obstacle) -> Diagnostic
     if not lacking:
         return None
     worst = min(lacking, key=lambda i: rooms[i])
-    x, y, _ = fleet.pads[worst]
-    what = {"out": "zone", "in": "keep-in zone", "target": "target"}[obstacle.role]
-    message = f"{len(lacking)} of {len(fleet.pads)} drones of fleet `{fleet.name}` cannot rise clear of "
+    who = f"{len(lacking)} of {len(fleet.pads)} drones of fleet `{fleet.name}`"
     if obstacle.role == "in":
-        message = f"{len(lacking)} of {len(fleet.pads)} drones of fleet `{fleet.name}` do not rise inside "
-    room = f"{rooms[worst]:.2f} m are free" if rooms[worst] > 0 else f"it is {-rooms[worst]:.2f} m too far"
-    note = (
-        f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: {room} on its {fleet.rise:.1f} m up, and the "
-        f"body radius of {fleet.radius:.2f} m must be"
-    )
+        message = f"{who} do not rise inside keep-in zone `{obstacle.name}`"
+    else:
+        what = "target" if obstacle.role == "target" else "zone"
+        message = f"{who} cannot rise clear of {what} `{obstacle.name}`"
     labels = (_place(mission, fleet), mission.origins.key(obstacle.path, "the obstacle"))
-    return Diagnostic(
-        "D006", f"{message}{what} `{obstacle.name}`", labels, (note,), "move the fleet, or lower `rise`"
+    note = _least_room(fleet, obstacle, worst, rooms[worst])
+    return Diagnostic("D006", message, labels, (note,), "move the layout, or the obstacle")
+
+
+def _least_room(fleet: Fleet, obstacle: Obstacle, worst: int, room: float) -> str:
+    """Give the numbers of the pad that has least room."""
+    x, y, _ = fleet.pads[worst]
+    if obstacle.role == "in":
+        where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
+    else:
+        where = f"{room:.2f} m away from it" if room > 0 else f"{-room:.2f} m deep in it"
+    return (
+        f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: on its {fleet.rise:.1f} m up it is {where}; the "
+        f"body radius of {fleet.radius:.2f} m must be free"
     )
 
 
