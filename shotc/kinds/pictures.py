@@ -110,7 +110,7 @@ class PictureSpec(Model):
     model: FilesSpec | None = Field(default=None, description="meshes or point clouds, one or many")
     fill: Literal["volume", "surface", "outline"] = Field(
         default="volume",
-        description="where the drones stand: all of its inside, its surface, or a flat shape's edges",
+        description="where the drones stand: all of its inside, its surface, or edges of it",
     )
     color: LightColor | None = Field(
         default=None, description="of all lights; the file's, or white, if silent"

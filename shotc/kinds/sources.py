@@ -26,9 +26,9 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
     source = _source(spec, scene, path)
     if isinstance(source, Diagnostic):
         return source
-    if spec.fill == "outline" and not isinstance(source, Lettering | Drawing):
+    if spec.fill == "outline" and not isinstance(source, Lettering | Drawing | Box):
         label = scene.origins.value((*path, "fill"))
-        note = "only the flat ones have an outline: `text` and `svg`"
+        note = "only `text`, `svg` and `cube` have edges to stand on"
         help_ = "write `fill: surface`, or remove it"
         return Diagnostic("D009", "this picture has no outline", (label,), (note,), help_)
     return Picture(source, spec.fill, spec.color, spec.transition, spec.hold, path)

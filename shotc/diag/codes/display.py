@@ -137,11 +137,11 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "D009",
         "no-outline",
-        "an outline is asked for of a solid",
-        "`fill: outline` puts the drones on the edges of a flat shape: of letters, or of a drawing. A solid or a mesh "
-        "has an inside (`volume`) and a `surface`.",
+        "an outline is asked for of what has no edges",
+        "`fill: outline` puts the drones on the edges of letters, of a drawing or of a cube. What is round, and a "
+        "mesh, has an inside (`volume`) and a `surface`.",
         _PASSING,
-        ("fill: surface", "fill: outline"),
+        ("radius: 15}, hold: 4", "radius: 15}, fill: outline, hold: 4"),
     ),
     CodeInfo(
         "D010",

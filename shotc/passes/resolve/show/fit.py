@@ -29,6 +29,7 @@ def most_drones(picture: Picture, apart: Apart) -> float:
     if isinstance(source, Sphere | Box | Torus):
         stretch = apart.across / apart.upright
         inside = _in_volume(source, gap, stretch)
+        # The edges of a cube lie on its surface.
         return inside if picture.fill == "volume" else min(inside, _on_surface(source, gap, stretch))
     return inf
 
