@@ -315,15 +315,15 @@ class _State:
             z = p.project(relaxed + u)
             u += relaxed - z
         self.x[:, some], self.z[:, some], self.u[:, some] = x, z, u * step
-        return self._violation(rows), self._slope(x, u * step, some)
+        return self._violation(rows, z), self._slope(x, u * step, some)
 
-    def _violation(self, rows: Array) -> Array:
-        worst = np.full(rows.shape[1], -1.0)
+    def _violation(self, rows: Array, z: Array) -> Array:
+        """Return how far the rows are from what is within the bounds, as a share of these."""
+        limits, worst = self.programme.bounds.limits, np.zeros(rows.shape[1])
+        least = min(limits.speed, limits.climb, limits.descent), limits.acceleration, limits.jerk
         for part in self.programme.rows:
-            values = np.moveaxis(rows[part.span] / part.scale[:, None, None], 1, 0)
-            worst = np.maximum(
-                worst, _excess(values, part.order, self.programme.bounds).max(axis=1, initial=-1.0)
-            )
+            gap = np.abs(rows[part.span] - z[part.span]) / part.scale[:, None, None]
+            worst = np.maximum(worst, gap.max(axis=(0, 2), initial=0.0) / least[part.order - 1])
         return worst / EXACT
 
     def _slope(self, x: Array, forces: Array, some: Index) -> Array:

@@ -30,7 +30,7 @@ STEP = 0.35
 LONGEST = 0.25
 """Longest time between samples, seconds."""
 
-NEAR = 0.3
+NEAR = 0.15
 """Pairs that are no nearer than this beyond what is wanted are not looked at, as a share of the distance."""
 
 ITERATIONS = 60
@@ -91,20 +91,23 @@ class Pusher:
         pairs = np.asarray(cKDTree(at).query_pairs(ball, output_type="ndarray"))
         if not upright:
             return pairs
-        return np.asarray(pairs[sizes(at[pairs[:, 0]] - at[pairs[:, 1]], self.apart)[0] < reach])
+        return np.asarray(pairs[sizes(at[pairs[:, 0]] - at[pairs[:, 1]], self.apart) < reach])
 
 
-def sizes(relative: Array, apart: Distances) -> tuple[Array, Array]:
-    """Return stretched distances in the sense of ``geom.separation``, (M,), and their slopes, (M, 3)."""
+def sizes(relative: Array, apart: Distances) -> Array:
+    """Return stretched distances in the sense of ``geom.separation``, (M,), of relative places (M, 3)."""
     if apart.shape == "cylinder":
-        across = np.hypot(relative[:, 0], relative[:, 1])
-        flat = across >= np.abs(relative[:, 2])
-        slope = relative * np.where(flat[:, None], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-        size = np.where(flat, across, np.abs(relative[:, 2]))
-    else:
-        slope = relative
-        size = np.sqrt(np.einsum("md,md->m", relative, relative))
-    return size, slope / np.maximum(size, 1e-12)[:, None]
+        return np.asarray(np.maximum(np.hypot(relative[:, 0], relative[:, 1]), np.abs(relative[:, 2])))
+    return np.asarray(np.sqrt(np.einsum("md,md->m", relative, relative)))
+
+
+def slopes(relative: Array, size: Array, apart: Distances) -> Array:
+    """Return the directions in which these distances grow, shape (M, 3)."""
+    slope = relative / np.maximum(size, 1e-12)[:, None]
+    if apart.shape == "cylinder":
+        flat = np.abs(relative[:, 2]) < size
+        slope *= np.where(flat[:, None], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+    return np.asarray(slope)
 
 
 class _Cost:
@@ -146,8 +149,11 @@ class _Cost:
             pairs = pairs[row[pairs[:, 0]] >= 0]
             found.append(np.column_stack([np.full(len(pairs), k), row[pairs]]))
             fixed.append(at[pairs[:, 1], k])
-        self.pairs, self.fixed = np.concatenate(found), np.concatenate(fixed)
-        self.both = self.pairs[:, 2] >= 0
+        pairs, self.fixed = np.concatenate(found), np.concatenate(fixed)
+        self.both = pairs[:, 2] >= 0
+        # Where the two stand in a flat list of all movable drones at all times; somebody fixed has no place.
+        self.first = pairs[:, 0] * len(movable) + pairs[:, 1]
+        self.second = np.where(self.both, pairs[:, 0] * len(movable) + pairs[:, 2], 0)
 
     def begin(self) -> Array:
         return np.ascontiguousarray(self.start[FIXED:-FIXED]).ravel()
@@ -174,14 +180,18 @@ class _Cost:
     def _near(self, x: Array) -> tuple[float, Array]:
         pusher, shape = self.pusher, self.offset.shape
         at = ((self.basis @ x.reshape(len(x), -1)).reshape(shape) + self.offset) * pusher.scale
-        time, first, second = self.pairs.T
-        others = np.where(self.both[:, None], at[time, second], self.fixed)
-        size, slope = sizes(at[time, first] - others, pusher.apart)
-        lack = np.maximum(self.push.wanted - size, 0.0)
-        force = -2.0 * self.step * lack[:, None] * slope * pusher.scale
-        cells = np.concatenate([time * shape[1] + first, (time * shape[1] + second)[self.both]])
-        forces = np.concatenate([force, -force[self.both]])
-        count = shape[0] * shape[1]
+        at = at.reshape(-1, 3)
+        others = np.where(self.both[:, None], at.take(self.second, axis=0), self.fixed)
+        relative = at.take(self.first, axis=0) - others
+        close = np.flatnonzero(sizes(relative, pusher.apart) < self.push.wanted)
+        relative, both = relative[close], self.both[close]
+        size = sizes(relative, pusher.apart)
+        lack = self.push.wanted - size
+        pull_apart = slopes(relative, size, pusher.apart) * pusher.scale
+        force = -2.0 * self.step * lack[:, None] * pull_apart
+        cells = np.concatenate([self.first[close], self.second[close][both]])
+        forces = np.concatenate([force, -force[both]])
+        count = len(at)
         summed = np.stack([np.bincount(cells, forces[:, d], count) for d in range(3)], axis=-1)
         back = (self.back @ summed.reshape(shape[0], -1)).reshape(self.shape)
         return self.step * float((lack**2).sum()), back

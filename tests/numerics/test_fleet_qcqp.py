@@ -1,0 +1,113 @@
+"""The fleet's quadratic programme against cvxpy on the same data, and its bounds between samples."""
+
+from __future__ import annotations
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import differences, knots, places
+from shotc.ir.limits import Limits
+from shotc.solvers import fleet_qcqp
+from shotc.solvers.fleet_qcqp import Bounds, bounded, deviation, overdraft
+
+LIMITS = Limits(3.5, 2.5, 1.5, 2.0, 8.0, 1.0, 1.0)
+
+
+def walks(count: int, frames: int, size: float, period: float) -> tuple[Array, Array]:
+    """Return breaks and control points of random walks, at rest at both ends."""
+    goals = np.cumsum(np.random.default_rng(7).normal(scale=size, size=(count, frames, 3)), axis=1)
+    coef = np.concatenate([goals[:, :1]] * 2 + [goals] + [goals[:, -1:]] * 2, axis=1)
+    return period * np.arange(coef.shape[1] - 2.0), coef
+
+
+def optimum(breaks: Array, wanted: Array, bounds: Bounds) -> float:
+    """Return the least deviation of one drone, modelled independently in cvxpy."""
+    x = cp.Variable(wanted.shape)
+    root = np.linalg.cholesky(deviation(breaks) + 1e-13 * np.eye(len(wanted)))
+    rows = [x[:3] == wanted[:3], x[-3:] == wanted[-3:]]
+    limits = bounds.limits
+    for order in (1, 2, 3):
+        d = differences(breaks, order) @ x
+        if order == 1:
+            rows += [cp.norm(d[:, :2], axis=1) <= limits.speed, d[:, 2] <= limits.climb]
+            rows += [d[:, 2] >= -limits.descent]
+        elif order == 2 and bounds.per_axis:
+            rows += [cp.abs(d) <= limits.acceleration]
+        else:
+            rows += [cp.norm(d, axis=1) <= (limits.acceleration if order == 2 else limits.jerk)]
+    problem = cp.Problem(cp.Minimize(cp.sum_squares(root.T @ (x - wanted))), rows)
+    problem.solve(solver=cp.CLARABEL)
+    return float(problem.value)
+
+
+def cost(breaks: Array, coef: Array, wanted: Array) -> Array:
+    shift = coef - wanted
+    return np.asarray(np.einsum("nkd,kl,nld->n", shift, deviation(breaks), shift))
+
+
+@pytest.mark.parametrize("per_axis", [False, True])
+@pytest.mark.parametrize(("size", "period"), [(2.0, 1.5), (0.4, 0.4)])
+def test_the_deviation_is_the_least_there_is(size: float, period: float, per_axis: bool) -> None:
+    breaks, wanted = walks(4, 30, size, period)
+    bounds = Bounds(LIMITS, per_axis)
+    done = bounded(breaks, wanted, bounds)
+    assert not done.failed.size
+    assert done.changed
+    reached = cost(breaks, done.coef, wanted)
+    for k in range(len(wanted)):
+        # Clarabel solves it for the limits that the iteration aims at.
+        least = optimum(breaks, wanted[k], bounds.scaled(fleet_qcqp.SHARE))
+        assert reached[k] == pytest.approx(least, rel=1e-3, abs=1e-6)
+    assert (overdraft(breaks, done.coef, bounds) <= 0.0).all()
+
+
+def test_the_bounds_hold_between_samples_and_the_ends_stay() -> None:
+    breaks, wanted = walks(20, 60, 2.0, 1.5)
+    coef = bounded(breaks, wanted, Bounds(LIMITS)).coef
+    times = np.linspace(breaks[0], breaks[-1], 6001)
+    velocity = places(breaks, coef, times, 1)
+    assert np.hypot(velocity[..., 0], velocity[..., 1]).max() <= LIMITS.speed
+    assert -LIMITS.descent <= velocity[..., 2].min()
+    assert velocity[..., 2].max() <= LIMITS.climb
+    assert np.linalg.norm(places(breaks, coef, times, 2), axis=-1).max() <= LIMITS.acceleration
+    assert np.linalg.norm(places(breaks, coef, times, 3), axis=-1).max() <= LIMITS.jerk
+    assert (coef[:, :3] == wanted[:, :3]).all()
+    assert (coef[:, -3:] == wanted[:, -3:]).all()
+
+
+def test_whoever_keeps_the_limits_is_left_alone() -> None:
+    breaks, wanted = walks(8, 20, 1.5, 1.5)
+    wanted[3] = wanted[3, :1] + 0.05 * (wanted[3] - wanted[3, :1])
+    done = bounded(breaks, wanted, Bounds(LIMITS))
+    assert (done.coef[3] == wanted[3]).all()
+    assert done.changed == 7
+
+
+def test_stragglers_are_solved_by_the_interior_point_method(monkeypatch: pytest.MonkeyPatch) -> None:
+    breaks, wanted = walks(2, 20, 2.0, 1.5)
+    bounds = Bounds(LIMITS)
+    usual = bounded(breaks, wanted, bounds)
+    monkeypatch.setattr(fleet_qcqp, "ROUNDS", 1)
+    monkeypatch.setattr(fleet_qcqp, "ROUND", 1)
+    exact = bounded(breaks, wanted, bounds)
+    assert exact.exact == 2
+    assert cost(breaks, exact.coef, wanted) == pytest.approx(cost(breaks, usual.coef, wanted), rel=1e-3)
+
+
+def test_what_nobody_could_fly_fails() -> None:
+    breaks, wanted = walks(2, 6, 0.1, 0.5)
+    wanted[1, -3:] += 100.0
+    done = bounded(breaks, wanted, Bounds(LIMITS))
+    assert done.failed.tolist() == [1]
+    assert (done.coef[1] == wanted[1]).all()
+
+
+def test_the_gram_matrix_is_the_integral() -> None:
+    breaks = np.array([0.0, 0.5, 2.0, 3.0, 3.2])
+    coef = np.random.default_rng(0).normal(size=(1, 7, 3))
+    times = np.linspace(0.0, 3.2, 200_001)
+    squares = (places(breaks, coef, times)[0] ** 2).sum(axis=-1)
+    assert len(knots(breaks)) == 11
+    assert cost(breaks, coef, 0.0 * coef)[0] == pytest.approx(np.trapezoid(squares, times), rel=1e-7)
