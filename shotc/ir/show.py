@@ -36,6 +36,12 @@ class Apart(NamedTuple):
         return self.vertical + self.margin
 
 
+def stricter(one: Apart, other: Apart) -> Apart:
+    """Return what drones of two fleets keep of each other: the more that either asks for."""
+    shape = one.shape if one.shape == "cylinder" else other.shape
+    return Apart(shape, max(one.across, other.across), max(one.upright, other.upright), 0.0)
+
+
 class Fleet(NamedTuple):
     """Drones of one model that draw together.
 

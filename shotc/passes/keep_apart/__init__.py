@@ -58,9 +58,3 @@ def _meeting(mission: MissionIR, one: FleetTrajectory, other: FleetTrajectory) -
     if near.proven >= apart.across - 1e-6:
         return []
     return [fleets_meet(mission, fleets, near, apart.across)]
-
-
-def stricter(one: Apart, other: Apart) -> Apart:
-    """Return what drones of two fleets keep of each other: the more that either asks for."""
-    shape = one.shape if one.shape == "cylinder" else other.shape
-    return Apart(shape, max(one.across, other.across), max(one.upright, other.upright), 0.0)

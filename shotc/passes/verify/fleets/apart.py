@@ -11,7 +11,7 @@ from itertools import combinations
 
 from shotc.geom.separation import Nearest, closest, closest_between
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Apart
+from shotc.ir.show import stricter
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, Worst, held
 from shotc.passes.verify.fleets.flight import FleetFlight
@@ -29,12 +29,6 @@ def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
         first, second = one.track, other.track
         found = closest_between(first.breaks, first.coef, second.breaks, second.coef, apart)
         yield _claim((one, other), f"separation from {other.fleet.name}", apart, found)
-
-
-def stricter(one: Apart, other: Apart) -> Apart:
-    """Return distances that keep what both of two fleets ask for."""
-    shape = one.shape if one.shape == "cylinder" else other.shape
-    return Apart(shape, max(one.across, other.across), max(one.upright, other.upright), 0.0)
 
 
 def _claim(of: tuple[FleetFlight, FleetFlight], name: str, apart: Apart, found: Nearest) -> Claim:
