@@ -22,6 +22,7 @@ PACE = 0.75
 RATE = 50.0
 SHOW_RATE = 5.0
 EMIT = ("csv", "mavlink", "storyboard", "rerun")
+SHOW_EMIT = ("csv", "skyc", "contact-sheet", "rerun")
 DEFAULT_MODEL = "x500"
 
 
