@@ -23,6 +23,7 @@ RATE = 50.0
 SHOW_RATE = 5.0
 RISE = 10.0  # metres over its pad to which a fleet's drone rises before it goes anywhere
 EMIT = ("csv", "mavlink", "storyboard", "rerun")
+SHOW_EMIT = ("csv", "skyc", "contact-sheet", "rerun")
 DEFAULT_MODEL = "x500"
 
 

@@ -53,4 +53,8 @@ class OutputSpec(Model):
     """What is written out."""
 
     rate: Frequency | None = Field(default=None, description="samples a second; 50, for shows 5, if silent")
-    emit: tuple[Name, ...] = Field(default=presets.EMIT, description="emitters to run")
+    emit: tuple[Name, ...] | None = Field(
+        default=None,
+        description=f"emitters to run; {', '.join(presets.EMIT)}, for shows {', '.join(presets.SHOW_EMIT)},"
+        " if silent",
+    )

@@ -134,6 +134,42 @@ _MAVLINK_CODES = (
     ),
 )
 
+_SKYC_CODES = (
+    CodeInfo(
+        "E111",
+        "skyc-needs-origin",
+        Severity.WARNING,
+        "the show file has no place on the globe, because the mission has no world.origin",
+        "A `.skyc` file is in metres about a point of the globe. Without `world.origin` that point is left open: "
+        "Skybrush loads and plays the show, and has to be told where it is before it is flown.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E112",
+        "skyc-too-large",
+        Severity.WARNING,
+        "the show file is skipped, because it would have more drones than one may have",
+        "Skybrush reads shows of at most 5000 drones. All other outputs are written.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E113",
+        "zone-not-in-skyc-fence",
+        Severity.WARNING,
+        "a keep-in zone is left out of the show's geofence",
+        "The geofence of a show is an area on the map, without height, and it watches the drones from take-off to "
+        "landing. A keep-in zone that the pads lie outside of would stop the show on the ground, so it is left out. "
+        "The plan keeps the zone all the same.",
+        "",
+        "",
+        "other",
+    ),
+)
+
 _FILE_CODES = (
     CodeInfo(
         "E001",
@@ -212,6 +248,7 @@ _VIEW_CODES = (
 CODES: tuple[CodeInfo, ...] = (
     *_FILE_CODES,
     *_MAVLINK_CODES,
+    *_SKYC_CODES,
     *_VIEW_CODES,
     CodeInfo(
         "E901",

@@ -66,6 +66,7 @@ def scene_bounds(plan: VerifiedIR) -> tuple[Array, Array]:
     """Return the corners of the box round all flights and subjects, metres."""
     mission = plan.trajectory.keyframes.mission
     points = [f.curve(np.linspace(f.curve.start, f.curve.end, 400))[:, :3] for f in plan.trajectory.drones]
+    points += [fleet.coef.reshape(-1, 3) for fleet in plan.trajectory.fleets]
     for target in mission.targets:
         reach = np.array([target.radius, target.radius, target.height / 2])
         last = max((f.curve.end for f in plan.trajectory.drones), default=0.0)

@@ -17,10 +17,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
+from matplotlib.image import BboxImage
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox, TransformedBbox
+from numpy.typing import NDArray
 from PIL import Image
 
 from shotc.emit.palette import INK, PAPER, WHITE, Rgb
@@ -151,6 +153,12 @@ class Canvas:
         self._add(
             PathPatch(path, facecolor="none", edgecolor=color, linewidth=width, transform=self._inches), clip
         )
+
+    def image(self, pixels: NDArray[np.uint8], box: Box) -> None:
+        """Put a picture into a rectangle; pixels : shape (rows, columns, 3), the upper left one first."""
+        picture = BboxImage(self._window(box), interpolation="bilinear", origin="upper")
+        picture.set_data(pixels)
+        self._add(picture, None)
 
     def disc(
         self, at: tuple[float, float], radius: float, face: Color | str, edge: Color | str, width: float

@@ -16,7 +16,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.separation import closest_between
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import Apart, Fleet
+from shotc.ir.show import Fleet, stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.keep_apart.faults import fleets_meet

@@ -26,7 +26,7 @@ from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.ideals import check_ideal
-from shotc.passes.resolve.names import check_names, once
+from shotc.passes.resolve.names import check_names, emitters_of, once
 from shotc.passes.resolve.recordings import Ground
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
@@ -101,7 +101,7 @@ class Resolve:
             rules=rules,
             shots=shots.shots,
             rate=spec.output.rate or (SHOW_RATE if shots.displays and not shots.shots else RATE),
-            emit=spec.output.emit,
+            emit=emitters_of(spec),
             source_sha256=ir.sha256,
             deferred=deferred_features(spec, shots.deferred),
             origins=origins,

@@ -8,6 +8,7 @@ from typing import Any
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.mission import MissionSpec
+from shotc.spec.presets import EMIT, SHOW_EMIT
 from shotc.spec.shot import NO_DRONE
 from shotc.spec.words import nearest
 
@@ -16,13 +17,20 @@ _UNKNOWN = ("N001", "N002", "N003")
 _SHOWN = 4  # places of one unknown name that are shown
 
 
+def emitters_of(spec: MissionSpec) -> tuple[str, ...]:
+    """Return the emitters that a mission asks for, or, where it is silent, those that suit what it flies."""
+    if spec.output.emit is not None:
+        return spec.output.emit
+    return SHOW_EMIT if any(shot.kind == "display" for shot in spec.shots) else EMIT
+
+
 def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str] | None) -> list[Diagnostic]:
     """Return every fault of the names of drones, shots and emitters; kinds check their targets.
 
     emitters : the names that can be used, or None where that is not known
     """
     faults = [*_drones(spec, origins), *_ids(spec, origins), *_waits(spec, origins)]
-    for i, name in enumerate(spec.output.emit):
+    for i, name in enumerate(emitters_of(spec)):
         if emitters is not None and name not in emitters:
             path = ("output", "emit", i)
             faults.append(_unknown("N005", "emitter", name, dict.fromkeys(emitters), origins, path))

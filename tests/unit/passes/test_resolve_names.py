@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import pytest
+import yaml
 
 from shotc.diag.model import Diagnostic
+from shotc.passes.resolve.names import emitters_of
+from shotc.spec.mission import MissionSpec
 from tests.front import placed
 
 HEAD = """\
@@ -99,3 +102,13 @@ def test_a_name_unknown_in_many_places_is_told_once() -> None:
         ("N001", [7, 8, 9, 10]),
     ]
     assert all("6 places" in d.notes[0] for d in found)
+
+
+def test_a_silent_mission_gets_the_emitters_that_suit_it() -> None:
+    def emitters(kind: str, output: str = "") -> tuple[str, ...]:
+        text = f"shotc: 1\nmission: m\nshots: [{{id: a, kind: {kind}, drone: cam}}]\n{output}"
+        return emitters_of(MissionSpec.model_validate(yaml.safe_load(text)))
+
+    assert emitters("orbit") == ("csv", "mavlink", "storyboard", "rerun")
+    assert emitters("display") == ("csv", "skyc", "contact-sheet", "rerun")
+    assert emitters("display", "output: {emit: []}\n") == ()

@@ -18,9 +18,9 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.limits import Timing
 from shotc.ir.mission import MissionIR, Target, Zone
 from shotc.ir.phases import Phase
+from shotc.ir.show import stricter
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import judge
-from shotc.passes.verify.fleets.apart import stricter
 from shotc.passes.verify.report import rule_of
 from tests.fleets import CONTEXT, PADS, RISE, STEP, display, fleet, flight, mission, show
 from tests.records import replace

@@ -35,5 +35,5 @@ def test_silence_means_the_defaults():
     rules = RulesSpec.model_validate({})
     assert (rules.separation, rules.ground_clearance, rules.target_clearance) == (3.0, 2.0, 1.0)
     assert (rules.pace, rules.composition.name) == (0.75, presets.COMPOSITION)
-    assert OutputSpec.model_validate({}).emit == presets.EMIT
+    assert OutputSpec.model_validate({}).emit is None
     assert (presets.RATE, presets.SHOW_RATE) == (50.0, 5.0)

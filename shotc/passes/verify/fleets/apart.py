@@ -11,7 +11,7 @@ from itertools import combinations
 
 from shotc.geom.separation import Nearest, closest, closest_between
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import stricter
+from shotc.ir.show import Apart, stricter
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, Worst, held
 from shotc.passes.verify.fleets.flight import FleetFlight

@@ -1,0 +1,140 @@
+"""A show as its audience sees it: from where, in which direction, and what its pictures are called."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan, atan2, hypot, pi, tan
+from pathlib import PurePath
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import View, view
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Box, Display, Drawing, Lettering, Model, Picture, Sphere
+from shotc.ir.trajectory import VerifiedIR
+
+ASPECT = 16 / 9
+"""Width over height of the audience's picture."""
+
+EYE = 1.7
+"""Metres above the ground, of an audience that nobody has placed."""
+
+AWAY = 2.2
+"""How far it is then from the middle of the show, in radii of the show about that middle."""
+
+LOW = 2.2
+"""How much wider a frame may be so that the ground under the show is in it, too."""
+
+BORDER = 1.12
+"""How much wider than the show its picture is."""
+
+MOMENTS = 40
+"""Times of a fleet's shots by which the place that they fill is measured."""
+
+NARROWEST, WIDEST = np.radians(12.0), np.radians(120.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Audience:
+    """Who looks, and at what.
+
+    eye : p_W, metres; yaw, pitch : of the look, rad, as of a camera; hfov : that shows all of it, rad
+    placed : whether the mission says where the eye is
+    """
+
+    eye: Vec3
+    yaw: float
+    pitch: float
+    hfov: float
+    placed: bool
+
+    def view(self, aspect: float) -> View:
+        """Return the camera whose frame, width over height, is ``aspect``."""
+        return view(self.yaw, self.pitch, self.hfov, aspect)
+
+
+def audience(plan: VerifiedIR, display: Display, aspect: float) -> Audience:
+    """Return who sees a display, in a frame that holds all of its pictures.
+
+    Where it has no viewpoint, the audience stands south of it at eye height, far enough to see everything.
+    """
+    cloud = _cloud(plan, display)
+    low, high = cloud.min(axis=0), cloud.max(axis=0)
+    middle = (low + high) / 2.0
+    ground = min(pad[2] for pad in plan.trajectory.keyframes.mission.fleet(display.fleet).pads)
+    eye = display.viewpoint
+    if eye is None:
+        reach = float(np.linalg.norm(high - low)) / 2.0
+        eye = (float(middle[0]), float(middle[1]) - AWAY * max(reach, 5.0), ground + EYE)
+    placed = display.viewpoint is not None
+    close = _looking(eye, cloud, aspect, placed=placed)
+    under = np.array([[middle[0], middle[1], ground]])
+    whole = _looking(eye, np.concatenate([cloud, under]), aspect, placed=placed)
+    return whole if tan(whole.hfov / 2.0) < LOW * tan(close.hfov / 2.0) else close
+
+
+def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audience:
+    away = cloud - np.array(eye)
+    middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0 - np.array(eye)
+    yaw = atan2(middle[1], middle[0]) if hypot(middle[0], middle[1]) > 1e-6 else pi / 2
+    pitch = atan2(middle[2], hypot(middle[0], middle[1]))
+    # The middle of what is seen is between the outermost angles, not at the middle of the box.
+    for _ in range(3):
+        right, down, forward = view(yaw, pitch, pi / 2, 1.0).to_camera((away[:, 0], away[:, 1], away[:, 2]))
+        ahead = np.maximum(forward, 0.05 * np.linalg.norm(away, axis=1) + 1e-9)
+        across, up = right / ahead, -down / ahead
+        yaw -= atan((across.max() + across.min()) / 2.0)
+        pitch += atan((up.max() + up.min()) / 2.0)
+    half = BORDER * max(float(np.abs(across).max()), aspect * float(np.abs(up).max()))
+    hfov = float(np.clip(2.0 * atan(half), NARROWEST, WIDEST))
+    return Audience(eye, yaw, pitch, hfov, placed)
+
+
+def _cloud(plan: VerifiedIR, display: Display) -> Array:
+    """Return where the drones are during a display, shape (k, 3)."""
+    flight = flight_of(plan, display.fleet)
+    span = [(p.start, p.end) for p in flight.phases if p.shot == display.id]
+    start, end = (span[0][0], span[-1][1]) if span else (flight.breaks[0], flight.breaks[-1])
+    return places(flight.breaks, flight.coef, np.linspace(start, end, MOMENTS)).reshape(-1, 3)
+
+
+def flight_of(plan: VerifiedIR, fleet: str) -> FleetTrajectory:
+    """Return the flight of the fleet of that name."""
+    return next(flight for flight in plan.trajectory.fleets if flight.fleet == fleet)
+
+
+def display_of(mission: MissionIR, name: str) -> Display:
+    """Return the display of that id."""
+    return next(display for display in mission.displays if display.id == name)
+
+
+def picture_name(picture: Picture) -> str:
+    """Return what a picture is called: what it is of, in a word or two."""
+    source = picture.source
+    if isinstance(source, Lettering):
+        return source.text
+    if isinstance(source, Drawing | Model):
+        name = source.file if isinstance(source, Drawing) else source.files[0]
+        return PurePath(name).stem
+    if isinstance(source, Box):
+        return "cube" if len(set(source.size)) == 1 else "box"
+    return "sphere" if isinstance(source, Sphere) else "torus"
+
+
+def pictures_shown(flight: FleetTrajectory) -> list[Shown]:
+    """Return of every picture of a fleet the time from its first frame to its last."""
+    found: dict[tuple[str, int], Shown] = {}
+    for shown in flight.shown:
+        key = (shown.display, shown.picture)
+        first = found.get(key, shown)
+        found[key] = Shown(first.display, first.picture, first.index, first.start, shown.end)
+    return list(found.values())
+
+
+def focal_length(hfov: float, width: float = 36.0) -> float:
+    """Return the focal length of a field of view on a sensor of that width, both millimetres."""
+    return width / 2.0 / tan(hfov / 2.0)

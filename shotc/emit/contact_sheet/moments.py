@@ -1,0 +1,91 @@
+"""Which moments of a display stand on the sheet: its pictures, and how the fleet comes to each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.emit.audience import flight_of, picture_name
+from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.show import Display
+from shotc.ir.trajectory import VerifiedIR
+
+MOST = 12
+"""Pictures of one display on a sheet; of more, they are chosen evenly."""
+
+MOST_FRAMES = 4
+"""Of one animation."""
+
+BETWEEN = 3
+"""Small frames of the way to a picture."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A frame of the sheet.
+
+    name : of the picture; time : when it is drawn; start, end : when it stands, seconds
+    way : times on the way to it; part : of an animation its frame and the number of frames, both from 1
+    """
+
+    name: str
+    time: float
+    start: float
+    end: float
+    way: tuple[float, ...]
+    part: tuple[int, int] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Board:
+    """One display of the sheet; total : frames that it has, which may be more than its moments."""
+
+    display: Display
+    flight: FleetTrajectory
+    moments: tuple[Moment, ...]
+    total: int
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """When its first picture stands, and when the last one is over, seconds."""
+        return self.moments[0].start, self.moments[-1].end
+
+
+def boards(plan: VerifiedIR) -> tuple[Board, ...]:
+    """Return every display that is shown, in the order they are written."""
+    found = []
+    for display in plan.trajectory.keyframes.mission.displays:
+        flight = flight_of(plan, display.fleet)
+        shown = [s for s in flight.shown if s.display == display.id]
+        if shown:
+            found.append(Board(display, flight, _moments(display, flight, shown), len(shown)))
+    return tuple(found)
+
+
+def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> tuple[Moment, ...]:
+    counts = [sum(s.picture == i for s in shown) for i in range(len(display.pictures))]
+    chosen = [
+        frames[i]
+        for picture in range(len(display.pictures))
+        if (frames := [s for s in shown if s.picture == picture])
+        for i in _evenly(len(frames), MOST_FRAMES)
+    ]
+    chosen = [chosen[i] for i in _evenly(len(chosen), MOST)]
+    before = max((p.end for p in flight.phases if p.shot is None and p.end <= chosen[0].start), default=0.0)
+    left = max((p.start for p in flight.phases if p.start < chosen[0].start), default=before)
+    moments, since = [], min(left, before)
+    for one in chosen:
+        way = np.linspace(since, one.start, BETWEEN + 2)[1:-1] if one.start > since else ()
+        many = counts[one.picture]
+        part = (one.index + 1, many) if many > 1 else None
+        name = picture_name(display.pictures[one.picture])
+        middle = (one.start + one.end) / 2.0
+        moments.append(Moment(name, middle, one.start, one.end, tuple(float(t) for t in way), part))
+        since = one.end
+    return tuple(moments)
+
+
+def _evenly(count: int, most: int) -> list[int]:
+    """Return at most ``most`` of the first ``count`` numbers, the first and the last among them."""
+    return sorted({round(float(i)) for i in np.linspace(0, count - 1, min(count, most))})

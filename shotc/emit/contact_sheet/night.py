@@ -1,0 +1,87 @@
+"""What the audience sees at one instant: lights in a dark sky over the ground, as pixels."""
+
+from __future__ import annotations
+
+from math import tan
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
+
+from shotc.emit.audience import Audience
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import Colors, FleetTrajectory
+from shotc.ir.sampling import light_colors
+
+ZENITH, HORIZON = (0.012, 0.018, 0.045), (0.060, 0.078, 0.130)
+EARTH, FAR = (0.022, 0.026, 0.028), (0.050, 0.056, 0.058)
+LINE = (0.20, 0.23, 0.27)
+
+UNLIT = 26.0
+"""Grey of a drone whose light is off, of 255: it is there, though nobody would see it."""
+
+SIZE = 0.35
+"""Radius of the glow of a light, metres."""
+
+SMALLEST, LARGEST = 0.0022, 0.011
+"""Of it in a frame, as shares of its width."""
+
+BLOOM, SPREAD = 5.0, 0.011
+"""How strongly a light spills over, and how far, as a share of the width."""
+
+
+def night(flight: FleetTrajectory, time: float, seen: Audience, size: tuple[int, int]) -> NDArray[np.uint8]:
+    """Return the picture of a fleet at a time, shape (rows, columns, 3); size : columns, rows."""
+    at = places(flight.breaks, flight.coef, np.array([time]))[:, 0]
+    colors = light_colors(flight.lights, np.array([time]))[:, 0]
+    light = _lights(at, colors, seen, size)
+    light += BLOOM * gaussian_filter(light, (SPREAD * size[0], SPREAD * size[0], 0.0), truncate=3.0)
+    picture = 1.0 - (1.0 - _backdrop(seen, size)) * np.exp(-light)
+    return np.asarray(np.round(255.0 * picture), dtype=np.uint8)
+
+
+def _backdrop(seen: Audience, size: tuple[int, int]) -> Array:
+    """Return sky and ground; the horizon is where the eye's own height is."""
+    columns, rows = size
+    view = seen.view(columns / rows)
+    v = 1.0 - 2.0 * (np.arange(rows) + 0.5) / rows
+    horizon = -tan(seen.pitch) / float(view.half_height)
+    above = np.clip((v - horizon) / 2.0, 0.0, 1.0)[:, None] ** 0.7
+    below = np.clip((horizon - v) / 0.5, 0.0, 1.0)[:, None]
+    sky = np.array(HORIZON) + above * (np.array(ZENITH) - np.array(HORIZON))
+    earth = np.array(FAR) + below * (np.array(EARTH) - np.array(FAR))
+    shades = np.where(v[:, None] >= horizon, sky, earth)
+    shades[np.abs(v - horizon) < 1.0 / rows] = LINE
+    return np.repeat(shades[:, None], columns, axis=1)
+
+
+def _lights(at: Array, colors: Colors, seen: Audience, size: tuple[int, int]) -> Array:
+    """Return the light that falls on every pixel: each drone a round spot, the larger the nearer."""
+    columns, rows = size
+    picture = np.zeros((rows, columns, 3))
+    away = at - np.array(seen.eye)
+    view = seen.view(columns / rows)
+    u, v, depth = view.project((away[:, 0], away[:, 1], away[:, 2]))
+    shown = (depth > 0.5) & (np.abs(u) < 1.1) & (np.abs(v) < 1.1)
+    share = SIZE / (depth * 2.0 * float(view.half_width))
+    for i in np.flatnonzero(shown):
+        x, y = (u[i] + 1.0) / 2.0 * columns - 0.5, (1.0 - v[i]) / 2.0 * rows - 0.5
+        radius = columns * float(np.clip(share[i], SMALLEST, LARGEST))
+        _spot(picture, (x, y), radius, np.maximum(colors[i] / 255.0, UNLIT / 255.0))
+    return picture
+
+
+def _spot(picture: Array, at: tuple[float, float], radius: float, color: Array) -> None:
+    """Add one spot to a picture, white in its middle."""
+    reach = int(np.ceil(3.0 * radius))
+    x, y = round(at[0]), round(at[1])
+    rows = np.arange(max(y - reach, 0), min(y + reach + 1, picture.shape[0]))
+    columns = np.arange(max(x - reach, 0), min(x + reach + 1, picture.shape[1]))
+    if not len(rows) or not len(columns):
+        return
+    square = (rows[:, None] - at[1]) ** 2 + (columns[None, :] - at[0]) ** 2
+    glow = np.exp(-square / (2.0 * (0.62 * radius) ** 2))[..., None]
+    core = np.exp(-square / (2.0 * (0.34 * radius) ** 2))[..., None] * float(color.max())
+    window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    picture[window] += 2.2 * glow * color + 0.8 * core

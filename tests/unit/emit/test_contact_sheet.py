@@ -1,0 +1,89 @@
+"""The contact sheet: what is on it, where lights are in a frame, and that it is the same every time."""
+
+from __future__ import annotations
+
+from io import BytesIO
+
+import numpy as np
+from PIL import Image
+
+from shotc.emit.audience import ASPECT, audience
+from shotc.emit.contact_sheet import EMITTER
+from shotc.emit.contact_sheet.moments import MOST, boards
+from shotc.emit.contact_sheet.night import night
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import Shown
+from shotc.ir.trajectory import VerifiedIR
+from tests import sky
+from tests.records import replace
+from tests.samples import orbit_plan
+
+SIZE = (480, 270)
+
+
+def test_a_page_with_both_pictures() -> None:
+    (artifact,) = EMITTER.emit(sky.plan()).artifacts
+    assert artifact.name == "contact-sheet.png"
+    page = np.asarray(Image.open(BytesIO(artifact.data)).convert("RGB")).astype(int)
+    red, _, blue = np.moveaxis(page, -1, 0)
+    assert (red > blue + 100).sum() > 500  # the orange sphere
+    assert (blue > red + 100).sum() > 500  # the blue cube
+    assert EMITTER.emit(sky.plan()).artifacts[0].data == artifact.data
+
+
+def test_moments_are_pictures_at_their_holds() -> None:
+    (board,) = boards(sky.plan())
+    assert [(m.name, m.time) for m in board.moments] == [("sphere", 27.5), ("cube", 40.5)]
+    assert board.moments[1].way == (31.5, 34.0, 36.5)
+    assert board.span == (26.0, 42.0)
+
+
+def test_an_animation_is_shown_by_a_few_of_its_frames() -> None:
+    plan = sky.plan()
+    shown = tuple(Shown("shapes", 0, i, 26.0 + i * 0.5, 26.0 + i * 0.5) for i in range(30))
+    (board,) = boards(with_shown(plan, shown))
+    assert [m.part for m in board.moments] == [(1, 30), (11, 30), (20, 30), (30, 30)]
+    assert board.total == 30
+
+
+def test_many_pictures_are_thinned() -> None:
+    plan = sky.plan()
+    display = sky.display()
+    many = display._replace(pictures=display.pictures * 20)
+    plan = sky.plan(sky.mission(displays=(many,)))
+    shown = tuple(Shown("shapes", i, 0, 26.0 + 0.4 * i, 26.2 + 0.4 * i) for i in range(40))
+    (board,) = boards(with_shown(plan, shown))
+    assert len(board.moments) == MOST
+    assert (board.moments[0].start, board.moments[-1].start) == (shown[0].start, shown[-1].start)
+
+
+def with_shown(plan: VerifiedIR, shown: tuple[Shown, ...]) -> VerifiedIR:
+    flight = replace(plan.trajectory.fleets[0], shown=shown)
+    return replace(plan, trajectory=replace(plan.trajectory, fleets=(flight,)))
+
+
+def test_lights_are_where_the_camera_has_them() -> None:
+    plan = sky.plan(sky.mission(1))
+    flight = plan.trajectory.fleets[0]
+    seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
+    picture = night(flight, 27.5, seen, SIZE).astype(int).sum(axis=-1)
+    row, column = np.unravel_index(int(np.argmax(picture)), picture.shape)
+    away = places(flight.breaks, flight.coef, np.array([27.5]))[0, 0] - np.array(seen.eye)
+    u, v, _ = seen.view(ASPECT).project((away[0], away[1], away[2]))
+    assert abs(column + 0.5 - (u + 1) / 2 * SIZE[0]) <= 1.0
+    assert abs(row + 0.5 - (1 - v) / 2 * SIZE[1]) <= 1.0
+
+
+def test_without_a_viewpoint_the_audience_stands_in_the_south() -> None:
+    plan = sky.plan(sky.mission(displays=(sky.display(viewpoint=None),)))
+    seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
+    assert not seen.placed
+    assert seen.eye[1] < sky.CENTRE[1] - 20.0
+    assert seen.eye[2] == 1.7
+    assert EMITTER.emit(plan).artifacts
+
+
+def test_no_fleet_no_sheet() -> None:
+    emission = EMITTER.emit(orbit_plan())
+    assert emission.artifacts == ()
+    assert len(emission.notes) == 1
