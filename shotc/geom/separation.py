@@ -1,0 +1,307 @@
+"""How near two drones of fleets come, over all pairs and at every instant: a bound that is proved.
+
+Heights are stretched (``geom.apart``), so that what is kept free is a ball or an upright cylinder as high as
+wide, and "how near" is one number, metres: the stretched distance, or the larger of the horizontal and the
+stretched vertical one. Time is cut into slabs within which no drone leaves a small ball by more than its own
+control points do; a k-d tree of the balls gives every pair that could be the nearest. Of a pair the relative
+motion is a cubic: along any fixed direction it is nowhere less than its control points. That bound closes
+quadratically as intervals are halved, and only those that could still hold the least value are.
+
+Arithmetic is IEEE double, as in ``geom.proof``, with the same gap.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from shotc.geom.apart import Distances, stretch
+from shotc.geom.bernstein import Array, split_half
+from shotc.geom.fleet_spline import pieces
+
+Index = NDArray[np.intp]
+
+GAP = 5e-7
+"""How far the proved bound may stay below a value that is attained, relative beyond one metre."""
+
+REACH = 0.4
+"""Largest radius of a drone's ball in a slab, as a share of the horizontal distance that is to be kept."""
+
+SAMPLES = 128
+"""Slabs in whose middle the nearest pair is looked for first: the nearer it is, the fewer pairs count."""
+
+ROUNDS = 60
+"""Halvings before a bound is given as it is, as in ``geom.proof``."""
+
+OPEN_LIMIT = 200_000
+"""Intervals halved at once; beyond it the bound stays proven but is not made tighter."""
+
+BLOCK = 50_000
+"""Pairs looked at together, which bounds the memory."""
+
+
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """The nearest that any two drones come, metres of horizontal distance (see the module).
+
+    proven : no two are ever nearer; attained : how near ``first`` and ``second`` are at ``time``
+    first, second : their rows, in the first and (of two fleets) the second fleet
+    position : half way between them, p_W; all of it is inf and 0 where there is no pair
+    """
+
+    proven: float
+    attained: float
+    first: int
+    second: int
+    time: float
+    position: tuple[float, float, float]
+
+
+def closest(breaks: Array, coef: Array, apart: Distances) -> Nearest:
+    """Return the nearest that two drones of one fleet ever come.
+
+    breaks : shape (P + 1,), seconds; coef : shape (n, P + 3, 3), metres, as in ``geom.fleet_spline``
+    """
+    fleet = _Fleet.of(breaks, coef, apart)
+    return _Search(fleet, None, apart).run()
+
+
+def closest_between(
+    breaks: Array, coef: Array, other_breaks: Array, other_coef: Array, apart: Distances
+) -> Nearest:
+    """Return the nearest that a drone of one fleet ever comes to one of another; arguments as in ``closest``.
+
+    A fleet stands where it begins before its first break, and where it ends after its last one.
+    """
+    one, other = _Fleet.of(breaks, coef, apart), _Fleet.of(other_breaks, other_coef, apart)
+    return _Search(one, other, apart).run()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Fleet:
+    """A fleet's motion in stretched space; ctrl : Bernstein control points, shape (P, n, 4, 3)."""
+
+    breaks: Array
+    ctrl: Array
+
+    @staticmethod
+    def of(breaks: Array, coef: Array, apart: Distances) -> _Fleet:
+        ctrl = np.moveaxis(pieces(breaks, coef), 1, 0)
+        return _Fleet(breaks, np.ascontiguousarray(ctrl * np.array([1.0, 1.0, stretch(apart)])))
+
+    def on(self, low: float, high: float) -> Array:
+        """Return control points on an interval that holds no break, shape (n, 4, 3)."""
+        if high <= self.breaks[0]:
+            return np.repeat(self.ctrl[0, :, :1], 4, axis=1)
+        if low >= self.breaks[-1]:
+            return np.repeat(self.ctrl[-1, :, -1:], 4, axis=1)
+        k = int(np.searchsorted(self.breaks, 0.5 * (low + high), side="right")) - 1
+        start, width = self.breaks[k], self.breaks[k + 1] - self.breaks[k]
+        cut = _cut(float((low - start) / width), float((high - start) / width))
+        return np.asarray(np.matmul(cut, self.ctrl[k]))
+
+
+def _cut(low: float, high: float) -> Array:
+    """Return the matrix from control points of a cubic to those between two parameters (its blossom)."""
+    rows = []
+    for k in range(4):
+        row = np.array([1.0])
+        for x in (low,) * (3 - k) + (high,) * k:
+            row = np.convolve(row, [1.0 - x, x])
+        rows.append(row)
+    return np.array(rows)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Bag:
+    """Relative motions of pairs over intervals; ends : (M, 2), seconds; ctrl : (M, 4, 3), stretched."""
+
+    pairs: Index
+    ends: Array
+    ctrl: Array
+
+    def pick(self, which: NDArray[np.bool_]) -> _Bag:
+        return _Bag(self.pairs[which], self.ends[which], self.ctrl[which])
+
+    def halves(self) -> _Bag:
+        left, right = split_half(self.ctrl)
+        middle = self.ends.mean(axis=1)
+        early = np.stack([self.ends[:, 0], middle], axis=1)
+        late = np.stack([middle, self.ends[:, 1]], axis=1)
+        return _Bag(np.tile(self.pairs, (2, 1)), np.concatenate([early, late]), np.concatenate([left, right]))
+
+
+class _Search:
+    """Branch and bound over slabs and pairs.
+
+    best : the least distance found so far; rest : the least bound of what was not halved to the end
+    """
+
+    def __init__(self, one: _Fleet, other: _Fleet | None, apart: Distances) -> None:
+        self.one, self.other, self.apart = one, other, apart
+        self.upright = apart.shape == "cylinder"
+        self.best = self.rest = np.inf
+        self.pair, self.time = (0, 0), 0.0
+
+    def run(self) -> Nearest:
+        slabs = self._slabs()
+        for low, high in slabs[:: max(1, len(slabs) // SAMPLES)]:
+            self._sample(low, high)
+        bags: list[_Bag] = []
+        for bag in (bag for slab in slabs for bag in self._open(*slab)):
+            bags.append(bag)
+            if sum(len(bag.ends) for bag in bags) > BLOCK:
+                self._close(_join(bags))
+                bags = []
+        self._close(_join(bags))
+        # Whatever was put aside could not be nearer than this.
+        proven = min(self.rest, self.best - self._gap())
+        return Nearest(proven, self.best, *self.pair, self.time, self._position())
+
+    def _slabs(self) -> list[tuple[float, float]]:
+        """Cut time so that no drone leaves its ball by more than the reach."""
+        breaks = self.one.breaks
+        if self.other is not None:
+            breaks = np.unique(np.concatenate([breaks, self.other.breaks]))
+        found: list[tuple[float, float]] = []
+        reach = REACH * self.apart.across
+        for low, high in pairwise(breaks.tolist()):
+            _, radius = _balls(_steady(self._ctrl(low, high)))
+            parts = max(1, int(np.ceil(radius.max(initial=0.0) / reach)))
+            ends = np.linspace(low, high, parts + 1)
+            found += list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
+        return found
+
+    def _ctrl(self, low: float, high: float) -> Array:
+        """Return the control points of all drones, of the second fleet after those of the first."""
+        one = self.one.on(low, high)
+        return one if self.other is None else np.concatenate([one, self.other.on(low, high)])
+
+    def _sample(self, low: float, high: float) -> None:
+        """Look for the nearest pair in the middle of a slab."""
+        middle = _middle(self._ctrl(low, high))
+        count = len(self.one.ctrl[0])
+        if self.other is None:
+            distance, at = cKDTree(middle).query(middle, k=2)
+            distance, at, skip = distance[:, 1], at[:, 1], 0
+        else:
+            distance, at = cKDTree(middle[count:]).query(middle[:count])
+            skip = count
+        first = int(np.argmin(distance))
+        if not np.isfinite(distance[first]):
+            return  # There is no second drone.
+        second = int(at[first])
+        apart = float(self._size((middle[first] - middle[second + skip])[None])[0])
+        self._note(apart, (first, second), 0.5 * (low + high))
+
+    def _note(self, apart: float, pair: tuple[int, int], time: float) -> None:
+        if apart < self.best:
+            self.best, self.pair, self.time = apart, pair, time
+
+    def _open(self, low: float, high: float) -> Iterator[_Bag]:
+        """Give the pairs of a slab that could be nearer than the nearest found so far."""
+        ctrl = _steady(self._ctrl(low, high))
+        centre, radius = _balls(ctrl)
+        # A ball holds the cylinder: what is near in its sense is near in the tree's.
+        far = self.best * (np.sqrt(2.0) if self.upright else 1.0)
+        skip = 0 if self.other is None else len(self.one.ctrl[0])
+        candidates = self._candidates(centre, far + 2.0 * float(radius.max(initial=0.0)))
+        for at in range(0, len(candidates), BLOCK):
+            pairs = candidates[at : at + BLOCK]
+            first, second = pairs[:, 0], pairs[:, 1] + skip
+            near = _norm(centre[first] - centre[second]) - radius[first] - radius[second] < far
+            relative = ctrl[first[near]] - ctrl[second[near]]
+            bag = _Bag(pairs[near], np.broadcast_to([low, high], (len(relative), 2)), relative)
+            yield bag.pick(self._least(relative) < self.best - self._gap())
+
+    def _candidates(self, centre: Array, reach: float) -> Index:
+        """Return the pairs of rows, of the one fleet or of both, whose centres are within reach."""
+        if not np.isfinite(reach):
+            return np.zeros((0, 2), dtype=np.intp)  # Nowhere is there a second drone.
+        if self.other is None:
+            return np.asarray(cKDTree(centre).query_pairs(reach, output_type="ndarray"))
+        count = len(self.one.ctrl[0])
+        tree = cKDTree(centre[count:])
+        near = cKDTree(centre[:count]).sparse_distance_matrix(tree, reach, output_type="ndarray")
+        return np.stack([near["i"], near["j"]], axis=1)
+
+    def _close(self, bag: _Bag) -> None:
+        """Halve intervals until none could be nearer than the nearest found."""
+        for _ in range(ROUNDS):
+            if not len(bag.ends):
+                return
+            sizes = self._size(_middle(bag.ctrl))
+            k = int(np.argmin(sizes))
+            pair = (int(bag.pairs[k, 0]), int(bag.pairs[k, 1]))
+            self._note(float(sizes[k]), pair, float(bag.ends[k].mean()))
+            bag = bag.pick(self._least(bag.ctrl) < self.best - self._gap())
+            if len(bag.ends) > OPEN_LIMIT:
+                break
+            bag = bag.halves()
+        self.rest = min(self.rest, float(self._least(bag.ctrl).min(initial=np.inf)))
+
+    def _gap(self) -> float:
+        return GAP * max(1.0, self.best)
+
+    def _size(self, relative: Array) -> Array:
+        """Return how near the drones are whose stretched relative positions are given, shape (M,)."""
+        if self.upright:
+            return np.asarray(np.maximum(_norm(relative[:, :2]), np.abs(relative[:, 2])))
+        return _norm(relative)
+
+    def _least(self, ctrl: Array) -> Array:
+        """Return lower bounds of ``_size`` along cubics, from planes across their middles."""
+        middle = _middle(ctrl)
+        if not self.upright:
+            return _along(ctrl, middle)
+        upright = (ctrl[:, :, 2] * np.sign(middle[:, 2])[:, None]).min(axis=1)
+        return np.asarray(np.maximum(_along(ctrl[:, :, :2], middle[:, :2]), upright))
+
+    def _position(self) -> tuple[float, float, float]:
+        first, second = self.pair
+        if not np.isfinite(self.best):
+            return (0.0, 0.0, 0.0)
+        skip = 0 if self.other is None else len(self.one.ctrl[0])
+        at = self._ctrl(self.time, self.time)[[first, second + skip], 0].mean(axis=0)
+        x, y, z = at / [1.0, 1.0, stretch(self.apart)]
+        return (float(x), float(y), float(z))
+
+
+def _join(bags: list[_Bag]) -> _Bag:
+    if not bags:
+        return _Bag(np.zeros((0, 2), dtype=np.intp), np.zeros((0, 2)), np.zeros((0, 4, 3)))
+    return _Bag(
+        np.concatenate([bag.pairs for bag in bags]),
+        np.concatenate([bag.ends for bag in bags]),
+        np.concatenate([bag.ctrl for bag in bags]),
+    )
+
+
+def _steady(ctrl: Array) -> Array:
+    """Take out the motion that all drones have in common, which changes no distance."""
+    return np.asarray(ctrl - ctrl.mean(axis=0)) if len(ctrl) else ctrl
+
+
+def _balls(ctrl: Array) -> tuple[Array, Array]:
+    """Return centres (n, 3) and radii (n,) of balls that hold the control points, and so the motion."""
+    centre = 0.5 * (ctrl.min(axis=1) + ctrl.max(axis=1))
+    return centre, _norm(ctrl - centre[:, None]).max(axis=1)
+
+
+def _middle(ctrl: Array) -> Array:
+    return np.asarray((ctrl[:, 0] + ctrl[:, 3] + 3.0 * (ctrl[:, 1] + ctrl[:, 2])) / 8.0)
+
+
+def _along(ctrl: Array, towards: Array) -> Array:
+    """Return how far the control points are at least along a direction, 0 where there is none."""
+    size = _norm(towards)
+    return np.asarray(np.einsum("mkd,md->mk", ctrl, towards).min(axis=1) / np.where(size > 0.0, size, 1.0))
+
+
+def _norm(vectors: Array) -> Array:
+    return np.asarray(np.sqrt(np.einsum("...d,...d->...", vectors, vectors)))

@@ -1,0 +1,117 @@
+"""How near drones come: by arithmetic where it is known, by dense sampling where it is not."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import hypot, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import centres, places
+from shotc.geom.separation import GAP, closest, closest_between
+from shotc.ir.show import Apart
+
+BALL = Apart("ellipsoid", 0.9, 1.9, 0.1)
+CAN = Apart("cylinder", 0.9, 1.9, 0.1)
+
+
+def straight(breaks: Array, start: list[float], velocity: list[float]) -> Array:
+    """Return the control points of a drone that flies evenly."""
+    return np.array(start) + centres(breaks)[:, None] * np.array(velocity)
+
+
+def dense(breaks: Array, coef: Array, apart: Apart, per_piece: int = 100) -> float:
+    times = np.concatenate([np.linspace(a, b, per_piece) for a, b in pairwise(breaks)])
+    at = places(breaks, coef, times) * [1.0, 1.0, apart.across / apart.upright]
+    least = np.inf
+    for i in range(len(at)):
+        r = at[i + 1 :] - at[i]
+        across, up = np.hypot(r[..., 0], r[..., 1]), abs(r[..., 2])
+        sizes = np.hypot(across, up) if apart.shape == "ellipsoid" else np.maximum(across, up)
+        least = min(least, float(sizes.min(initial=np.inf)))
+    return least
+
+
+def test_two_that_cross_are_nearest_where_arithmetic_says() -> None:
+    breaks = np.array([0.0, 1.0, 2.5, 4.0, 7.0])
+    coef = np.stack([straight(breaks, [0, 0, 10], [1, 0, 0]), straight(breaks, [0, -3, 10.8], [0, 1, 0])])
+    found = closest(breaks, coef, BALL)
+    expected = hypot(1.5 * sqrt(2), 0.8 * 0.5)
+    assert found.attained == pytest.approx(expected, abs=1e-6)
+    assert expected - 2 * GAP * expected < found.proven <= expected
+    assert found.time == pytest.approx(1.5, abs=1e-3)
+    assert (found.first, found.second) == (0, 1)
+    assert found.position == pytest.approx((0.75, -0.75, 10.4), abs=1e-3)
+
+
+def test_a_cylinder_counts_the_farther_of_the_two_ways() -> None:
+    breaks = np.linspace(0.0, 6.0, 7)
+    coef = np.stack([straight(breaks, [0, 0, 10], [1, 0, 0]), straight(breaks, [0, -3, 15], [0, 1, 0])])
+    found = closest(breaks, coef, CAN)
+    assert found.attained == pytest.approx(2.5)
+    coef[1, :, 2] = 13.0
+    assert closest(breaks, coef, CAN).attained == pytest.approx(1.5 * sqrt(2), abs=1e-6)
+
+
+def test_a_collision_between_samples_is_found() -> None:
+    breaks = np.linspace(0.0, 10.0, 3)
+    one = straight(breaks, [0.0, 0.0, 5.0], [4.0, 0.0, 0.0])
+    other = straight(breaks, [40.0, 0.0, 5.0], [-4.0, 0.0, 0.0])
+    found = closest(breaks, np.stack([one, other]), BALL)
+    assert found.attained < 1e-6
+    assert found.time == pytest.approx(5.0, abs=1e-5)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**31), st.sampled_from([BALL, CAN]), st.integers(2, 25))
+def test_the_bound_is_below_every_sample_and_close_to_one(seed: int, apart: Apart, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    breaks = np.concatenate([[0.0], np.cumsum(rng.uniform(0.2, 2.0, 6))])
+    coef = rng.uniform(-6.0, 6.0, (count, 9, 3))
+    found = closest(breaks, coef, apart)
+    sampled = dense(breaks, coef, apart)
+    assert found.proven <= sampled
+    assert found.attained <= sampled + 1e-9
+    assert found.proven > found.attained - 2 * GAP * max(1.0, found.attained)
+    pair = places(breaks, coef[[found.first, found.second]], np.array([found.time]))[:, 0]
+    r = (pair[0] - pair[1]) * [1.0, 1.0, apart.across / apart.upright]
+    size = np.linalg.norm(r) if apart.shape == "ellipsoid" else max(hypot(r[0], r[1]), abs(r[2]))
+    assert size == pytest.approx(found.attained, abs=1e-9)
+    assert found.position == pytest.approx(pair.mean(axis=0), abs=1e-9)
+
+
+def test_two_fleets_on_clocks_of_their_own() -> None:
+    early = np.array([0.0, 1.0, 2.0])
+    late = np.array([0.0, 1.5, 4.0, 6.0])
+    # The one comes to rest at the origin by t = 2; the other passes there at t = 5.
+    one = np.stack([np.tile([0.0, 0.0, 5.0], (5, 1)), np.tile([0.0, 50.0, 5.0], (5, 1))])
+    one[:, :2, 0] += 30.0
+    other = straight(late, [-10.0, 2.0, 5.0], [2.0, 0.0, 0.0])[None]
+    found = closest_between(early, one, late, other, BALL)
+    assert found.attained == pytest.approx(2.0, abs=1e-6)
+    assert (found.first, found.second) == (0, 0)
+    assert found.time == pytest.approx(5.0, abs=1e-3)
+    turned = closest_between(late, other, early, one, BALL)
+    assert turned.attained == pytest.approx(2.0, abs=1e-6)
+
+
+def test_one_drone_alone_is_near_nobody() -> None:
+    breaks = np.array([0.0, 1.0])
+    assert closest(breaks, np.zeros((1, 4, 3)), BALL).proven == np.inf
+
+
+def test_the_fleets_of_a_crowd_are_told_apart() -> None:
+    rng = np.random.default_rng(3)
+    breaks, others = np.linspace(0.0, 5.0, 6), np.linspace(1.0, 4.0, 4)
+    one, other = rng.uniform(-5.0, 5.0, (20, 8, 3)), rng.uniform(-5.0, 5.0, (15, 6, 3))
+    found = closest_between(breaks, one, others, other, CAN)
+    times = np.linspace(0.0, 5.0, 4001)
+    near = places(breaks, one, times)[:, None] - places(others, other, times)[None]
+    across, up = np.hypot(near[..., 0], near[..., 1]), abs(near[..., 2]) / 2.0
+    sampled = float(np.maximum(across, up).min())
+    assert found.proven <= found.attained <= sampled + 1e-9
+    assert sampled - found.proven < 1e-2
