@@ -157,3 +157,9 @@ class Display(NamedTuple):
     timing: Timing
     pace: float
     path: KeyPath
+
+
+def drone_names(fleet: Fleet) -> tuple[str, ...]:
+    """Return the names of a fleet's drones, in the order of their numbers: ``swarm-001`` and on."""
+    digits = len(str(len(fleet.pads)))
+    return tuple(f"{fleet.name}-{i:0{digits}d}" for i in range(1, len(fleet.pads) + 1))

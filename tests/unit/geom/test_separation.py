@@ -21,7 +21,7 @@ CAN = Apart("cylinder", 0.9, 1.9, 0.1)
 
 def straight(breaks: Array, start: list[float], velocity: list[float]) -> Array:
     """Return the control points of a drone that flies evenly."""
-    return np.array(start) + centres(breaks)[:, None] * np.array(velocity)
+    return np.asarray(np.array(start) + centres(breaks)[:, None] * np.array(velocity))
 
 
 def dense(breaks: Array, coef: Array, apart: Apart, per_piece: int = 100) -> float:

@@ -1,0 +1,116 @@
+"""Which drone goes to which goal: least squared distance, or at least no pair that would do better swapped.
+
+Two drones whose straight moves start at x_i, x_j and end at g_i, g_j never come nearer than sqrt(1/2) of
+the lesser of their first and last distances if (x_i - x_j).(g_i - g_j) >= 0 (``geom.apart``). The least sum
+of squares has that for all pairs, for a negative one would do better swapped; so has any matching in which
+no pair would. Up to ``EXACT`` drones the sum is the least (``scipy.optimize.linear_sum_assignment``); more
+are halved again and again, drones and goals alike, matched exactly within the parts, and then swapped until
+no pair of all is left.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
+
+from shotc.geom.bernstein import Array
+
+Index = NDArray[np.intp]
+
+EXACT = 2000
+"""Drones up to which the sum of squares is the least there is."""
+
+PART = 500
+"""Drones in a part of a larger fleet, at most."""
+
+BLOCK = 256
+"""Drones whose pairs with all others are looked at together."""
+
+TOLERANCE = 1e-9
+"""Products above minus this share of the fleet's size squared count as rounding."""
+
+
+def matched(starts: Array, goals: Array) -> Index:
+    """Return which goal each drone goes to.
+
+    starts, goals : shape (n, 3), metres, stretched (``geom.apart.stretch``); result : shape (n,), a
+    permutation: drone i goes to goals[result[i]]
+    """
+    near = np.asarray(cKDTree(goals).query(starts)[1])
+    if len(np.unique(near)) == len(near):
+        return near  # Each has the nearest of all: nothing is less.
+    if len(starts) <= EXACT:
+        return _least(starts, goals)
+    order = np.empty(len(starts), dtype=np.intp)
+    everything = np.arange(len(starts))
+    for drones, places in _parts(starts, goals, everything, everything):
+        order[drones] = places[_least(starts[drones], goals[places])]
+    return _untangled(starts, goals, order)
+
+
+def crossing(starts: Array, goals: Array) -> tuple[float, int, int]:
+    """Return the least (x_i - x_j).(g_i - g_j) of all pairs, square metres, and the pair; inf for one drone.
+
+    starts, goals : shape (n, 3), in the order of the drones
+    """
+    rows = np.arange(len(starts))
+    least, other = _least_products(starts, goals, rows)
+    i = int(np.argmin(least))
+    return float(least[i]), i, int(other[i])
+
+
+def _least(starts: Array, goals: Array) -> Index:
+    return np.asarray(linear_sum_assignment(cdist(starts, goals, "sqeuclidean"))[1])
+
+
+def _parts(starts: Array, goals: Array, drones: Index, places: Index) -> list[tuple[Index, Index]]:
+    """Halve drones and goals alike, across the way in which they are widest, into parts that match."""
+    if len(drones) <= PART:
+        return [(drones, places)]
+    x, g = starts[drones] - starts[drones].mean(axis=0), goals[places] - goals[places].mean(axis=0)
+    widest = np.linalg.eigh(x.T @ x + g.T @ g)[1][:, -1]
+    half = len(drones) // 2
+    drones, places = drones[np.argsort(x @ widest)], places[np.argsort(g @ widest)]
+    return [
+        *_parts(starts, goals, drones[:half], places[:half]),
+        *_parts(starts, goals, drones[half:], places[half:]),
+    ]
+
+
+def _untangled(starts: Array, goals: Array, order: Index) -> Index:
+    """Swap the goals of pairs that do better so until there is none, each time all that do not interfere.
+
+    Each swap makes the sum of squares less, so there is an end. Drones that kept their goals and had no
+    such partner can only get one among those that swapped, so those alone are looked at again.
+    """
+    order = order.copy()
+    scale = TOLERANCE * float(np.ptp(starts, axis=0).max() * np.ptp(goals, axis=0).max() + 1e-9)
+    rows = np.arange(len(starts))
+    while len(rows):
+        least, other = _least_products(starts, goals[order], rows)
+        bad = np.flatnonzero(least < -scale)
+        bad = bad[np.argsort(least[bad])]
+        taken = np.zeros(len(starts), dtype=bool)
+        for i, j in zip(rows[bad], other[bad], strict=True):
+            if not (taken[i] or taken[j]):
+                order[i], order[j] = order[j], order[i]
+                taken[i] = taken[j] = True
+        taken[rows[bad]] = True
+        rows = np.flatnonzero(taken)
+    return order
+
+
+def _least_products(starts: Array, goals: Array, rows: Index) -> tuple[Array, Index]:
+    """Return for some drones the least product with any other drone, and which that is."""
+    own = np.einsum("nd,nd->n", starts, goals)
+    least, other = np.empty(len(rows)), np.empty(len(rows), dtype=np.intp)
+    for at in range(0, len(rows), BLOCK):
+        some = rows[at : at + BLOCK]
+        products = own[some, None] + own - starts[some] @ goals.T - goals[some] @ starts.T
+        products[np.arange(len(some)), some] = np.inf
+        other[at : at + BLOCK] = products.argmin(axis=1)
+        least[at : at + BLOCK] = products.min(axis=1)
+    return least, other

@@ -1,0 +1,152 @@
+"""The moves of a fleet on one scalar clock s(t), from 0 to 1: how it is shaped, and how short it may be.
+
+Everybody goes straight from x_i to g_i as x_i + s(t) (g_i - x_i), so a bound on s', s'' and s''' is a bound
+on every drone. s is the cubic B-spline of ``geom.fleet_spline`` over even pieces; its differences bound its
+derivatives at every instant. Its control points are samples of a profile whose third derivative is
+piecewise constant (seven stretches); of a family of these, and of numbers of pieces, the one is taken that
+is done first: for a shape the least length of a piece is in closed form.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.limits import Limits
+
+PIECES = (8, 12, 16, 20, 32)
+"""Numbers of pieces that a move may have."""
+
+WORTH = 1.02
+"""A move of more pieces has to be faster by this factor."""
+
+LEAST_PIECE = 0.1
+"""Shortest piece, seconds: below it control points rounded to a micrometre would show in the jerk."""
+
+SHARE = 0.999
+"""Share of the limits that is used, so that rounding breaks none."""
+
+TICK = 1e-6
+"""Lengths of pieces are whole numbers of it, seconds, where nobody asked for a length."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Move:
+    """A common move.
+
+    s : control points, shape (P + 3,), the first three 0 and the last three 1; piece : seconds each of P takes
+    limit : name in ``ir.limits.Limits`` of what binds; drone : whom it binds, a row
+    """
+
+    s: Array
+    piece: float
+    limit: str
+    drone: int
+
+    @property
+    def duration(self) -> float:
+        """Return seconds from rest to rest."""
+        return self.piece * (len(self.s) - 3)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Ceilings:
+    """For each drone what the limits leave of s', s'' and s''', shape (n,), and what binds s'."""
+
+    first: Array
+    second: Array
+    third: Array
+    names: list[str]
+
+    @staticmethod
+    def of(ways: Array, limits: Limits, pace: float) -> _Ceilings:
+        across, far = np.hypot(ways[:, 0], ways[:, 1]), np.linalg.norm(ways, axis=1)
+        with np.errstate(divide="ignore"):
+            rates = np.stack(
+                [
+                    limits.speed / across,
+                    limits.climb / np.maximum(ways[:, 2], 0.0),
+                    limits.descent / np.maximum(-ways[:, 2], 0.0),
+                ]
+            )
+            scale = SHARE * pace
+            named = ("speed", "climb", "descent")
+            return _Ceilings(
+                scale * rates.min(axis=0),
+                scale * limits.acceleration / far,
+                scale * limits.jerk / far,
+                [named[k] for k in rates.argmin(axis=0)],
+            )
+
+
+def fastest(ways: Array, limits: Limits, pace: float) -> Move:
+    """Return the shortest move, every limit times ``pace`` kept by all drones; ways : g - x, shape (n, 3)."""
+    ceilings = _Ceilings.of(ways, limits, pace)
+    best: tuple[float, Array] | None = None
+    for pieces in PIECES:
+        shapes, steps = _family(pieces)
+        least = np.maximum(_least_pieces(steps, ceilings), LEAST_PIECE)
+        # Of those that are as fast, the smoothest.
+        k = int(np.where(least <= 1.001 * least.min(), steps[:, 2], inf).argmin())
+        if best is None or pieces * least[k] * WORTH < best[0] * (len(best[1]) - 3):
+            best = float(np.ceil(least[k] / TICK) * TICK), shapes[k]
+    assert best is not None
+    return _named(best[1], best[0], ceilings)
+
+
+def least_piece(pieces: int, ways: Array, limits: Limits) -> float:
+    """Return the least length of one of so many pieces that everybody's straight move allows, seconds."""
+    if pieces < 4:
+        return inf if np.abs(ways).max(initial=0.0) > 0.0 else 0.0
+    return float(_least_pieces(_family(pieces)[1], _Ceilings.of(ways, limits, 1.0)).min())
+
+
+def _least_pieces(steps: Array, ceilings: _Ceilings) -> Array:
+    """Return how short a piece each shape allows; steps : (M, 3), its largest differences of order 1 to 3."""
+    first, second, third = (float(c.min()) for c in (ceilings.first, ceilings.second, ceilings.third))
+    with np.errstate(divide="ignore"):
+        times = [steps[:, 0] / first, np.sqrt(steps[:, 1] / second), np.cbrt(steps[:, 2] / third)]
+    return np.asarray(np.max(times, axis=0))
+
+
+def _named(shape: Array, piece: float, ceilings: _Ceilings) -> Move:
+    """Return the move with what binds it."""
+    steps = _steps(shape[None])[0]
+    kept = (ceilings.first, ceilings.second, ceilings.third)
+    tight = [steps[k] / piece ** (k + 1) / float(kept[k].min()) for k in range(3)]
+    k = int(np.argmax(tight))
+    drone = int(kept[k].argmin())
+    return Move(shape, piece, (ceilings.names[drone], "acceleration", "jerk")[k], drone)
+
+
+def _steps(shapes: Array) -> Array:
+    return np.stack([np.abs(np.diff(shapes, n, axis=1)).max(axis=1) for n in (1, 2, 3)], axis=1)
+
+
+@cache
+def _family(pieces: int) -> tuple[Array, Array]:
+    """Return shapes of control points, shape (M, pieces + 3), and their largest differences, (M, 3)."""
+    # The profile begins one piece late and ends one early, and rests outside: three equal points at each end.
+    at = np.clip((np.arange(pieces + 3) - 2.0) / (pieces - 2.0), 0.0, 1.0)
+    shares = np.linspace(0.0, 1.0, 15)
+    shapes = np.array([_profile(at, ramp, jerk) for ramp in shares[1:] for jerk in shares[1:]])
+    return shapes, _steps(shapes)
+
+
+def _profile(at: Array, ramp: float, jerk: float) -> Array:
+    """Return s of seven stretches of constant third derivative at shares of its time.
+
+    ramp : share of the first half in which it speeds up; jerk : share of that in which that sets in and out
+    """
+    up, in_ = 0.5 * ramp, 0.25 * ramp * jerk
+    ends = np.array([in_, up - in_, up, 1.0 - up, 1.0 - up + in_, 1.0 - in_])
+    signs = np.array([1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0])
+    jumps = np.diff(signs)
+    late = np.maximum(at[:, None] - ends, 0.0)
+    s = (signs[0] * at**3 + (late**3 * jumps).sum(axis=1)) / 6.0
+    whole = (signs[0] + ((1.0 - ends) ** 3 * jumps).sum()) / 6.0
+    return np.asarray(np.where(at >= 1.0, 1.0, s / whole))
