@@ -53,7 +53,7 @@ def animation(frames: int, period: float) -> Picture:
 
 def fleet(count: int, **changes: Any) -> Fleet:
     pads = tuple(map(tuple, grid(count).tolist()))
-    made = Fleet("swarm", "show-drone", pads, 10.0, LIMITS, 0.3, 900.0, APART, ("fleets", "swarm"))  # type: ignore[arg-type]
+    made = Fleet("swarm", "show-drone", pads, 10.0, LIMITS, 0.3, 900.0, APART, ("fleets", "swarm"))
     return made._replace(**changes)
 
 

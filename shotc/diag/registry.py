@@ -16,6 +16,7 @@ FAMILIES = {
     "K": ("keyframes", "keyframes and kinds"),
     "M": ("motion", "moving targets"),
     "F": ("grammar", "film grammar"),
+    "D": ("pictures", "displays and fleets"),
     "Q": ("convex", "convex solve"),
     "R": ("refinement", "refinement"),
     "T": ("timing", "timing"),
@@ -23,6 +24,7 @@ FAMILIES = {
     "E": ("emission", "emission"),
     "I": ("imports", "imports"),
     "P": ("plugins", "plugins and options"),
+    "D": ("flights", "fleets and displays"),
     "X": ("internal", "our bug"),
 }
 

@@ -30,7 +30,7 @@ class Distances(Protocol):
 
 
 def stretch(apart: Distances) -> float:
-    """Return the factor for heights that makes the ellipsoid a ball, or the cylinder as high as it is wide."""
+    """Return the factor for heights that makes the ellipsoid a ball, the cylinder as high as wide."""
     return apart.across / apart.upright
 
 

@@ -87,9 +87,9 @@ def view_plane(centre: Array, viewpoint: Array) -> tuple[Array, Array]:
 
 
 def coverage(points: Array, goals: Array) -> float:
-    """Return the sum of the squared distances of points (M, D) from the nearest of the goals (*display* Eq. 16).
+    """Return the sum of the squared distances of points (M, D) from their nearest goals (n, D).
 
-    For the projected cost give both ``(x - centre) @ view_plane(...)[0].T``.
+    Source: *display* Eq. 16. For the projected cost give both ``(x - centre) @ view_plane(...)[0].T``.
     """
     near = cKDTree(goals).query(points)[0]
     return float(near @ near)

@@ -14,8 +14,11 @@ ROUNDS = 400
 BEYOND = 1e-3
 """Share of the distance that a push aims beyond it, so that the last pairs are apart after finite rounds."""
 SLACK = 0.25
-"""Share of the distance by which a goal may stand off the shape, twice that in the last rounds: less than is
-seen between two lights."""
+"""Share of the distance by which a goal may stand off the shape: less than is seen between two lights."""
+LOOSER = 0.2
+"""Share by which that grows up to the last round: one pair at its end would ground a thousand drones."""
+PATIENCE = 25
+"""Rounds in which what is missing has to fall by a twentieth, or else so many goals do not fit."""
 
 Hold = Callable[[Array, Array], Array]
 """From goals (n, 3) and where a push takes them, to where they may go."""
@@ -32,16 +35,20 @@ def push_apart(goals: Array, shape: Array, least: float, hold: Hold) -> Array | 
     tree = cKDTree(shape)
     # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
     leash = np.maximum(SLACK * least, tree.query(goals)[0])
+    missing = float("inf")
     for done in range(ROUNDS):
-        push = _pushes(goals, least, BEYOND * (1.0 + done / 20))
-        if push is None:
+        push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20))
+        if not lacking:
             return goals
+        if done % PATIENCE == 0:
+            if lacking > 0.95 * missing:
+                return None
+            missing = lacking
         moving = np.flatnonzero(np.any(push != 0.0, axis=1))
-        # A last pair at the end of its leash would keep a thousand others from being flown.
-        wanted = _leashed(goals[moving] + push[moving], tree, leash[moving] * (1.0 + done / ROUNDS))
+        wanted = _leashed(goals[moving] + push[moving], tree, leash[moving] * (1.0 + LOOSER * done / ROUNDS))
         goals = goals.copy()
         goals[moving] = hold(goals[moving], wanted)
-    return goals if _pushes(goals, least, BEYOND) is None else None
+    return None if _pushes(goals, least, BEYOND)[1] else goals
 
 
 def nearest_pair(goals: Array) -> float:
@@ -51,11 +58,11 @@ def nearest_pair(goals: Array) -> float:
     return float(cKDTree(goals).query(goals, k=2)[0][:, 1].min())
 
 
-def _pushes(goals: Array, least: float, beyond: float) -> Array | None:
-    """Return by how much each goal is pushed, (n, 3), or None where all are apart."""
+def _pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
+    """Return by how much each goal is pushed, (n, 3), and how much distance all pairs lack together."""
     pairs = cKDTree(goals).query_pairs(least * (1.0 - 1e-12), output_type="ndarray")
     if not len(pairs):
-        return None
+        return np.zeros_like(goals), 0.0
     first, second = pairs[np.lexsort(pairs.T[::-1])].T
     apart = goals[first] - goals[second]
     distance = np.sqrt(np.einsum("pd,pd->p", apart, apart))
@@ -64,7 +71,8 @@ def _pushes(goals: Array, least: float, beyond: float) -> Array | None:
     share[distance < 1e-9] = least / 2.0
     push = share[:, None] * apart
     both, halves = np.concatenate([first, second]), np.concatenate([push, -push])
-    return np.column_stack([np.bincount(both, column, len(goals)) for column in halves.T])
+    pushes = np.column_stack([np.bincount(both, column, len(goals)) for column in halves.T])
+    return np.asarray(pushes, dtype=np.float64), float((least - distance).sum())
 
 
 def _leashed(goals: Array, tree: cKDTree, leash: Array) -> Array:

@@ -38,7 +38,8 @@ TICK = 1e-6
 class Move:
     """A common move.
 
-    s : control points, shape (P + 3,), the first three 0 and the last three 1; piece : seconds each of P takes
+    s : control points, shape (P + 3,), the first three 0 and the last three 1
+    piece : seconds that each of the P pieces takes
     limit : name in ``ir.limits.Limits`` of what binds; drone : whom it binds, a row
     """
 

@@ -36,7 +36,7 @@ class AssignGoals:
             directors.append(Director(mission, fleet, cast_of(fleet, goals)))
         # A display that waits for one of another fleet comes after it, so the fleets take turns.
         ends: dict[str, float] = {}
-        while any([director.advance(ends) for director in directors]):
+        while any(director.advance(ends) for director in directors):
             pass
         found: list[Diagnostic] = [d for director in directors for d in director.finish()]
         if has_errors(found):

@@ -46,7 +46,7 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
     """Match every frame with the one before it, by squared distance where heights are stretched."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     pads = np.round(np.array(fleet.pads), DIGITS)
-    above = np.round(pads + [0.0, 0.0, fleet.rise], DIGITS)
+    above = np.round(pads + np.array([0.0, 0.0, fleet.rise]), DIGITS)
     scenes, last, least = [], above, inf
     for frame in goals.frames:
         order = matched(last * scale, frame.points * scale)

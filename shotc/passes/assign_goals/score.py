@@ -39,7 +39,7 @@ class Score:
             self._add([self.places], seconds)
 
     def move(self, places: Array, s: Array, duration: float) -> None:
-        """Go straight, from stop to stop; s : control points from three 0 to three 1 (``fleet_move.Move``)."""
+        """Go straight, from stop to stop; s : of a ``fleet_move.Move``, shape (P + 3,)."""
         way = places - self.places
         between = [np.round(self.places + share * way, DIGITS) for share in s[3:-3]]
         self._add([*between, places, places, places], duration / (len(s) - 3))

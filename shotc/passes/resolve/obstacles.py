@@ -15,6 +15,7 @@ from shotc.geom.solids import (
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
+from shotc.ir.show import Fleet
 
 ROUNDING = 1e-6  # metres
 NUDGE = 0.01  # metres that a proposed place lies farther off than it must
@@ -110,7 +111,7 @@ def signed_distance(solid: Solid, p: Vec3) -> float:
     return hypot(max(across, 0.0), max(upright, 0.0))
 
 
-def obstacles_of(mission: MissionIR, drone: Drone) -> list[Obstacle]:
+def obstacles_of(mission: MissionIR, drone: Drone | Fleet) -> list[Obstacle]:
     """Return all that stands and that a drone keeps clear of, the ground excepted."""
     zones = [Obstacle(z.name, z.keep, z.solid, drone.radius, z.path) for z in mission.zones]
     room = mission.rules.target_clearance + drone.radius

@@ -1,0 +1,170 @@
+"""D050 and up: pictures of fleets, as planning finds them. See shotc.diag.registry."""
+
+from __future__ import annotations
+
+from shotc.diag.model import Severity
+from shotc.diag.registry import CodeInfo
+
+_PASSING = """\
+shotc: 1
+mission: show
+world:
+  zones:
+    mast: {keep: out, cylinder: {center: [40, 40], radius: 3, height: [0, 60]}}
+fleets:
+  swarm: {count: 60, layout: {grid: {spacing: 4, origin: [0, 0, 0]}}, separation: 1, rise: 10}
+shots:
+  - id: shapes
+    kind: display
+    fleet: swarm
+    viewpoint: [0, -100, 2]
+    frames:
+      - {sphere: {center: [0, 0, 40], radius: 15}, hold: 4}
+      - {text: {text: GO, center: [0, 0, 40], height: 20}, hold: 4, fill: outline}
+"""
+
+CODES: tuple[CodeInfo, ...] = (
+    CodeInfo(
+        "D050",
+        "bad-model",
+        Severity.ERROR,
+        "a mesh or point cloud cannot be drawn",
+        "The file is in no format that is read (PLY, OBJ, STL), is cut short, holds nothing, or has points that are no "
+        "finite numbers or all in one place. Materials and textures that it names are never opened. Export it anew; "
+        "binary PLY keeps the colours of its corners.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "D051",
+        "open-mesh",
+        Severity.ERROR,
+        "a mesh that is to be filled is not closed",
+        "`fill: volume` puts drones into the inside of a mesh, and a mesh has one where every edge joins an even number "
+        "of faces. This one has edges with a face on one side only: a hole, or a sheet. Close it in the program that "
+        "made it, or write `fill: surface`, which needs no inside.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "D052",
+        "model-out-of-scale",
+        Severity.ERROR,
+        "a model is more than a kilometre large",
+        "Files do not say in which unit they are; they are read as metres. This one is more than 1000 m large, as what "
+        "is drawn in millimetres is. `height` scales it: the first frame becomes that tall, and all others are scaled "
+        "alike.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "D053",
+        "uneven-frames",
+        Severity.ERROR,
+        "one frame of an animation is many times as large as the next",
+        "All frames are scaled as the first one is. Here the bounding boxes of two frames in a row differ by more than "
+        "a factor of 5, as where one of them was exported in another unit. Export all of them alike.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "D054",
+        "bad-drawing",
+        Severity.ERROR,
+        "an SVG file cannot be drawn",
+        "Only what is in the file is drawn: paths, rectangles, circles, ellipses, lines and polygons, filled or not. A "
+        "file with scripts, with images, with a document type, or that refers to anything outside of it is refused, and "
+        "nothing is ever fetched. Texts depend on fonts: turn them into paths. Export it as plain SVG.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "D055",
+        "unknown-font",
+        Severity.ERROR,
+        "a text cannot be written in its font",
+        "`font` is a .ttf or .otf file beside the mission, or the name of a font of this machine; without it DejaVu "
+        "Sans is used, which is always there. Here there is no such font, its file cannot be read, or it lacks some of "
+        "the letters. A font file makes the mission the same on every machine.",
+        _PASSING.replace("text: GO,", "text: GO, font: No Such Font,"),
+        _PASSING,
+        "plan",
+    ),
+    CodeInfo(
+        "D056",
+        "too-many-drones",
+        Severity.ERROR,
+        "more drones than fit into a picture",
+        "So that a fleet can go from picture to picture on straight lines, goals stand sqrt(2) times the separation "
+        "apart. Here so many do not fit into the shape, nor within a part of that distance around it. The numbers of "
+        "the help are found by trying: how many drones would fit, how large the picture would have to be, and at which "
+        "separation all of them would fit.",
+        _PASSING.replace("radius: 15}", "radius: 3}"),
+        _PASSING,
+        "plan",
+    ),
+    CodeInfo(
+        "D057",
+        "too-few-drones",
+        Severity.WARNING,
+        "fewer drones than a picture needs to be seen",
+        "Letters are read where at least five lights stand in the height of a capital; the note says how long their "
+        "strokes are, and how far apart the lights would be. Anything else takes eight drones, the corners of a box.",
+        _PASSING.replace("text: GO,", "text: GOODBYE,"),
+        _PASSING,
+        "plan",
+    ),
+    CodeInfo(
+        "D058",
+        "picture-in-the-way",
+        Severity.ERROR,
+        "drones of a picture would be in a zone, a target or too low",
+        "The goals of a picture keep out of keep-out zones and of targets, inside keep-in zones, and above the ground "
+        "clearance, with the body of a drone all round. Some of them do not. The help gives the shortest shift of the "
+        "whole picture, east, north and up, that gives all of them room.",
+        _PASSING.replace("center: [0, 0, 40], radius: 15", "center: [36, 40, 40], radius: 15"),
+        _PASSING,
+        "plan",
+    ),
+    CodeInfo(
+        "D059",
+        "viewpoint-inside",
+        Severity.ERROR,
+        "the viewpoint is inside of what is drawn",
+        "Goals are spread for the view from `viewpoint`, along the line of sight to the middle of the picture. From "
+        "within the shape there is no such line. Put it where the audience stands, or leave it out: then the drones "
+        "show the shape alike from all sides.",
+        _PASSING.replace("viewpoint: [0, -100, 2]", "viewpoint: [0, -5, 40]"),
+        _PASSING,
+        "plan",
+    ),
+    CodeInfo(
+        "D060",
+        "nothing-to-fill",
+        Severity.ERROR,
+        "a picture has nothing of what its fill asks for",
+        "`fill: volume` is the inside, `surface` the outer faces, `outline` the edges of a flat picture. This picture "
+        "has none of these: balls and meshes have no edges that are meant, and a closed mesh that is flat has no "
+        "inside. Take another `fill`.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "D061",
+        "thin-cloud",
+        Severity.ERROR,
+        "a point cloud has fewer points than the fleet has drones",
+        "A point cloud is taken as it is: its points say where drones may stand, and drones stand in the middle of those "
+        "that are nearest to them. It takes at least as many points as drones, better thirty times as many. Give a "
+        "denser cloud, or a mesh, from which as many points are drawn as are needed.",
+        "",
+        "",
+        "other",
+    ),
+)

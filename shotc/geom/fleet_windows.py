@@ -1,0 +1,46 @@
+"""Where a fleet stops, and what lies between: each stretch from stop to stop is a spline of its own.
+
+A fleet stops at a break where all three control points that count there are equal, for every drone. Nothing
+beyond it counts on either side: the derivatives' control points that reach over it are zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """The pieces from break ``first`` to break ``last``, between two stops."""
+
+    first: int
+    last: int
+
+    @property
+    def points(self) -> slice:
+        """Return which control points count in it."""
+        return slice(self.first, self.last + DEGREE)
+
+    def breaks(self, breaks: Array) -> Array:
+        """Return its own of the breaks."""
+        return breaks[self.first : self.last + 1]
+
+
+def windows(coef: Array) -> list[Window]:
+    """Return the stretches in which anybody moves; coef : shape (n, P + 3, 3)."""
+    still = (np.diff(coef, axis=1) == 0.0).all(axis=(0, 2))
+    stops = np.flatnonzero(still[:-1] & still[1:])
+    return [Window(int(a), int(b)) for a, b in pairwise(stops) if b - a > 1]
+
+
+def stops(coef: Array) -> list[int]:
+    """Return the breaks at which a fleet stops, the first of each stretch that it stands."""
+    still = (np.diff(coef, axis=1) == 0.0).all(axis=(0, 2))
+    at = np.flatnonzero(still[:-1] & still[1:])
+    return [int(b) for k, b in enumerate(at) if k == 0 or b - at[k - 1] > 1]

@@ -1,0 +1,43 @@
+"""What is wrong with an animation that no drone can follow."""
+
+from __future__ import annotations
+
+from math import ceil
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Fleet, drone_names
+
+
+def too_quick(
+    mission: MissionIR,
+    fleet: Fleet,
+    at: tuple[FleetTrajectory, float],
+    who: tuple[int, float],
+    period: float,
+) -> Diagnostic:
+    """Return D084: an animation ends too far from where it begins for the time it takes.
+
+    at : the flight and when the animation begins; who : a drone's row and its way from first to last, metres
+    period : with which everybody gets there, seconds
+    """
+    path = picture_at(mission, *at)
+    enough = f"{ceil(period * 100) / 100:.2f}"
+    return Diagnostic(
+        "D084",
+        f"the animation is too quick for its drones: a period of {enough} s is enough",
+        (mission.origins.value((*path, "period")),),
+        (f"`{drone_names(fleet)[who[0]]}` goes {who[1]:.1f} m from the first frame to the last",),
+        f"give it `period: {enough}`, more frames, or a smaller `height`",
+    )
+
+
+def picture_at(mission: MissionIR, flight: FleetTrajectory, time: float) -> KeyPath:
+    """Return where the picture is written that is shown at a time or comes next, or else the fleet."""
+    for shown in flight.shown:
+        if shown.end >= time - 1e-9:
+            display = next(d for d in mission.displays if d.id == shown.display)
+            return display.pictures[shown.picture].path
+    return next(fleet.path for fleet in mission.fleets if fleet.name == flight.fleet)

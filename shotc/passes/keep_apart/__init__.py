@@ -1,0 +1,66 @@
+"""keep-apart: ShowIR to TrajectoryIR.
+
+Takes flights within their limits. Proves for every fleet that no two of its drones ever come nearer than its
+separation, and that no two fleets meet; where that does not hold between two stops of a fleet, the drones
+concerned are pushed apart, all at once and as little as does, until the proof and all limits hold. What
+cannot be had is an error that names the two drones, the time, and how near they come.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import ClassVar
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.separation import closest_between
+from shotc.ir.fleet import FleetTrajectory, ShowIR
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Apart, Fleet
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.passes.base import Outcome, PassContext
+from shotc.passes.keep_apart.faults import fleets_meet
+from shotc.passes.keep_apart.repair import Keeper
+
+
+@dataclass(frozen=True, slots=True)
+class KeepApart:
+    """The pass; it has no options."""
+
+    name: ClassVar[str] = "keep-apart"
+
+    def run(self, ir: ShowIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
+        """Prove every fleet's separation, mending what breaks it."""
+        mission = ir.goals.keyframes.mission
+        found: list[Diagnostic] = []
+        fleets, stats = [], list(ir.stats)
+        for flight in ir.fleets:
+            ctx.progress(f"separation in fleet {flight.fleet}")
+            keeper = Keeper(mission, _fleet(mission, flight), flight, ctx)
+            fleets.append(keeper.keep())
+            found += keeper.faults
+            stats += keeper.stats()
+        for one, other in combinations(fleets, 2):
+            found += _meeting(mission, one, other)
+        if found:
+            return Outcome(None, tuple(found))
+        return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)))
+
+
+def _fleet(mission: MissionIR, flight: FleetTrajectory) -> Fleet:
+    return next(fleet for fleet in mission.fleets if fleet.name == flight.fleet)
+
+
+def _meeting(mission: MissionIR, one: FleetTrajectory, other: FleetTrajectory) -> list[Diagnostic]:
+    fleets = _fleet(mission, one), _fleet(mission, other)
+    apart = stricter(fleets[0].apart, fleets[1].apart)
+    near = closest_between(one.breaks, one.coef, other.breaks, other.coef, apart)
+    if near.proven >= apart.across - 1e-6:
+        return []
+    return [fleets_meet(mission, fleets, near, apart.across)]
+
+
+def stricter(one: Apart, other: Apart) -> Apart:
+    """Return what drones of two fleets keep of each other: the more that either asks for."""
+    shape = one.shape if one.shape == "cylinder" else other.shape
+    return Apart(shape, max(one.across, other.across), max(one.upright, other.upright), 0.0)

@@ -1,0 +1,107 @@
+"""What cannot be kept apart, as diagnostics: which two drones, when, how near, and what would do."""
+
+from __future__ import annotations
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.apart import spacing
+from shotc.geom.bernstein import Array
+from shotc.geom.separation import Nearest, closest
+from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Fleet, drone_names
+
+Stretch = tuple[Array, Array, Nearest]
+"""The breaks of a window, the control points its goals ask for, and what comes nearest in it."""
+
+
+def standing_too_near(
+    mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, found: Nearest
+) -> Diagnostic:
+    """Return D085: two places of one picture, or two pads, are too near."""
+    shown = _shown(flight, found.time)
+    where = "on or over its pads" if shown is None else f"in display `{shown.display}`"
+    path = fleet.path if shown is None else _path(mission, shown)
+    change = "lay the fleet out wider" if shown is None else "make the picture larger, or use fewer drones"
+    return Diagnostic(
+        "D085",
+        f"two drones of `{fleet.name}` stand {found.attained:.2f} m apart {where}, "
+        f"and {fleet.apart.across:.2f} m is the least",
+        (mission.origins.key(path), *_rule(mission, fleet)),
+        (_who(fleet, found),),
+        change,
+    )
+
+
+def too_near(mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, at: Stretch) -> Diagnostic:
+    """Return D086: between two stops no flight was found that keeps the drones apart."""
+    breaks, wanted, found = at
+    shown = _shown(flight, found.time)
+    path = fleet.path if shown is None else _path(mission, shown)
+    dense = _densest(flight, fleet, breaks, wanted)
+    notes = [_who(fleet, found)]
+    if dense is None:
+        change = "give it a longer `transition`, or a longer `period`"
+    else:
+        frame, near = dense
+        notes.append(f"the goals of frame {frame + 1} alone are only {near:.2f} m apart")
+        change = "make the animation larger, or use fewer drones"
+    return Diagnostic(
+        "D086",
+        f"two drones of `{fleet.name}` come within {found.attained:.2f} m of each other at "
+        f"{found.time:.2f} s, and {fleet.apart.across:.2f} m is the least",
+        (mission.origins.key(path), *_rule(mission, fleet)),
+        tuple(notes),
+        f"{change}; places {spacing(fleet.apart):.2f} m apart are always enough for a straight way",
+    )
+
+
+def fleets_meet(mission: MissionIR, fleets: tuple[Fleet, Fleet], found: Nearest, across: float) -> Diagnostic:
+    """Return D087: drones of two fleets come too near."""
+    first, second = (drone_names(f)[row] for f, row in zip(fleets, (found.first, found.second), strict=True))
+    x, y, z = found.position
+    return Diagnostic(
+        "D087",
+        f"fleets `{fleets[0].name}` and `{fleets[1].name}` come within {found.attained:.2f} m of each "
+        f"other at {found.time:.2f} s, and {across:.2f} m is the least",
+        tuple(mission.origins.key(fleet.path) for fleet in fleets),
+        (f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",),
+        "show one `after` the other, or bring their pads and pictures farther apart",
+    )
+
+
+def _densest(flight: FleetTrajectory, fleet: Fleet, breaks: Array, wanted: Array) -> tuple[int, float] | None:
+    """Return the frame whose goals are nearest to each other, if they are too near, and how near."""
+    worst: tuple[int, float] | None = None
+    frames = [s.index for s in flight.shown if breaks[0] - 1e-9 <= s.start <= breaks[-1] + 1e-9]
+    if len(frames) != wanted.shape[1] - 4:
+        return None  # Not an animation.
+    for frame, k in zip(frames, range(2, wanted.shape[1] - 2), strict=True):
+        standing = wanted[:, [k] * 4]
+        near = closest(breaks[:2], standing, fleet.apart).attained
+        if near < min(fleet.apart.across, worst[1] if worst else fleet.apart.across):
+            worst = frame, near
+    return worst
+
+
+def _who(fleet: Fleet, found: Nearest) -> str:
+    names = drone_names(fleet)
+    x, y, z = found.position
+    return f"they are `{names[found.first]}` and `{names[found.second]}`, at [{x:.1f}, {y:.1f}, {z:.1f}]"
+
+
+def _rule(mission: MissionIR, fleet: Fleet) -> tuple[Label, ...]:
+    return (mission.origins.value((*fleet.path, "separation"), "the separation"),)
+
+
+def _shown(flight: FleetTrajectory, time: float) -> Shown | None:
+    """Return the frame that is shown at a time, or the next one; None on the way up and home."""
+    first, last = flight.phases[0].end, flight.phases[-2].start
+    if time <= first or time > last:
+        return None
+    return next((shown for shown in flight.shown if shown.end >= time - 1e-9), None)
+
+
+def _path(mission: MissionIR, shown: Shown) -> KeyPath:
+    display = next(d for d in mission.displays if d.id == shown.display)
+    return display.pictures[shown.picture].path

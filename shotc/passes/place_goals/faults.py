@@ -1,0 +1,201 @@
+"""What to say of pictures that cannot be flown: too many drones, too few, something in the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.apart import spacing, stretch
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
+from shotc.passes.place_goals.body import Body, SourceFault
+from shotc.passes.place_goals.flat import FlatBody
+from shotc.passes.place_goals.room import Room, lack_of, least_shift
+from shotc.passes.place_goals.spaced import Fit
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle
+
+KEYS = {
+    Sphere: "sphere",
+    Box: "cube",
+    Torus: "torus",
+    Lettering: "text",
+    Drawing: "svg",
+    Model: "model",
+}
+DOTS = 5
+"""Lights in the height of a capital, fewer of which make no letters: the smallest fonts have five."""
+FEWEST = 8
+"""Drones below which no solid can be told from a box: they are its corners."""
+
+
+def place_of(mission: MissionIR, picture: Picture, key: str = "") -> Label:
+    """Return the label on a key of a picture's source, or on the nearest thing that is written down."""
+    word = KEYS[type(picture.source)]
+    paths = [(*picture.path, word, key), (*picture.path, key), (*picture.path, word), picture.path]
+    written = next((path for path in paths if path in mission.origins.values), picture.path)
+    return mission.origins.value(written)
+
+
+def of_source(mission: MissionIR, picture: Picture, fault: SourceFault) -> Diagnostic:
+    """Return what is wrong with a source."""
+    label = place_of(mission, picture, fault.key)
+    return Diagnostic(fault.code, fault.message, (label,), fault.notes, fault.help)
+
+
+def no_points(mission: MissionIR, picture: Picture) -> Diagnostic:
+    """Say that there is nothing to fill that way."""
+    flat = isinstance(picture.source, Lettering | Drawing)
+    help_ = "use `fill: surface`" if picture.fill == "volume" else "use `fill: volume`"
+    if flat or picture.fill == "surface":
+        help_ = "use `fill: outline`" if flat and picture.fill != "outline" else "draw something else"
+    elif picture.fill == "outline":
+        help_ = "use `fill: surface`"
+    label = mission.origins.value((*picture.path, "fill"))
+    name = KEYS[type(picture.source)]
+    what = {"volume": "inside", "surface": "surface", "outline": "edges"}[picture.fill]
+    note = f"`fill: {picture.fill}` puts drones along the {what}"
+    return Diagnostic("D060", f"this {name} has no {what} to stand in", (label,), (note,), help_)
+
+
+def too_few_points(mission: MissionIR, picture: Picture, points: int, number: int) -> Diagnostic:
+    """Say that a point cloud is too thin."""
+    message = f"a point cloud of {points} points cannot show {number} drones"
+    help_ = f"give a denser cloud or a mesh, or at most {points} drones"
+    return Diagnostic("D061", message, (place_of(mission, picture, "files"),), (), help_)
+
+
+def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> Diagnostic:
+    """Say that the audience is in the picture."""
+    labels = (
+        mission.origins.value((*display.path, "viewpoint")),
+        place_of(mission, picture)._replace(text="the picture"),
+    )
+    return Diagnostic(
+        "D059",
+        "the viewpoint is inside the picture",
+        labels,
+        ("there is no line of sight to a picture from within",),
+        "move the `viewpoint` to where the audience is, or leave it out",
+    )
+
+
+def too_many(mission: MissionIR, fleet: Fleet, picture: Picture, fit: Fit, points: Array) -> Diagnostic:
+    """Say that a fleet does not fit into a picture, how many would, and what else would do."""
+    apart, factor = fleet.apart, 1.0 / fit.share
+    note = (
+        f"so that drones can pass each other between pictures, goals are {spacing(apart):.2f} m apart on a "
+        f"level and {spacing(apart) / stretch(apart):.2f} m one above the other"
+    )
+    ways = [f"use about {fit.number} drones", _larger(picture, factor, points)]
+    level, upright = (fit.share * full - apart.margin for full in (apart.across, apart.upright))
+    if level > 2.0 * fleet.radius:
+        ways.append(f"keep a `separation` of {_down(level)} m, {_down(upright)} m vertically")
+    message = f"{len(fleet.pads)} drones do not fit into the picture; about {fit.number} would"
+    labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
+    return Diagnostic("D056", message, labels, (note,), ", or ".join(ways))
+
+
+def too_few(mission: MissionIR, fleet: Fleet, picture: Picture, body: Body) -> Diagnostic | None:
+    """Warn of a fleet that is too small for what it draws."""
+    number = len(fleet.pads)
+    label = (place_of(mission, picture),)
+    if isinstance(picture.source, Lettering) and isinstance(body, FlatBody):
+        strokes = body.outlines * (1.0 if picture.fill == "outline" else 0.5)
+        step = picture.source.height / (DOTS - 1)
+        needed = ceil(strokes / step)
+        if number >= needed:
+            return None
+        note = (
+            f"its strokes are {strokes:.0f} m long, so its lights are {strokes / number:.1f} m apart; "
+            f"letters {picture.source.height:.4g} m high need one every {step:.1f} m"
+        )
+        message = f"{number} drones are too few to read `{picture.source.text[:40]}`"
+        return Diagnostic("D057", message, label, (note,), f"use {needed} drones or more, or fewer letters")
+    if number >= FEWEST:
+        return None
+    note = f"fewer than {FEWEST} lights look alike, whatever they show"
+    drones = "drone is" if number == 1 else "drones are"
+    message = f"{number} {drones} too few to show a shape"
+    return Diagnostic("D057", message, label, (note,), f"use {FEWEST} drones or more")
+
+
+def in_the_way(
+    mission: MissionIR, fleet: Fleet, picture: Picture, frames: Sequence[Array], room: Room
+) -> list[Diagnostic]:
+    """Return one fault for each obstacle in which goals of a picture's frames are, and for the ground."""
+    goals = np.concatenate(frames)
+    if not (room.lack(goals) > ROUNDING).any():
+        return []
+    shift = least_shift(goals, room)
+    help_ = "make the picture smaller, or place it elsewhere" if shift is None else _moved(picture, shift)
+    label = place_of(mission, picture, "center")
+    found: list[Diagnostic] = []
+    low = float(goals[:, 2].min())
+    if low < room.lowest - ROUNDING:
+        count = int((goals[:, 2] < room.lowest - ROUNDING).sum()) // len(frames) or 1
+        note = (
+            f"its lowest goal is {low:.2f} m up; `rules.ground_clearance` and the body radius of "
+            f"{fleet.radius:.2f} m ask for {room.lowest:.2f} m"
+        )
+        message = f"the picture is too low: {_of(count, fleet)}"
+        found.append(Diagnostic("D058", message, (label,), (note,), help_))
+    for obstacle in room.obstacles:
+        found += _at_obstacle(obstacle, goals, (mission, fleet, label, help_, len(frames)))
+    return found
+
+
+def _at_obstacle(
+    obstacle: Obstacle, goals: Array, about: tuple[MissionIR, Fleet, Label, str, int]
+) -> list[Diagnostic]:
+    mission, fleet, label, help_, frames = about
+    lack = lack_of(obstacle, goals)
+    if not (lack > ROUNDING).any():
+        return []
+    worst = goals[int(lack.argmax())]
+    place = (float(worst[0]), float(worst[1]), float(worst[2]))
+    count = int((lack > ROUNDING).sum()) // frames or 1
+    message = f"the picture {obstacle.relation(place)}: {_of(count, fleet)}"
+    note = f"the worst is at [{place[0]:.2f}, {place[1]:.2f}, {place[2]:.2f}]: "
+    labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
+    return [Diagnostic("D058", message, labels, (note + obstacle.measure(place, fleet.radius),), help_)]
+
+
+def _of(count: int, fleet: Fleet) -> str:
+    return f"{count} of {len(fleet.pads)} goals"
+
+
+def _moved(picture: Picture, shift: Array) -> str:
+    words = ", ".join(f"{c + 0.0:.2f}" for c in shift)
+    centre = picture.source.centre
+    if centre is None:
+        return f"shift it by [{words}]"
+    to = ", ".join(f"{c + d + 0.0:.2f}" for c, d in zip(centre, shift, strict=True))
+    return f"shift it by [{words}], to `center: [{to}]`"
+
+
+def _larger(picture: Picture, factor: float, points: Array) -> str:
+    source = picture.source
+    if isinstance(source, Sphere):
+        sizes = f"radius: {_up(source.radius * factor)}"
+    elif isinstance(source, Box):
+        sizes = f"size: [{', '.join(_up(s * factor) for s in source.size)}]"
+    elif isinstance(source, Torus):
+        sizes = f"radius: {_up(source.radius * factor)}, tube: {_up(source.tube * factor)}"
+    elif isinstance(source, Model) and source.height is None:
+        sizes = f"height: {_up(float(np.ptp(points[:, 2])) * factor)}"
+    else:
+        assert source.height is not None
+        sizes = f"height: {_up(source.height * factor)}"
+    return f"make it {_up(factor, 2)} times as large (`{sizes}`)"
+
+
+def _up(value: float, digits: int = 1) -> str:
+    return f"{ceil(value * 10**digits - 1e-6) / 10**digits:.{digits}f}"
+
+
+def _down(value: float) -> str:
+    return f"{np.floor(value * 100.0 + 1e-6) / 100.0:.2f}"

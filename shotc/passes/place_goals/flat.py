@@ -1,0 +1,106 @@
+"""Flat pictures that stand upright: polygons that are filled, and lines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.columns import Columns, Spans, columns_below, drawn, spans, through_edges, united, volume
+from shotc.ir.fleet import Colors
+from shotc.passes.place_goals.body import Fill, upright_axes
+
+COLUMNS = 0.25
+"""Columns drawn for each point: most of them carry several, and thin strokes are hit often enough."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shape:
+    """A part of a flat picture.
+
+    edges : shape (E, 2, 2), from (right, up) to (right, up), metres from the picture's middle
+    filled : whether its inside is seen; parity : whether that is what an odd number of edges is round
+    width : of its lines, metres, which are drawn with the fills where it has no inside to be seen
+    """
+
+    edges: Array
+    filled: bool
+    parity: bool
+    width: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FlatBody:
+    """Shapes in the upright plane that is seen by who looks along a heading; axes as in ``upright_axes``."""
+
+    shapes: tuple[Shape, ...]
+    centre: Array
+    axes: Array
+
+    def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
+        """Return points of the filled areas, or of the edges."""
+        lines = [s for s in self.shapes if fill == "outline" or not s.filled]
+        edges = np.concatenate([s.edges for s in lines]) if lines else np.zeros((0, 2, 2))
+        if fill == "outline":
+            return self._standing(_along(edges, count, rng))
+        columns, inside = self._inside(count, rng)
+        area = volume(columns, inside)
+        strokes = float(sum(_lengths(s.edges).sum() * s.width for s in lines))
+        on_lines = round(count * strokes / (area + strokes)) if area + strokes > 0 else 0
+        parts = [_along(edges, on_lines, rng)] if on_lines else []
+        if count > on_lines and len(inside.low):
+            parts.append(drawn(columns, inside, count - on_lines, rng))
+        return self._standing(np.concatenate(parts)) if parts else None
+
+    def encloses(self, place: Array) -> bool:
+        """Return no: it has no inside."""
+        return False
+
+    def colors(self, places: Array) -> Colors | None:
+        """Return none: the mission says."""
+        return None
+
+    @property
+    def outlines(self) -> float:
+        """Length of all edges, metres."""
+        return float(sum(_lengths(s.edges).sum() for s in self.shapes))
+
+    def _inside(self, count: int, rng: np.random.Generator) -> tuple[Columns, Spans]:
+        corners = np.concatenate([s.edges.reshape(-1, 2) for s in self.shapes])
+        low, high = corners[:, :1].min(axis=0), corners[:, :1].max(axis=0)
+        columns = columns_below(low, high, max(50, round(COLUMNS * count)), rng)
+        found = [spans(through_edges(columns, s.edges), s.parity) for s in self.shapes if s.filled]
+        return columns, united(found)
+
+    def _standing(self, flat: Array) -> Array:
+        return np.asarray(self.centre + flat[:, :1] * self.axes[0] + flat[:, 1:] * self.axes[2])
+
+
+def standing(shapes: Sequence[Shape], centre: Sequence[float], heading: float) -> FlatBody:
+    """Return shapes in their place; centre : p_W of their middle, heading : of who reads them, rad."""
+    return FlatBody(tuple(shapes), np.array(centre), upright_axes(heading))
+
+
+def closed(corners: Array) -> Array:
+    """Return the edges (E, 2, 2) of a closed polygon of corners (E, 2)."""
+    return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+
+
+def chain(corners: Array) -> Array:
+    """Return the edges (E, 2, 2) of a line through corners (E + 1, 2)."""
+    return np.stack([corners[:-1], corners[1:]], axis=1)
+
+
+def _lengths(edges: Array) -> Array:
+    return np.asarray(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1))
+
+
+def _along(edges: Array, count: int, rng: np.random.Generator) -> Array:
+    ends = np.cumsum(_lengths(edges))
+    place = (np.arange(count) + rng.random(count)) / count * ends[-1]
+    k = np.minimum(np.searchsorted(ends, place, side="right"), len(ends) - 1)
+    length = np.maximum(ends[k] - np.concatenate([[0.0], ends])[k], 1e-300)
+    share = 1.0 - (ends[k] - place) / length
+    return np.asarray(edges[k, 0] + share[:, None] * (edges[k, 1] - edges[k, 0]))

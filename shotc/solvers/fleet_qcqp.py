@@ -1,0 +1,335 @@
+"""The quadratic programme of *display*, Sec. IV, for a whole fleet: the nearest splines that keep the limits.
+
+Of each drone the integral of the squared distance to the wanted spline is least (Eq. 7, 8) among splines
+with the same first and last three control points whose velocity, acceleration and jerk have all their
+control points within the limits, so that these hold for all t. The paper bounds the velocity at k samples of
+a piece (Eq. 11), which lets it pass between them, and the acceleration axis by axis (Eq. 9).
+
+Alternating directions (ADMM; Boyd et al. 2011, over-relaxed as in Sec. 3.4.3, a step length for each drone
+from a fixed set, so that few matrices are inverted): the quadratic part is one dense matrix for all drones
+and axes, and the rest are projections onto balls, discs and intervals. Whoever keeps the limits already is
+left alone; whoever it is too slow for is solved by Clarabel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE, differences, knots
+from shotc.ir.limits import Limits
+from shotc.solvers.cone_rows import ConeRows, Term
+from shotc.solvers.conic import Status
+
+Index = NDArray[np.intp]
+
+FIXED = 3
+"""Control points at each end that stay."""
+
+SHARE = 0.9995
+"""Share of the limits that the iteration aims at: its last violation, ``EXACT`` of it, then breaks none."""
+
+EXACT = 4e-4
+STATIONARY = 5e-4
+"""Largest share of the objective's slope that may be left."""
+
+RELAXATION = 1.7
+STEPS = 4.0 ** np.arange(-5, 6)
+"""Step lengths relative to the mean curvature of the objective over that of the rows."""
+
+ROUND = 20
+"""Iterations between two looks at the residuals."""
+
+ROUNDS = 60
+BLOCK = 128
+"""Drones solved together: their rows fit the processor's cache."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """What the control points of the derivatives keep; per_axis : bound each axis' acceleration (Eq. 9)."""
+
+    limits: Limits
+    per_axis: bool = False
+
+    def scaled(self, factor: float) -> Bounds:
+        """Return all bounds times a factor."""
+        motion = self.limits
+        return replace(
+            self,
+            limits=motion._replace(
+                speed=motion.speed * factor,
+                climb=motion.climb * factor,
+                descent=motion.descent * factor,
+                acceleration=motion.acceleration * factor,
+                jerk=motion.jerk * factor,
+            ),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bounded:
+    """What came of a fleet.
+
+    coef : control points, shape (n, K, 3); failed : rows for which there is no spline within the limits
+    changed : how many drones were not left alone; iterations : of the slowest
+    exact : how many Clarabel solved
+    """
+
+    coef: Array
+    failed: Index
+    changed: int
+    iterations: int
+    exact: int
+
+
+def overdraft(breaks: Array, coef: Array, bounds: Bounds) -> Array:
+    """Return by which share each drone exceeds its limits, at the control points, shape (n,); 0 if none."""
+    worst = np.zeros(len(coef))
+    for order in (1, 2, 3):
+        values = np.matmul(differences(breaks, order), coef)
+        worst = np.maximum(worst, _excess(values, order, bounds).max(axis=1, initial=0.0))
+    return worst
+
+
+def bounded(breaks: Array, wanted: Array, bounds: Bounds) -> Bounded:
+    """Return for every drone the nearest spline within its bounds.
+
+    breaks : shape (P + 1,); wanted : shape (n, P + 3, 3)
+    Drones within the bounds are returned as they are, bit for bit.
+    """
+    bad = np.flatnonzero(overdraft(breaks, wanted, bounds) > 0.0)
+    coef, failed, exact, most = wanted.copy(), [], 0, 0
+    if not len(bad):
+        return Bounded(coef, bad, 0, 0, 0)
+    programme = Programme(breaks, bounds.scaled(SHARE))
+    for at in range(0, len(bad), BLOCK):
+        rows = bad[at : at + BLOCK]
+        coef[rows], done, iterations = programme.solve(wanted[rows])
+        most = max(most, iterations)
+        for row in rows[~done | (overdraft(breaks, coef[rows], bounds) > 0.0)]:
+            exact += 1
+            solved = programme.solve_exactly(wanted[row])
+            if solved is None or overdraft(breaks, solved[None], bounds)[0] > 0.0:
+                failed.append(int(row))
+                solved = wanted[row]
+            coef[row] = solved
+    return Bounded(coef, np.array(failed, dtype=np.intp), len(bad), most, exact)
+
+
+def deviation(breaks: Array) -> Array:
+    """Return the matrix of Eq. 8: x.W.x is the integral of the squared spline, shape (P + 3, P + 3)."""
+    t = knots(breaks)
+    nodes, weights = np.polynomial.legendre.leggauss(DEGREE + 1)  # exact for degree 6
+    half = np.diff(breaks)[:, None] / 2.0
+    at = (breaks[:-1, None] + half * (1.0 + nodes)).ravel()
+    from scipy.interpolate import BSpline
+
+    basis = BSpline.design_matrix(at, t, DEGREE).toarray()
+    return np.asarray((basis * (half * weights).ravel()[:, None]).T @ basis)
+
+
+def _excess(values: Array, order: int, bounds: Bounds) -> Array:
+    """Return how far derivatives of shape (n, R, 3) are beyond their limits, as a share of these, (n, R)."""
+    limits = bounds.limits
+    if order == 1:
+        across = np.hypot(values[..., 0], values[..., 1]) / limits.speed
+        up, down = values[..., 2] / limits.climb, -values[..., 2] / limits.descent
+        return np.asarray(np.maximum(across, np.maximum(up, down)) - 1.0)
+    if order == 2 and bounds.per_axis:
+        return np.asarray(np.abs(values).max(axis=-1) / limits.acceleration - 1.0)
+    limit = limits.acceleration if order == 2 else limits.jerk
+    return np.asarray(np.sqrt(np.einsum("nrd,nrd->nr", values, values)) / limit - 1.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Rows:
+    """Rows of one derivative; scale : by which each is multiplied to be of length 1, shape (R,)."""
+
+    order: int
+    span: slice
+    scale: Array
+
+
+class Programme:
+    """What all drones over the same breaks share."""
+
+    def __init__(self, breaks: Array, bounds: Bounds) -> None:
+        self.bounds = bounds
+        weight = deviation(breaks)
+        self.curvature = float(np.trace(weight) / len(weight))
+        self.weight = weight / self.curvature
+        blocks, self.rows, at = [], [], 0
+        for order in (1, 2, 3):
+            matrix = differences(breaks, order)
+            scale = 1.0 / np.linalg.norm(matrix[:, FIXED:-FIXED], axis=1).clip(1e-12)
+            touched = np.flatnonzero(np.abs(matrix[:, FIXED:-FIXED]).max(axis=1) > 0.0)
+            blocks.append(matrix[touched] * scale[touched, None])
+            self.rows.append(_Rows(order, slice(at, at + len(touched)), scale[touched]))
+            at += len(touched)
+        whole = np.concatenate(blocks)
+        self.dense = whole
+        self.free = csr_array(whole[:, FIXED:-FIXED])
+        self.back = csr_array(whole[:, FIXED:-FIXED].T)
+        self.ends = csr_array(np.concatenate([whole[:, :FIXED], whole[:, -FIXED:]], axis=1))
+        self.inner = self.weight[FIXED:-FIXED, FIXED:-FIXED]
+        gram = np.asarray(whole[:, FIXED:-FIXED].T @ whole[:, FIXED:-FIXED])
+        self.steps = STEPS * float(np.trace(self.inner) / np.trace(gram))
+        self.inverses = [np.linalg.inv(self.inner + step * gram) for step in self.steps]
+
+    def solve(self, wanted: Array) -> tuple[Array, NDArray[np.bool_], int]:
+        """Return control points near the optimum, which drones got there, and the slowest's iterations."""
+        state = _State.of(self, wanted)
+        done = np.zeros(len(wanted), dtype=bool)
+        result, active, rounds = wanted.copy(), np.arange(len(wanted)), 0
+        levels = np.full(len(wanted), len(STEPS) // 2)
+        while len(active) and rounds < ROUNDS:
+            rounds += 1
+            for level in np.unique(levels[active]):
+                some = active[levels[active] == level]
+                primal, dual = state.iterate(some, int(level))
+                finished = (primal < 1.0) & (dual < 1.0)
+                done[some[finished]] = True
+                ratio = np.sqrt(primal.clip(1e-3) / dual.clip(1e-3))
+                change = np.rint(np.log(ratio) / np.log(STEPS[1] / STEPS[0])).astype(int)
+                levels[some] = np.clip(level + change, 0, len(STEPS) - 1)
+            active = np.flatnonzero(~done)
+        result[:, FIXED:-FIXED] = state.points()
+        return result, done, rounds * ROUND
+
+    def solve_exactly(self, wanted: Array) -> Array | None:
+        """Return one drone's optimum, shape (K, 3), by an interior-point method; None if there is none."""
+        root = np.linalg.cholesky(self.inner + 1e-12 * np.eye(len(self.inner)))
+        count = len(root)
+        # Unknowns: the shifts of all free points, axis by axis, and as many roots of the objective.
+        rows = ConeRows(6 * count)
+        for axis in range(3):
+            terms: list[Term] = [
+                (np.full(count, 3 * count + axis * count) + np.arange(count), np.full(count, -1.0))
+            ]
+            terms += [(np.full(count, axis * count + k), root[k]) for k in range(count)]
+            rows.zero(terms)
+        base = self.dense @ wanted
+        for part in self.rows:
+            self._cones(rows, part, base[part.span])
+        cost = np.zeros(6 * count)
+        squares = np.concatenate([np.zeros(3 * count), np.ones(3 * count)])
+        status, x = rows.solve(cost, 1e-9, squares)
+        if status is not Status.SOLVED:
+            return None
+        result = wanted.copy()
+        result[FIXED:-FIXED] += x[: 3 * count].reshape(3, count).T
+        return result
+
+    def _cones(self, rows: ConeRows, part: _Rows, base: Array) -> None:
+        limits, matrix = self.bounds.limits, self.dense[part.span, FIXED:-FIXED]
+        count = matrix.shape[1]
+
+        def entry(axis: int, sign: float = 1.0) -> list[Term]:
+            size = len(matrix)
+            return [(np.full(size, axis * count + k), sign * matrix[:, k]) for k in range(count)]
+
+        if part.order == 1:
+            rows.second_order(limits.speed * part.scale, [[], entry(0), entry(1)], [base[:, 0], base[:, 1]])
+            rows.positive(limits.climb * part.scale - base[:, 2], entry(2, -1.0))
+            rows.positive(limits.descent * part.scale + base[:, 2], entry(2))
+        elif part.order == 2 and self.bounds.per_axis:
+            for axis in range(3):
+                rows.positive(limits.acceleration * part.scale - base[:, axis], entry(axis, -1.0))
+                rows.positive(limits.acceleration * part.scale + base[:, axis], entry(axis))
+        else:
+            limit = limits.acceleration if part.order == 2 else limits.jerk
+            rest = [base[:, axis] for axis in range(3)]
+            rows.second_order(limit * part.scale, [[], *(entry(axis) for axis in range(3))], rest)
+
+    def project(self, values: Array) -> Array:
+        """Return the nearest rows within the bounds; values : shape (R, n, 3), changed in place."""
+        for part in self.rows:
+            _project(values[part.span], part, self.bounds)
+        return values
+
+
+def _project(values: Array, part: _Rows, bounds: Bounds) -> None:
+    limits, scale = bounds.limits, part.scale[:, None]
+    if part.order == 1:
+        across = np.hypot(values[..., 0], values[..., 1])
+        values[..., :2] *= np.minimum(1.0, limits.speed * scale / np.maximum(across, 1e-300))[..., None]
+        np.clip(values[..., 2], -limits.descent * scale, limits.climb * scale, out=values[..., 2])
+    elif part.order == 2 and bounds.per_axis:
+        ceiling = (limits.acceleration * scale)[..., None]
+        np.clip(values, -ceiling, ceiling, out=values)
+    else:
+        limit = (limits.acceleration if part.order == 2 else limits.jerk) * scale
+        far = np.sqrt(np.einsum("rnd,rnd->rn", values, values))
+        values *= np.minimum(1.0, limit / np.maximum(far, 1e-300))[..., None]
+
+
+@dataclass(slots=True, eq=False)
+class _State:
+    """The iterates of a block of drones: x (free points), z and u (rows), the drones on the middle axis."""
+
+    programme: Programme
+    base: Array
+    pull: Array
+    wanted: Array
+    x: Array
+    z: Array
+    u: Array
+
+    @staticmethod
+    def of(programme: Programme, wanted: Array) -> _State:
+        """Begin at the wanted splines; wanted : shape (n, K, 3)."""
+        flat = np.ascontiguousarray(np.moveaxis(wanted, 1, 0))
+        count = len(wanted)
+        ends = np.concatenate([flat[:FIXED], flat[-FIXED:]]).reshape(2 * FIXED, -1)
+        base = (programme.ends @ ends).reshape(-1, count, 3)
+        inner = flat[FIXED:-FIXED]
+        pull = (programme.inner @ inner.reshape(len(inner), -1)).reshape(inner.shape)
+        rows = (programme.free @ inner.reshape(len(inner), -1)).reshape(base.shape) + base
+        return _State(
+            programme, base, pull, inner, inner.copy(), programme.project(rows), np.zeros_like(base)
+        )
+
+    def points(self) -> Array:
+        """Return the free control points, shape (n, K - 6, 3)."""
+        return np.asarray(np.moveaxis(self.x, 0, 1))
+
+    def iterate(self, some: Index, level: int) -> tuple[Array, Array]:
+        """Iterate for some drones; return their residuals, feasible and stationary below 1, shape (m,) each.
+
+        u : multipliers of the rows, not scaled by the step, so that drones may change theirs
+        """
+        p, step, inverse = self.programme, self.programme.steps[level], self.programme.inverses[level]
+        base, pull, z = self.base[:, some], self.pull[:, some], self.z[:, some]
+        u = self.u[:, some] / step
+        shape, flat = pull.shape, (len(pull), -1)
+        for _ in range(ROUND):
+            right = (p.back @ (z - u - base).reshape(len(z), -1)).reshape(shape)
+            x = (inverse @ (pull + step * right).reshape(flat)).reshape(shape)
+            rows = (p.free @ x.reshape(flat)).reshape(base.shape) + base
+            relaxed = RELAXATION * rows + (1.0 - RELAXATION) * z
+            z = p.project(relaxed + u)
+            u += relaxed - z
+        self.x[:, some], self.z[:, some], self.u[:, some] = x, z, u * step
+        return self._violation(rows), self._slope(x, u * step, some)
+
+    def _violation(self, rows: Array) -> Array:
+        worst = np.full(rows.shape[1], -1.0)
+        for part in self.programme.rows:
+            values = np.moveaxis(rows[part.span] / part.scale[:, None, None], 1, 0)
+            worst = np.maximum(
+                worst, _excess(values, part.order, self.programme.bounds).max(axis=1, initial=-1.0)
+            )
+        return worst / EXACT
+
+    def _slope(self, x: Array, forces: Array, some: Index) -> Array:
+        flat = (len(x), -1)
+        slope = (self.programme.inner @ (x - self.wanted[:, some]).reshape(flat)).reshape(x.shape)
+        left = slope + (self.programme.back @ forces.reshape(len(forces), -1)).reshape(x.shape)
+        size = np.sqrt(np.einsum("knd,knd->n", slope, slope))
+        rest = np.sqrt(np.einsum("knd,knd->n", left, left))
+        return np.asarray(rest / (STATIONARY * np.maximum(size, 1e-9)))
