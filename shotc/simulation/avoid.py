@@ -17,9 +17,11 @@ from shotc.geom.bernstein import Array
 NEIGHBOURS = 15
 """Nearest drones that one looks at."""
 SIGHT = 8.0
-"""Metres within which it looks for them, beyond what two at full speed close within the horizon."""
-HORIZON = 2.0
-"""Seconds ahead for which what is flown is free of conflict."""
+"""Metres within which it looks for them: two at 3.5 m/s close 7 m within the horizon."""
+HORIZON = 1.0
+"""Seconds ahead for which what is flown is free of conflict.
+
+Who looks farther gives way to those who are about to turn off anyhow, and strays by metres."""
 
 
 @dataclass(slots=True, eq=False)

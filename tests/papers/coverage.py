@@ -68,9 +68,9 @@ def table() -> Table:
             f"{POINTS} points drawn in each body, mean of {len(SEEDS)} seeds; c is the paper's c-bar; seen "
             "from afar along x, human and rhino from the side. The human is made of capsules, the rhino of "
             "ellipsoids and capsules of our own.",
-            "The paper states neither its goals' number for this table, nor points, scale or the power of ten. "
-            "Its ratios are therefore no goal. That the cost in the view falls and that in 3D rises with less "
-            "weight is one, and so is that the view gains more than 3D loses.",
+            "The paper states neither its goals' number for this table, nor points, scale or the power of "
+            "ten. Its ratios are therefore no goal. That the cost in the view falls and that in 3D rises "
+            "with less weight is one, and so is that the view gains more than 3D loses.",
         ),
     )  # fmt: skip
 

@@ -10,6 +10,11 @@ from collections.abc import Callable
 from tests.papers import coverage, crossing, following, limited
 from tests.papers.report import Section, Table
 
+FACTS = (
+    "`python -m tests.papers --only display` runs these tables alone",
+    "splines are those of Eq. 4 with the goals for control points, both ends three times; c is the paper's "
+    "c-bar",
+)
 TABLES: dict[str, Callable[[], Table]] = {
     "goals": coverage.table,
     "splines, sampled": limited.sampled_table,
@@ -28,4 +33,4 @@ def section(say: Callable[[str], None]) -> Section:
     for name, table in TABLES.items():
         say(f"display: {name}")
         tables.append(table())
-    return Section("Fleets that draw", tuple(tables))
+    return Section("Fleets that draw", tuple(tables), FACTS)

@@ -60,12 +60,12 @@ def squares_table() -> Table:
         ("side, speed", "no feed-forward", f"K_ff = {Gains().forward:g} s", "K_ff, gusts"),
         tuple(rows),
         (
-            "20 s from rest to rest, drawn within the paper's limits (at 15 m this cuts the corners); against "
-            "the place at the same time. The vehicle's velocity lags by 0.3 s and its acceleration by 0.15 s, "
-            f"4 m/s^2 and {SPEED:g} m/s at most; a command every 0.05 s.",
-            f"K_at and K_ct are {Gains().along[0]:g} 1/s and {Gains().along[1]:g}, without look-ahead. Gusts: 30 "
-            f"drones, a velocity of {GUSTS.deviation:g} m/s (standard deviation of each axis), correlated over "
-            f"{GUSTS.memory:g} s.",
+            "20 s from rest to rest, drawn within the paper's limits (at 15 m this cuts the corners); "
+            "against the place at the same time. The vehicle's velocity lags by 0.3 s and its acceleration "
+            f"by 0.15 s, 4 m/s^2 and {SPEED:g} m/s at most; a command every 0.05 s.",
+            f"K_at and K_ct are {Gains().along[0]:g} 1/s and {Gains().along[1]:g}, without look-ahead. "
+            f"Gusts: 30 drones, a velocity of {GUSTS.deviation:g} m/s (standard deviation of each axis), "
+            f"correlated over {GUSTS.memory:g} s.",
             "The paper states none of these; it shows Fig. 6.",
         ),
     )
@@ -98,8 +98,7 @@ def corners_table() -> Table:
         ):
             flown = fly(breaks, coef, Conditions(gains=gains))
             dips = [
-                _dips(flown, of)
-                for of in (_speeds(breaks, coef, flown), flown.preferred[0], flown.velocity[0])
+                dip(flown, of) for of in (_speeds(breaks, coef, flown), flown.preferred[0], flown.velocity[0])
             ]
             least = [f"{d[1]:.2f}" for d in dips]
             shift = [f"{d[0] - dips[0][0]:+.2f}" for d in dips[1:]]
@@ -110,12 +109,12 @@ def corners_table() -> Table:
     assert drawn is not None
     return Table(
         f"{SWARM} drones show a ball that goes round a square (Fig. 5 and 6): how speed dips at a corner",
-        ("side", "path's speed, m/s", "preferred", "flown", "preferred dips after path's, s", "flown dips after path's, s",
-         "nearest proved, m", "nearest flown, m"),
+        ("side", "path's speed, m/s", "preferred", "flown", "preferred dips after path's, s",
+         "flown dips after path's, s", "nearest proved, m", "nearest flown, m"),
         tuple(rows),
         (
-            "20 s, c = 0.5; means over the three corners, of the first drone. As in Fig. 6, what the controller "
-            "prefers dips before the path does.",
+            "20 s, c = 0.5; means over the three corners, of the first drone. As in Fig. 6, what the "
+            "controller prefers dips before the path does.",
             "Nearest in the metric of the paper's drones, 0.7 m across and 0.8 m upright.",
         ),
         _square_drawn(*drawn),
@@ -126,7 +125,7 @@ def _speeds(breaks: Array, coef: Array, flown: Flown) -> Array:
     return places(breaks, coef[:1], flown.times, 1)[0]
 
 
-def _dips(flown: Flown, velocity: Array) -> tuple[float, float]:
+def dip(flown: Flown, velocity: Array) -> tuple[float, float]:
     """Return when the speed is least about a corner, s after the corner's own time, and how little; means."""
     found = []
     for corner in (5.0, 10.0, 15.0):
@@ -174,12 +173,13 @@ def stranding_table() -> Table:
         ("turn", "as printed", "cured", "as printed, gusts", "cured, gusts"),
         tuple(rows),
         (
-            "12 m out at 2 m/s, a hold, and 12 m away at an angle to the way that was flown; 30 drones in the gusts.",
-            "A drone that waits where the path turns has the incoming way's end for its nearest point: the common "
-            "point leaves across that tangent, neither error sees it go, and the drone stands for good. Where the "
-            "path comes back, the nearest point of the whole of it may be on the way out.",
-            "The cure looks for the nearest point within 0.5 s of the common time only; where the path stands its "
-            "tangent is the direction to the common point.",
+            "12 m out at 2 m/s, a hold, and 12 m away at an angle to the way that was flown; 30 drones in "
+            "the gusts.",
+            "A drone that waits where the path turns has the incoming way's end for its nearest point: the "
+            "common point leaves across that tangent, neither error sees it go, and the drone stands for "
+            "good. Where the path comes back, the nearest point of the whole of it may be on the way out.",
+            "The cure looks for the nearest point within 0.5 s of the common time only; where the path "
+            "stands its tangent is the direction to the common point.",
         ),
     )
 
@@ -216,12 +216,12 @@ def human_table() -> Table:
         ((f"{frames}, a second apart", f"{int(np.sum(shift > 0.01))}", f"{shift.max():.2f}",
           *(f"{gap:.2f}" for gap in gaps), f"{near.distance:.2f}", _errors(flown)),),
         (
-            f"a human of capsules, {1.8 * scale:.1f} m tall, that goes 0.6 m/s; k-means of every frame from the "
-            "goals of the frame before, c = 0.5, least squares from frame to frame, the paper's programme for "
-            "each drone by itself.",
-            f"Neither k-means nor limits of each drone know of the others, who need 0.7 m: the paper leaves the "
-            f"rest to avoidance while flying. `plan` spaces the goals, and moves paths apart until it is proved. "
-            f"Limits: {SPEED:g} m/s, {ACCELERATION:g} m/s^2 along each axis.",
+            f"a human of capsules, {1.8 * scale:.1f} m tall, that goes 0.6 m/s; k-means of every frame "
+            "from the goals of the frame before, c = 0.5, least squares from frame to frame, the paper's "
+            "programme for each drone by itself.",
+            "Neither k-means nor limits of each drone know of the others, who need 0.7 m: the paper "
+            "leaves the rest to avoidance while flying. `plan` spaces the goals, and moves paths apart "
+            f"until it is proved. Limits: {SPEED:g} m/s, {ACCELERATION:g} m/s^2 along each axis.",
         ),
         _human_drawn(flown),
     )  # fmt: skip

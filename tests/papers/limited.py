@@ -121,11 +121,11 @@ def sampled_table() -> Table:
         ("bounded", "true maximum, m/s", "proved by control points, m/s", "deviation, over 64 samples"),
         tuple(row(samples) for samples in (*SAMPLED, None)),
         (
-            f"{WALKERS} random walks of {FRAMES} frames, a second and {STRIDE:g} m (standard deviation of each "
-            f"axis) apart, faster than the limits; {ACCELERATION:g} m/s^2 along each axis (Eq. 9), held at the "
-            "breaks, which is exact.",
-            "Samples do not bound what lies between them. `plan` bounds the control points, in whose hull the "
-            "velocity lies at every instant; the last column is what that costs.",
+            f"{WALKERS} random walks of {FRAMES} frames, a second and {STRIDE:g} m (standard deviation of "
+            f"each axis) apart, faster than the limits; {ACCELERATION:g} m/s^2 along each axis (Eq. 9), "
+            "held at the breaks, which is exact.",
+            "Samples do not bound what lies between them. `plan` bounds the control points, in whose hull "
+            "the velocity lies at every instant; the last column is what that costs.",
         ),
     )
 
@@ -157,7 +157,8 @@ def speeds_table() -> Table:
         (
             f"a polygon of {len(ZIGZAG)} points a second apart, with turns of 45, 90 and 135 deg; at most "
             f"{ACCELERATION:g} m/s^2 along each axis; before and after; control points are bounded",
-            "The points move in space and not in time, so what is too fast cuts its corners and stays in step.",
+            "The points move in space and not in time, so what is too fast cuts its corners and stays in "
+            "step.",
         ),
         _drawn(drawn),
     )
