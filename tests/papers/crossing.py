@@ -78,8 +78,8 @@ def table() -> Table:
             f"controller. Avoidance: ORCA (RVO2-3D) in the stretched metric, told {ROOM:g} m more than is "
             "needed, measured velocities, a command every 0.05 s. The paper's avoidance knows the "
             "vehicle's dynamics and was not available.",
-            "Proved: of the planned splines at every instant, with the margin in it. Both need gusts to be "
-            "less than what the margin leaves: it has to hold twice the error.",
+            "Proved: of the planned splines at every instant. A margin of twice the largest error holds "
+            "against any gusts; less is often enough, for two seldom stray towards each other at once.",
             "A lagged vehicle that avoids leaves its picture by metres and keeps no distance in a crowd. "
             "On a plan that is proved there is nothing left to avoid.",
         ),

@@ -9,8 +9,10 @@ from shotc.geom.apart import stretch
 from shotc.geom.fleet_spline import differences, places
 from shotc.geom.push_apart import nearest_pair
 from shotc.geom.separation import closest
+from shotc.ir.limits import Limits
 from shotc.simulation.fly import Conditions, fly
 from shotc.simulation.vehicle import Vehicle
+from shotc.solvers.fleet_qcqp import Bounds, bounded, deviation
 from tests.papers import bodies, coverage, crossing, following, limited
 
 
@@ -51,6 +53,18 @@ def test_samples_do_not_bound_what_lies_between():
 def test_the_square_at_three_metres_a_second_is_followed_within_six_centimetres():
     breaks, coef = following.limited_square(15.0)
     assert fly(breaks, coef[None], Conditions()).rmse <= 0.06
+
+
+def test_the_solver_of_plan_finds_what_the_papers_programme_finds():
+    # In a plane, for plan bounds horizontal and vertical speed apart.
+    walk = np.cumsum(np.random.default_rng(2).normal(0.0, 2.0, (20, 3)) * [1.0, 1.0, 0.0], axis=0)
+    breaks, asked = limited.control_points(walk)
+    limits = Limits(limited.SPEED, 9.0, 9.0, limited.ACCELERATION, 1e3, 9.0, 9.0)
+    plan = bounded(breaks, asked[None], Bounds(limits, per_axis=True)).coef[0]
+    paper = limited.Limited(breaks).solver()(asked)
+    cost = [np.einsum("cd,ck,kd->", c - asked, deviation(breaks), c - asked) for c in (plan, paper)]
+    assert cost[0] == pytest.approx(cost[1], rel=5e-3)
+    assert np.abs(plan - paper).max() < 0.02
 
 
 def test_what_is_preferred_dips_before_the_path_does():
