@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import isfinite
 
-from shotc.cli.summary import clock
-from shotc.cli.table import table
+from shotc.cli.table import clock, table
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.numbers import measure, told_apart
 
@@ -36,7 +35,7 @@ def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
             f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-",
             worst if isfinite(claim.worst) else "-",
             "" if claim.time is None else clock(claim.time),
-            WAYS[claim.method],
+            WAYS[claim.method] + (f", {' and '.join(claim.drones)}" if claim.drones else ""),
         )
 
 

@@ -14,7 +14,7 @@ from shotc.cli.plans import proved
 from shotc.cli.table import table
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.numbers import measure
-from shotc.planfile.compare import Comparison, ShotChange, compare
+from shotc.planfile.compare import Comparison, FleetChange, ShotChange, compare
 
 Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the folder that holds it.")]
 New = Annotated[Path, typer.Argument(metavar="NEW", help="The plan to compare it with.")]
@@ -33,7 +33,11 @@ def diff(old: Old, new: New) -> None:
 
 
 def _lines(found: Comparison) -> Iterator[str]:
-    yield from table([("shot", "starts", "lasts", "camera apart"), *map(_shot, found.shots)])
+    if found.fleets:
+        yield from table([("fleet", "drones", "lasts"), *map(_fleet, found.fleets)])
+        yield ""
+    apart = "drones apart" if found.fleets else "camera apart"
+    yield from table([("shot", "starts", "lasts", apart), *map(_shot, found.shots)])
     rows = [row for change in found.claims if (row := _claim(change.old, change.new)) is not None]
     yield ""
     if rows:
@@ -48,6 +52,11 @@ def _shot(change: ShotChange) -> tuple[str, ...]:
         same = change.distance < CENTIMETRE
         apart = "same path" if same else f"{change.distance:.2f} m at {100 * change.share:.0f} %"
     return (change.shot, _seconds(change.start), _seconds(change.duration), apart)
+
+
+def _fleet(change: FleetChange) -> tuple[str, ...]:
+    drones = _arrow(*("none" if count is None else str(count) for count in change.drones))
+    return (change.fleet, drones, _seconds(change.lasts))
 
 
 def _seconds(pair: tuple[float | None, float | None]) -> str:

@@ -7,7 +7,8 @@ from math import degrees, isfinite
 from pathlib import Path
 from textwrap import wrap
 
-from shotc.cli.table import table
+from shotc.cli.fleet_summary import display_rows, headline, nearest
+from shotc.cli.table import clock, table
 from shotc.emit.screen import percent
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
@@ -20,14 +21,16 @@ LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
 
 def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> str:
     """Return the text that ``shotc plan`` ends with."""
-    mission = plan.trajectory.keyframes.mission
-    length = max(drone.curve.end for drone in plan.trajectory.drones)
+    ir, mission = plan.trajectory, plan.trajectory.keyframes.mission
+    length = max([*(track.curve.end for track in ir.drones), *(float(f.breaks[-1]) for f in ir.fleets)])
     shots = f"{len(mission.shots)} shot{'s' * (len(mission.shots) != 1)}"
+    if ir.fleets:
+        shots = headline(plan)
+    tables = [rows for rows in (shot_rows(plan) if ir.drones else [], display_rows(plan)) if rows]
     return "\n".join(
         [
             f"{mission.name}: {shots}, {clock(length)} in the air, planned and proved",
-            "",
-            *_indent(table(shot_rows(plan))),
+            *(line for rows in tables for line in ("", *_indent(table(rows)))),
             "",
             *_indent(line for name, text in _facts(plan, notes) for line in _paragraph(name, text)),
             "",
@@ -54,12 +57,6 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     return rows
 
 
-def clock(seconds: float) -> str:
-    """Write seconds as m:ss.s."""
-    minutes, rest = divmod(round(seconds, 1), 60)
-    return f"{int(minutes)}:{rest:04.1f}"
-
-
 def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
     claims = [c for c in certificate if c.shot == phase.shot]
 
@@ -81,7 +78,7 @@ def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
 def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
-    facts += [("drones", text) for text in _together(plan)]
+    facts += [("drones", text) for text in (*_together(plan), *nearest(plan))]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
     facts.append(
@@ -108,7 +105,8 @@ def _used(certificate: Iterable[Claim]) -> list[str]:
         scale, unit = (
             (degrees(1), most.unit.replace("rad", "deg")) if "rad" in most.unit else (1.0, most.unit)
         )
-        who = f" ({most.subject})" if several else ""
+        subject = (*most.drones, most.subject)[0]
+        who = f" ({subject})" if several or most.drones else ""
         texts.append(f"{name} {most.worst * scale:.3g} of {most.limit * scale:.3g} {unit}{who}")
     return texts
 
@@ -121,12 +119,13 @@ def _closest(certificate: Iterable[Claim]) -> list[str]:
         and not c.upper
         and isfinite(c.worst)
         and isfinite(c.limit)
-        and not c.constraint.startswith(APART)
+        and not c.constraint.startswith("separation")
         and not c.constraint.endswith(OUT)
     ]
     near.sort(key=lambda c: c.worst - c.limit)
     return [
         f"{c.worst:.2f} m, {c.limit:.2f} m needed: {c.constraint}"
+        + "".join(f" of {drone}" for drone in c.drones)
         + ("" if c.time is None else f" at {clock(c.time)}")
         for c in near[:2]
     ]
@@ -134,7 +133,7 @@ def _closest(certificate: Iterable[Claim]) -> list[str]:
 
 def _together(plan: VerifiedIR) -> list[str]:
     """Tell, where several drones fly, how near two of them come, and who is in whose picture."""
-    apart = [c for c in plan.certificate if c.constraint.startswith(APART)]
+    apart = [c for c in plan.certificate if c.constraint.startswith(APART) and not c.drones]
     if not apart:
         return []
     near = min(apart, key=lambda c: c.worst)

@@ -8,25 +8,23 @@ from math import isnan
 from typing import ClassVar
 
 import numpy as np
-import pymap3d
 
 from shotc.emit.base import Artifact, Emission
+from shotc.emit.fleet_rows import fleet_rows
+from shotc.emit.table_numbers import DEGREES, NUMBER, geodetic
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import GeoOrigin, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
-from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
-
-NUMBER = "%.9g"
-DEGREES = "%.9f"
-"""Latitude and longitude: nine significant digits would be steps of decimetres East of 100 degrees."""
+from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
 
 TRAJECTORY = (
     "t_s,drone,phase,shot,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,ax_m_s2,ay_m_s2,az_m_s2,"
     "body_yaw_rad,cam_yaw_rad,cam_pitch_rad,cam_yaw_rate_rad_s,cam_pitch_rate_rad_s,hfov_rad"
 )
 GEODETIC = ",lat_deg,lon_deg,alt_m"
+LIGHT = ",red,green,blue"
 FRAMING = "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded"
 
 
@@ -43,18 +41,29 @@ class CsvTable:
         mission = plan.trajectory.keyframes.mission
         tracks = sorted(plan.trajectory.drones, key=lambda track: track.drone)
         header = TRAJECTORY + (GEODETIC if mission.origin is not None else "")
-        motion = [row for track in tracks for row in _motion(mission, track)]
-        framing = [row for track in tracks for row in _framing(mission, track)]
+        if mission.fleets:
+            header += LIGHT
+        framing = [row.encode() for track in tracks for row in _framing(mission, track)]
         return Emission(
             (
-                Artifact("trajectory.csv", _table(header, motion)),
+                Artifact("trajectory.csv", _table(header, _blocks(plan.trajectory))),
                 Artifact("framing.csv", _table(FRAMING, framing)),
             )
         )
 
 
-def _table(header: str, rows: Sequence[str]) -> bytes:
-    return "\n".join([header, *rows, ""]).encode("utf-8")
+def _blocks(ir: TrajectoryIR) -> list[bytes]:
+    """Return the rows of every drone, drones in the order of their names."""
+    mission = ir.keyframes.mission
+    blocks = [(track.drone, "\n".join(_motion(mission, track)).encode()) for track in ir.drones]
+    for fleet in ir.fleets:
+        # A large show is a large table: bytes at once, so that it is not held twice as text.
+        blocks += ((name, rows.encode()) for name, rows in fleet_rows(mission, fleet))
+    return [rows for _, rows in sorted(blocks, key=lambda block: block[0])]
+
+
+def _table(header: str, rows: Sequence[bytes]) -> bytes:
+    return b"\n".join([header.encode(), *rows, b""])
 
 
 def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
@@ -77,23 +86,11 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
         formats[-3:-1] = [DEGREES, DEGREES]
     names = [f"{track.drone},{phase.name},{phase.shot or ''}" for phase in track.phases]
     numbers = np.concatenate(columns, axis=1) + 0.0  # no negative zeros
-    line = f"{NUMBER},%s,{','.join(formats)}"
+    line = f"{NUMBER},%s,{','.join(formats)}" + ",,," * bool(mission.fleets)
     for time, phase, row in zip(
         t.tolist(), phase_index(track.phases, t).tolist(), numbers.tolist(), strict=True
     ):
         yield line % (time, names[phase], *row)
-
-
-def geodetic(origin: GeoOrigin, position: Array) -> Array:
-    """Return latitude and longitude in degrees and altitude in metres of points of W, shape (M, 3).
-
-    ENU to WGS84 (pymap3d). The origin's altitude is the height datum: what it is measured above, the
-    result is, too.
-    """
-    lat, lon, alt = pymap3d.enu2geodetic(
-        *position.T, origin.lat_deg, origin.lon_deg, origin.alt, ell=pymap3d.Ellipsoid.from_name("wgs84")
-    )
-    return np.stack([lat, lon, alt], axis=-1)
 
 
 def _framing(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:

@@ -8,7 +8,6 @@ are a start or an end at rest.
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from shotc.geom.bernstein import Array
 
@@ -48,6 +47,8 @@ def places(breaks: Array, coef: Array, times: Array, order: int = 0) -> Array:
 
     coef : shape (n, P + 3, 3); result : shape (n, T, 3)
     """
+    from scipy.interpolate import BSpline  # films do without
+
     spline = BSpline(knots(breaks), np.moveaxis(coef, 1, 0), DEGREE)
     if order:
         spline = spline.derivative(order)

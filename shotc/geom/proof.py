@@ -130,7 +130,7 @@ def _distances(pieces: Pieces, part: Solid) -> tuple[Array, Array]:
     """Return lower bounds of every piece's distance from a convex solid, and the distance of its middle."""
     distance, normal = separation(part, _middle(pieces.ctrl))
     along = np.einsum("mkd,md->mk", pieces.ctrl, normal).min(axis=1) - support(part, normal)
-    return np.maximum(np.where(distance > 0.0, along, 0.0), _box_gap(pieces.ctrl, part)), distance
+    return np.maximum(np.where(distance > 0.0, along, 0.0), box_gap(pieces.ctrl, part)), distance
 
 
 def _deepest(pieces: Pieces, solid: Solid) -> Bound:
@@ -198,7 +198,8 @@ def _middle(ctrl: Array) -> Array:
     return ctrl[:, 0]
 
 
-def _box_gap(ctrl: Array, part: Solid) -> Array:
+def box_gap(ctrl: Array, part: Solid) -> Array:
+    """Return how far the boxes round control points (M, n + 1, 3) are from the box round a solid, (M,)."""
     low, high = _box(part)
     apart = np.maximum(np.maximum(ctrl.min(axis=1) - high, low - ctrl.max(axis=1)), 0.0)
     return norm(apart)

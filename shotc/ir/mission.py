@@ -270,8 +270,12 @@ class MissionIR(NamedTuple):
         """Return the target of that name; KeyError if there is none."""
         return next_named(self.targets, name)
 
+    def fleet(self, name: str) -> Fleet:
+        """Return the fleet of that name; KeyError if there is none."""
+        return next_named(self.fleets, name)
 
-_Named = TypeVar("_Named", Drone, Target)
+
+_Named = TypeVar("_Named", Drone, Target, Fleet)
 
 
 def next_named(items: tuple[_Named, ...], name: str) -> _Named:

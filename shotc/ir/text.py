@@ -58,4 +58,4 @@ def _scalar(value: Any) -> str:
         return f"{value:.{DIGITS}g}"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_scalar(v) for v in value) + "]"
-    return str(value)
+    return f"{len(value)} bytes" if isinstance(value, bytes) else str(value)

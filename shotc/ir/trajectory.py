@@ -69,12 +69,13 @@ class Claim:
     """One line of the certificate.
 
     constraint : e.g. "speed", "climb", "zone tree", "gimbal pitch", "screen error"
-    subject : drone name; shot : the shot it speaks of, or None for the whole flight
+    subject : drone or fleet name; shot : the shot it speaks of, or None for the whole flight
     limit, worst : in ``unit``; upper : whether worst must stay below (True) or above the limit
     time : seconds, where the worst value occurs; position : p_WC there, or None
     method : exact (arithmetic), bounded (proved for all t), sampled (at the output rate)
     hard : whether breaking it refuses the plan
     path : the mission line that sets the limit
+    drones : of a fleet, those whose value the worst one is: one, or a pair
     """
 
     constraint: str
@@ -90,6 +91,7 @@ class Claim:
     hard: bool
     holds: bool
     path: KeyPath
+    drones: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,11 +2,13 @@
 
 A record is an object with all its fields, in their order; where a field may hold one of several
 records, ``type`` names it. Tuples are lists. A number that may be without limit is "inf" or "-inf" then;
-nothing else that is not finite is read or written. A curve is {"breaks": [...], "control": [[[...]]]}.
+nothing else that is not finite is read or written. A curve is {"breaks": [...], "control": [[[...]]]}. An
+array of a record is a list of lists, or of colours a text a row: "ff8000ffffff" is two of them.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cache
 from math import inf, isfinite
@@ -14,12 +16,16 @@ from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
+from numpy.typing import NDArray
 
-from shotc.geom.bernstein import Piecewise
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
+from shotc.ir.fleet import Colors, FleetTrajectory, Lights
 from shotc.ir.records import field_names
-from shotc.ir.trajectory import Claim
+from shotc.ir.show import Display
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.planfile.layout import Rows
 
 UNLIMITED = {
     (Cylinder, "bottom"),
@@ -29,10 +35,16 @@ UNLIMITED = {
     (Claim, "limit"),
     (Claim, "worst"),
     (Track, "until"),
+    (Display, "weight"),
 }
+
+DEPTHS = {(FleetTrajectory, "breaks"): 1, (FleetTrajectory, "coef"): 3, (Lights, "times"): 1}
+"""How many dimensions an array of a record has."""
 
 LARGEST = 1e12
 """Size of the largest number that is read: whatever it measures, more than that is damage."""
+
+_HEXADECIMAL = re.compile(r"[0-9a-f]+").fullmatch
 
 INFINITE = {"inf": inf, "-inf": -inf}
 
@@ -49,8 +61,10 @@ def encode(value: Any) -> Any:
     """Return a JSON value for an IR value."""
     if isinstance(value, Piecewise):
         return {"breaks": value.breaks.tolist(), "control": value.ctrl.tolist()}
+    if isinstance(value, np.ndarray):
+        return _rows(value)
     if names := field_names(value):
-        tag = {"type": type(value).__name__} if isinstance(value, Cylinder | Prism) else {}
+        tag = {"type": type(value).__name__} if type(value) in alternatives(TrajectoryIR) else {}
         return tag | {name: encode(getattr(value, name)) for name in names}
     if isinstance(value, tuple | list):
         return [encode(item) for item in value]
@@ -59,11 +73,40 @@ def encode(value: Any) -> Any:
     return value
 
 
+def _rows(value: NDArray[Any]) -> list[Any]:
+    if value.dtype == np.uint8:
+        return Rows(row.tobytes().hex() for row in value)
+    return Rows(value.tolist()) if value.ndim > 1 else list(value.tolist())
+
+
 @cache
 def hints(kind: type) -> dict[str, Any]:
     """Return the resolved types of a record's fields, in their order."""
     found = get_type_hints(kind)
     return {name: found[name] for name in field_names(kind)}
+
+
+@cache
+def alternatives(kind: Any) -> frozenset[Any]:
+    """Return the records of which a field may hold one or another, anywhere in a type."""
+    found: set[Any] = set()
+    seen: set[Any] = set()
+    _collect(kind, found, seen)
+    return frozenset(found)
+
+
+def _collect(kind: Any, found: set[Any], seen: set[Any]) -> None:
+    if kind in seen or kind is Piecewise:
+        return
+    seen.add(kind)
+    parts = get_args(kind)
+    if isinstance(kind, type) and field_names(kind):
+        parts = tuple(hints(kind).values())
+    elif get_origin(kind) in (Union, UnionType):
+        records = [part for part in parts if isinstance(part, type) and field_names(part)]
+        found.update(records if len(records) > 1 else ())
+    for part in parts:
+        _collect(part, found, seen)
 
 
 @dataclass(slots=True)
@@ -78,8 +121,10 @@ class Decoder:
 
     def decode(self, kind: Any, value: Any, path: str) -> Any:
         """Return ``value`` as ``kind``."""
-        if kind is object:
+        if kind is object or kind == Array:
             return value
+        if kind == Colors:
+            return self._colors(value, path)
         if kind is Piecewise:
             return self._curve(value, path)
         if field_names(kind):
@@ -120,6 +165,9 @@ class Decoder:
             value = {k: v for k, v in value.items() if k != "type" and k not in infinite}
         found = self.fields({n: k for n, k in kinds.items() if n not in infinite}, value, path)
         found |= infinite
+        for owner, name in DEPTHS.keys() if found else ():
+            if owner is kind and name in found:
+                found[name] = self._array(found[name], DEPTHS[owner, name], at(path, name))
         return kind(**found) if found.keys() == kinds.keys() else None
 
     def _union(self, kinds: tuple[Any, ...], value: Any, path: str) -> Any:
@@ -174,6 +222,15 @@ class Decoder:
         except ValueError as wrong:
             self.fault(path, str(wrong))
             return None
+
+    def _colors(self, value: Any, path: str) -> Colors | None:
+        if isinstance(value, list) and value and all(isinstance(row, str) for row in value):
+            widths, digits = {len(row) for row in value}, "".join(value)
+            if len(widths) == 1 and len(value[0]) % 6 == 0 and _HEXADECIMAL(digits):
+                found = np.frombuffer(bytes.fromhex(digits), dtype=np.uint8)
+                return found.reshape(len(value), -1, 3)
+        self.fault(path, "is not a list of equally long texts of hexadecimal colours")
+        return None
 
     def _array(self, value: Any, depth: int, path: str) -> Any:
         try:

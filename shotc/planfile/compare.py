@@ -7,11 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 
 SHARES = np.linspace(0.0, 1.0, 2001)
 """Shares of a shot at which positions are compared."""
+
+EVERY = 20
+"""Of those shares, every how many-th is compared for the many drones of a fleet."""
 
 ClaimKey = tuple[str, str | None, str]
 
@@ -20,7 +26,8 @@ ClaimKey = tuple[str, str | None, str]
 class ShotChange:
     """A shot in two plans: starts and durations in seconds, None where a plan does not have it.
 
-    distance : largest one between the two cameras at the same share of the shot, metres, at ``share``
+    distance : largest one between the two cameras at the same share of the shot, metres, at ``share``; of a
+        display between two drones of one number, None where the fleets do not have equally many
     """
 
     shot: str
@@ -46,16 +53,39 @@ class ClaimChange:
 
 
 @dataclass(frozen=True, slots=True)
+class FleetChange:
+    """A fleet in two plans: how many drones, and how long they fly, seconds; None where a plan has it not."""
+
+    fleet: str
+    drones: tuple[int | None, int | None]
+    lasts: tuple[float | None, float | None]
+
+
+@dataclass(frozen=True, slots=True)
 class Comparison:
-    """Everything that differs; shots that both plans have are listed even where they agree."""
+    """Everything that differs; shots and fleets of the plans are listed even where they agree."""
 
     shots: tuple[ShotChange, ...]
     claims: tuple[ClaimChange, ...]
+    fleets: tuple[FleetChange, ...] = ()
+
+
+Flown = tuple[DroneTrajectory | FleetTrajectory, Phase]
 
 
 def compare(old: VerifiedIR, new: VerifiedIR) -> Comparison:
     """Compare two plans; shots and claims are matched by name."""
-    return Comparison(tuple(_shots(old, new)), tuple(_claims(old.certificate, new.certificate)))
+    claims = tuple(_claims(old.certificate, new.certificate))
+    return Comparison(tuple(_shots(old, new)), claims, tuple(_fleets(old, new)))
+
+
+def _fleets(old: VerifiedIR, new: VerifiedIR) -> Iterator[FleetChange]:
+    before, after = ({track.fleet: track for track in plan.trajectory.fleets} for plan in (old, new))
+    for name in dict.fromkeys([*before, *after]):
+        both = before.get(name), after.get(name)
+        drones = tuple(None if track is None else len(track.coef) for track in both)
+        lasts = tuple(None if track is None else float(track.breaks[-1]) for track in both)
+        yield FleetChange(name, (drones[0], drones[1]), (lasts[0], lasts[1]))
 
 
 def _shots(old: VerifiedIR, new: VerifiedIR) -> Iterator[ShotChange]:
@@ -67,29 +97,39 @@ def _shots(old: VerifiedIR, new: VerifiedIR) -> Iterator[ShotChange]:
         yield ShotChange(shot, starts, durations, distance, share)
 
 
-def _flown(plan: VerifiedIR) -> dict[str, tuple[DroneTrajectory, Phase]]:
-    tracks = plan.trajectory.drones
+def _flown(plan: VerifiedIR) -> dict[str, Flown]:
+    tracks: tuple[DroneTrajectory | FleetTrajectory, ...]
+    tracks = (*plan.trajectory.drones, *plan.trajectory.fleets)
     return {p.shot: (track, p) for track in tracks for p in track.phases if p.shot is not None}
 
 
-def _start(flown: tuple[DroneTrajectory, Phase] | None) -> float | None:
+def _start(flown: Flown | None) -> float | None:
     return None if flown is None else flown[1].start
 
 
-def _duration(flown: tuple[DroneTrajectory, Phase] | None) -> float | None:
+def _duration(flown: Flown | None) -> float | None:
     return None if flown is None else flown[1].end - flown[1].start
 
 
-def _apart(
-    first: tuple[DroneTrajectory, Phase], second: tuple[DroneTrajectory, Phase]
-) -> tuple[float, float]:
-    one, other = (
-        track.curve(phase.start + SHARES * (phase.end - phase.start))[:, :3]
-        for track, phase in (first, second)
+def _apart(first: Flown, second: Flown) -> tuple[float | None, float | None]:
+    shares = (
+        SHARES if all(isinstance(track, DroneTrajectory) for track, _ in (first, second)) else SHARES[::EVERY]
     )
-    distance = np.linalg.norm(one - other, axis=1)
+    one, other = (_places(flown, shares) for flown in (first, second))
+    if one.shape != other.shape:
+        return None, None
+    distance = np.linalg.norm(one - other, axis=2).max(axis=0)
     k = int(np.argmax(distance))
-    return float(distance[k]), float(SHARES[k])
+    return float(distance[k]), float(shares[k])
+
+
+def _places(flown: Flown, shares: Array) -> Array:
+    """Return where the drones of a flight are at shares of a phase, shape (n, M, 3)."""
+    track, phase = flown
+    times = phase.start + shares * (phase.end - phase.start)
+    if isinstance(track, DroneTrajectory):
+        return track.curve(times)[None, :, :3]
+    return places(track.breaks, track.coef, times)
 
 
 def _claims(old: tuple[Claim, ...], new: tuple[Claim, ...]) -> Iterator[ClaimChange]:

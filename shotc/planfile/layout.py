@@ -19,12 +19,20 @@ RECORD = 420
 """Characters up to which an object of plain values stands on one line."""
 
 
+class Rows(list[Any]):
+    """A list of many items, each of which stands on a line of its own, whatever its size."""
+
+
 def text(value: Any) -> str:
     """Return a JSON text, ASCII only, that reads back to the same value; ValueError for NaN."""
     return "".join(_parts(value, "")) + "\n"
 
 
 def _parts(value: Any, pad: str) -> Iterator[str]:
+    if isinstance(value, Rows):
+        rows = (json.dumps(item, allow_nan=False, separators=(",", ":")) for item in value)
+        yield f"[\n{pad}  " + f",\n{pad}  ".join(rows) + f"\n{pad}]"
+        return
     line = _one_line(value)
     if line is not None:
         yield line

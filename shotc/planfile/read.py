@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath, OriginMap
@@ -159,6 +160,7 @@ _DOCUMENT: dict[str, Any] = {
     "deviations": tuple[Deviation, ...],
     "statistics": tuple[tuple[str, float | str], ...],
     "drones": tuple[DroneTrajectory, ...],
+    "fleets": tuple[FleetTrajectory, ...],
     "origins": object,
 }
 
@@ -175,7 +177,8 @@ def _decode(document: Any, decoder: Decoder) -> tuple[TrajectoryIR, tuple[Claim,
     origins = OriginMap(source["file"], dict(spans["keys"]), dict(spans["values"]))
     mission = MissionIR(**fields, source_sha256=source["sha256"], origins=origins)
     keyframes = KeyframeIR(mission, _placed(parts["keyframes"], mission, decoder))
-    trajectory = TrajectoryIR(keyframes, parts["drones"], parts["deviations"], parts["statistics"])
+    known = (parts[name] for name in ("drones", "deviations", "statistics", "fleets"))
+    trajectory = TrajectoryIR(keyframes, *known)
     return trajectory, parts["certificate"]
 
 

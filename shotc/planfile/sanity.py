@@ -11,6 +11,7 @@ from shotc.geom.track import Track
 from shotc.ir.mission import Drone, Ideal, MissionIR
 from shotc.ir.path import CHANNELS
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
+from shotc.planfile.fleet_sanity import fleet_faults
 
 SAMPLES = 20_000_000
 """Ticks of the output clock that a flight may have."""
@@ -30,6 +31,7 @@ def inconsistencies(ir: TrajectoryIR) -> Iterator[Fault]:
     yield from _names(mission, ir)
     for i, track in enumerate(ir.drones):
         yield from _track(track, mission, f"drones[{i}]")
+    yield from fleet_faults(ir)
 
 
 def _mission(mission: MissionIR) -> Iterator[Fault]:
@@ -103,11 +105,13 @@ def _drone(drone: Drone, path: str) -> Iterator[Fault]:
 
 
 def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:
-    for kind in ("zones", "targets", "drones"):
+    for kind in ("zones", "targets", "drones", "fleets"):
         yield from _twice(f"mission.{kind}", (item.name for item in getattr(mission, kind)))
-    yield from _twice("mission.shots", (shot.id for shot in mission.shots))
+    shots = (*(shot.id for shot in mission.shots), *(display.id for display in mission.displays))
+    yield from _twice("mission.shots", shots)
     yield from _twice("keyframes", (placed.shot.id for placed in ir.keyframes.shots))
     yield from _twice("drones", (track.drone for track in ir.drones))
+    yield from _twice("fleets", (track.fleet for track in ir.fleets))
     drones, targets = {d.name for d in mission.drones}, {t.name for t in mission.targets}
     for i, shot in enumerate(mission.shots):
         if shot.drone not in drones:

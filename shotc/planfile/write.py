@@ -45,6 +45,7 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
         "deviations": encode(ir.deviations),
         "statistics": encode(ir.stats),
         "drones": encode(ir.drones),
+        "fleets": encode(ir.fleets),
         "origins": _origins(mission, plan.certificate),
     }
 
@@ -69,6 +70,8 @@ def _used(mission: MissionIR, certificate: tuple[Claim, ...]) -> Iterator[KeyPat
     paths: list[KeyPath] = [claim.path for claim in certificate]
     for named in (mission.zones, mission.targets, mission.drones, mission.shots):
         paths += [element.path for element in named]
+    for shown in (mission.fleets, mission.displays):
+        paths += [element.path for element in shown]
     paths += [keyframe.path for shot in mission.shots for keyframe in shot.keyframes]
     for path in paths:
         for end in range(1, len(path) + 1):

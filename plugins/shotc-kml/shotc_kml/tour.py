@@ -44,11 +44,11 @@ class KmlTour:
                 help="add `origin: {lat: ..., lon: ..., alt: ...}` under `world`",
             )
             return Emission((), (warning,))
-        return Emission(
-            tuple(
-                Artifact(f"{drone.drone}.kml", document(mission, drone)) for drone in plan.trajectory.drones
-            )
+        tours = tuple(
+            Artifact(f"{drone.drone}.kml", document(mission, drone)) for drone in plan.trajectory.drones
         )
+        fleets = ("fleets have no cameras and get no KML tours",) if plan.trajectory.fleets else ()
+        return Emission(tours, notes=fleets)
 
 
 EMITTER = KmlTour()

@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 import pytest
 from shotc_kml.tour import EMITTER, GX, KML
 
+from tests.fleets import plan as show_plan
 from tests.samples import orbit_plan
 
 
@@ -26,3 +27,9 @@ def test_a_mission_without_an_origin_gets_a_warning_and_no_file():
     emission = EMITTER.emit(orbit_plan(origin=False))
     assert emission.artifacts == ()
     assert [d.code for d in emission.diagnostics] == ["E101"]
+
+
+def test_a_fleet_gets_no_tour_and_a_note_says_so():
+    emission = EMITTER.emit(show_plan())
+    assert emission.artifacts == ()
+    assert "fleets" in emission.notes[0]

@@ -119,6 +119,19 @@ _MAVLINK_CODES = (
         _MAVLINK,
         "plan",
     ),
+    CodeInfo(
+        "E110",
+        "fleet-without-missions",
+        Severity.WARNING,
+        "no MAVLink missions are written for a fleet",
+        "The drones of a fleet keep their distance by being where they should be at every instant. A mission file "
+        "is flown from waypoint to waypoint without a common clock, so a fleet that flies such files meets itself. "
+        "`.skyc` is the format for shows: every drone's curve and lights over time, for Skybrush and the autopilots "
+        "that follow it.",
+        "",
+        "",
+        "other",
+    ),
 )
 
 _FILE_CODES = (

@@ -175,7 +175,10 @@ _SPACE = (
         (
             "two drones come too near to each other",
             "`rules.separation` is kept centre to centre at every instant, also by a drone that has landed and "
-            "stands at its home. Give one of the shots another start, or move the homes apart.",
+            "stands at its home. Give one of the shots another start, or move the homes apart. The drones of a "
+            "fleet keep its own `separation`, with its margin: an ellipsoid or a cylinder whose height counts as "
+            "much as its width, so that one horizontal distance tells how near two drones come. Two fleets keep "
+            "the larger of both. Give pictures more room or transitions more time.",
         ),
     ),
 )
@@ -223,7 +226,8 @@ _FORM = (
         (
             "a shot is missing, or not flown when it was asked",
             "Every shot of the mission is flown exactly once; its duration and start are met to a millisecond, and "
-            "it begins no earlier than the end of the shot it comes after.",
+            "it begins no earlier than the end of the shot it comes after. Every picture of a display is shown, in "
+            "the order written, as long as it is to be held.",
         ),
     ),
     _code(
@@ -232,7 +236,8 @@ _FORM = (
         (
             "the flight misses a keyframe that the mission places",
             "A position that the user wrote down binds: the camera is there to a millimetre at the keyframe's time, "
-            "at the time the mission fixes, and stands still through the keyframe's hold.",
+            "at the time the mission fixes, and stands still through the keyframe's hold. The drones of a fleet stand "
+            "still while a picture is held.",
         ),
     ),
     _code(

@@ -28,6 +28,7 @@ from shotc.emit.mavlink.report import (
     clockless,
     coarsened,
     cut,
+    fleetless,
     left_out,
     no_origin,
     note,
@@ -58,12 +59,15 @@ class MavlinkEmitter:
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the mission files, with warnings and the error that the format adds."""
         mission = plan.trajectory.keyframes.mission
+        fleets = fleetless(mission, plan.trajectory.fleets)
+        if fleets and not plan.trajectory.drones:
+            return Emission((), fleets)
         if mission.origin is None:
-            return Emission((), (no_origin(mission),))
+            return Emission((), (*fleets, no_origin(mission)))
         emissions = [_Job.of(mission, flight).emit() for flight in plan.trajectory.drones]
         return Emission(
             tuple(a for e in emissions for a in e.artifacts),
-            tuple(d for e in emissions for d in e.diagnostics),
+            (*fleets, *(d for e in emissions for d in e.diagnostics)),
             tuple(n for e in emissions for n in e.notes),
         )
 

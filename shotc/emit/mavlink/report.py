@@ -11,6 +11,7 @@ from shotc.emit.mavlink.compare import Error
 from shotc.emit.mavlink.fence import Left
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
+from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import HFOV
 from shotc.ir.trajectory import DroneTrajectory
@@ -27,6 +28,22 @@ def no_origin(mission: MissionIR) -> Diagnostic:
         (mission.origins.key(("world",)),),
         ("waypoints are latitudes and longitudes",),
         "add world.origin: {lat: ..., lon: ..., alt: ...}",
+    )
+
+
+def fleetless(mission: MissionIR, fleets: tuple[FleetTrajectory, ...]) -> tuple[Diagnostic, ...]:
+    """Say once that fleets get no mission files; nothing where there is no fleet."""
+    if not fleets:
+        return ()
+    names = ", ".join(f"`{track.fleet}` ({len(track.coef)} drones)" for track in fleets)
+    return (
+        Diagnostic(
+            "E110",
+            f"no MAVLink mission is written for fleet {names}",
+            tuple(mission.origins.key(mission.fleet(track.fleet).path) for track in fleets),
+            ("a mission file has no common clock: drones that follow theirs would meet",),
+            "ask for `skyc` in `output.emit`, the format of shows; `trajectory.csv` has every drone",
+        ),
     )
 
 

@@ -24,7 +24,11 @@ class StoryboardEmitter:
         import shotc.emit.storyboard.page  # noqa: F401
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return storyboard.png; the same plan gives the same bytes."""
+        """Return storyboard.png, nothing where no camera flies; the same plan gives the same bytes."""
+        if plan.trajectory.fleets and not plan.trajectory.drones:
+            return Emission(
+                (), notes=("storyboard.png is left out: it shows what cameras see, here is none",)
+            )
         from shotc.emit.storyboard.page import draw_page
 
         return Emission((Artifact("storyboard.png", draw_page(plan, DPI)),))

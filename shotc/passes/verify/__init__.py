@@ -50,30 +50,50 @@ class Verify:
 
 def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     """Return every claim that can be made about a trajectory, in a fixed order, and what is broken."""
-    broken = tuple(structure(ir))
+    mission = ir.keyframes.mission
+    broken = (*structure(ir), *_fleet_structure(ir))
     if broken:
         return Verdict((), broken)
-    mission = ir.keyframes.mission
     flights = [Flight(mission, mission.drone(track.drone), track) for track in ir.drones]
     claims: list[Claim] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
-    claims += [*separation(ir, flights), *sights(flights)]
+    claims += [*separation(ir, flights), *sights(flights), *_fleet_claims(ir, ctx)]
     certificate = tuple(claims)
     return Verdict(certificate, (*_grounded(ir), *report(ir, certificate), *losses(ir, certificate)))
 
 
+def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:
+    if not ir.fleets:
+        return []
+    # Splines and trees of scipy, which films do without.
+    from shotc.passes.verify.fleets import fleet_structure
+
+    return list(fleet_structure(ir))
+
+
+def _fleet_claims(ir: TrajectoryIR, ctx: PassContext) -> list[Claim]:
+    if not ir.fleets:
+        return []
+    from shotc.passes.verify.fleets import fleet_claims
+
+    return fleet_claims(ir, ctx.progress)
+
+
 def _grounded(ir: TrajectoryIR) -> list[Diagnostic]:
-    """Report shots whose drone does not fly at all."""
-    mission, flying = ir.keyframes.mission, {track.drone for track in ir.drones}
+    """Report shots whose drone or fleet does not fly at all."""
+    mission = ir.keyframes.mission
+    flying = {track.drone for track in ir.drones} | {track.fleet for track in ir.fleets}
+    flown = [(shot.id, shot.drone, shot.path) for shot in mission.shots]
+    flown += [(display.id, display.fleet, display.path) for display in mission.displays]
     return [
         Diagnostic(
             "V015",
-            f"shot `{shot.id}` is not flown: the plan has no flight of `{shot.drone}`",
-            labels=(mission.origins.key(shot.path),),
+            f"shot `{shot}` is not flown: the plan has no flight of `{who}`",
+            labels=(mission.origins.key(path),),
             help="plan the mission again",
         )
-        for shot in mission.shots
-        if shot.drone not in flying
+        for shot, who, path in flown
+        if who not in flying
     ]

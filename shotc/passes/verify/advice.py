@@ -40,6 +40,8 @@ def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) ->
         stretch = max(1.0, claim.worst / claim.limit) ** rule.power
         longer = ceil(10 * (phase.end - phase.start) * stretch) / 10
         time = f"give shot `{phase.shot}` {longer:.1f} s or more"
+        if claim.drones:
+            time = f"give the moves of shot `{phase.shot}` {away(stretch, upper=True):.4g} times their time"
         return f"{time}, or {setting}; then plan again" if setting else f"{time}; then plan again"
     return f"{setting}, or {REPLAN}" if setting else REPLAN
 
@@ -73,6 +75,8 @@ def _setting(mission: MissionIR, claim: Claim) -> str:
 
 def _in_space(claim: Claim, code: str) -> str:
     lack, worst = measure(abs(claim.worst - claim.limit), claim.unit), enough(claim)
+    if code == "V022" and claim.drones:
+        return f"draw larger or move slower, or ask for {lack} less `separation`; then plan again"
     texts = {
         "V007": f"move the path or shrink the zone by {lack}",
         "V008": f"move the path or widen the zone by {lack}",

@@ -7,7 +7,7 @@ its unit: a micrometre, a microradian). Half of that is the gap to which bounds 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 
 from shotc.geom.proof import Bound
@@ -65,26 +65,31 @@ def gap(limit: float) -> Callable[[float], float]:
 
 def claim(flight: Flight, limit: Limit, worst: Worst) -> Claim:
     """Hold a worst value against a limit."""
+    if worst.position is None and worst.time is not None:
+        x, y, z = (float(c) for c in flight.track.curve(worst.time)[:3])
+        worst = replace(worst, position=(x, y, z))
+    return held(flight.drone.name, limit, worst)
+
+
+def held(subject: str, limit: Limit, worst: Worst, drones: tuple[str, ...] = ()) -> Claim:
+    """Hold a worst value against a limit; subject and drones as in ``Claim``."""
     over = worst.value - limit.value if limit.upper else limit.value - worst.value
     holds = limit.value in (inf, -inf) or over <= slack(limit.value)
-    position = worst.position
-    if position is None and worst.time is not None:
-        x, y, z = (float(c) for c in flight.track.curve(worst.time)[:3])
-        position = (x, y, z)
     return Claim(
         constraint=limit.constraint,
-        subject=flight.drone.name,
+        subject=subject,
         shot=limit.shot,
         limit=float(limit.value),
         worst=float(worst.value),
         unit=limit.unit,
         upper=limit.upper,
         time=worst.time,
-        position=position,
+        position=worst.position,
         method=worst.method,
         hard=limit.hard,
         holds=bool(holds),
         path=limit.path,
+        drones=drones,
     )
 
 

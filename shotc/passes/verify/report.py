@@ -9,7 +9,8 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
-from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
+from shotc.ir.show import Display
+from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
@@ -42,6 +43,11 @@ RULES = {
     "error of duration": Rule("V015", help=REPLAN),
     "error of start": Rule("V015", help=REPLAN),
     "start too early": Rule("V015", help=REPLAN),
+    "separation": Rule("V022"),
+    "pictures left out": Rule("V015", help=REPLAN),
+    "pictures out of order": Rule("V015", help=REPLAN),
+    "lack of hold": Rule("V015", help=REPLAN),
+    "error of transition": Rule("V015", help=REPLAN),
     "distance from keyframes": Rule("V016", help=REPLAN),
     "delay of keyframes": Rule("V016", help=REPLAN),
     "drift from the vertical": Rule("V017", help=REPLAN),
@@ -111,12 +117,12 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
     phase = _phase_of(ir, claim)
     notes = list(_notes(claim, phase))
     shot = _shot(mission, claim.shot)
-    if rule.code in PROMISES and shot is not None:
+    if rule.code in PROMISES and isinstance(shot, Shot):
         message = broken_promise(claim, rule.code)
         notes += bends(ir, shot.id)
         help_ = promise_help(claim, rule.code, shot, certificate)
     else:
-        message = f"{claim.subject}: {_state(claim, rule.code)}"
+        message = f"{_who(claim)}: {_state(claim, rule.code)}"
         notes += filter(None, [wind_note(mission, claim)])
         help_ = advice(mission, claim, rule, phase)
     limit = f"{_side(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
@@ -137,7 +143,7 @@ def _side(claim: Claim) -> str:
 def _cropped_on_purpose(mission: MissionIR, claim: Claim) -> bool:
     """Tell whether the target of a claim is asked to be larger than the frame."""
     shot = _shot(mission, claim.shot)
-    if shot is None:
+    if not isinstance(shot, Shot):
         return False
     asked = next((s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size)
     return asked is not None and asked > 1.0
@@ -174,7 +180,7 @@ def _labels(mission: MissionIR, claim: Claim, phase: Phase | None, limit: str) -
 
 def _is_element(mission: MissionIR, path: KeyPath) -> bool:
     # An element spans many lines: point at its name. A limit is a number: point at that.
-    named = (mission.zones, mission.drones, mission.targets, mission.shots)
+    named = (mission.zones, mission.drones, mission.targets, mission.shots, mission.fleets, mission.displays)
     return path in {element.path for elements in named for element in elements}
 
 
@@ -202,15 +208,22 @@ def _name(claim: Claim, code: str) -> str:
 
 
 def _phase_of(ir: TrajectoryIR, claim: Claim) -> Phase | None:
-    track: DroneTrajectory | None = next((t for t in ir.drones if t.drone == claim.subject), None)
-    if track is None:
-        return None
+    phases = {t.drone: t.phases for t in ir.drones} | {t.fleet: t.phases for t in ir.fleets}
+    own = phases.get(claim.subject, ())
     if claim.shot is not None:
-        return next((p for p in track.phases if p.shot == claim.shot), None)
+        return next((p for p in own if p.shot == claim.shot), None)
     if claim.time is None:
         return None
-    return next((p for p in track.phases if p.start <= claim.time <= p.end), None)
+    return next((p for p in own if p.start <= claim.time <= p.end), None)
 
 
-def _shot(mission: MissionIR, name: str | None) -> Shot | None:
-    return next((s for s in mission.shots if s.id == name), None)
+def _shot(mission: MissionIR, name: str | None) -> Shot | Display | None:
+    shots: tuple[Shot | Display, ...] = (*mission.shots, *mission.displays)
+    return next((s for s in shots if s.id == name), None)
+
+
+def _who(claim: Claim) -> str:
+    """Return the drone, or the fleet with the drones, that a claim is broken by."""
+    if not claim.drones:
+        return claim.subject
+    return f"{' and '.join(claim.drones)} of {claim.subject}"

@@ -11,6 +11,7 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array, Piecewise, lift_off
 from shotc.ir.path import CHANNELS
+from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Flight, Limit, Worst, claim
 
@@ -71,7 +72,7 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
         return
     if abs(curve.start) > TOLERANCE:
         yield f"it begins at {curve.start:.6g} s, not at 0 s"
-    yield from _gaps(track)
+    yield from gaps(phases, curve.start, curve.end)
     unknown = {p.shot for p in phases if p.shot is not None} - shots
     unknown |= {f.shot for f in track.framing} - shots
     if unknown:
@@ -80,12 +81,12 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
         yield "a phase is a shot without a name, or has one without being a shot"
 
 
-def _gaps(track: DroneTrajectory) -> Iterator[str]:
-    phases = track.phases
+def gaps(phases: tuple[Phase, ...], start: float, end: float) -> Iterator[str]:
+    """Yield where phases do not follow one another from a start to an end, seconds."""
     if not phases:
         yield "it has no phases"
         return
-    joints = [(track.curve.start, phases[0].start), (phases[-1].end, track.curve.end)]
+    joints = [(start, phases[0].start), (phases[-1].end, end)]
     joints += [(a.end, b.start) for a, b in pairwise(phases)]
     for before, after in joints:
         if abs(before - after) > TOLERANCE:

@@ -40,7 +40,7 @@ def space(flight: Flight) -> Iterator[Claim]:
     aim = rules.ground_clearance + flight.drone.radius
     low = inf_channel(free, 2, gap(aim))
     if len(free):
-        yield bounded(flight, ground, _less(low, flight.drone.radius))
+        yield bounded(flight, ground, less(low, flight.drone.radius))
     for target in flight.mission.targets:
         near = (free, upright) if target.track is None else _split(flight, target)
         parts = (*near, rules.target_clearance)
@@ -69,12 +69,12 @@ def _keep_out(
     radius = flight.drone.radius
     if len(free):
         found = inf_distance(free, solid, gap(radius + clearance))
-        yield bounded(flight, Limit(name, clearance, "m", path, upper=False), _less(found, radius))
+        yield bounded(flight, Limit(name, clearance, "m", path, upper=False), less(found, radius))
     if len(upright):
         near = min(radius, distance(solid, flight.drone.home))
         found = inf_distance(upright, solid, gap(near))
         limit = Limit(f"{name} at home", near - radius, "m", path, upper=False)
-        yield bounded(flight, limit, _less(found, radius))
+        yield bounded(flight, limit, less(found, radius))
 
 
 def _keep_in(flight: Flight, zone: Zone, free: Pieces, upright: Pieces) -> Claim:
@@ -84,12 +84,11 @@ def _keep_in(flight: Flight, zone: Zone, free: Pieces, upright: Pieces) -> Claim
         found = sup_outside(pieces, zone.solid, gap(-radius), floor=floor)
         worst = found if found.proven > worst.proven else worst
     margin = Bound(-worst.proven, -worst.attained, worst.at)
-    return bounded(
-        flight, Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False), _less(margin, radius)
-    )
+    return bounded(flight, Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False), less(margin, radius))
 
 
-def _less(bound: Bound, radius: float) -> Bound:
+def less(bound: Bound, radius: float) -> Bound:
+    """Return a bound on a distance from a body's centre as one from its surface."""
     return Bound(bound.proven - radius, bound.attained - radius, bound.at)
 
 

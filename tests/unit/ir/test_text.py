@@ -19,3 +19,8 @@ def test_a_dump_names_every_level_by_its_type_and_fields():
 def test_numbers_have_nine_digits():
     assert "0.333333333" in dump((1 / 3,))
     assert "0.33333333333" not in dump((1 / 3,))
+
+
+def test_bytes_are_counted_not_shown():
+    assert "7 bytes" in dump((("a.ply", b"ply\n\x00\xff\n"),))
+    assert "\\x00" not in dump((("a.ply", b"ply\n\x00\xff\n"),))

@@ -1,0 +1,26 @@
+"""What is claimed of fleets: as of filming drones, for all drones of a fleet at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.fleets.apart import separations
+from shotc.passes.verify.fleets.displays import displays
+from shotc.passes.verify.fleets.flight import FleetFlight
+from shotc.passes.verify.fleets.motion import motion
+from shotc.passes.verify.fleets.shape import fleet_structure, shape
+from shotc.passes.verify.fleets.space import space
+
+
+def fleet_claims(ir: TrajectoryIR, progress: Callable[[str], None]) -> list[Claim]:
+    """Return every claim that can be made about the fleets of a trajectory, in a fixed order."""
+    claims: list[Claim] = []
+    flights = [FleetFlight.of(ir.keyframes.mission, track) for track in ir.fleets]
+    for flight in flights:
+        progress(f"verify {flight.fleet.name}")
+        claims += [*shape(flight), *motion(flight), *space(flight), *displays(flight, ir)]
+    return [*claims, *separations(flights)]
+
+
+__all__ = ["fleet_claims", "fleet_structure"]

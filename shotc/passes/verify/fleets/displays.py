@@ -1,0 +1,116 @@
+"""Whether every display that the mission asks for is flown, when it was asked, its pictures in their order.
+
+How well a fleet draws a picture is no part of a plan, which does not hold the pictures: nothing is claimed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import inf
+
+import numpy as np
+
+from shotc.geom.fleet_pieces import FleetPieces
+from shotc.geom.proof import norm, sup_convex
+from shotc.ir.fleet import Shown
+from shotc.ir.origin import KeyPath
+from shotc.ir.phases import Phase
+from shotc.ir.show import Display
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import TOLERANCE, Limit, Worst, gap, held
+from shotc.passes.verify.fleets.flight import FleetFlight, bounded
+from shotc.passes.verify.shots import ON_PLACE, ON_TIME
+
+
+def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
+    """Claim that this fleet's displays are flown, on time and in full, and that it stands where it holds."""
+    flights = [t.phases for t in ir.drones] + [t.phases for t in ir.fleets]
+    ends = {p.shot: p.end for phases in flights for p in phases if p.shot is not None}
+    for display in flight.mission.displays:
+        if display.fleet != flight.fleet.name:
+            continue
+        flown = [p for p in flight.track.phases if p.shot == display.id]
+        once = Limit("times flown", 1.0, "", display.path, upper=len(flown) > 0, shot=display.id)
+        yield held(flight.fleet.name, once, Worst(float(len(flown)), None, "exact"))
+        if len(flown) == 1:
+            shown = [s for s in flight.track.shown if s.display == display.id]
+            yield from _timing(flight, display, flown[0], ends)
+            yield from _pictures(flight, display, flown[0], shown)
+            yield from _transitions(flight, display, shown)
+            yield from _holds(flight, display, shown)
+
+
+def _timing(flight: FleetFlight, display: Display, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
+    timing, path = display.timing, (*display.path, "timing")
+    asked = [
+        ("error of duration", "duration", _off(timing.duration, phase.end - phase.start), phase.end),
+        ("error of start", "start", _off(timing.start, phase.start), phase.start),
+        ("start too early", "after", _early(timing.after, ends, phase.start), phase.start),
+    ]
+    for name, key, off, time in asked:
+        if off is not None:
+            limit = Limit(name, ON_TIME, "s", (*path, key), shot=display.id)
+            yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
+
+
+def _off(asked: float | None, found: float) -> float | None:
+    return None if asked is None else abs(found - asked)
+
+
+def _early(after: str | None, ends: dict[str, float], start: float) -> float | None:
+    return None if after is None or after not in ends else ends[after] - start
+
+
+def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequence[Shown]) -> Iterator[Claim]:
+    """Claim that every picture is shown, in order, within the display, as long as it is to be held."""
+    name, wanted = flight.fleet.name, range(len(display.pictures))
+    order = [(s.picture, s.index) for s in shown]
+    missing = len(set(wanted) - {picture for picture, _ in order})
+    astray = sum(b <= a for a, b in pairwise(order)) + sum(p not in wanted for p, _ in order)
+    times = [phase.start, *(t for s in shown for t in (s.start, s.end)), phase.end]
+    astray += sum(b < a - TOLERANCE for a, b in pairwise(times))
+    limit = Limit("pictures left out", 0.0, "", (*display.path, "frames"), shot=display.id)
+    yield held(name, limit, Worst(float(missing), None, "exact"))
+    limit = Limit("pictures out of order", 0.0, "", (*display.path, "frames"), shot=display.id)
+    yield held(name, limit, Worst(float(astray), None, "exact"))
+    last = {s.picture: s for s in shown}
+    short = [(display.pictures[k].hold - (s.end - s.start), s) for k, s in last.items() if k in wanted]
+    lack, at = max(short, key=lambda found: found[0], default=(-inf, None))
+    if at is not None:
+        path = (*display.pictures[at.picture].path, "hold")
+        limit = Limit("lack of hold", ON_TIME, "s", path, shot=display.id)
+        yield held(name, limit, Worst(max(lack, 0.0), at.start, "exact"))
+
+
+def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+    """Claim that it takes from picture to picture as long as the mission says."""
+    found: list[tuple[float, float, KeyPath]] = []
+    for one, other in pairwise(shown):
+        if one.picture != other.picture and other.picture in range(len(display.pictures)):
+            picture = display.pictures[other.picture]
+            if picture.transition is not None:
+                off = abs(other.start - one.end - picture.transition)
+                found.append((off, other.start, (*picture.path, "transition")))
+    if found:
+        off, time, path = max(found, key=lambda item: item[0])
+        limit = Limit("error of transition", ON_TIME, "s", path, shot=display.id)
+        yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
+
+
+def _holds(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+    """Claim that no drone moves while a picture is held."""
+    parts = [flight.flown.between([(s.start, s.end)]) for s in shown]
+    parts = [part for part in parts if len(part.low)]
+    if not parts:
+        return
+    from_place = FleetPieces(
+        np.concatenate([p.low for p in parts]),
+        np.concatenate([p.high for p in parts]),
+        np.concatenate([p.ctrl - p.ctrl[:, :1, :1] for p in parts], axis=1),
+    )
+    drift = sup_convex(from_place.bag(), norm, gap(ON_PLACE))
+    begin = max((s.start for s in shown if s.start <= drift.at), default=0.0)
+    place = flight.at(begin)
+    limit = Limit("drift at rest", ON_PLACE, "m", (*display.path, "frames"), shot=display.id)
+    yield bounded(flight, limit, drift, lambda p: norm(p - place))

@@ -1,0 +1,97 @@
+"""The grammar of claims about a fleet: one a constraint, with the drone that comes nearest to the limit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_pieces import FleetPieces
+from shotc.geom.fleet_spline import pieces, places
+from shotc.geom.proof import Bound
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Fleet, drone_names
+from shotc.ir.trajectory import Claim, Method
+from shotc.passes.verify.claims import Limit, Worst, held
+
+UPRIGHT = ("takeoff", "land")
+"""Phases in which the drones are above their pads."""
+
+Span = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FleetFlight:
+    """One fleet, what it was asked and how it flies.
+
+    names : of its drones, in the order of their numbers
+    pads, ends : the pad that each takes off from, and the one that each ends nearest to, shape (n, 3)
+    flown : their positions in Bernstein form, over the whole flight
+    """
+
+    mission: MissionIR
+    fleet: Fleet
+    track: FleetTrajectory
+    names: tuple[str, ...]
+    pads: Array
+    ends: Array
+    flown: FleetPieces
+
+    @staticmethod
+    def of(mission: MissionIR, track: FleetTrajectory) -> FleetFlight:
+        """Return the flight of a fleet that the mission has."""
+        fleet, breaks = mission.fleet(track.fleet), track.breaks
+        flown = FleetPieces(breaks[:-1], breaks[1:], pieces(breaks, track.coef))
+        pads = np.array(fleet.pads)
+        ends = pads[cKDTree(pads).query(flown.ctrl[:, -1, -1])[1]]
+        return FleetFlight(mission, fleet, track, drone_names(fleet), pads, ends, flown)
+
+    def key(self, *keys: str) -> KeyPath:
+        """Return the key path of one of the fleet's settings."""
+        return (*self.fleet.path, *keys)
+
+    def at(self, time: float, order: int = 0) -> Array:
+        """Return where all drones are, or a derivative of it, shape (n, 3)."""
+        return places(self.track.breaks, self.track.coef, np.array([time]), order)[:, 0]
+
+    def free(self) -> list[Span]:
+        """Return when the drones are neither taking off nor landing."""
+        return [(p.start, p.end) for p in self.track.phases if p.name not in UPRIGHT]
+
+    def verticals(self) -> Iterator[tuple[list[Span], Array]]:
+        """Yield when the drones take off and when they land, if they do, and the pads that they are above.
+
+        A drone lands on any pad of its fleet. Two on one pad would be nearer than their separation.
+        """
+        for name, pads in zip(UPRIGHT, (self.pads, self.ends), strict=True):
+            spans = [(p.start, p.end) for p in self.track.phases if p.name == name and p.end > p.start]
+            if spans:
+                yield spans, pads
+
+
+def of_drone(
+    flight: FleetFlight, limit: Limit, found: tuple[float, float], drone: int, method: Method = "exact"
+) -> Claim:
+    """Hold the worst value of one drone, and the time at which it has it, against a limit."""
+    value, time = found
+    x, y, z = (float(c) for c in flight.at(time)[drone])
+    worst = Worst(value, time, method, (x, y, z))
+    return held(flight.fleet.name, limit, worst, (flight.names[drone],))
+
+
+def bounded(
+    flight: FleetFlight, limit: Limit, bound: Bound, value: Callable[[Array], Array], order: int = 0
+) -> Claim:
+    """Hold a bound over all drones against a limit.
+
+    value : from positions, or a derivative of them, of shape (n, 3) to what was bounded, shape (n,): tells
+        whose worst value it is
+    """
+    values = value(flight.at(bound.at, order))
+    drone = int(np.argmax(values) if limit.upper else np.argmin(values))
+    return of_drone(flight, limit, (bound.proven, bound.at), drone, "bounded")

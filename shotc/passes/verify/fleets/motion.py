@@ -1,0 +1,44 @@
+"""Speed, acceleration and jerk of every drone of a fleet, at every instant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_pieces import rates, velocity
+from shotc.geom.proof import norm, sup_channel, sup_convex
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import Limit, gap
+from shotc.passes.verify.fleets.flight import FleetFlight, bounded, of_drone
+
+
+def motion(flight: FleetFlight) -> Iterator[Claim]:
+    """Claim the limits of the fleet's drones over the whole flight.
+
+    Velocity is quadratic on a piece and is bounded by hulls. Acceleration is linear there, and its norm
+    largest at a break; jerk is constant.
+    """
+    limits = flight.fleet.limits
+    rate = velocity(flight.track.breaks, flight.track.coef).bag()
+    fastest = sup_convex(rate.channels(0, 1), norm, gap(limits.speed))
+    yield bounded(flight, _limit(flight, "speed", "m/s"), fastest, lambda v: norm(v[:, :2]), 1)
+    rising = sup_channel(rate, 2, gap(limits.climb))
+    yield bounded(flight, _limit(flight, "climb", "m/s"), rising, lambda v: v[:, 2], 1)
+    falling = sup_convex(rate, lambda v: -v[..., 2], gap(limits.descent))
+    yield bounded(flight, _limit(flight, "descent", "m/s"), falling, lambda v: -v[:, 2], 1)
+    for order, name, unit in ((2, "acceleration", "m/s^2"), (3, "jerk", "m/s^3")):
+        size = norm(rates(flight.track.breaks, flight.track.coef, order))
+        yield _largest(flight, _limit(flight, name, unit), size)
+
+
+def _limit(flight: FleetFlight, name: str, unit: str) -> Limit:
+    return Limit(name, getattr(flight.fleet.limits, name), unit, flight.key("limits", name))
+
+
+def _largest(flight: FleetFlight, limit: Limit, size: Array) -> Claim:
+    """Hold the largest of values (n, m) at the first m breaks, or on the pieces from them on."""
+    drone, k = np.unravel_index(int(np.argmax(size)), size.shape)
+    found = float(size[drone, k]), float(flight.track.breaks[k])
+    return of_drone(flight, limit, found, int(drone), "bounded")

@@ -1,0 +1,214 @@
+"""Where a fleet may be: zones, the ground, targets, and the vertical above its pads.
+
+As for a filming drone (``verify.space``). Most of a fleet is far from any one solid: what boxes tell to be
+farther away than the nearest drone found so far is not looked at again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.fleet_pieces import FleetPieces
+from shotc.geom.pieces import Pieces, cut, join
+from shotc.geom.proof import Bound, box_gap, inf_channel, inf_distance, norm, sup_convex, sup_outside
+from shotc.geom.solids import Solid, convex_parts
+from shotc.geom.solids_array import separation, signed_distance
+from shotc.geom.track_array import places
+from shotc.ir.mission import Target, Zone
+from shotc.ir.origin import KeyPath
+from shotc.ir.sampling import beside, cylinder
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import Limit, gap
+from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone
+from shotc.passes.verify.space import DRIFT, less
+
+SEEDS = 256
+"""Pieces, the nearest by their boxes, of which the nearest place is found first."""
+
+BATCH = 50_000
+"""Pieces that are held against a keep-in zone at once; its footprint may have a thousand corners."""
+
+Gap = Callable[[float], float]
+Upright = list[tuple[FleetPieces, Array]]
+
+
+def space(flight: FleetFlight) -> Iterator[Claim]:
+    """Claim zones, ground and target clearance, and vertical motion at the pads."""
+    free = flight.flown.between(flight.free())
+    upright = [(flight.flown.between(spans), pads) for spans, pads in flight.verticals()]
+    for zone in flight.mission.zones:
+        if zone.keep == "out":
+            limit = _clear(f"zone {zone.name}", 0.0, zone.path)
+            yield from _keep_out(flight, limit, zone.solid, (free, upright))
+        else:
+            yield _keep_in(flight, zone, free, [pieces for pieces, _ in upright])
+    yield from _ground(flight, free)
+    rules = flight.mission.rules
+    for target in flight.mission.targets:
+        limit = _clear(f"target {target.name}", rules.target_clearance, ("rules", "target_clearance"))
+        if target.track is None:
+            yield from _keep_out(flight, limit, cylinder(target), (free, upright))
+        else:
+            yield from _keep_from(flight, limit, target)
+    if upright:
+        yield from _vertical(flight, upright)
+
+
+def _clear(name: str, clearance: float, path: KeyPath) -> Limit:
+    return Limit(name, clearance, "m", path, upper=False)
+
+
+def _ground(flight: FleetFlight, free: FleetPieces) -> Iterator[Claim]:
+    clearance, radius = flight.mission.rules.ground_clearance, flight.fleet.radius
+    limit = _clear("ground clearance", clearance, ("rules", "ground_clearance"))
+    if len(free.low):
+        low = inf_channel(free.bag(), 2, gap(clearance + radius))
+        yield bounded(flight, limit, less(low, radius), lambda p: p[:, 2])
+
+
+def _keep_out(
+    flight: FleetFlight, limit: Limit, solid: Solid, parts: tuple[FleetPieces, Upright]
+) -> Iterator[Claim]:
+    free, upright = parts
+    radius = flight.fleet.radius
+    if len(free.low):
+        found = _nearest(free.bag(), solid, gap(radius + limit.value))
+        yield bounded(flight, limit, less(found, radius), lambda p: signed_distance(solid, p))
+    if upright:
+        limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
+        yield _worse(limit, [_at_home(flight, limit, solid, part) for part in upright])
+
+
+def _worse(limit: Limit, claims: list[Claim]) -> Claim:
+    return (max if limit.upper else min)(claims, key=lambda claim: claim.worst)
+
+
+def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetPieces, Array]) -> Claim:
+    """Claim that no drone comes nearer to a solid on its vertical than its body is on its pad."""
+    upright, pads = part
+    radius = flight.fleet.radius
+    near = np.minimum(radius, np.min([separation(s, pads)[0] for s in convex_parts(solid)], axis=0))
+    clear = near >= radius
+    worst = Bound(inf, inf, 0.0)
+    if clear.any():
+        some = FleetPieces(upright.low, upright.high, upright.ctrl[clear])
+        worst = less(_nearest(some.bag(), solid, gap(radius)), radius)
+    for drone in np.flatnonzero(~clear):
+        nearest = less(inf_distance(upright.of(int(drone)), solid, gap(near[drone])), float(near[drone]))
+        worst = nearest if nearest.proven < worst.proven else worst
+    return bounded(flight, limit, worst, lambda p: signed_distance(solid, p) - near)
+
+
+def _nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
+    """Bound the infimum of the distance from a solid along many pieces, as ``inf_distance`` does."""
+    if len(pieces) > SEEDS:
+        apart = box_gap(pieces.ctrl, solid)
+        seeds = np.zeros(len(pieces), dtype=bool)
+        seeds[np.argpartition(apart, SEEDS)[:SEEDS]] = True
+        reached = inf_distance(pieces.pick(seeds), solid, gap).attained
+        pieces = pieces.pick(apart <= max(reached, 0.0))
+    return inf_distance(pieces, solid, gap)
+
+
+def _keep_from(flight: FleetFlight, limit: Limit, target: Target) -> Iterator[Claim]:
+    """Claim the distance from a target that moves; on its vertical a drone may be as near as at time 0."""
+    radius, spans = flight.fleet.radius, flight.free()
+    if spans:
+        near = np.full(len(flight.pads), radius + limit.value)
+        yield _from_moving(flight, limit, (target, spans), near)
+    limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
+    found = [
+        _from_moving(flight, limit, (target, upright), np.minimum(radius, _off(target, pads)))
+        for upright, pads in flight.verticals()
+    ]
+    if found:
+        yield _worse(limit, found)
+
+
+def _off(target: Target, points: Array) -> Array:
+    """Return how far points are from a target at time 0, 0 inside."""
+    return np.maximum(signed_distance(cylinder(target), points), 0.0)
+
+
+def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]], near: Array) -> Claim:
+    """Bound the distance from a moving target less what each drone is to keep, drone by drone.
+
+    Those whose boxes are the nearest come first; they end where boxes alone tell that no other is nearer.
+    """
+    target, spans = of
+    apart = _boxes_apart(flight.flown.between(spans), target) - near
+    worst, nearest = Bound(inf, inf, 0.0), 0
+    for drone in np.argsort(apart, kind="stable"):
+        if apart[drone] > worst.attained:
+            break
+        curve = beside(Piecewise(flight.track.breaks, flight.flown.ctrl[drone]), target)
+        parts = join([cut(curve, *span) for span in spans])
+        keep = float(near[drone])
+        found = less(inf_distance(parts, cylinder(target), gap(keep)), keep)
+        if found.proven < worst.proven:
+            worst, nearest = found, int(drone)
+    return of_drone(flight, limit, (worst.proven + limit.value, worst.at), nearest, "bounded")
+
+
+def _boxes_apart(flown: FleetPieces, target: Target) -> Array:
+    """Return how far every drone's boxes are from the box of a moving target at the time, shape (n,)."""
+    assert target.track is not None
+    rows = np.array(target.track.times)
+    half = np.array([target.radius, target.radius, target.height / 2])
+    best = np.full(len(flown.ctrl), inf)
+    for k, (low, high) in enumerate(zip(flown.low, flown.high, strict=True)):
+        inside = rows[(rows > low) & (rows < high)]
+        way = places(target.track, np.concatenate([[low], inside, [high]]))
+        least, most = way.min(axis=0) - half, way.max(axis=0) + half
+        hulls = flown.ctrl[:, k]
+        away = np.maximum(np.maximum(hulls.min(axis=1) - most, least - hulls.max(axis=1)), 0.0)
+        best = np.minimum(best, norm(away))
+    return best
+
+
+def _keep_in(flight: FleetFlight, zone: Zone, free: FleetPieces, upright: list[FleetPieces]) -> Claim:
+    radius = flight.fleet.radius
+    worst, floor = Bound(-inf, -inf, 0.0), True
+    for parts, with_floor in ((free, True), *((part, False) for part in upright)):
+        for pieces in _batches(parts.bag()):
+            found = sup_outside(pieces, zone.solid, gap(-radius), floor=with_floor)
+            if found.proven > worst.proven:
+                worst, floor = found, with_floor
+    solid = zone.solid if floor else zone.solid._replace(bottom=-inf)
+    margin = Bound(-worst.proven, -worst.attained, worst.at)
+    limit = _clear(f"zone {zone.name}", 0.0, zone.path)
+    return bounded(flight, limit, less(margin, radius), lambda p: -signed_distance(solid, p))
+
+
+def _batches(pieces: Pieces) -> Iterator[Pieces]:
+    for k in range(0, len(pieces), BATCH):
+        part = slice(k, k + BATCH)
+        yield Pieces(pieces.low[part], pieces.high[part], pieces.ctrl[part])
+
+
+def _vertical(flight: FleetFlight, upright: Upright) -> Iterator[Claim]:
+    path = flight.key("layout")
+    aside = Limit("drift from the vertical", DRIFT, "m", path)
+    below = Limit("depth below home", 0.0, "m", path)
+    yield _worse(aside, [_drift(flight, aside, part) for part in upright])
+    yield _worse(below, [_sunk(flight, below, part) for part in upright])
+
+
+def _drift(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:
+    pads = part[1]
+    found = sup_convex(_from_pads(*part).channels(0, 1), norm, gap(DRIFT))
+    return bounded(flight, limit, found, lambda p: norm((p - pads)[:, :2]))
+
+
+def _sunk(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:
+    pads = part[1]
+    found = sup_convex(_from_pads(*part), lambda c: -c[..., 2], gap(0.0))
+    return bounded(flight, limit, found, lambda p: (pads - p)[:, 2])
+
+
+def _from_pads(upright: FleetPieces, pads: Array) -> Pieces:
+    return FleetPieces(upright.low, upright.high, upright.ctrl - pads[:, None, None]).bag()

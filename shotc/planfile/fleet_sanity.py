@@ -1,0 +1,100 @@
+"""What types cannot say about the fleets of a plan file, as ``planfile.sanity`` for all else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite
+
+import numpy as np
+
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display, Fleet, Model, Picture
+from shotc.ir.trajectory import TrajectoryIR
+
+SAMPLES = 50_000_000
+"""Ticks of the output clock that all drones of a fleet may have together."""
+
+LARGEST_FLEET = 100_000
+"""Drones that a fleet may have."""
+
+Fault = tuple[str, str]
+
+
+def fleet_faults(ir: TrajectoryIR) -> Iterator[Fault]:
+    """Yield (path, fault) of everything that would make the fleets of a plan meaningless to prove."""
+    mission = ir.keyframes.mission
+    if ir.drones and ir.fleets:
+        yield "fleets", "drones film in this plan, which are not proved against fleets"
+    for i, fleet in enumerate(mission.fleets):
+        yield from _fleet(fleet, f"mission.fleets[{i}]")
+    names = {fleet.name for fleet in mission.fleets}
+    for i, display in enumerate(mission.displays):
+        if display.fleet not in names:
+            yield f"mission.displays[{i}].fleet", f"there is no fleet `{display.fleet}`"
+        yield from _display(display, f"mission.displays[{i}]")
+    for i, track in enumerate(ir.fleets):
+        yield from _track(track, mission, f"fleets[{i}]")
+
+
+def _fleet(fleet: Fleet, path: str) -> Iterator[Fault]:
+    positive = {
+        **{f"limits.{name}": getattr(fleet.limits, name) for name in fleet.limits._fields},
+        "endurance": fleet.endurance,
+        "apart.horizontal": fleet.apart.horizontal,
+        "apart.vertical": fleet.apart.vertical,
+    }
+    for name, value in positive.items():
+        if value <= 0:
+            yield f"{path}.{name}", f"{value:g} is not positive"
+    for name, value in (("radius", fleet.radius), ("rise", fleet.rise), ("apart.margin", fleet.apart.margin)):
+        if value < 0:
+            yield f"{path}.{name}", f"{value:g} is negative"
+    if not 0 < len(fleet.pads) <= LARGEST_FLEET:
+        yield f"{path}.pads", f"there are {len(fleet.pads)}, 1 to {LARGEST_FLEET} are possible"
+
+
+def _display(display: Display, path: str) -> Iterator[Fault]:
+    if not display.pictures:
+        yield f"{path}.pictures", "there is none"
+    if display.weight < 0:
+        yield f"{path}.weight", f"{display.weight:g} is negative"
+    if not 0 < display.pace <= 1:
+        yield f"{path}.pace", f"{display.pace:g} is not between 0 and 1"
+    for i, picture in enumerate(display.pictures):
+        yield from _picture(picture, f"{path}.pictures[{i}]")
+
+
+def _picture(picture: Picture, path: str) -> Iterator[Fault]:
+    if picture.hold < 0:
+        yield f"{path}.hold", f"{picture.hold:g} is negative"
+    if picture.transition is not None and picture.transition < 0:
+        yield f"{path}.transition", f"{picture.transition:g} is negative"
+    if any(not 0 <= part <= 255 for part in picture.color or ()):
+        yield f"{path}.color", "a part of it is not between 0 and 255"
+    if isinstance(picture.source, Model) and not picture.source.files:
+        yield f"{path}.source.files", "there is none"
+
+
+def _track(track: FleetTrajectory, mission: MissionIR, path: str) -> Iterator[Fault]:
+    fleet = next((f for f in mission.fleets if f.name == track.fleet), None)
+    if fleet is None:
+        yield f"{path}.fleet", f"there is no fleet `{track.fleet}`"
+        return
+    n, breaks = len(fleet.pads), track.breaks
+    if len(breaks) < 2 or not (np.diff(breaks) > 0).all():
+        yield f"{path}.breaks", "they do not rise"
+        return
+    if track.coef.shape != (n, len(breaks) + 2, 3):
+        yield f"{path}.coef", f"is of shape {track.coef.shape}, not {(n, len(breaks) + 2, 3)}"
+    if track.lights.colors.shape[:2] != (n, len(track.lights.times)):
+        yield f"{path}.lights.colors", "does not have a colour for every drone and time"
+    if (np.diff(track.lights.times) < 0).any():
+        yield f"{path}.lights.times", "they do not rise"
+    pictures = {d.id: len(d.pictures) for d in mission.displays if d.fleet == fleet.name}
+    for i, shown in enumerate(track.shown):
+        if not 0 <= shown.picture < pictures.get(shown.display, 0):
+            yield f"{path}.shown[{i}]", f"there is no picture {shown.picture} of a display `{shown.display}`"
+    end = max([float(breaks[-1]), *(p.end for p in track.phases), *(s.end for s in track.shown)])
+    if not isfinite(end) or end * mission.rate * n > SAMPLES:
+        yield f"{path}.breaks", f"it lasts {end:g} s: too many samples at {mission.rate:g} Hz"
