@@ -6,13 +6,16 @@ enough: over a period a drone leaves the straight line by millimetres.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array
+
+Pairs = NDArray[np.intp]
 
 NARROWINGS = 30
 """Times that two thirds of an interval are kept; the distance of two drones is convex over it."""
@@ -37,26 +40,49 @@ def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Ne
 
     limit : metres of horizontal distance, for ``Near.below``
     """
-    seen = np.moveaxis(position * [1.0, 1.0, stretch(apart)], 1, 0)
-    upright = apart.shape == "cylinder"
-    best = Near(np.inf, 0, 0, 0.0, 0)
-    low: set[tuple[int, int]] = set()
-    for k in range(len(times) - 1):
-        start, end = (each - each.mean(axis=0) for each in seen[k : k + 2])
-        pairs = _candidates(start, end, max(limit, best.distance), upright)
+    search = Search(apart, limit)
+    for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
+        search.add(time, places)
+    return search.found()
+
+
+class Search:
+    """``nearest`` for places (n, 3) that come one after another."""
+
+    def __init__(self, apart: Distances, limit: float) -> None:
+        self._height = np.array([1.0, 1.0, stretch(apart)])
+        self._upright = apart.shape == "cylinder"
+        self._limit = limit
+        self._best = Near(np.inf, 0, 0, 0.0, 0)
+        self._low: set[tuple[int, int]] = set()
+        self._last: tuple[float, Array] | None = None
+
+    def add(self, time: float, places: Array) -> None:
+        """Take where all drones are at a time, later than those before."""
+        seen = places * self._height
+        seen = seen - seen.mean(axis=0)
+        if self._last is not None:
+            self._between(*self._last, time, seen)
+        self._last = (time, seen)
+
+    def found(self) -> Near:
+        """Return the nearest so far."""
+        return replace(self._best, below=len(self._low))
+
+    def _between(self, before: float, start: Array, after: float, end: Array) -> None:
+        pairs = _candidates(start, end, max(self._limit, self._best.distance), self._upright)
         if not len(pairs):
-            continue
-        one, other = start[pairs[:, 0]] - start[pairs[:, 1]], end[pairs[:, 0]] - end[pairs[:, 1]]
-        least, share = _least(one, other, upright)
-        low.update((int(i), int(j)) for i, j in pairs[least < limit])
+            return
+        one, other = pairs.T
+        least, share = _least(start[one] - start[other], end[one] - end[other], self._upright)
+        self._low.update((int(i), int(j)) for i, j in pairs[least < self._limit])
         m = int(np.argmin(least))
-        if least[m] < best.distance:
-            when = float(times[k] + share[m] * (times[k + 1] - times[k]))
-            best = Near(float(least[m]), int(pairs[m, 0]), int(pairs[m, 1]), when, 0)
-    return Near(best.distance, best.first, best.second, best.time, len(low))
+        if least[m] < self._best.distance:
+            when = float(before + share[m] * (after - before))
+            self._best = Near(float(least[m]), int(one[m]), int(other[m]), when, 0)
 
 
-def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Array:
+def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Pairs:
     """Return the pairs of rows that may come within reach of each other, shape (K, 2)."""
     middle = 0.5 * (start + end)
     tree = cKDTree(middle)
