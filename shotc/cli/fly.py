@@ -28,8 +28,8 @@ def fly(plan: PlanPath, gusts: Gusty = 0.0, seed: Seed = 1, format: FormatOption
 
     For every fleet: how far its drones are from where the plan has them (the root mean square, what 99 % of
     them never exceed, and the farthest), the nearest that two come, and the separation and margin that the
-    mission asks for. A margin of twice the farthest is safe; where the nearest stays above what is asked, the
-    margin was enough for this wind. A simulation proves nothing: it helps to choose the margin. Example:
+    mission asks for. A margin of twice the farthest cannot be used up; where the nearest stays above what is
+    asked, the margin was enough in this wind. A simulation proves nothing: it helps to choose. Example:
 
         shotc fly out/show/plan.json --gusts 0.3
     """
