@@ -1,0 +1,123 @@
+"""The controller that leads a fleet along its trajectories: the velocities it prefers (*display* Eq. 12-15).
+
+Of each drone, the error along its path is towards the point where all are to be by now, which keeps a fleet
+in step; the error across it is from the nearest point of the path. Eq. 12 as printed looks for that point on
+the whole path. Before a sharp turn or a hold the tangent there then points away from where the drone should
+be, the two errors hold each other in balance, and it stands still for good. So only the path within ``reach``
+seconds of the common time is looked at.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import pieces, places
+
+SPACING = 0.05
+"""Seconds between the points of the path among which the nearest is looked for first."""
+SLOW = 0.02
+"""m/s below which a path has no tangent worth following."""
+TINY = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Gains:
+    """Constants of the controller; pairs are (proportional, derivative), 1/s and 1.
+
+    forward : seconds by which the acceleration leads, best the vehicle's response
+    ahead : seconds by which the point of the along-track error is ahead of the common time
+    reach : seconds from the common time within which the nearest point is looked for; infinite as printed
+    """
+
+    along: tuple[float, float] = (3.0, 0.6)
+    across: tuple[float, float] = (3.0, 0.6)
+    forward: float = 0.3
+    ahead: float = 0.0
+    reach: float = 0.5
+
+    @property
+    def as_printed(self) -> bool:
+        """Whether the nearest point is looked for on the whole path."""
+        return self.reach == inf
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reference:
+    """The trajectories of a fleet: breaks (P + 1,), coef (n, P + 3, 3), and of their pieces (n, P, 4, 3)."""
+
+    breaks: Array
+    coef: Array
+    ctrl: Array
+
+    @staticmethod
+    def of(breaks: Array, coef: Array) -> Reference:
+        """Return the reference of splines as in ``geom.fleet_spline``."""
+        return Reference(breaks, coef, pieces(breaks, coef))
+
+    def together(self, times: Array) -> Array:
+        """Return where all drones are to be at times (T,); shape (n, T, 3)."""
+        return places(self.breaks, self.coef, times)
+
+    def each(self, times: Array) -> tuple[Array, Array, Array]:
+        """Return place, velocity and acceleration, (n, 3) each, of every drone at a time of its own (n,)."""
+        times = np.clip(times, self.breaks[0], self.breaks[-1])
+        piece = np.clip(np.searchsorted(self.breaks, times, side="right") - 1, 0, len(self.breaks) - 2)
+        width = np.diff(self.breaks)[piece][:, None]
+        u = (times - self.breaks[piece])[:, None] / width
+        a, b, c, d = np.moveaxis(self.ctrl[np.arange(len(times)), piece], 1, 0)
+        v = 1.0 - u
+        place = v**3 * a + 3 * v * v * u * b + 3 * v * u * u * c + u**3 * d
+        rate = 3.0 * (v * v * (b - a) + 2 * v * u * (c - b) + u * u * (d - c)) / width
+        bend = 6.0 * (v * (c - 2 * b + a) + u * (d - 2 * c + b)) / width**2
+        return place, rate, bend
+
+
+def preferred(reference: Reference, gains: Gains, now: float, position: Array, velocity: Array) -> Array:
+    """Return the velocity that each drone should fly, shape (n, 3), m/s in W.
+
+    now : the common time; position, velocity : as measured, shape (n, 3)
+
+    Source: *display* Eq. 12 to 15. The speed of the path takes the place of v_i in Eq. 12; where the path
+    hovers its tangent is the direction to the point it should be at; without cross-track error n_i is zero.
+    """
+    place, rate, bend = reference.each(_nearest(reference, gains, now, position))
+    goal = reference.together(np.array([now + gains.ahead]))[:, 0] - position
+    speed = _size(rate)
+    tangent = np.where(speed > SLOW, rate / np.maximum(speed, TINY), _unit(goal))
+    off = place - position
+    normal = _unit(off - _dot(off, tangent) * tangent)
+    along = gains.along[0] * _dot(goal, tangent) + gains.along[1] * (speed - _dot(velocity, tangent))
+    across = gains.across[0] * _dot(off, normal) - gains.across[1] * _dot(velocity, normal)
+    return np.asarray((speed + along) * tangent + across * normal + gains.forward * bend)
+
+
+def _nearest(reference: Reference, gains: Gains, now: float, position: Array) -> Array:
+    """Return the time of each drone's nearest point of its path, shape (n,)."""
+    first, last = reference.breaks[0], reference.breaks[-1]
+    low, high = (first, last) if gains.as_printed else (now - gains.reach, now + gains.reach)
+    low, high = np.clip([low, high], first, last)
+    times = np.linspace(low, high, max(2, int(np.ceil((high - low) / SPACING)) + 1))
+    away = reference.together(times) - position[:, None]
+    found = times[np.argmin(np.einsum("ntd,ntd->nt", away, away), axis=1)]
+    # One Newton step leads from the sample to the foot of the perpendicular.
+    place, rate, _ = reference.each(found)
+    step = _dot(position - place, rate) / np.maximum(_dot(rate, rate), SLOW**2)
+    return np.asarray(np.clip(found + np.clip(step[:, 0], -SPACING, SPACING), low, high))
+
+
+def _dot(one: Array, other: Array) -> Array:
+    return np.asarray(np.einsum("nd,nd->n", one, other)[:, None])
+
+
+def _size(vectors: Array) -> Array:
+    return np.asarray(np.linalg.norm(vectors, axis=1, keepdims=True))
+
+
+def _unit(vectors: Array) -> Array:
+    """Return directions, zero for what has none."""
+    size = _size(vectors)
+    return np.where(size > TINY, vectors / np.maximum(size, TINY), 0.0)

@@ -1,0 +1,112 @@
+"""How near flown drones come, straight in between the places where they were recorded.
+
+Of a plan this is proved (``geom.separation``); a simulation is one flight of many, and its records are close
+enough: over a period a drone leaves the straight line by millimetres.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from shotc.geom.apart import Distances, stretch
+from shotc.geom.bernstein import Array
+
+Pairs = NDArray[np.intp]
+
+NARROWINGS = 30
+"""Times that two thirds of an interval are kept; the distance of two drones is convex over it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Near:
+    """The nearest that two drones came, metres of horizontal distance as in ``geom.separation``.
+
+    first, second : their rows; time : when, s; below : how many pairs came nearer than was asked about
+    """
+
+    distance: float
+    first: int
+    second: int
+    time: float
+    below: int
+
+
+def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Near:
+    """Return the nearest of all pairs; position : shape (n, T, 3), two drones or more, two times or more.
+
+    limit : metres of horizontal distance, for ``Near.below``
+    """
+    search = Search(apart, limit)
+    for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
+        search.add(time, places)
+    return search.found()
+
+
+class Search:
+    """``nearest`` for places (n, 3) that come one after another."""
+
+    def __init__(self, apart: Distances, limit: float) -> None:
+        self._height = np.array([1.0, 1.0, stretch(apart)])
+        self._upright = apart.shape == "cylinder"
+        self._limit = limit
+        self._best = Near(np.inf, 0, 0, 0.0, 0)
+        self._low: set[tuple[int, int]] = set()
+        self._last: tuple[float, Array] | None = None
+
+    def add(self, time: float, places: Array) -> None:
+        """Take where all drones are at a time, later than those before."""
+        seen = places * self._height
+        seen = seen - seen.mean(axis=0)
+        if self._last is not None:
+            self._between(*self._last, time, seen)
+        self._last = (time, seen)
+
+    def found(self) -> Near:
+        """Return the nearest so far."""
+        return replace(self._best, below=len(self._low))
+
+    def _between(self, before: float, start: Array, after: float, end: Array) -> None:
+        pairs = _candidates(start, end, max(self._limit, self._best.distance), self._upright)
+        if not len(pairs):
+            return
+        one, other = pairs.T
+        least, share = _least(start[one] - start[other], end[one] - end[other], self._upright)
+        self._low.update((int(i), int(j)) for i, j in pairs[least < self._limit])
+        m = int(np.argmin(least))
+        if least[m] < self._best.distance:
+            when = float(before + share[m] * (after - before))
+            self._best = Near(float(least[m]), int(one[m]), int(other[m]), when, 0)
+
+
+def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Pairs:
+    """Return the pairs of rows that may come within reach of each other, shape (K, 2)."""
+    middle = 0.5 * (start + end)
+    tree = cKDTree(middle)
+    if not np.isfinite(reach):
+        reach = float(tree.query(middle, k=2)[0][:, 1].min())
+    moved = float(np.linalg.norm(end - start, axis=1).max())
+    # A ball holds the cylinder: what is near in its sense is near in the tree's.
+    far = reach * (np.sqrt(2.0) if upright else 1.0) + moved
+    return np.asarray(tree.query_pairs(far * (1.0 + 1e-9), output_type="ndarray"))
+
+
+def _least(one: Array, other: Array, upright: bool) -> tuple[Array, Array]:
+    """Return the least distance between straight moves and at which share of them, shape (K,) each."""
+    low, high = np.zeros(len(one)), np.ones(len(one))
+    for _ in range(NARROWINGS):
+        left, right = low + (high - low) / 3.0, high - (high - low) / 3.0
+        nearer = _size(one, other, left, upright) < _size(one, other, right, upright)
+        low, high = np.where(nearer, low, left), np.where(nearer, right, high)
+    share = 0.5 * (low + high)
+    return _size(one, other, share, upright), share
+
+
+def _size(one: Array, other: Array, share: Array, upright: bool) -> Array:
+    away = one + share[:, None] * (other - one)
+    if upright:
+        return np.asarray(np.maximum(np.linalg.norm(away[:, :2], axis=1), np.abs(away[:, 2])))
+    return np.asarray(np.linalg.norm(away, axis=1))

@@ -1,0 +1,73 @@
+"""What `shotc fly` prints of a show's plan, and how it ends."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from shotc.emit.plan_json import EMITTER
+from shotc.ir.show import Apart
+from tests.cli.conftest import Run
+from tests.fleets import PADS, fleet, mission, plan
+from tests.samples import orbit_plan
+
+
+def written(folder: Path, made) -> str:
+    path = folder / "plan.json"
+    path.write_bytes(EMITTER.emit(made).artifacts[0].data)
+    return str(path)
+
+
+@pytest.fixture
+def show(tmp_path: Path) -> str:
+    return written(tmp_path, plan())
+
+
+def test_it_says_how_far_drones_stray_and_how_near_they_come(run: Run, show: str) -> None:
+    done = run("fly", show)
+    assert done.code == 0
+    heading, row, *remarks = done.out.splitlines()
+    assert heading.split()[:4] == ["fleet", "drones", "strays,", "RMS"]
+    assert row.split()[:2] == ["swarm", "4"]
+    # All four do the same in still air: they stay as far apart as their pads.
+    assert "4.00 m" in row
+    assert row.endswith("1 m    0.15 m")
+    assert remarks[1].startswith("swarm: swarm-1 strays farthest, at 0:")
+    assert run("fly", show).out == done.out
+
+
+def test_gusts_depend_on_their_seed_and_take_from_the_separation(run: Run, show: str) -> None:
+    (still,), (one,), (same,), (other,) = (
+        json.loads(run("fly", show, "--format", "json", *more).out)["fleets"]
+        for more in (
+            (),
+            ("--gusts", "0.5"),
+            ("--gusts", "0.5", "--seed", "1"),
+            ("--gusts", "0.5", "--seed", "2"),
+        )
+    )
+    assert one == same
+    assert one != other
+    assert still["rmse"] < one["rmse"] < one["farthest"]
+    assert one["near"]["distance"] < still["near"]["distance"] == pytest.approx(4.0, abs=1e-6)
+    assert one["near"]["distance"] > 4.0 - 2 * one["farthest"]
+
+
+def test_it_tells_where_drones_come_nearer_than_asked(run: Run, tmp_path: Path) -> None:
+    tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 3.9, 3.9, 0.0))
+    done = run("fly", written(tmp_path, plan(mission(fleets=(tight,)))), "--gusts", "0.5")
+    assert done.code == 0
+    assert "nearer than asked" in done.out
+    assert "margin" in done.out.splitlines()[-1]
+
+
+def test_a_plan_without_fleets_is_a_mistake_of_usage(run: Run, tmp_path: Path) -> None:
+    from shotc.passes.base import PassContext
+    from shotc.passes.verify import Verify
+
+    made = Verify().run(orbit_plan().trajectory, PassContext()).value
+    done = run("fly", written(tmp_path, made))
+    assert done.code == 2
+    assert "no fleet" in done.err
