@@ -13,8 +13,8 @@ import pymap3d
 from shotc.emit.base import Artifact, Emission
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import GeoOrigin, MissionIR
+from shotc.ir.occlusion import others_of
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
@@ -44,7 +44,9 @@ class CsvTable:
         tracks = sorted(plan.trajectory.drones, key=lambda track: track.drone)
         header = TRAJECTORY + (GEODETIC if mission.origin is not None else "")
         motion = [row for track in tracks for row in _motion(mission, track)]
-        framing = [row for track in tracks for row in _framing(mission, track)]
+        framing = [
+            row for track in tracks for row in _framing(mission, track, others_of(tracks, track.drone))
+        ]
         return Emission(
             (
                 Artifact("trajectory.csv", _table(header, motion)),
@@ -96,24 +98,29 @@ def geodetic(origin: GeoOrigin, position: Array) -> Array:
     return np.stack([lat, lon, alt], axis=-1)
 
 
-def _framing(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
+def _framing(mission: MissionIR, track: DroneTrajectory, others: Sequence[DroneTrajectory]) -> Iterator[str]:
     t = clock(mission.rate, track.curve.end)
     index = phase_index(track.phases, t)
     for k, phase in enumerate(track.phases):
         if phase.shot is not None:
-            yield from _shot(mission, track, phase, t[index == k])
+            at = t[index == k]
+            blocks = [
+                _block(mission, track, (phase.shot, target), at, others)
+                for target in subjects(mission, track, phase.shot)
+            ]
+            for rows in zip(*blocks, strict=True):
+                yield from rows
 
 
-def _shot(mission: MissionIR, track: DroneTrajectory, phase: Phase, t: Array) -> Iterator[str]:
-    shot = str(phase.shot)
-    blocks = [_block(mission, track, (shot, target), t) for target in subjects(mission, track, shot)]
-    for rows in zip(*blocks, strict=True):
-        yield from rows
-
-
-def _block(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: Array) -> list[str]:
+def _block(
+    mission: MissionIR,
+    track: DroneTrajectory,
+    of: tuple[str, str],
+    t: Array,
+    others: Sequence[DroneTrajectory],
+) -> list[str]:
     shot, target = of
-    frames = seen(mission, track, target, t)
+    frames = seen(mission, track, target, t, others)
     wanted = references(track, shot, target, t)
     numbers = np.column_stack([frames.u, frames.v, wanted, frames.size]) + 0.0
     flags = np.column_stack([frames.in_frame, frames.hidden]).astype(int)
