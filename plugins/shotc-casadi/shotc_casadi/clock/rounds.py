@@ -14,10 +14,12 @@ from shotc.refiner_api import (
     restrict,
     surroundings,
 )
+from shotc_casadi.clock.aside import led_past
 from shotc_casadi.clock.curve import curve_of, filmed
 from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
 from shotc_casadi.clock.program import ClockSolution, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
+from shotc_casadi.clock.screens import Screen, looked_past
 from shotc_casadi.clock.side import held, led, passes
 from shotc_casadi.clock.wishes import ClockSubject, wishes
 from shotc_casadi.program import Solver
@@ -51,14 +53,16 @@ class ClockRefined:
     gap: Gap | None
 
 
-def refine_clock(subject: ClockSubject) -> ClockRefined:
-    """Refine one shot."""
+def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> ClockRefined:
+    """Refine one shot; screens : what it is to look past."""
     leg, breaks = subject.leg, breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
     wanted = wishes(subject, breaks)
     guide = restrict(leg.curve.channels(0, 1, 2), breaks)
     over = passes(subject, breaks, wanted)
-    course, start, share = guide, guess(led(guide, wanted, over), breaks), NEARLY
+    shown = (breaks >= leg.start) & (breaks <= leg.end)
+    first_guess = led_past(led(guide, wanted, over), wanted, screens, shown)
+    course, start, share = first_guess if screens else guide, guess(first_guess, breaks), NEARLY
     looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
     best: tuple[Piecewise, ClockSolution] | None = None
     first: ClockSolution | None = None
@@ -69,8 +73,10 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
         rounds += 1
         planes = held(around.half_spaces(course.ctrl, reach, SHARE), wanted, over)
         planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
+        wanted = looked_past(screens, wanted, course(breaks), shown)
         task = problem(subject, breaks, wanted, planes, share, start)
-        solution, failed = _solved(task, SOLVERS if best is None and not over else SOLVERS[:1])
+        optional = any((best is not None, over, screens))
+        solution, failed = _solved(task, SOLVERS[:1] if optional else SOLVERS)
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
         if solution.status != "solved" and best is None and over:
             # The room may leave no place on that side; a camera that cannot follow then is not taken.

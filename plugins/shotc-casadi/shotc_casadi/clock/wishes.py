@@ -8,8 +8,9 @@ from math import pi, tan
 import numpy as np
 
 from shotc.plugin_api import MissionIR, PathIR
-from shotc.refiner_api import Array, Drone, PlacedShot, PlacedSubject, TimedLeg, ideal_place, places
+from shotc.refiner_api import Array, Drone, Mask, PlacedShot, PlacedSubject, TimedLeg, ideal_place, places
 
+SCREEN = 13  # numbers of what is looked past: see symbols.cover
 AROUND = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
 SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
 STEEPEST = tan(89.0 * pi / 180)
@@ -48,6 +49,7 @@ class ClockWishes:
     ideal (N + 1, 3), target (N + 1, 12) : as in symbols.FIELDS
     usual : distance to the target in the film, metres; watches : whether anything is filmed
     placed : whether the author gave the places
+    past : what to look past, (N + 1, K, SCREEN), as in symbols.cover; near : which screens those are, by node
     """
 
     ideal: Array
@@ -55,6 +57,8 @@ class ClockWishes:
     usual: float
     watches: bool
     placed: bool
+    past: Array
+    near: Mask | None = None
 
 
 def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
@@ -64,13 +68,14 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     )
     watched, shot = subject.watched, subject.placed.shot
     placed = shot.ideal is not None and (shot.ideal.placed or shot.ideal.framed)
+    nothing = np.zeros((len(t), 0, SCREEN))
     if watched is None:
         away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((len(t), 9))])
-        return ClockWishes(ideal, away, 100.0, watches=False, placed=placed)
+        return ClockWishes(ideal, away, 100.0, watches=False, placed=placed, past=nothing)
     target = motion(subject.mission, watched.target, t)
     filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
     usual = float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1)))
-    return ClockWishes(ideal, target, max(NEAREST, usual), watches=True, placed=placed)
+    return ClockWishes(ideal, target, max(NEAREST, usual), watches=True, placed=placed, past=nothing)
 
 
 def motion(mission: MissionIR, name: str, t: Array) -> Array:
