@@ -5,6 +5,7 @@ anew, and solved again while that helps; then the camera.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import (
@@ -73,7 +74,7 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
         rounds += 1
         planes = held(around.half_spaces(course.ctrl, reach, SHARE), wanted, over)
         planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
-        wanted = looked_past(screens, wanted, course(breaks), shown)
+        before, wanted = wanted, looked_past(screens, wanted, course(breaks), shown)
         task = problem(subject, breaks, wanted, planes, share, start)
         optional = any((best is not None, over, screens))
         solution, failed = _solved(task, SOLVERS[:1] if optional else SOLVERS)
@@ -91,8 +92,11 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
             reach, share = (2 * reach, share) if gap.unit == "m" else (reach, share * NEARLY)
             course = found
             continue
-        gained = best is None or solution.objective < (1 - GAIN) * best[1].objective
-        if best is None or solution.objective < best[1].objective:
+        # What is looked past anew has a price that the motion before did not pay.
+        anew = wanted.screened > before.screened
+        least = inf if best is None or anew else best[1].objective
+        gained = solution.objective < (1 - GAIN) * least
+        if solution.objective < least:
             best = found, solution
         if not gained:
             break

@@ -17,4 +17,4 @@ STEEP = 10.0  # of a metre by which the gimbal's pitch range is left, as such a 
 FAINT = 1e-3  # of the place's weight, on the ways into and out of the film, against that in the film
 UNSEEN = 0.1  # of the jerk's weight there
 UNWATCHED = 0.1  # of the ray's weights there, unless the author gave the places
-HIDDEN = 2.0  # of a second in which something stands right before the target, in units of the place's weight
+HIDDEN = 5.0  # of a second in which something stands right before the target, in units of the place's weight

@@ -60,6 +60,11 @@ class ClockWishes:
     past: Array
     near: Mask | None = None
 
+    @property
+    def screened(self) -> int:
+        """How many ellipsoids are looked past, counted at every node."""
+        return 0 if self.near is None else int(self.near.sum())
+
 
 def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     """Return what a shot wants at mission times t, shape (N + 1,)."""
