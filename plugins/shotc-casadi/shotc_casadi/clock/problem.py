@@ -115,7 +115,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
     place = 0.5 * (share + np.append(0.0, share[:-1]))
     binds = weights.PLACE
     if wanted.placed:
-        binds = weights.YIELDS if wanted.past.shape[1] else weights.PLACED
+        binds = weights.YIELDS if wanted.yields or wanted.past.shape[1] else weights.PLACED
     turn = np.array(weights.TURN)
     turn = np.where(filmed[:, None], turn, (0.0 if wanted.placed else weights.UNWATCHED) * turn)
     values = {

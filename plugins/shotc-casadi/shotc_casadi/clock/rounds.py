@@ -64,6 +64,7 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
     shown = (breaks >= leg.start) & (breaks <= leg.end)
     first_guess = led_past(led(guide, wanted, over), wanted, screens, shown)
     course, start, share = first_guess if screens else guide, guess(first_guess, breaks), NEARLY
+    aside = bool(over or screens)
     looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
     best: tuple[Piecewise, ClockSolution] | None = None
     first: ClockSolution | None = None
@@ -76,12 +77,12 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
         planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
         before, wanted = wanted, looked_past(screens, wanted, course(breaks), shown)
         task = problem(subject, breaks, wanted, planes, share, start)
-        optional = any((best is not None, over, screens))
+        optional = best is not None or aside
         solution, failed = _solved(task, SOLVERS[:1] if optional else SOLVERS)
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
-        if solution.status != "solved" and best is None and over:
+        if solution.status != "solved" and best is None and aside:
             # The room may leave no place on that side; a camera that cannot follow then is not taken.
-            over, start = [], guess(guide, breaks)
+            over, aside, course, start = [], False, guide, guess(guide, breaks)
             continue
         if solution.status != "solved":
             break
