@@ -172,3 +172,15 @@ def test_a_promise_goes_before_the_line_of_sight() -> None:
     path, told = refine_clocks(of.path, PassContext(), "ours")
     assert told == ()
     assert shown(of, subject_of(path, "s").leg).largest <= 0.3005
+
+
+def test_a_distance_off_the_ideal_is_the_size_s_and_the_view_s_error_in_one() -> None:
+    rng = np.random.default_rng(3)
+    ideal = np.array([3.0, -6.0, 2.0])  # from the subject to the camera
+    usual = float(np.linalg.norm(ideal))
+    for off in 0.02 * usual * rng.normal(size=(20, 3)):
+        moved = ideal + off
+        away = float(np.linalg.norm(moved))
+        size = usual / away - 1.0  # Eq. 8, as a share of the size asked for
+        view = moved / away - ideal / usual  # Eq. 9
+        assert size**2 + view @ view == pytest.approx(off @ off / usual**2, rel=0.25)
