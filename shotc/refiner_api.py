@@ -6,16 +6,22 @@ Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it
 from __future__ import annotations
 
 from shotc.geom.bernstein import Array, quintic_hermite
-from shotc.geom.bspline import restrict, spline, subdivide
+from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import View, aim_at, frustum_margins
 from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
+from shotc.geom.pieces import Mask
+from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
+from shotc.ir.bodies import cylinder, flying, moved
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
+from shotc.ir.occlusion import others_of
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath
+from shotc.ir.sampling import seen
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
 from shotc.passes.parameterize_time.estimate import rough_times, shortest_time
 from shotc.passes.refine_path.faults import leg_of
@@ -25,6 +31,7 @@ from shotc.passes.solve_path_qp.turns import steady
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
+from shotc.passes.timed_route.flights import flights
 from shotc.passes.timed_route.pictures import least_out
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
@@ -37,16 +44,21 @@ __all__ = [
     "HFOV",
     "Array",
     "Clock",
+    "Cylinder",
     "Deviation",
     "Drone",
+    "DroneTrajectory",
     "Fit",
+    "IntArray",
     "Looker",
+    "Mask",
     "NoTransit",
     "PlacedKeyframe",
     "PlacedShot",
     "PlacedSubject",
     "Planes",
     "Room",
+    "Solid",
     "Status",
     "Surroundings",
     "TimedLeg",
@@ -55,20 +67,27 @@ __all__ = [
     "Watch",
     "aim_at",
     "at_start",
+    "convex_parts",
     "corridor",
+    "cylinder",
     "distances",
     "fit",
     "flight_room",
+    "flights",
+    "flying",
     "frustum_margins",
     "ideal_place",
     "kept",
     "least_out",
     "leg_of",
+    "moved",
+    "others_of",
     "places",
     "quintic_hermite",
     "rejoined",
     "restrict",
     "rough_times",
+    "seen",
     "shortest_time",
     "shortfall",
     "smoother",

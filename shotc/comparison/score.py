@@ -13,10 +13,11 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
 from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
+from shotc.ir.bodies import cylinder
 from shotc.ir.comparison import FlownShot, Score, Trace
 from shotc.ir.path import X, Y, Z
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import cameras, cylinder, subjects
+from shotc.ir.sampling import cameras, subjects
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.framing import view_of

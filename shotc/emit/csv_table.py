@@ -14,8 +14,8 @@ from shotc.emit.fleet_rows import fleet_rows
 from shotc.emit.table_numbers import DEGREES, NUMBER, geodetic
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
+from shotc.ir.occlusion import others_of
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
 
@@ -43,7 +43,11 @@ class CsvTable:
         header = TRAJECTORY + (GEODETIC if mission.origin is not None else "")
         if mission.fleets:
             header += LIGHT
-        framing = [row.encode() for track in tracks for row in _framing(mission, track)]
+        framing = [
+            row.encode()
+            for track in tracks
+            for row in _framing(mission, track, others_of(tracks, track.drone))
+        ]
         return Emission(
             (
                 Artifact("trajectory.csv", _table(header, _blocks(plan.trajectory))),
@@ -93,24 +97,29 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
         yield line % (time, names[phase], *row)
 
 
-def _framing(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
+def _framing(mission: MissionIR, track: DroneTrajectory, others: Sequence[DroneTrajectory]) -> Iterator[str]:
     t = clock(mission.rate, track.curve.end)
     index = phase_index(track.phases, t)
     for k, phase in enumerate(track.phases):
         if phase.shot is not None:
-            yield from _shot(mission, track, phase, t[index == k])
+            at = t[index == k]
+            blocks = [
+                _block(mission, track, (phase.shot, target), at, others)
+                for target in subjects(mission, track, phase.shot)
+            ]
+            for rows in zip(*blocks, strict=True):
+                yield from rows
 
 
-def _shot(mission: MissionIR, track: DroneTrajectory, phase: Phase, t: Array) -> Iterator[str]:
-    shot = str(phase.shot)
-    blocks = [_block(mission, track, (shot, target), t) for target in subjects(mission, track, shot)]
-    for rows in zip(*blocks, strict=True):
-        yield from rows
-
-
-def _block(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: Array) -> list[str]:
+def _block(
+    mission: MissionIR,
+    track: DroneTrajectory,
+    of: tuple[str, str],
+    t: Array,
+    others: Sequence[DroneTrajectory],
+) -> list[str]:
     shot, target = of
-    frames = seen(mission, track, target, t)
+    frames = seen(mission, track, target, t, others)
     wanted = references(track, shot, target, t)
     numbers = np.column_stack([frames.u, frames.v, wanted, frames.size]) + 0.0
     flags = np.column_stack([frames.in_frame, frames.hidden]).astype(int)

@@ -5,6 +5,7 @@ Verification and the tables read the same samples, so that what is written is wh
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import ceil
 
@@ -12,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.framing import Cameras, Frames, frames, hidden
+from shotc.geom.framing import Cameras, Frames, frames
 from shotc.geom.pieces import Mask
-from shotc.geom.solids import Cylinder, Solid
-from shotc.geom.track_array import places, seen_from
+from shotc.geom.track_array import seen_from
+from shotc.ir.bodies import cylinder, moved
 from shotc.ir.fleet import Colors, Lights
 from shotc.ir.mission import MissionIR, Target
+from shotc.ir.occlusion import hiders
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
@@ -72,24 +74,24 @@ def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Arra
     return wanted
 
 
-def seen(mission: MissionIR, drone: DroneTrajectory, target: str, t: Array) -> Frames:
-    """Look through the drone's camera at a target at the given times, shape (M,)."""
+def seen(
+    mission: MissionIR,
+    drone: DroneTrajectory,
+    target: str,
+    t: Array,
+    others: Sequence[DroneTrajectory] = (),
+) -> Frames:
+    """Look through the drone's camera at a target at the given times, shape (M,).
+
+    others : flights of the other drones, which may hide it
+    """
     filmed, eyes = mission.target(target), cameras(mission, drone, t)
-    if all(other.track is None for other in mission.targets):
-        return frames(eyes, cylinder(filmed), hiding(mission, target))
+    covered = np.zeros(len(t), dtype=bool)
+    for _, hides in hiders(mission, others, target, eyes.position, t):
+        covered |= hides
     # From a camera that moves with the target, the target stands.
-    beside = replace(eyes, position=eyes.position - moved(filmed, t))
-    centres = np.array(filmed.centre) + moved(filmed, t)
-    return replace(
-        frames(beside, cylinder(filmed)), hidden=_hidden(mission, target, eyes.position, centres, t)
-    )
-
-
-def moved(target: Target, t: Array) -> Array:
-    """Return by how much a target is away from its centre at mission time 0, shape (M, 3)."""
-    if target.track is None:
-        return np.zeros((len(t), 3))
-    return np.asarray(places(target.track, t) - np.array(target.centre))
+    still = replace(eyes, position=eyes.position - moved(filmed, t))
+    return replace(frames(still, cylinder(filmed)), hidden=covered)
 
 
 def frozen(mission: MissionIR, time: float) -> MissionIR:
@@ -109,32 +111,7 @@ def beside(curve: Piecewise, target: Target) -> Piecewise:
     return Piecewise(seen_by.breaks, seen_by.ctrl + np.array(target.centre))
 
 
-def _hidden(mission: MissionIR, target: str, eyes: Array, centres: Array, t: Array) -> Mask:
-    """Tell when something stands before the centre of a target, as ``geom.framing.hidden`` does."""
-    found = np.zeros(len(t), dtype=bool)
-    for zone in mission.zones:
-        if zone.keep == "out":
-            found |= hidden(eyes, centres, (zone.solid,))
-    for other in mission.targets:
-        if other.name != target:
-            away = moved(other, t)
-            found |= hidden(eyes - away, centres - away, (cylinder(other),))
-    return found
-
-
 def cameras(mission: MissionIR, drone: DroneTrajectory, t: Array) -> Cameras:
     """Return the drone's camera at the given times, shape (M,)."""
     pose, aspect = drone.curve(t), mission.drone(drone.drone).aspect
     return Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)
-
-
-def cylinder(target: Target) -> Cylinder:
-    """Return the target as a solid, where it stands or is at mission time 0."""
-    x, y, z = target.centre
-    return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
-
-
-def hiding(mission: MissionIR, target: str) -> tuple[Solid, ...]:
-    """Return what may stand before a target: the other targets and the keep-out zones."""
-    others = tuple(cylinder(t) for t in mission.targets if t.name != target)
-    return others + tuple(zone.solid for zone in mission.zones if zone.keep == "out")

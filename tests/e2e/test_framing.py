@@ -104,7 +104,7 @@ def test_occluded_means_something_stands_on_the_line_of_sight(plan: Plan, path: 
     planned = plan(path)
     for shot, name in pairs(planned):
         framing, poses = (table.every(4 * EVERY) for table in rows_of(planned, shot, name))
-        least = clearest_sight(planned, name, poses)
+        least = np.minimum(clearest_sight(planned, name, poses), past_drones(planned, shot, name, poses))
         assert (framing["occluded"][least < -0.2] == 1).all()
         assert (framing["occluded"][least > 0.01] == 0).all()
 
@@ -128,6 +128,21 @@ def clearest_sight(planned: Planned, name: str, poses: Table) -> Array:
         on_the_way = least_on_the_way(solid, eyes - at, centres - at)
         around = signed_distance(solid, centres - at) <= 0
         least = np.minimum(least, np.where(around, np.inf, on_the_way))
+    return least
+
+
+def past_drones(planned: Planned, shot: str, name: str, poses: Table) -> Array:
+    """How near the lines of sight come to the bodies of other drones, negative where they pass through."""
+    t, eyes = poses["t_s"], poses.numbers("x_m", "y_m", "z_m")
+    along = planned.courses[name].at(t) - eyes
+    least = np.full(len(eyes), np.inf)
+    for drone, motion in planned.flights.items():
+        if drone == planned.filmed_by[shot]:
+            continue
+        body = np.column_stack([np.interp(t, motion["t_s"], motion[axis]) for axis in ("x_m", "y_m", "z_m")])
+        share = np.einsum("md,md->m", body - eyes, along) / np.einsum("md,md->m", along, along)
+        off = body - eyes - np.clip(share, 0.0, 1.0)[:, None] * along
+        least = np.minimum(least, np.linalg.norm(off, axis=1) - planned.mission.drone(drone).radius)
     return least
 
 

@@ -18,7 +18,7 @@ from tests.papers.report import Section, html, markdown, text
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "papers"
 PAGE = ROOT / "shotc" / "docs" / "papers.md"
-PARTS = ("framing", "yaw", "retiming", "multidrone", "fleets", "display")
+PARTS = ("framing", "yaw", "retiming", "multidrone", "fleets", "viewpoint", "display")
 MISSIONS = 60
 
 
@@ -65,6 +65,10 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
         from tests.papers import fleets
 
         found.append(fleets.section(say))
+    if "viewpoint" in parts and "ours" in installed:
+        from tests.papers import viewpoint
+
+        found.append(viewpoint.section(say))
     if "display" in parts:
         from tests.papers import display
 

@@ -30,6 +30,8 @@ WEIGHTS = {
     "turn acceleration": weights.TURN[2],
     "turn jerk": weights.TURN[4],
     "steep": weights.STEEP,
+    "yielding place": weights.YIELDS,
+    "hidden": weights.HIDDEN,
 }
 
 

@@ -322,8 +322,10 @@ _FRAMING = (
         "target-hidden",
         (
             "something stands before a target for a part of its shot",
-            "Another target or a keep-out zone stands on the line of sight from the camera to the centre of the "
-            "target. Move the keyframes, or fly higher there.",
+            "Another target, a keep-out zone or another drone stands on the line of sight from the camera to the "
+            "centre of the target. The notes tell which in how many of the frames, and the middle of the longest "
+            "stretch. Film from another side or from higher up. The refiner `ours` goes aside by itself in shots of "
+            "moving targets, as far as that shows more.",
         ),
         severity=Severity.WARNING,
     ),

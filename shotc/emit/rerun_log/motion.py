@@ -16,10 +16,11 @@ from shotc.emit.screen import guide_lines, screen_track
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Cameras, Frames
 from shotc.geom.silhouette import cylinder_contour, project_loops
+from shotc.ir.bodies import moved
 from shotc.ir.mission import Composition, Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import framed, moved, seen
+from shotc.ir.sampling import framed, seen
 from shotc.ir.trajectory import DroneTrajectory, Reference, VerifiedIR
 
 WIDTH = 1280

@@ -9,9 +9,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids_array import signed_distance
+from shotc.ir.bodies import cylinder, moved
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z
-from shotc.ir.sampling import cylinder, moved
 from shotc.ir.trajectory import DroneTrajectory
 
 RATE, MOST = 25.0, 6000

@@ -12,8 +12,8 @@ from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTI
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid, triangles
+from shotc.ir.bodies import cylinder, moved
 from shotc.ir.mission import MissionIR, Target
-from shotc.ir.sampling import cylinder, moved
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 SIDES = 48

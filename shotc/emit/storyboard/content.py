@@ -11,6 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Target
+from shotc.ir.occlusion import others_of
 from shotc.ir.sampling import SAME_TIME, references, seen
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
 
@@ -171,7 +172,8 @@ def standing(mission: MissionIR, board: ShotBoard) -> MissionIR:
 def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str | None, time: float) -> str:
     if target is None:
         return ""
-    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]))
+    others = others_of(plan.trajectory.drones, flight.drone)
+    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]), others)
     if not frames.in_frame[0]:
         return "cropped"
     return "hidden" if frames.hidden[0] else ""

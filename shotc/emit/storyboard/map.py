@@ -27,9 +27,9 @@ from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder
+from shotc.ir.bodies import cylinder
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.sampling import cylinder
 
 NUMBER = 0.095
 """Radius of a frame's number, inches."""

@@ -14,9 +14,9 @@ from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
 from shotc.geom.solids import Vec3, convex_parts
+from shotc.ir.bodies import cylinder
 from shotc.ir.mission import MissionIR, Target, Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.sampling import cylinder
 
 LIGHT = np.radians(215.0)
 """Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""

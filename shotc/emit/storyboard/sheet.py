@@ -11,9 +11,9 @@ from shotc.emit.storyboard.canvas import Box
 from shotc.emit.storyboard.content import ShotBoard
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.bodies import cylinder
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_YAW
-from shotc.ir.sampling import cylinder
 
 BORDER, SHARE = 0.45, 0.17
 """Left free round the content: inches, and of a small sheet no more than this share of its height."""

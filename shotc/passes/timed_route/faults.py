@@ -7,15 +7,15 @@ from math import ceil
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import Deviation
-from shotc.passes.corridor.room import named, owner_path
-from shotc.passes.timed_route.shot import LIMITS, PICTURES, NoMotion
+from shotc.passes.corridor.room import GROUND, named, owner_path
+from shotc.passes.timed_route.shot import NoMotion
 
 
 def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
     """Warn of a stretch on which a shot leaves its place beside its target."""
     shot = next(s for s in mission.shots if s.id == deviation.shot)
     labels: tuple[Label, ...] = (mission.origins.value((*shot.path, "kind")),)
-    named_cause = deviation.cause not in {LIMITS, PICTURES}
+    named_cause = deviation.cause == GROUND or deviation.cause.startswith(("zone ", "target ", "drone "))
     if named_cause:
         labels = (*labels, mission.origins.key(owner_path(mission, deviation.cause), "what stands there"))
     cause = named(deviation.cause) if named_cause else deviation.cause

@@ -7,8 +7,9 @@ from functools import partial
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder
+from shotc.ir.bodies import flying
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.timed_route.moving import Moving
@@ -34,8 +35,3 @@ def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTraje
 
 def _standing(place: Array, times: Array) -> Array:
     return np.tile(place, (len(times), 1))
-
-
-def flying(curve: Piecewise, times: Array) -> Array:
-    """Return where a drone is at times, before and after its flight on its pad; shape (M, 3)."""
-    return np.asarray(curve(np.clip(times, curve.start, curve.end))[:, :3])

@@ -8,9 +8,9 @@ import numpy as np
 
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
+from shotc.ir.bodies import flying
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathIR
 from shotc.passes.timed_route.flights import flights
-from shotc.passes.timed_route.others import flying
 
 STEP = 0.1  # seconds between the pictures that are looked at
 

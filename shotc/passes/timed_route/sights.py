@@ -16,11 +16,11 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import value_rows
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
+from shotc.ir.bodies import flying
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.timed_route.aims import Looker, aims_at
-from shotc.passes.timed_route.others import flying
 from shotc.solvers.spline_qp import Floors
 
 MARGIN = 0.3  # metres that a body is kept out of a picture by

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
+from shotc.ir.occlusion import others_of
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.verify.claims import Flight
@@ -54,7 +55,10 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     broken = (*structure(ir), *_fleet_structure(ir))
     if broken:
         return Verdict((), broken)
-    flights = [Flight(mission, mission.drone(track.drone), track) for track in ir.drones]
+    flights = [
+        Flight(mission, mission.drone(track.drone), track, others_of(ir.drones, track.drone))
+        for track in ir.drones
+    ]
     claims: list[Claim] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")

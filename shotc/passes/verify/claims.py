@@ -20,11 +20,12 @@ TOLERANCE = 1e-6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flight:
-    """One drone, what it was asked and how it flies."""
+    """One drone, what it was asked and how it flies; others : the other drones' flights."""
 
     mission: MissionIR
     drone: Drone
     track: DroneTrajectory
+    others: tuple[DroneTrajectory, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from shotc.ir.sampling import clock, framed, references, seen, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 from shotc.passes.verify.close import errors_close, margins_close
+from shotc.passes.verify.hidden import longest
 from shotc.passes.verify.reference import held, wanted_framing
 
 
@@ -63,7 +64,7 @@ def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> Vi
     times = times[held(flight, placed, phase, target, times)]
     if not len(times):
         return None
-    frames = seen(flight.mission, flight.track, target, times)
+    frames = seen(flight.mission, flight.track, target, times, flight.others)
     wanted = references(flight.track, shot.id, target, times)
     error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
     error = np.where(np.isnan(frames.u) & ~np.isnan(wanted[:, 0]), inf, error)
@@ -143,5 +144,5 @@ def _visible(flight: Flight, view: View) -> Claim:
         hard=False,
         shot=view.shot.id,
     )
-    k = int(np.argmax(hidden))
+    k = longest(hidden)
     return claim(flight, limit, Worst(float(1.0 - hidden.mean()), float(view.times[k]), "sampled"))

@@ -12,6 +12,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.show import Display
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
+from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
 from shotc.passes.verify.sight import ENDING as SEEN
@@ -157,13 +158,14 @@ def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
     help_ = (
         "move or widen the shot there, or state `require: {in_frame: ...}` to have it held"
         if code == "V030"
-        else "move the keyframes so that nothing stands on the line of sight"
+        else "film from another side or from higher up, so that nothing stands on the line of sight"
     )
+    by = () if code == "V030" else hidden_by(ir, claim, target)
     return Diagnostic(
         code,
         f"{target} is {state} in {share} of shot `{claim.shot}`",
         labels=(mission.origins.key(claim.path),),
-        notes=tuple(_notes(claim, _phase_of(ir, claim))),
+        notes=(*_notes(claim, _phase_of(ir, claim)), *by),
         help=help_,
     )
 

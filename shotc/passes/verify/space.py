@@ -14,8 +14,9 @@ import numpy as np
 from shotc.geom.pieces import Pieces, cut, join
 from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solids import Solid, distance
+from shotc.ir.bodies import cylinder
 from shotc.ir.mission import Target, Zone
-from shotc.ir.sampling import beside, cylinder
+from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 

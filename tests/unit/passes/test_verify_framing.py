@@ -13,6 +13,7 @@ from shotc.ir.mission import Promise, Zone
 from shotc.ir.path import CAM_YAW, HFOV, Deviation
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
+from shotc.passes.verify.hidden import longest
 from tests.records import replace
 from tests.tampered_plans import (
     CONTEXT,
@@ -86,6 +87,15 @@ def test_a_hidden_target_is_a_warning() -> None:
     assert 0.9 < share.worst < 1.0
     assert share.time is not None
     assert PLAN.drones[0].curve(share.time)[0] > 39  # it hides it from the east only
+    (told,) = Verify().run(ir, CONTEXT).diagnostics
+    assert told.notes[-1].startswith("zone `screen` hides it in ")
+    assert float(told.notes[-1].split()[-2]) == pytest.approx(100 * (1 - share.worst), abs=0.2)
+
+
+def test_the_worst_of_what_is_hidden_is_the_middle_of_the_longest_stretch() -> None:
+    assert longest(np.array([0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=bool)) == 6
+    assert longest(np.array([1, 1, 1, 1, 0, 1], dtype=bool)) == 1
+    assert longest(np.zeros(4, dtype=bool)) == 0
 
 
 def promising(promise: Promise, ir: TrajectoryIR = PLAN) -> list[Diagnostic]:

@@ -10,7 +10,7 @@ import numpy as np
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import Array, Planes
 from shotc_casadi.clock import weights
-from shotc_casadi.clock.symbols import FIELDS, INPUTS, PLANE, POINTS, SLACK
+from shotc_casadi.clock.symbols import FIELDS, HIDDEN, INPUTS, PLANE, POINTS, SLACK
 from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, steepest
 
 STAGES = 100  # of the film, if its pieces allow
@@ -24,13 +24,14 @@ WIDE = 5e-4  # half the width of the box about the given states of both ends, m 
 class ClockProblem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(planes))
-    states, inputs : first guess, shapes (N + 1, STATES) and (N, INPUTS)
+    parameters : shape (N + 1, symbols.size(planes, screens))
+    states, inputs : first guess, shapes (N + 1, STATES) and (N, INPUTS), or one more where there are screens
     state_bounds : (lower, upper), shapes as states
     held, driven : (lower, upper) of a stage's constraints, as in symbols.stage
     """
 
     planes: int
+    screens: int
     parameters: Array
     states: Array
     inputs: Array
@@ -84,15 +85,19 @@ def problem(
     for k, given in zip((0, -1), rest, strict=True):
         low[k], high[k] = given - WIDE, given + WIDE
     table, count = _half_spaces(planes, len(breaks) - 1)
+    screens = wanted.past.shape[1]
+    if screens:
+        inputs = np.column_stack([inputs[:, :HIDDEN], np.ones(len(inputs))])
     speed, acceleration, jerk = (
         (share * bound) ** 2 for bound in (limits.speed, limits.acceleration, limits.jerk)
     )
-    walls = np.zeros(count * POINTS)
+    walls = np.zeros(count * POINTS + screens)
     driven_low = np.concatenate([[-inf, -inf, -share * limits.descent, 0.0, 0.0], walls])
     driven_high = np.concatenate([[jerk, speed, share * limits.climb, inf, inf], walls + inf])
     return ClockProblem(
         count,
-        np.column_stack([_parameters(subject, breaks, wanted), table]),
+        screens,
+        np.column_stack([_parameters(subject, breaks, wanted), table, wanted.past.reshape(len(breaks), -1)]),
         states,
         inputs,
         (low, high),
@@ -108,12 +113,15 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
     near = 1.0 / wanted.usual**2
     share = np.where(filmed, 1.0, weights.FAINT) * length
     place = 0.5 * (share + np.append(0.0, share[:-1]))
+    binds = weights.PLACE
+    if wanted.placed:
+        binds = weights.YIELDS if wanted.yields or wanted.past.shape[1] else weights.PLACED
     turn = np.array(weights.TURN)
     turn = np.where(filmed[:, None], turn, (0.0 if wanted.placed else weights.UNWATCHED) * turn)
     values = {
         "length": length,
         "ideal": wanted.ideal,
-        "place": (weights.PLACED if wanted.placed else weights.PLACE) * near * place,
+        "place": binds * near * place,
         "leash": np.full(n + 1, near / weights.LEASH**2),
         "target": wanted.target,
         "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
@@ -121,6 +129,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
         "steep": np.tile(steepest(subject.drone, subject.watched), (n + 1, 1)),
         "free": np.where(filmed & wanted.watches, 0.0, UNFILMED),
         "price": np.full(n + 1, weights.STEEP / wanted.usual),
+        "hidden": np.full(n + 1, weights.HIDDEN * binds),
     }
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
     return np.column_stack(table)

@@ -11,13 +11,12 @@ import numpy as np
 
 from shotc.refiner_api import Array
 from shotc_casadi.clock.problem import ClockProblem
-from shotc_casadi.clock.symbols import INPUTS, POINTS, STATES, derived
+from shotc_casadi.clock.symbols import POINTS, SLACK, STATES, derived
 from shotc_casadi.patience import PATIENCE, Endless, within
 from shotc_casadi.program import Solver, Status, built
 
 TOLERANCE = 1e-5
 FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
-WIDTH = STATES + INPUTS
 ROWS = ("speed", "acceleration", "jerk", "speed", "climb and descent")
 UNITS = {
     "speed": "m^2/s^2",
@@ -56,10 +55,10 @@ def solve(task: ClockProblem, solver: Solver) -> ClockSolution:
 
     if not (np.isfinite(start).all() and np.isfinite(task.parameters).all()):
         return nothing("nan")
-    programme = programme_of(n, task.planes, solver)
+    programme = programme_of(n, (task.planes, task.screens), solver)
     lower, upper = _constraint_bounds(task)
     inputs_low = np.full_like(task.inputs, -np.inf)
-    inputs_low[:, -1] = 0.0
+    inputs_low[:, SLACK:] = 0.0
     given = {
         "x0": start,
         "p": task.parameters.ravel(),
@@ -79,8 +78,8 @@ def solve(task: ClockProblem, solver: Solver) -> ClockSolution:
     seconds = time.perf_counter() - began
     stats = programme.stats()
     x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
-    inner = x[: n * WIDTH].reshape(n, WIDTH)
-    states, inputs = np.vstack([inner[:, :STATES], x[n * WIDTH :]]), inner[:, STATES:]
+    inner = x[:-STATES].reshape(n, -1)
+    states, inputs = np.vstack([inner[:, :STATES], x[-STATES:]]), inner[:, STATES:]
     if not (np.isfinite(x).all() and np.isfinite(g).all()):
         return nothing("nan")
     violation = np.maximum(np.maximum(lower - g, g - upper), 0.0)
@@ -94,15 +93,15 @@ def solve(task: ClockProblem, solver: Solver) -> ClockSolution:
         int(stats["iter_count"]),
         seconds,
         float(violation[worst]),
-        min(worst // _high(task.planes), n),
-        _name(worst, n, task.planes),
+        min(worst // _high(task), n),
+        _name(worst, task),
     )
 
 
 @lru_cache(maxsize=16)
-def programme_of(stages: int, planes: int, solver: Solver) -> Any:
-    """Return the solver of all problems of one shape."""
-    return built(derived(planes), stages, solver, TOLERANCE)
+def programme_of(stages: int, sizes: tuple[int, int], solver: Solver) -> Any:
+    """Return the solver of all problems of one shape; sizes : half-spaces and ellipsoids of a stage."""
+    return built(derived(*sizes), stages, solver, TOLERANCE)
 
 
 def _status(stats: dict[str, Any], residual: float) -> Status:
@@ -112,17 +111,22 @@ def _status(stats: dict[str, Any], residual: float) -> Status:
     return "infeasible" if "nfeasible" in str(stats.get("return_status", "")) else "stopped"
 
 
-def _high(planes: int) -> int:
+def _high(task: ClockProblem) -> int:
     """Return how many rows a stage has: the motion, held and driven constraints."""
-    return STATES + 7 + POINTS * planes
+    return STATES + 7 + POINTS * task.planes + task.screens
 
 
-def _name(row: int, stages: int, planes: int) -> str:
-    inner = row % _high(planes) if row < stages * _high(planes) else STATES + row - stages * _high(planes)
+def _name(row: int, task: ClockProblem) -> str:
+    high, stages = _high(task), task.stages
+    inner = row % high if row < stages * high else STATES + row - stages * high
     if inner < STATES:
         return "the motion from stage to stage"
     inner -= STATES
-    return ROWS[inner] if inner < len(ROWS) else "the gimbal's pitch" if inner < 7 else "clearance"
+    if inner < len(ROWS):
+        return ROWS[inner]
+    if inner < 7:
+        return "the gimbal's pitch"
+    return "clearance" if inner < 7 + POINTS * task.planes else "the line of sight"
 
 
 def _constraint_bounds(task: ClockProblem) -> tuple[Array, Array]:

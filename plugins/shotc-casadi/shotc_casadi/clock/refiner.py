@@ -20,6 +20,7 @@ from shotc.plugin_api import (
 from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
 from shotc_casadi.clock.program import UNITS, ClockSolution
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
+from shotc_casadi.clock.shown import past_what_hides
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.patience import PATIENCE
 
@@ -28,6 +29,8 @@ STEP = 0.1  # seconds between the places that are compared with it
 KEPT = "kept: the guide shows more"
 OUT = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
 CALM = "a calmer camera, and the drone's limits"
+SIGHT = "what would hide the subject"
+SAME = 2.0  # seconds between a place that moved the guide and one that is off for the same reason
 
 
 def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tuple[Diagnostic, ...]]:
@@ -45,11 +48,20 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
         refined = refine_clock(subject)
         said = _report(path, subject, refined, name)
         told += [] if said is None else [said]
-        moved = path if refined.leg is None else with_leg(path, refined.leg)
-        if moved is not path and least_out(moved) < min(OUT, least_out(path)):
-            refined, moved = replace(refined, leg=None), path
+        refined, moved = _taken(path, refined, past_what_hides(subject, refined))
         path = replace(moved, stats=(*moved.stats, *_stats(refined)))
     return path, tuple(told)
+
+
+def _taken(path: PathIR, plain: ClockRefined, freed: ClockRefined | None) -> tuple[ClockRefined, PathIR]:
+    """Return the first of a shot's refinements that keeps the drones' pictures free, and the path with it."""
+    for one in (freed, plain):
+        if one is None or one.leg is None:
+            continue
+        moved = with_leg(path, one.leg, CALM if one is plain else SIGHT)
+        if least_out(moved) >= min(OUT, least_out(path)):
+            return one, moved
+    return replace(plain, leg=None), path
 
 
 def subject_of(path: PathIR, shot: str) -> ClockSubject:
@@ -62,8 +74,11 @@ def subject_of(path: PathIR, shot: str) -> ClockSubject:
     return ClockSubject(path, mission.drone(placed.shot.drone), begun, leg)
 
 
-def with_leg(path: PathIR, leg: TimedLeg) -> PathIR:
-    """Return the path with another leg for a shot, which leaves its ideal as far as it then does."""
+def with_leg(path: PathIR, leg: TimedLeg, why: str) -> PathIR:
+    """Return the path with another leg for a shot, which leaves its ideal as far as it then does.
+
+    why : it does so where nothing moved the guide
+    """
     timed = tuple(
         TimedPath(
             flown.drone,
@@ -74,10 +89,10 @@ def with_leg(path: PathIR, leg: TimedLeg) -> PathIR:
     moved = replace(path, timed=timed)
     others = tuple(d for d in path.deviations if d.shot != leg.shot)
     mine = tuple(d for d in path.deviations if d.shot == leg.shot)
-    return replace(moved, deviations=(*others, *_deviations(subject_of(moved, leg.shot), mine)))
+    return replace(moved, deviations=(*others, *_deviations(subject_of(moved, leg.shot), mine, why)))
 
 
-def _deviations(subject: ClockSubject, before: tuple[Deviation, ...]) -> tuple[Deviation, ...]:
+def _deviations(subject: ClockSubject, before: tuple[Deviation, ...], why: str) -> tuple[Deviation, ...]:
     """Return the worst of every stretch off the ideal; what moved the guide nearest to there is why."""
     leg = subject.leg
     t = np.append(np.arange(leg.start, leg.end, STEP), leg.end)
@@ -87,14 +102,15 @@ def _deviations(subject: ClockSubject, before: tuple[Deviation, ...]) -> tuple[D
     runs = np.split(off, np.flatnonzero(np.diff(off) > 1) + 1) if len(off) else []
     worst = [int(run[away[run].argmax()]) for run in runs]
     return tuple(
-        Deviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k])))
+        Deviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
         for k in worst
         if away[k] > NOTICE
     )
 
 
-def _cause(before: tuple[Deviation, ...], t: float) -> str:
-    return min(before, key=lambda d: abs(d.s - t)).cause if before else CALM
+def _cause(before: tuple[Deviation, ...], t: float, why: str) -> str:
+    near = [d for d in before if why == CALM or abs(d.s - t) <= SAME]
+    return min(near, key=lambda d: abs(d.s - t)).cause if near else why
 
 
 def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: str) -> Diagnostic | None:

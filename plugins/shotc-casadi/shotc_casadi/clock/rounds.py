@@ -5,6 +5,7 @@ anew, and solved again while that helps; then the camera.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import (
@@ -14,10 +15,12 @@ from shotc.refiner_api import (
     restrict,
     surroundings,
 )
+from shotc_casadi.clock.aside import led_past
 from shotc_casadi.clock.curve import curve_of, filmed
 from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
 from shotc_casadi.clock.program import ClockSolution, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
+from shotc_casadi.clock.screens import Screen, looked_past
 from shotc_casadi.clock.side import held, led, passes
 from shotc_casadi.clock.wishes import ClockSubject, wishes
 from shotc_casadi.program import Solver
@@ -51,14 +54,17 @@ class ClockRefined:
     gap: Gap | None
 
 
-def refine_clock(subject: ClockSubject) -> ClockRefined:
-    """Refine one shot."""
+def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> ClockRefined:
+    """Refine one shot; screens : what it is to look past."""
     leg, breaks = subject.leg, breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
     wanted = wishes(subject, breaks)
     guide = restrict(leg.curve.channels(0, 1, 2), breaks)
     over = passes(subject, breaks, wanted)
-    course, start, share = guide, guess(led(guide, wanted, over), breaks), NEARLY
+    shown = (breaks >= leg.start) & (breaks <= leg.end)
+    first_guess = led_past(led(guide, wanted, over), wanted, screens, shown)
+    course, start, share = first_guess if screens else guide, guess(first_guess, breaks), NEARLY
+    aside = bool(over or screens)
     looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
     best: tuple[Piecewise, ClockSolution] | None = None
     first: ClockSolution | None = None
@@ -69,12 +75,14 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
         rounds += 1
         planes = held(around.half_spaces(course.ctrl, reach, SHARE), wanted, over)
         planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
+        before, wanted = wanted, looked_past(screens, wanted, course(breaks), shown)
         task = problem(subject, breaks, wanted, planes, share, start)
-        solution, failed = _solved(task, SOLVERS if best is None and not over else SOLVERS[:1])
+        optional = best is not None or aside
+        solution, failed = _solved(task, SOLVERS[:1] if optional else SOLVERS)
         seconds += solution.seconds + (failed.seconds if failed else 0.0)
-        if solution.status != "solved" and best is None and over:
+        if solution.status != "solved" and best is None and aside:
             # The room may leave no place on that side; a camera that cannot follow then is not taken.
-            over, start = [], guess(guide, breaks)
+            over, aside, course, start = [], False, guide, guess(guide, breaks)
             continue
         if solution.status != "solved":
             break
@@ -85,8 +93,11 @@ def refine_clock(subject: ClockSubject) -> ClockRefined:
             reach, share = (2 * reach, share) if gap.unit == "m" else (reach, share * NEARLY)
             course = found
             continue
-        gained = best is None or solution.objective < (1 - GAIN) * best[1].objective
-        if best is None or solution.objective < best[1].objective:
+        # What is looked past anew has a price that the motion before did not pay.
+        anew = wanted.screened > before.screened
+        least = inf if best is None or anew else best[1].objective
+        gained = solution.objective < (1 - GAIN) * least
+        if solution.objective < least:
             best = found, solution
         if not gained:
             break

@@ -9,10 +9,12 @@ from __future__ import annotations
 
 PLACE = 1.0
 LEASH = 0.2  # of the usual distance: as far off, the place weighs twice as much
-PLACED = 1e5  # instead, where the author gave the places
+PLACED = 1e5  # instead, where the author gave the places, or says how the target appears
+YIELDS = 10.0  # instead, where they yield to what would hide it
 JERK = 0.5**6  # s^6: wiggles of the place shorter than half a second vanish, as in the convex guide
 TURN = (0.0, 0.0, 0.5, 0.5, 0.25, 0.25)  # s^2, s^4, s^6: yaw and pitch rate, acceleration, jerk
 STEEP = 10.0  # of a metre by which the gimbal's pitch range is left, as such a share, for a second
 FAINT = 1e-3  # of the place's weight, on the ways into and out of the film, against that in the film
 UNSEEN = 0.1  # of the jerk's weight there
 UNWATCHED = 0.1  # of the ray's weights there, unless the author gave the places
+HIDDEN = 5.0  # of a second in which something stands right before the target, in units of the place's weight

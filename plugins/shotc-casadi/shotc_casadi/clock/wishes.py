@@ -8,11 +8,13 @@ from math import pi, tan
 import numpy as np
 
 from shotc.plugin_api import MissionIR, PathIR
-from shotc.refiner_api import Array, Drone, PlacedShot, PlacedSubject, TimedLeg, ideal_place, places
+from shotc.refiner_api import Array, Drone, Mask, PlacedShot, PlacedSubject, TimedLeg, ideal_place, places
 
+SCREEN = 13  # numbers of what is looked past: see symbols.cover
 AROUND = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
 SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
 STEEPEST = tan(89.0 * pi / 180)
+KEPT = 0.05  # of the usual distance: a guide that is farther off a framing's place does not keep it
 NEAREST = 1.0  # metres: least distance that counts as usual
 
 
@@ -47,7 +49,8 @@ class ClockWishes:
 
     ideal (N + 1, 3), target (N + 1, 12) : as in symbols.FIELDS
     usual : distance to the target in the film, metres; watches : whether anything is filmed
-    placed : whether the author gave the places
+    placed : whether the author gave the places; yields : whether the guide cannot keep a framing's
+    past : what to look past, (N + 1, K, SCREEN), as in symbols.cover; near : which screens those are, by node
     """
 
     ideal: Array
@@ -55,6 +58,14 @@ class ClockWishes:
     usual: float
     watches: bool
     placed: bool
+    yields: bool
+    past: Array
+    near: Mask | None = None
+
+    @property
+    def screened(self) -> int:
+        """How many ellipsoids are looked past, counted at every node."""
+        return 0 if self.near is None else int(self.near.sum())
 
 
 def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
@@ -64,13 +75,16 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     )
     watched, shot = subject.watched, subject.placed.shot
     placed = shot.ideal is not None and (shot.ideal.placed or shot.ideal.framed)
+    nothing = np.zeros((len(t), 0, SCREEN))
     if watched is None:
         away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((len(t), 9))])
-        return ClockWishes(ideal, away, 100.0, watches=False, placed=placed)
+        return ClockWishes(ideal, away, 100.0, watches=False, placed=placed, yields=False, past=nothing)
     target = motion(subject.mission, watched.target, t)
     filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
-    usual = float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1)))
-    return ClockWishes(ideal, target, max(NEAREST, usual), watches=True, placed=placed)
+    usual = max(NEAREST, float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1))))
+    off = np.linalg.norm(subject.leg.curve(t)[filmed, :3] - ideal[filmed], axis=1).max()
+    yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT * usual)
+    return ClockWishes(ideal, target, usual, watches=True, placed=placed, yields=yields, past=nothing)
 
 
 def motion(mission: MissionIR, name: str, t: Array) -> Array:

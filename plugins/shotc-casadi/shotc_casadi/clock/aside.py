@@ -1,0 +1,65 @@
+"""A first guess that looks past what hides the subject: over it, or to either side of it.
+
+Right behind something no way out of its shadow is shorter than another, so that a solver has to be led.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import Array, IntArray, Mask, quintic_hermite
+from shotc_casadi.clock.screens import Screen, covered
+from shotc_casadi.clock.wishes import ClockWishes
+
+CLEAR = -0.1  # of d_v, to which a guess is led
+TRIES = 20  # of ways to go to either side, up to the usual distance to the subject
+BRIDGED = 1.0  # seconds: stretches that are hidden, with less between them, are passed on one side
+SPREAD = 3.0  # seconds before and after such a stretch in which a guess goes aside
+
+
+def led_past(curve: Piecewise, wanted: ClockWishes, screens: Sequence[Screen], filmed: Mask) -> Piecewise:
+    """Return a position curve led aside where something hides the subject in the film; its ends stay."""
+    if not screens:
+        return curve
+    breaks = curve.breaks
+    hidden = filmed & (covered(screens, wanted, curve(breaks)) > 0.0)
+    values = [curve(breaks), *(curve.derivative(order)(breaks) for order in (1, 2))]
+    at = np.flatnonzero(hidden)
+    for run in np.split(at, np.flatnonzero(np.diff(breaks[at]) > BRIDGED) + 1) if len(at) else []:
+        way = _way_out(curve(breaks), wanted, screens, run)
+        bump = _bump(breaks, (float(breaks[run[0]]), float(breaks[run[-1]])))
+        for order in range(3):
+            values[order] = values[order] + bump[order][:, None] * way
+    return quintic_hermite(breaks, *values)
+
+
+def _way_out(eyes: Array, wanted: ClockWishes, screens: Sequence[Screen], run: IntArray) -> Array:
+    """Return the shortest way out of the shadow for all nodes of a run, W, metres, shape (3,)."""
+    ray = (wanted.target[run, :3] - eyes[run]).mean(axis=0)
+    side = np.array([-ray[1], ray[0], 0.0]) / max(float(np.hypot(ray[0], ray[1])), 1e-6)
+    best, least = np.zeros(3), float(covered(screens, wanted, eyes)[run].max())
+    for far in wanted.usual * np.arange(1, TRIES + 1) / TRIES:
+        for way in (far * np.array([0.0, 0.0, 1.0]), far * side, -far * side):
+            cover = float(covered(screens, wanted, eyes + way)[run].max())
+            if cover < least:
+                best, least = way, cover
+        if least < CLEAR:
+            break
+    return best
+
+
+def _bump(breaks: Array, span: tuple[float, float]) -> list[Array]:
+    """Return a smooth step to 1 over a stretch of time and back, with its first two derivatives."""
+    early = min(SPREAD, span[0] - breaks[0]) or 1.0
+    late = min(SPREAD, breaks[-1] - span[1]) or 1.0
+    before, after = (span[0] - breaks) / early, (breaks - span[1]) / late
+    rising = before > after
+    x = np.clip(np.maximum(before, after), 0.0, 1.0)
+    rate = np.where(rising, -1.0 / early, 1.0 / late)
+    inside = (x > 0.0) & (x < 1.0)
+    step = np.polynomial.Polynomial([1.0, 0.0, 0.0, -10.0, 15.0, -6.0])
+    slopes = (np.where(inside, step.deriv(order)(x) * rate**order, 0.0) for order in (1, 2))
+    return [step(x), *slopes]

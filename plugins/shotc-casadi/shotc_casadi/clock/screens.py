@@ -1,0 +1,131 @@
+"""What may stand before the subject, as ellipsoids, and how far a line of sight runs inside of one.
+
+Horizon culling (viewpoint Eq. 11): where an ellipsoid is the unit ball, a point behind its horizon is hidden
+where the line of sight passes the centre nearer than 1. The paper's d_v is 1 less that distance squared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import isfinite, sqrt
+
+import numpy as np
+
+from shotc.refiner_api import Array, Cylinder, Mask, Solid, convex_parts, cylinder, flights, flying, moved
+from shotc_casadi.clock.wishes import SCREEN, ClockSubject, ClockWishes
+
+ENCLOSES = sqrt(2.0)  # the semi-axes of an ellipsoid over those of the upright cylinder that it goes round
+WIDER = 1.2  # of what is a ball or has no end, so that it counts before it hides
+STEPS = 200  # of Khachiyan's method
+NEAR = 3.0  # of -d_v: lines of sight that pass within twice the ellipsoid count
+COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # ellipsoids a programme may have, so that few are built
+NONE = -1e2  # of d_v, where there is no ellipsoid
+ROOM = 0.1  # of d_v: a camera or a subject in an ellipsoid, or as near to it, is not looked at through it
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Screen:
+    """An ellipsoid that moves.
+
+    scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
+    """
+
+    scale: Array
+    centres: Array
+
+    def cover(self, eyes: Array, points: Array) -> Array:
+        """Return d_v of lines of sight, above 0 hidden; -inf where the point is before the horizon.
+
+        eyes, points : (N + 1, 3), of the camera and of what it looks at
+        """
+        ray, away = (points - eyes) @ self.scale.T, (self.centres - eyes) @ self.scale.T
+        beyond = (points - self.centres) @ self.scale.T
+        square = np.maximum((ray**2).sum(axis=1), 1e-12)
+        horizon = (away**2).sum(axis=1) - 1.0
+        along = (ray * away).sum(axis=1)
+        counts = (along > horizon) & (horizon > ROOM) & ((beyond**2).sum(axis=1) > 1.0 + ROOM)
+        return np.where(counts, along**2 / square - horizon, -np.inf)
+
+
+def screens_of(subject: ClockSubject, breaks: Array) -> tuple[Screen, ...]:
+    """Return all that may stand before the subject at the nodes: zones, other targets, other drones."""
+    if subject.watched is None:
+        return ()
+    return tuple(_screens(subject, subject.watched.target, breaks))
+
+
+def _screens(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Screen]:
+    mission, still = subject.mission, np.zeros((len(breaks), 3))
+    for zone in mission.zones:
+        if zone.keep == "out":
+            for part in convex_parts(zone.solid):
+                scale, centre = enclosing(part)
+                yield Screen(scale, still + centre)
+    for other in mission.targets:
+        if other.name != name:
+            scale, centre = enclosing(cylinder(other))
+            yield Screen(scale, centre + moved(other, breaks))
+    for drone, flight in flights(subject.path).items():
+        if drone != subject.drone.name:
+            radius = WIDER * mission.drone(drone).radius
+            yield Screen(np.eye(3) / radius, flying(flight.curve, breaks))
+
+
+def looked_past(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array, filmed: Mask) -> ClockWishes:
+    """Return the wishes with the ellipsoids that come near the lines of sight from ``eyes`` (N + 1, 3).
+
+    Those that came near before stay. filmed : whether each node is in the film
+    """
+    if not screens:
+        return wanted
+    points = wanted.target[:, :3]
+    covers = np.array([screen.cover(eyes, points) for screen in screens])
+    near = (covers > -NEAR) & filmed
+    if wanted.near is not None:
+        near |= wanted.near
+    most = int(near.sum(axis=0).max(initial=0))
+    count = next((c for c in COUNTS if c >= most), most)
+    past = np.zeros((len(eyes), count, SCREEN))
+    past[:, :, -1] = NONE
+    for k in range(len(eyes)):
+        for i, j in enumerate(np.flatnonzero(near[:, k])):
+            past[k, i] = [*screens[int(j)].scale.T.ravel(), *screens[int(j)].centres[k], 1.0]
+    return replace(wanted, past=past, near=near)
+
+
+def covered(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array) -> Array:
+    """Return the most that anything covers each line of sight, d_v, above 0 hidden; shape (N + 1,)."""
+    points = wanted.target[:, :3]
+    return np.asarray(np.max([screen.cover(eyes, points) for screen in screens], axis=0, initial=-np.inf))
+
+
+def enclosing(part: Solid) -> tuple[Array, Array]:
+    """Return the scale and the centre of an ellipsoid about a convex solid, endless where that is."""
+    if isinstance(part, Cylinder):
+        middle, flat = np.array(part.centre), np.eye(2) / part.radius
+    else:
+        middle, flat = _ellipse(np.array(part.points))
+    ends = isfinite(part.bottom) and isfinite(part.top)
+    half = 0.5 * (part.top - part.bottom)
+    scale = np.zeros((3, 3))
+    scale[:2, :2] = flat / (ENCLOSES if ends else WIDER)
+    scale[2, 2] = 1.0 / (ENCLOSES * half) if ends else 0.0
+    return scale, np.array([*middle, 0.5 * (part.bottom + part.top) if ends else 0.0])
+
+
+def _ellipse(points: Array) -> tuple[Array, Array]:
+    """Return the centre c and the scale S of a small ellipse |S (x - c)| <= 1 about points (Khachiyan)."""
+    n = len(points)
+    lifted = np.column_stack([points, np.ones(n)]).T
+    weight = np.full(n, 1.0 / n)
+    for _ in range(STEPS):
+        reach = np.einsum("in,in->n", lifted, np.linalg.solve((lifted * weight) @ lifted.T, lifted))
+        k = int(reach.argmax())
+        step = (reach[k] - 3.0) / (3.0 * (reach[k] - 1.0))
+        weight *= 1.0 - step
+        weight[k] += step
+    centre = points.T @ weight
+    spread = (points.T * weight) @ points - np.outer(centre, centre)
+    scale = np.linalg.cholesky(np.linalg.inv(spread) / 2.0).T
+    return centre, scale / np.linalg.norm((points - centre) @ scale.T, axis=1).max()

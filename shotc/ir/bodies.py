@@ -1,0 +1,28 @@
+"""Targets as solids, and where they and drones are over mission time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.solids import Cylinder
+from shotc.geom.track_array import places
+from shotc.ir.mission import Target
+
+
+def moved(target: Target, t: Array) -> Array:
+    """Return by how much a target is away from its centre at mission time 0, shape (M, 3)."""
+    if target.track is None:
+        return np.zeros((len(t), 3))
+    return np.asarray(places(target.track, t) - np.array(target.centre))
+
+
+def cylinder(target: Target) -> Cylinder:
+    """Return the target as a solid, where it stands or is at mission time 0."""
+    x, y, z = target.centre
+    return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
+
+
+def flying(curve: Piecewise, times: Array) -> Array:
+    """Return where a drone is at times, before and after its flight on its pad; shape (M, 3)."""
+    return np.asarray(curve(np.clip(times, curve.start, curve.end))[:, :3])

@@ -1,0 +1,53 @@
+"""What stands before a target: keep-out zones, the other targets and the other drones, instant by instant.
+
+A sight line goes from the camera to the target's centre. A drone is a ball of its radius, in flight and on
+its pad.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.framing import hidden
+from shotc.geom.pieces import Mask
+from shotc.ir.bodies import cylinder, flying, moved
+from shotc.ir.mission import MissionIR
+from shotc.ir.trajectory import DroneTrajectory
+
+
+def hiders(
+    mission: MissionIR, others: Sequence[DroneTrajectory], target: str, eyes: Array, t: Array
+) -> Iterator[tuple[str, Mask]]:
+    """Yield what may hide a target, by sort and name, and when it does, shape (M,).
+
+    others : flights of the drones that count; eyes : p_W of the camera at times t, (M, 3)
+    """
+    centres = np.array(mission.target(target).centre) + moved(mission.target(target), t)
+    for zone in mission.zones:
+        if zone.keep == "out":
+            yield f"zone {zone.name}", hidden(eyes, centres, (zone.solid,))
+    for other in mission.targets:
+        if other.name != target:
+            away = moved(other, t)
+            yield f"target {other.name}", hidden(eyes - away, centres - away, (cylinder(other),))
+    for flight in others:
+        ball = flying(flight.curve, t)
+        yield f"drone {flight.drone}", _behind(eyes, centres, ball, mission.drone(flight.drone).radius)
+
+
+def others_of(flights: Sequence[DroneTrajectory], drone: str) -> tuple[DroneTrajectory, ...]:
+    """Return the flights of all drones but one."""
+    return tuple(flight for flight in flights if flight.drone != drone)
+
+
+def _behind(eyes: Array, points: Array, ball: Array, radius: float) -> Mask:
+    """Tell which sight lines run through a ball that holds neither of their ends."""
+    along, away = points - eyes, ball - eyes
+    square = np.maximum(np.einsum("md,md->m", along, along), 1e-300)
+    share = np.clip(np.einsum("md,md->m", away, along) / square, 0.0, 1.0)
+    near = np.linalg.norm(away - share[:, None] * along, axis=1)
+    ends = np.minimum(np.linalg.norm(away, axis=1), np.linalg.norm(ball - points, axis=1))
+    return np.asarray((near < radius) & (ends >= radius))
