@@ -18,9 +18,10 @@ from shotc.geom.proof import Bound, box_gap, inf_channel, inf_distance, norm, su
 from shotc.geom.solids import Solid, convex_parts
 from shotc.geom.solids_array import separation, signed_distance
 from shotc.geom.track_array import places
+from shotc.ir.bodies import cylinder
 from shotc.ir.mission import Target, Zone
 from shotc.ir.origin import KeyPath
-from shotc.ir.sampling import beside, cylinder
+from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap
 from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone
