@@ -97,7 +97,7 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     CodeInfo(
         "D056",
-        "too-many-drones",
+        "more-drones-than-fit",
         Severity.ERROR,
         "more drones than fit into a picture",
         "So that a fleet can go from picture to picture on straight lines, goals stand sqrt(2) times the separation "
@@ -133,7 +133,7 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     CodeInfo(
         "D059",
-        "viewpoint-inside",
+        "viewpoint-in-model",
         Severity.ERROR,
         "the viewpoint is inside of what is drawn",
         "Goals are spread for the view from `viewpoint`, along the line of sight to the middle of the picture. From "
