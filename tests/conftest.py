@@ -9,17 +9,17 @@ from importlib import import_module
 import pytest
 from hypothesis import settings
 
-import shotc
-
 # A loaded machine is no bug; and CI runs the same examples every time.
 CI = bool(os.environ.get("CI"))
 settings.register_profile("shotc", deadline=None, derandomize=CI, print_blob=True)
 settings.load_profile("shotc")
+OURS = ("shotc", "shotc_casadi", "shotc_kml", "tests")
 if CI:
-    # Hypothesis also tries the constants of whatever modules are loaded: so all of them are.
-    for module in pkgutil.walk_packages(shotc.__path__, "shotc."):
-        if not module.name.endswith("__main__"):
-            import_module(module.name)
+    # Hypothesis also tries the constants of whatever modules of ours are loaded: so all of them are.
+    for package in map(import_module, OURS):
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if module.name.rpartition(".")[2] not in ("__main__", "conftest") and ".test_" not in module.name:
+                import_module(module.name)
 
 
 def pytest_addoption(parser):
