@@ -6,7 +6,8 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
-from xml.parsers import expat
+
+from shotc.source.xml import Stop, feed
 
 LARGEST = 4_000_000  # bytes
 MOST_NODES = 100_000
@@ -58,31 +59,16 @@ def shown(data: bytes) -> str:
     return data.decode("utf-16" if wide else "utf-8-sig", "replace")
 
 
-class _Stop(Exception):
-    """Leave expat at the first fault."""
-
-
 def parse_xml(data: bytes) -> Node | XmlFault:
     """Return the root element. A document type is refused, for entities could grow without bound."""
     if len(data) > LARGEST:
         return XmlFault(f"the file is larger than {LARGEST / 1e6:.0f} MB")
     reader = _Reader()
-    parser = expat.ParserCreate()
-    parser.buffer_text = True
-    parser.StartDoctypeDeclHandler = reader.doctype
-    parser.StartElementHandler = reader.start
-    parser.EndElementHandler = reader.end
-    parser.CharacterDataHandler = reader.text
-    reader.parser = parser
-    try:
-        parser.Parse(data.removeprefix(BOM_UTF8), True)  # which would count as a column
-    except _Stop:
-        assert reader.fault is not None
+    wrong = feed(data.removeprefix(BOM_UTF8), reader)  # which would count as a column
+    if wrong is not None:
+        return XmlFault(f"it is no XML: {wrong.reason}", wrong.line, wrong.column)
+    if reader.fault is not None:
         return reader.fault
-    except expat.ExpatError as error:
-        return XmlFault(f"it is no XML: {expat.ErrorString(error.code)}", error.lineno, error.offset + 1)
-    except (LookupError, ValueError) as error:  # an encoding that Python does not know
-        return XmlFault(f"it is no XML: {error}")
     assert reader.root is not None
     return reader.root
 
@@ -120,4 +106,4 @@ class _Reader:
 
     def _stop(self, message: str) -> None:
         self.fault = XmlFault(message, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1)
-        raise _Stop
+        raise Stop

@@ -2,7 +2,10 @@
 
 from collections.abc import Sequence
 from math import isfinite
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:  # few missions name XML
+    from shotc.source.xml import NotXml
 
 LARGEST = 4_000_000  # bytes
 MOST_ROWS = 50_000
@@ -104,6 +107,13 @@ def _no_table(line: int, first: str) -> FileFault | None:
             message = f"its columns are separated by {name}"
             return FileFault(message, line, "separate them with commas; decimals have a point")
     return None
+
+
+def not_xml(wrong: "NotXml") -> FileFault:
+    """Return the fault of a file that is no XML."""
+    if wrong.encoding:
+        return FileFault("the XML is in an encoding that cannot be read", 1, "save it as UTF-8")
+    return FileFault(f"not well-formed XML: {wrong.reason}", wrong.line)
 
 
 def too_large(data: bytes) -> FileFault:

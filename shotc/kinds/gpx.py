@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from typing import Any
-from xml.parsers import expat
 
-from shotc.kinds.files import LARGEST, MOST_ROWS, FileFault, Table, row_of, too_large
+from shotc.kinds.files import LARGEST, MOST_ROWS, FileFault, Table, not_xml, row_of, too_large
+from shotc.source.xml import Stop, feed
 
 PLACE = ("lat", "lon", "ele")
 
@@ -20,21 +20,11 @@ def read_gpx(data: bytes, *, timed: bool = False) -> Table | FileFault:
     if len(data) > LARGEST:
         return too_large(data)
     reader = _Gpx(timed)
-    parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = reader.doctype
-    parser.StartElementHandler = reader.start
-    parser.EndElementHandler = reader.end
-    parser.CharacterDataHandler = reader.text
-    reader.parser = parser
-    try:
-        parser.Parse(data, True)
-    except _Stop:
-        assert reader.fault is not None
+    wrong = feed(data, reader)
+    if wrong is not None:
+        return not_xml(wrong)
+    if reader.fault is not None:
         return reader.fault
-    except expat.ExpatError as error:
-        return FileFault(f"not well-formed XML: {expat.ErrorString(error.code)}", error.lineno)
-    except (LookupError, ValueError):  # what expat does not know it asks Python for
-        return FileFault("the XML is in an encoding that cannot be read", 1, "save it as UTF-8")
     points = reader.points["trkpt"] or reader.points["rtept"]
     if not points:
         return FileFault("the file has no track points", help="export a track (`trkpt`) or a route (`rtept`)")
@@ -76,10 +66,6 @@ def _timed(points: list[_Point]) -> tuple[tuple[float, ...], ...] | FileFault:
             help_ = "write it as 2024-05-01T12:00:00Z"
             return FileFault(f"`{point.time[:30]}` is not a time", point.line, help_)
     return tuple(rows)
-
-
-class _Stop(Exception):
-    """The reader has found its first fault and leaves expat."""
 
 
 class _Gpx:
@@ -135,4 +121,4 @@ class _Gpx:
 
     def _stop(self, message: str, help: str, line: int | None = None) -> None:
         self.fault = FileFault(message, line or self.parser.CurrentLineNumber, help)
-        raise _Stop
+        raise Stop

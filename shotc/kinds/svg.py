@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from typing import Any, NamedTuple
-from xml.parsers import expat
 
-from shotc.kinds.files import LARGEST, FileFault, too_large
+from shotc.kinds.files import LARGEST, FileFault, not_xml, too_large
+from shotc.source.xml import Stop, feed
 
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon"}
 _ACTIVE = {"script": "a script", "foreignObject": "a page of another sort"}
@@ -31,30 +31,15 @@ def svg_fault(data: bytes) -> Wrong | None:
     if len(data) > LARGEST:
         return Wrong(too_large(data))
     reader = _Svg()
-    parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = reader.doctype
-    parser.buffer_text = True
-    parser.ProcessingInstructionHandler = reader.instruction
-    parser.StartElementHandler = reader.start
-    parser.EndElementHandler = reader.end
-    parser.CharacterDataHandler = reader.text
-    reader.parser = parser
-    try:
-        parser.Parse(data, True)
-    except _Stop:
+    wrong = feed(data, reader)
+    if wrong is not None:
+        return Wrong(not_xml(wrong))
+    if reader.wrong is not None:
         return reader.wrong
-    except expat.ExpatError as error:
-        return Wrong(FileFault(f"not well-formed XML: {expat.ErrorString(error.code)}", error.lineno))
-    except (LookupError, ValueError):  # what expat does not know it asks Python for
-        return Wrong(FileFault("the XML is in an encoding that cannot be read", 1, "save it as UTF-8"))
     if not reader.shapes:
         help_ = f"turn what it shows into shapes: {', '.join(sorted(SHAPES))}"
         return Wrong(FileFault("the drawing has no shapes", None, help_))
     return None
-
-
-class _Stop(Exception):
-    """The reader has found its first fault and leaves expat."""
 
 
 class _Svg:
@@ -108,4 +93,4 @@ class _Svg:
 
     def _stop(self, message: str, help: str, *, unsafe: bool = True) -> None:
         self.wrong = Wrong(FileFault(message, self.parser.CurrentLineNumber, help), unsafe)
-        raise _Stop
+        raise Stop

@@ -12,6 +12,8 @@ from shotc.emit.palette import CAMERA, FLIGHT, GROUND_FAR, INK, KEEP_IN, KEEP_OU
 from shotc.emit.storyboard.canvas import Box, Canvas
 from shotc.emit.storyboard.furniture import north_arrow, round_length, scale_bar
 from shotc.emit.storyboard.labels import Label, write_labels
+from shotc.emit.storyboard.map import reach_of, zones
+from shotc.emit.storyboard.map import squares as draw_squares
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
@@ -34,8 +36,8 @@ def draw_ground(canvas: Canvas, box: Box, board: Board, mission: MissionIR, seen
     eye = np.array([seen.eye])
     sheet = _sheet(box, np.concatenate([pads, lights[0], eye]))
     canvas.polygons([box.outline()], GROUND_FAR)
-    _squares(canvas, sheet)
-    _zones(canvas, sheet, mission)
+    draw_squares(canvas, sheet, max(5.0, round_length(float(np.max(reach_of(sheet))) / 3.0)))
+    zones(canvas, sheet, mission)
     _look(canvas, sheet, seen)
     squares = [_square(at, PAD).outline() for at in sheet.place(pads)]
     canvas.polygons(squares, WHITE, FLIGHT, 0.5, box)
@@ -62,29 +64,6 @@ def _sheet(box: Box, cloud: Array) -> Sheet:
     span = np.maximum(high - low, 10.0)
     inches = float(min((box.width - 2 * BORDER) / span[0], (box.height - 2 * BORDER) / span[1]))
     return Sheet(box, np.eye(3)[:2], (low + high) / 2, inches)
-
-
-def _squares(canvas: Canvas, sheet: Sheet) -> None:
-    half = np.array([sheet.box.width, sheet.box.height]) / 2 / sheet.inches
-    low, high = sheet.centre - half, sheet.centre + half
-    step = max(5.0, round_length(float(np.max(half)) / 3.0))
-    x = np.arange(np.ceil(low[0] / step), np.floor(high[0] / step) + 1) * step
-    y = np.arange(np.ceil(low[1] / step), np.floor(high[1] / step) + 1) * step
-    strips = [np.array([[a, low[1]], [a, high[1]]]) for a in x]
-    strips += [np.array([[low[0], b], [high[0], b]]) for b in y]
-    if strips:
-        canvas.lines([sheet.at(s) for s in strips], (*WHITE, 0.8), 0.7, sheet.box)
-
-
-def _zones(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
-    for zone in mission.zones:
-        shape = sheet.outline(zone.solid)
-        if zone.keep == "out":
-            canvas.polygons([shape], (*KEEP_OUT, 0.25), KEEP_OUT, 1.0, sheet.box)
-        else:
-            closed = np.concatenate([shape, shape[:1]])
-            canvas.lines([closed], (*KEEP_IN, 0.25), 3.5, sheet.box)
-            canvas.lines([closed], KEEP_IN, 1.0, sheet.box, dash=(5.0, 2.0))
 
 
 def _look(canvas: Canvas, sheet: Sheet, seen: Audience) -> None:

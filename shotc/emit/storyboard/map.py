@@ -40,7 +40,7 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     whole, mission = mission, standing(mission, board)
     sheet = sheet_of(box, board, mission)
     _ground(canvas, sheet, grid)
-    _zones(canvas, sheet, mission)
+    zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
     for moment in board.moments:
         _frustum(canvas, sheet, moment, board.drone.aspect)
@@ -56,7 +56,8 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
 def _ground(canvas: Canvas, sheet: Sheet, grid: float) -> None:
     box = sheet.box
     canvas.polygons([box.outline()], GROUND_FAR if sheet.is_plan else SKY_LOW)
-    _squares(canvas, sheet, grid)
+    most = float(np.max(reach_of(sheet)))
+    squares(canvas, sheet, grid * max(1.0, float(np.ceil(most / grid / 20))))
     if sheet.is_plan:
         return
     level = min(float(sheet.at(np.zeros(2))[1]), box.top)
@@ -65,10 +66,15 @@ def _ground(canvas: Canvas, sheet: Sheet, grid: float) -> None:
         canvas.lines([np.array([[box.x, level], [box.right, level]])], shade(GROUND, 0.6), 1.2, box)
 
 
-def _squares(canvas: Canvas, sheet: Sheet, grid: float) -> None:
-    half = np.array([sheet.box.width, sheet.box.height]) / 2 / sheet.inches
+def reach_of(sheet: Sheet) -> Array:
+    """Return half of what a sheet shows, metres along both its axes."""
+    return np.asarray(np.array([sheet.box.width, sheet.box.height]) / 2 / sheet.inches)
+
+
+def squares(canvas: Canvas, sheet: Sheet, step: float) -> None:
+    """Draw lines a step apart, metres, across a sheet."""
+    half = reach_of(sheet)
     low, high = sheet.centre - half, sheet.centre + half
-    step = grid * max(1.0, np.ceil(float(np.max(half)) / grid / 20))
     x = np.arange(np.ceil(low[0] / step), np.floor(high[0] / step) + 1) * step
     y = np.arange(np.ceil(low[1] / step), np.floor(high[1] / step) + 1) * step
     strips = [np.array([[a, low[1]], [a, high[1]]]) for a in x]
@@ -77,7 +83,8 @@ def _squares(canvas: Canvas, sheet: Sheet, grid: float) -> None:
         canvas.lines([sheet.at(s) for s in strips], (*WHITE, 0.8), 0.7, sheet.box)
 
 
-def _zones(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
+def zones(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
+    """Draw the outlines of a mission's zones."""
     for zone in mission.zones:
         shape = sheet.outline(zone.solid)
         if zone.keep == "out":
