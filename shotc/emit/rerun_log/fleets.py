@@ -10,7 +10,10 @@ import rerun.blueprint as rrb
 
 from shotc.emit.audience import ASPECT, audience
 from shotc.emit.palette import WHITE, rgba8
-from shotc.emit.rerun_log.layout import panels, world_view
+from shotc.emit.rerun_log.layout import panels, plot_view, world_view
+from shotc.emit.rerun_log.motion import log_plot
+from shotc.emit.rerun_log.series import Plot
+from shotc.emit.rerun_log.show import fleet_plots, show_texts
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
@@ -23,15 +26,26 @@ RATE = 5.0
 GLOW = 0.35
 """Radius of a light, metres."""
 
+UNLIT = (70, 74, 82)
+"""Colour of a drone whose light is off: it is there, whatever the audience sees."""
+
 WIDTH = 1280
 NIGHT = (4, 6, 14, 255)
 
 
-def log_fleets(stream: Any, plan: VerifiedIR) -> None:
-    """Log every fleet as one cloud of lights along the timeline ``t``, and every audience as a camera."""
+def log_fleets(stream: Any, plan: VerifiedIR) -> dict[str, tuple[Plot, ...]]:
+    """Log every fleet as one cloud of lights along the timeline ``t``, and every audience as a camera.
+
+    Returns every fleet's plots.
+    """
     mission = plan.trajectory.keyframes.mission
+    plots = {}
     for flight in plan.trajectory.fleets:
-        _lights(stream, flight)
+        t = _times(flight)
+        _lights(stream, flight, t)
+        plots[flight.fleet] = fleet_plots(mission.fleet(flight.fleet), flight, t)
+        for plot in plots[flight.fleet]:
+            log_plot(stream, flight.fleet, plot, t)
         pads = rr.Points3D(
             mission.fleet(flight.fleet).pads, radii=rr.Radius.ui_points(1.5), colors=[rgba8(WHITE, 0.5)]
         )
@@ -45,13 +59,26 @@ def log_fleets(stream: Any, plan: VerifiedIR) -> None:
         focal = WIDTH / 2.0 / float(np.tan(seen.hfov / 2.0))
         lens = rr.Pinhole(focal_length=focal, width=WIDTH, height=round(WIDTH / ASPECT))
         stream.log(entity, lens, static=True)
+    return plots
 
 
-def _lights(stream: Any, flight: FleetTrajectory) -> None:
+def log_words(stream: Any, plan: VerifiedIR) -> None:
+    """Log what the first fleet shows, the summary and the certificate of a mission of fleets alone."""
+    for start, text in show_texts(plan, plan.trajectory.fleets[0]):
+        stream.set_time("t", duration=start)
+        stream.log("summary", rr.TextDocument(text, media_type="text/markdown"))
+
+
+def _times(flight: FleetTrajectory) -> Array:
     end = float(flight.breaks[-1])
-    t = np.append(np.arange(0.0, end, 1.0 / RATE), end)
+    return np.append(np.arange(0.0, end, 1.0 / RATE), end)
+
+
+def _lights(stream: Any, flight: FleetTrajectory, t: Array) -> None:
     at = np.moveaxis(places(flight.breaks, flight.coef, t), 1, 0).astype(np.float32)
     colors = np.moveaxis(light_colors(flight.lights, t), 1, 0)
+    colors = np.maximum(colors, np.where(colors.max(axis=-1, keepdims=True) < max(UNLIT), UNLIT, 0))
+    colors = colors.astype(np.uint8)
     n = at.shape[1]
     entity = f"world/fleets/{flight.fleet}"
     stream.log(entity, rr.Points3D.from_fields(radii=[GLOW]), static=True)
@@ -64,8 +91,8 @@ def _lights(stream: Any, flight: FleetTrajectory) -> None:
     )
 
 
-def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array]) -> Any:
-    """Return the layout of a mission of fleets alone: the world, and what every audience sees."""
+def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[str, tuple[Plot, ...]]) -> Any:
+    """Return the layout of a mission of fleets alone: world, audience, words, plots; pictures play."""
     displays = plan.trajectory.keyframes.mission.displays
     views = [
         rrb.Spatial2DView(
@@ -76,6 +103,22 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array]) -> Any:
         )
         for display in displays
     ]
-    right = views[0] if len(views) == 1 else rrb.Tabs(*views)
-    whole = rrb.Horizontal(world_view(bounds, []), right, column_shares=[1.0, 1.0])
-    return rrb.Blueprint(whole, *panels(), auto_layout=False, auto_views=False)
+    seen = views[0] if len(views) == 1 else rrb.Tabs(*views)
+    words = rrb.TextDocumentView(origin="summary", name="Show and certificate")
+    right = rrb.Vertical(seen, words, row_shares=[3.0, 2.0])
+    top = rrb.Horizontal(world_view(bounds, []), right, column_shares=[1.0, 1.35])
+    end = max(float(flight.breaks[-1]) for flight in plan.trajectory.fleets)
+    rows = [
+        rrb.Horizontal(*(plot_view(fleet, plot, end) for plot in of), name=f"Motion of {fleet}")
+        for fleet, of in plots.items()
+    ]
+    under = rows[0] if len(rows) == 1 else rrb.Tabs(*rows)
+    whole = rrb.Vertical(top, under, row_shares=[3.0, 1.0])
+    return rrb.Blueprint(whole, *panels(_span(plan)), auto_layout=False, auto_views=False)
+
+
+def _span(plan: VerifiedIR) -> tuple[float, float] | None:
+    shown = [shown for flight in plan.trajectory.fleets for shown in flight.shown]
+    if not shown:
+        return None
+    return min(s.start for s in shown), max(s.end for s in shown)

@@ -32,7 +32,9 @@ def blueprint(
     ]
     plots = [
         rrb.Grid(
-            *(_series(drone, plot, end) for plot in plots), grid_columns=4, name=f"Motion of {drone.name}"
+            *(plot_view(drone.name, plot, end) for plot in plots),
+            grid_columns=4,
+            name=f"Motion of {drone.name}",
         )
         for drone, (end, plots) in ((drone, flown[drone.name]) for drone in drones)
     ]
@@ -116,9 +118,10 @@ def camera_view(mission: MissionIR, drone: Drone, camera: str, name: str) -> Any
     )
 
 
-def _series(drone: Drone, plot: Plot, end: float) -> Any:
+def plot_view(name: str, plot: Plot, end: float) -> Any:
+    """Return the view of a plot of a drone or fleet; end : of its time, seconds."""
     return rrb.TimeSeriesView(
-        origin=f"plots/{drone.name}/{plot.name}",
+        origin=f"plots/{name}/{plot.name}",
         name=plot.title,
         axis_x=time_axis(end),
         plot_legend=rrb.PlotLegend(visible=len(plot.lines) > 2, corner=rrb.Corner2D.RightTop),

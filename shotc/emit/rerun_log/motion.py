@@ -61,7 +61,7 @@ def log_motion(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, frustum: 
     room = clearance_plot(flight, drone, mission, t)
     plots = (*motion, room) if error is None else (error, *motion, room)
     for plot in plots:
-        _plot(stream, drone.name, plot, t)
+        log_plot(stream, drone.name, plot, t)
     return plots
 
 
@@ -268,7 +268,8 @@ def _screen_plot(plan: VerifiedIR, flight: DroneTrajectory, t: Array) -> Plot | 
     return Plot("screen_error", "Screen error", tuple(lines))
 
 
-def _plot(stream: Any, drone: str, plot: Plot, t: Array) -> None:
+def log_plot(stream: Any, drone: str, plot: Plot, t: Array) -> None:
+    """Log a plot of a drone, or of a fleet, whose samples are at the times t, seconds."""
     for i, line in enumerate(plot.lines):
         color = LIMIT_COLOR if line.name == PROMISED else LINE_COLORS[i % len(LINE_COLORS)]
         entity = f"plots/{drone}/{plot.name}/{line.name.replace(' ', '_')}"

@@ -9,7 +9,7 @@ from uuid import NAMESPACE_URL, uuid5
 import numpy as np
 import rerun as rr
 
-from shotc.emit.rerun_log.fleets import log_fleets, show_blueprint
+from shotc.emit.rerun_log.fleets import log_fleets, log_words, show_blueprint
 from shotc.emit.rerun_log.layout import blueprint
 from shotc.emit.rerun_log.motion import log_motion
 from shotc.emit.rerun_log.text import phase_texts
@@ -59,9 +59,11 @@ def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
         for start, text in phase_texts(plan, flight):
             stream.set_time("t", duration=start)
             stream.log("summary", rr.TextDocument(text, media_type="text/markdown"))
-    log_fleets(stream, plan)
+    plots = log_fleets(stream, plan)
     alone = plan.trajectory.fleets and not flown
-    layout = show_blueprint(plan, bounds) if alone else blueprint(mission, flown, bounds)
+    if alone:
+        log_words(stream, plan)
+    layout = show_blueprint(plan, bounds, plots) if alone else blueprint(mission, flown, bounds)
     stream.send_blueprint(layout, make_active=True, make_default=True)
 
 

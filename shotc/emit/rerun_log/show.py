@@ -1,0 +1,88 @@
+"""What explains a show in its recording: words about what is shown now, and plots of the whole fleet."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.emit.rerun_log.series import Line, Plot
+from shotc.emit.rerun_log.text import SHOWN, certificate_text
+from shotc.geom.apart import stretch
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.show import Apart, Fleet
+from shotc.ir.trajectory import VerifiedIR
+
+WORDS = {**SHOWN, "transit": "Flying to the next display", "shot": "Showing"}
+
+
+def show_texts(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
+    """Return what to show from which time on, seconds: what the fleet does, then summary and certificate."""
+    body = f"{_summary(plan)}\n\n{certificate_text(plan.certificate)}\n"
+    heads = [
+        (phase.start, f"## {WORDS[phase.name]}\n{phase.start:.1f} s to {phase.end:.1f} s")
+        for phase in flight.phases
+    ]
+    heads += _pictures(plan, flight)
+    return [(time, f"{head}\n\n{body}") for time, head in sorted(dict(heads).items())]
+
+
+def _pictures(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
+    """Return a heading for every picture, and one for the way to the next."""
+    heads = []
+    displays = {display.id: display for display in plan.trajectory.keyframes.mission.displays}
+    keys = dict.fromkeys((shown.display, shown.picture) for shown in flight.shown)
+    for key in keys:
+        spans = [s for s in flight.shown if (s.display, s.picture) == key]
+        pictures = displays[key[0]].pictures
+        kind = type(pictures[key[1]].source).__name__.lower()
+        start, end = spans[0].start, spans[-1].end
+        title = f"## Picture {key[1] + 1} of {len(pictures)} of `{key[0]}`"
+        heads.append((start, f"{title}\n{kind}, {start:.1f} s to {end:.1f} s"))
+        if key[1] + 1 < len(pictures):
+            heads.append((end, f"## On the way to picture {key[1] + 2} of `{key[0]}`\nfrom {end:.1f} s"))
+    return heads
+
+
+def _summary(plan: VerifiedIR) -> str:
+    fleets = plan.trajectory.fleets
+    total = max(float(flight.breaks[-1]) for flight in fleets)
+    drones = ", ".join(f"{flight.fleet} ({len(flight.coef)} drones)" for flight in fleets)
+    return f"- **{plan.trajectory.keyframes.mission.name}**: {total:.1f} s in the air\n- fleets: {drones}"
+
+
+def fleet_plots(fleet: Fleet, flight: FleetTrajectory, t: Array) -> tuple[Plot, ...]:
+    """Return the nearest pair against what is kept, and the largest speeds against the limits, at times t."""
+    at = np.moveaxis(places(flight.breaks, flight.coef, t), 1, 0)
+    rate = places(flight.breaks, flight.coef, t, 1)
+    speed = np.hypot(rate[..., 0], rate[..., 1]).max(axis=0)
+    climb, descent = rate[..., 2].max(axis=0), rate[..., 2].min(axis=0)
+    limits = fleet.limits
+    moves = (
+        Plot("speed", "Largest horizontal speed (m/s)", (Line("speed", speed),), (limits.speed,)),
+        Plot(
+            "climb",
+            "Climb and descent, extremes (m/s)",
+            (Line("climb", climb), Line("descent", descent)),
+            (limits.climb, -limits.descent),
+        ),
+    )
+    if len(flight.coef) == 1:
+        return moves
+    nearest = np.array([nearest_pair(points, fleet.apart) for points in at])
+    title = "Nearest two drones (m, heights stretched as separation asks)"
+    return (Plot("separation", title, (Line("nearest", nearest),), (fleet.apart.across,)), *moves)
+
+
+def nearest_pair(points: Array, apart: Apart) -> float:
+    """Return how near the nearest two of points (n, 3) are, as ``geom.separation`` measures it, metres."""
+    tall = points * np.array([1.0, 1.0, stretch(apart)])
+    tree = cKDTree(tall)
+    ball = float(tree.query(tall, k=2)[0][:, 1].min())
+    if apart.shape == "ellipsoid":
+        return ball
+    # The cylinder's measure is at least 1 / sqrt(2) of the distance, so this radius holds its nearest pair.
+    pairs = tree.query_pairs(ball * np.sqrt(2.0) * (1.0 + 1e-9), output_type="ndarray")
+    away = np.abs(tall[pairs[:, 0]] - tall[pairs[:, 1]])
+    return float(np.maximum(np.hypot(away[:, 0], away[:, 1]), away[:, 2]).min())
