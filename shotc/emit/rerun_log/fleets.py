@@ -100,6 +100,7 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[st
             name=f"The audience of {display.id}",
             contents=[f"/world/fleets/{display.fleet}"],
             background=NIGHT,
+            visual_bounds=rrb.VisualBounds2D(x_range=[0, WIDTH], y_range=[0, WIDTH / ASPECT]),
         )
         for display in displays
     ]

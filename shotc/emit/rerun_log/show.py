@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from shotc.emit.audience import picture_name
 from shotc.emit.rerun_log.series import Line, Plot
 from shotc.emit.rerun_log.text import SHOWN, certificate_text
 from shotc.geom.apart import stretch
@@ -36,7 +37,7 @@ def _pictures(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, st
     for key in keys:
         spans = [s for s in flight.shown if (s.display, s.picture) == key]
         pictures = displays[key[0]].pictures
-        kind = type(pictures[key[1]].source).__name__.lower()
+        kind = picture_name(pictures[key[1]])
         start, end = spans[0].start, spans[-1].end
         title = f"## Picture {key[1] + 1} of {len(pictures)} of `{key[0]}`"
         heads.append((start, f"{title}\n{kind}, {start:.1f} s to {end:.1f} s"))

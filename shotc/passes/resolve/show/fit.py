@@ -16,6 +16,7 @@ ROGERS = 0.7797
 TRUNCATED = sqrt(1.5)
 """Radius at which the cells are truncated in that theorem, in radii of the ball."""
 ROUNDING = 1e-9
+STEP = 0.01  # to which a growth is found
 
 
 def spacing(apart: Apart) -> float:
@@ -32,6 +33,30 @@ def most_drones(picture: Picture, apart: Apart) -> float:
         # The edges of a cube lie on its surface.
         return inside if picture.fill == "volume" else min(inside, _on_surface(source, gap, stretch))
     return inf
+
+
+def growth(picture: Picture, apart: Apart, count: int) -> float:
+    """Return how many times as large a picture has to be, at least, to hold so many drones."""
+    low, high = 1.0, 2.0
+    while most_drones(_scaled(picture, high), apart) < count:
+        low, high = high, 2.0 * high
+    while high - low > STEP:
+        middle = 0.5 * (low + high)
+        fits = most_drones(_scaled(picture, middle), apart) >= count
+        low, high = (low, middle) if fits else (middle, high)
+    return high
+
+
+def _scaled(picture: Picture, factor: float) -> Picture:
+    source = picture.source
+    if isinstance(source, Sphere):
+        source = source._replace(radius=factor * source.radius)
+    elif isinstance(source, Torus):
+        source = source._replace(radius=factor * source.radius, tube=factor * source.tube)
+    elif isinstance(source, Box):
+        a, b, c = source.size
+        source = source._replace(size=(factor * a, factor * b, factor * c))
+    return picture._replace(source=source)
 
 
 def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> float:

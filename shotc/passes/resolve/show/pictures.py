@@ -9,7 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, signed_distance
-from shotc.passes.resolve.show.fit import most_drones, spacing
+from shotc.passes.resolve.show.fit import growth, most_drones, spacing
 from shotc.passes.resolve.show.places import centre_label, key_of, word_of
 from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
 
@@ -56,12 +56,12 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
         f"goals are {spacing(fleet.apart):.2f} m apart, so that moves between pictures keep the separation",
         f"no more than {floor(most)} fit {where} this {word}, and fleet `{fleet.name}` has {count}",
     )
-    growth = (count / most) ** (1 / 2 if picture.fill == "surface" else 1 / 3)
+    larger = ceil(10 * growth(picture, fleet.apart, count)) / 10
     labels = (
         mission.origins.key(key_of(picture)),
         mission.origins.value((*fleet.path, "count"), "the fleet"),
     )
-    help_ = f"make it about {ceil(growth * 10) / 10:.1f} times as large, or the separation smaller"
+    help_ = f"make it at least {larger:.1f} times as large, or the separation smaller"
     yield Diagnostic("D018", f"{count} drones do not fit {where} this {word}", labels, notes, help_)
 
 
