@@ -120,7 +120,8 @@ def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clust
     costs: list[float] = []
     enough = TOLERANCE * float(np.ptp(points, axis=0).max())
     for _ in range(MOST):
-        costs.append(float(near.own @ near.own + anchor * np.sum((goals - start) ** 2)))
+        # Not a product of BLAS: its threads cost more than a sum this short.
+        costs.append(float(np.einsum("m,m->", near.own, near.own) + anchor * np.sum((goals - start) ** 2)))
         moved = _step(points, near.labels, goals, (start, anchor))
         goals = goals + boldness * moved
         longest = boldness * float(np.sqrt(np.einsum("nd,nd->n", moved, moved).max()))

@@ -103,7 +103,20 @@ def least_piece(pieces: int, ways: Array, limits: Limits) -> float:
     """Return the least length of one of so many pieces that everybody's straight move allows, seconds."""
     if pieces < 4:
         return inf if np.abs(ways).max(initial=0.0) > 0.0 else 0.0
-    return float(_least_pieces(_family(pieces)[1], _Ceilings.of(ways, limits, 1.0)).min())
+    ceilings = _Ceilings.of(ways, limits, 1.0)
+    return float(_least_pieces(_family(pieces)[1], ceilings).min())
+
+
+def least_pieces(pieces: int, ways: Array, limits: Limits) -> Array:
+    """Return for every drone alone what ``least_piece`` is for all of them together, shape (n,)."""
+    if pieces < 4:
+        return np.where(np.abs(ways).max(axis=1) > 0.0, inf, 0.0)
+    ceilings, steps = _Ceilings.of(ways, limits, 1.0), _family(pieces)[1]
+    with np.errstate(divide="ignore"):
+        first = steps[:, :1] / ceilings.first
+        second = np.sqrt(steps[:, 1:2] / ceilings.second)
+        third = np.cbrt(steps[:, 2:] / ceilings.third)
+    return np.asarray(np.maximum(first, np.maximum(second, third)).min(axis=0))
 
 
 def _least_pieces(steps: Array, ceilings: _Ceilings) -> Array:

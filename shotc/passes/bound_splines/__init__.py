@@ -22,7 +22,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.bound_splines.faults import too_quick
-from shotc.solvers.fleet_move import least_piece
+from shotc.solvers.fleet_move import least_piece, least_pieces
 from shotc.solvers.fleet_qcqp import Bounded, Bounds, bounded, overdraft
 
 DIGITS = 6
@@ -85,7 +85,7 @@ class _Fitter:
     def _slowest(self, breaks: Array, wanted: Array) -> int | None:
         """Return who could not even go straight from the first to the last place in time, if anybody."""
         ways, pieces = wanted[:, -1] - wanted[:, 0], len(breaks) - 1
-        least = [least_piece(pieces, way[None], self.fleet.limits) for way in ways]
+        least = least_pieces(pieces, ways, self.fleet.limits)
         slow = int(np.argmax(least))
         return slow if least[slow] > np.diff(breaks).min() else None
 
