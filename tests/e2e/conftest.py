@@ -1,4 +1,4 @@
-"""Every mission of the tree that films, compiled once a session, and the tests of one mission kept in one process."""
+"""Every mission that films, compiled once a session, and the tests of one mission kept in one process."""
 
 from __future__ import annotations
 

@@ -28,7 +28,10 @@ shots:
       - {svg: {file: good.svg, center: [0, 0, 40], height: 30}, hold: 2}
       - {model: {files: walk*.obj, center: [0, 0, 40], period: 2}, hold: 2}
 """
-SVG = b'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 9 9">%s</svg>'
+SVG = (
+    b'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+    b'viewBox="0 0 9 9">%s</svg>'
+)
 SQUARE = b'<rect width="9" height="9"/>'
 
 
@@ -43,7 +46,8 @@ class Bad:
 
 
 BAD = {
-    "empty mesh": Bad("good.ply", "empty.ply", "D050", "empty.ply"),
+    "empty mesh": Bad("good.ply", "empty.ply", "N009", "empty.ply"),
+    "mesh of nothing": Bad("good.ply", "nothing.ply", "D050", "nothing.ply"),
     "mesh with NaN": Bad("good.ply", "nan.ply", "D050", "nan.ply"),
     "open mesh": Bad("good.ply", "open.ply", "D051", "open.ply"),
     "millimetres": Bad("good.ply", "large.ply", "D052", "large.ply"),
@@ -51,7 +55,7 @@ BAD = {
     "frame sizes": Bad("walk*", "grow*", "D053", "grow*"),
     "no time": Bad("period: 2", "period: 0", "S U", "period: 0"),
     "no period": Bad(", period: 2", "", "D010", "walk*"),
-    "more drones than fit": Bad("radius: 12", "radius: 2", "D018", "radius: 2}"),
+    "more drones than fit": Bad("radius: 12", "radius: 1.2", "D018 D056", "radius: 1.2}"),
     "viewpoint inside": Bad("[0, -100, 2]", "[0, -5, 40]", "D013", "viewpoint"),
     "dense layout": Bad("spacing: 4", "spacing: 0.8", "D001", "spacing"),
     "script": Bad("good.svg", "script.svg", "D022", "script.svg"),
@@ -76,6 +80,7 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     files = {
         "good.ply": ply(box),
         "empty.ply": b"",
+        "nothing.ply": ply(box[:0]),
         "nan.ply": ply(holed),
         "open.ply": ply(box[:-1]),
         "large.ply": ply(1000 * box),

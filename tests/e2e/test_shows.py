@@ -1,4 +1,4 @@
-"""The shows of the tree, through the command: their files hold what the missions ask, by their numbers alone."""
+"""The shows of the tree, through the command: what their files say is what the missions ask."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from base64 import b64decode
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -176,7 +177,7 @@ def test_phases_follow_one_another(show: Show) -> None:
         ("return", ""),
         ("land", ""),
     ]
-    changes = sum(a != b for a, b in zip(order, order[1:], strict=False))
+    changes = sum(a != b for a, b in pairwise(order))
     assert changes == 4
 
 
@@ -335,11 +336,11 @@ def test_every_picture_is_where_it_is_asked_for(show: Show) -> None:
     stood = {next(iter(picture)): places[:, 0] - MIDDLE for picture, places, _ in held(show)}
     assert list(stood) == ["sphere", "cube", "torus", "svg", "text"]
     spaced = np.sqrt(2) * asked(show)[0]
-    for name in stood:
+    for name, places in stood.items():
         # Goals are moved for their spacing by less than it.
-        assert off(name, stood[name]).max() < spaced, name
-        assert (off(name, stood[name]) < 0.1).mean() > 0.5, name
-        least = shows.nearest(stood[name][None], show.fleet.asked["apart"])[0]
+        assert off(name, places).max() < spaced, name
+        assert (off(name, places) < 0.1).mean() > 0.5, name
+        least = shows.nearest(places[None], show.fleet.asked["apart"])[0]
         assert least >= np.sqrt(2) - 1e-5, name
 
 
