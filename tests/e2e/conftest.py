@@ -1,4 +1,4 @@
-"""Every mission of the tree compiled once a session, and the tests of one mission kept in one process."""
+"""Every mission that films, compiled once a session, and the tests of one mission kept in one process."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ from tests.e2e.tables import Table
 from tests.e2e.written import Course, Written
 
 ROOT = Path(__file__).parents[2]
-MISSIONS = sorted([*ROOT.glob("specs/*.yaml"), *ROOT.glob("shotc/templates/*.yaml")])
+FILES = sorted([*ROOT.glob("specs/*.yaml"), *ROOT.glob("shotc/templates/*.yaml")])
+SHOWS = [path for path in FILES if "fleets" in written.read(path)]
+MISSIONS = [path for path in FILES if path not in SHOWS]
+"""Those that film; what is tested of shows is in test_shows.py and beside it."""
 
 
 @dataclass(frozen=True)
