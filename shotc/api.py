@@ -39,7 +39,7 @@ if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import Claim, VerifiedIR
     from shotc.passes.refine_path import Seat
 
-SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "matplotlib", "pymap3d")
+SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "matplotlib", "pymap3d", "threadpoolctl")
 
 
 class CheckReport(NamedTuple):
@@ -165,7 +165,7 @@ def _lower(checked: KeyframeIR, kinds: Mapping[str, Any], options: PlanOptions, 
     keyframes = _with_autopilot(checked, options.autopilot)
     if checked.mission.displays:
         options.on_mission(checked.mission)
-        return run(show_passes(), keyframes, ctx, options.stop_after)
+        return _lower_show(keyframes, options, ctx)
     seat, faults = _seat(options.refiner or plugins.usual_refiner(), checked.mission)
     if seat is None or stops(faults):
         return Run(None, faults, ())
@@ -173,6 +173,19 @@ def _lower(checked: KeyframeIR, kinds: Mapping[str, Any], options: PlanOptions, 
     passes = default_passes(kinds, seat, options.deadline)[len(FRONT_NAMES) :]
     done = run_refined(passes, keyframes, ctx, seat, options.stop_after)
     return done._replace(diagnostics=(*faults, *done.diagnostics))
+
+
+def _lower_show(keyframes: KeyframeIR, options: PlanOptions, ctx: PassContext) -> Run:
+    """Plan what fleets display, with one thread for the sums of linear algebra.
+
+    They are many and short: threads cost them several times what they take, and would add up another way on
+    another machine.
+    """
+    from threadpoolctl import threadpool_limits
+
+    passes = show_passes()  # loads the libraries that are to be limited
+    with threadpool_limits(1, "blas"):
+        return run(passes, keyframes, ctx, options.stop_after)
 
 
 def _with_drones(
