@@ -30,10 +30,10 @@ Index = NDArray[np.intp]
 FIXED = 3
 """Control points at each end that stay."""
 
-SHARE = 0.9995
+SHARE = 0.9998
 """Share of the limits that the iteration aims at: its last violation, ``EXACT`` of it, then breaks none."""
 
-EXACT = 4e-4
+EXACT = 1.5e-4
 STATIONARY = 5e-4
 """Largest share of the objective's slope that may be left."""
 

@@ -125,4 +125,17 @@ CODES: tuple[CodeInfo, ...] = (
         _TWO,
         ("center: [40, 0, 40]", "center: [-38, 0, 40]"),
     ),
+    CodeInfo(
+        "D088",
+        "picture-bent",
+        Severity.WARNING,
+        "a drone is far from its goal when a frame of an animation is shown",
+        "The goals of an animation are the control points of smooth ways, which are bent further where drones "
+        "would be too fast or too near to each other. Farther from a goal than half of what goals are apart at "
+        "least, the picture is not the one that was asked for. A longer `period` gives the limits room; where "
+        "smoothness itself is what takes the drone off, more frames help.",
+        "",
+        "",
+        "other",
+    ),
 )

@@ -13,14 +13,19 @@ from itertools import combinations
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.apart import spacing
 from shotc.geom.separation import closest_between
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet, stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.keep_apart.faults import fleets_meet
+from shotc.passes.keep_apart.faults import bent, fleets_meet
+from shotc.passes.keep_apart.off_goals import farthest
 from shotc.passes.keep_apart.repair import Keeper
+
+MUCH = 0.5
+"""Share of the goals' spacing beyond which being off a goal is told: the picture is not the one asked for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,18 +38,23 @@ class KeepApart:
         """Prove every fleet's separation, mending what breaks it."""
         mission = ir.goals.keyframes.mission
         found: list[Diagnostic] = []
+        warnings: list[Diagnostic] = []
         fleets, stats = [], list(ir.stats)
-        for flight in ir.fleets:
+        for flight, wanted in zip(ir.fleets, ir.wanted, strict=True):
             ctx.progress(f"separation in fleet {flight.fleet}")
             keeper = Keeper(mission, _fleet(mission, flight), flight, ctx)
             fleets.append(keeper.keep())
             found += keeper.faults
             stats += keeper.stats()
+            off = farthest(fleets[-1], wanted)
+            stats += off.stats(flight.fleet)
+            if off.distance > MUCH * spacing(keeper.fleet.apart):
+                warnings.append(bent(mission, keeper.fleet, off))
         for one, other in combinations(fleets, 2):
             found += _meeting(mission, one, other)
         if found:
             return Outcome(None, tuple(found))
-        return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)))
+        return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)), tuple(warnings))
 
 
 def _fleet(mission: MissionIR, flight: FleetTrajectory) -> Fleet:

@@ -10,6 +10,7 @@ from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Fleet, drone_names
+from shotc.passes.keep_apart.off_goals import Off
 
 Stretch = tuple[Array, Array, Nearest]
 """The breaks of a window, the control points its goals ask for, and what comes nearest in it."""
@@ -67,6 +68,25 @@ def fleets_meet(mission: MissionIR, fleets: tuple[Fleet, Fleet], found: Nearest,
         tuple(mission.origins.key(fleet.path) for fleet in fleets),
         (f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",),
         "show one `after` the other, or bring their pads and pictures farther apart",
+    )
+
+
+def bent(mission: MissionIR, fleet: Fleet, off: Off) -> Diagnostic:
+    """Return D088: somebody is far from its goal when its frame is shown."""
+    limits = off.distance > 2.0 * off.smooth
+    why = "its limits, or keeping apart," if limits else "the smooth way through the goals"
+    return Diagnostic(
+        "D088",
+        f"`{drone_names(fleet)[off.drone]}` is {off.distance:.2f} m from its goal in frame "
+        f"{off.shown.index + 1} of display `{off.shown.display}`",
+        (mission.origins.key(_path(mission, off.shown)),),
+        (
+            f"goals may be {spacing(fleet.apart):.2f} m apart, so this is seen",
+            f"{why} bends its way, {off.smooth:.2f} m of it by smoothness alone",
+        ),
+        "give the animation a longer `period`"
+        if limits
+        else "put more frames between those where the figure turns back, or make it move less",
     )
 
 

@@ -202,6 +202,26 @@ def test_a_jumpy_animation_is_bound_and_a_hopeless_one_is_told() -> None:
     assert BoundSplines().run(assigned(ir), CONTEXT).value is not None
 
 
+@pytest.mark.parametrize(("period", "warned"), [(0.4, True), (8.0, False)])
+def test_a_picture_that_limits_bend_is_told(period: float, warned: bool) -> None:
+    base = lattice(8, [0, 0, 40], 4.0, 2)
+    # Four metres there and back again, the ways as one: smoothness alone is a third of a metre off.
+    sets = [base + np.array([min(k % 8, 8 - k % 8) * 1.0, 0, 0]) for k in range(17)]
+    done = planned(goals((fleet(8),), (display(animation(17, period)),), {"show": [sets]}))
+    assert done.value is not None
+    flight, wanted = done.value.fleets[0], np.stack(sets)
+    at = places(flight.breaks, flight.coef, np.array([s.start for s in flight.shown]))
+    # Goals are 4 m apart, so the nearest one is a drone's own.
+    worst = max(
+        np.linalg.norm(at[:, k, None] - wanted[k], axis=2).min(axis=1).max() for k in range(len(sets))
+    )
+    assert stat(done.value, "fleet swarm off goals, largest m") == pytest.approx(worst, abs=1e-5)
+    assert [d.code for d in done.diagnostics] == (["D088"] if warned else [])
+    if warned:
+        assert f"{worst:.2f} m" in done.diagnostics[0].message
+        assert "period" in done.diagnostics[0].help
+
+
 @pytest.mark.parametrize("shape", ["ellipsoid", "cylinder"])
 def test_drones_matched_at_random_are_pushed_apart(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(5)

@@ -1,0 +1,47 @@
+"""How far the drones of a flight are from the goals that they show, at worst, and why."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import FleetTrajectory, Shown
+
+
+@dataclass(frozen=True, slots=True)
+class Off:
+    """The farthest that anybody is from its goal when a frame is shown, metres.
+
+    smooth : how far the spline that the goals alone make is from that goal, which no longer period mends
+    drone : its row; shown : the frame
+    """
+
+    distance: float
+    smooth: float
+    drone: int
+    shown: Shown
+
+    def stats(self, fleet: str) -> list[tuple[str, float | str]]:
+        """Return what is told of a fleet."""
+        frame = f"{self.shown.display}/{self.shown.picture + 1}, frame {self.shown.index + 1}"
+        name = f"fleet {fleet} off goals"
+        return [(f"{name}, largest m", self.distance), (f"{name}, where", frame)]
+
+
+def farthest(flight: FleetTrajectory, wanted: Array) -> Off:
+    """Return who is farthest from its goal, of all frames.
+
+    wanted : control points that the goals ask for, shape (n, P + 3, 3). The goal of a frame is the control
+    point that stands for the break at which it is shown (``geom.fleet_spline.centres``).
+    """
+    times = np.array([shown.start for shown in flight.shown])
+    at = np.abs(flight.breaks[:, None] - times).argmin(axis=0)
+    goals = wanted[:, at + 1]
+    off = np.linalg.norm(places(flight.breaks, flight.coef, times) - goals, axis=2)
+    drone, frame = (int(k) for k in np.unravel_index(int(off.argmax()), off.shape))
+    asked = places(flight.breaks, wanted[drone : drone + 1], times[frame : frame + 1])[0, 0]
+    smooth = float(np.linalg.norm(asked - goals[drone, frame]))
+    return Off(float(off[drone, frame]), smooth, drone, flight.shown[frame])
