@@ -21,8 +21,8 @@ from shotc.geom.bernstein import Array
 Index = NDArray[np.intp]
 
 EXACT = 1000
-"""Drones up to which the sum of squares is the least there is: 0.3 s for lattices of as many, 2 s for twice as
-many, where swaps take 0.2 s and end 0.05 to 3.4 per cent above."""
+"""Drones up to which the sum of squares is the least there is: 0.3 s for lattices of as many, 2 s for twice
+as many, where swaps take 0.2 s and end 0.05 to 3.4 per cent above."""
 
 PART = 500
 """Drones in a part of a larger fleet, at most."""
