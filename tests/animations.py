@@ -17,6 +17,7 @@ def animated(folder: Path, drones: int, frames: int, period: float) -> bytes:
         c, s, tall = np.cos(0.04 * k), np.sin(0.04 * k), 1.0 + 0.35 * np.sin(np.pi * k / 10)
         turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
         (folder / f"{k:03d}.ply").write_bytes(ply(ball * [tall**-0.5, tall**-0.5, tall] @ turn.T))
+    at = f"center: [0, 0, {30 + 2 * radius:.1f}], height: {2 * radius:.2f}"
     return f"""\
 shotc: 1
 mission: animated
@@ -31,6 +32,6 @@ shots:
     kind: display
     fleet: swarm
     frames:
-      - model: {{files: "*.ply", period: {period}, center: [0, 0, {30 + 2 * radius:.1f}], height: {2 * radius:.2f}}}
+      - model: {{files: "*.ply", period: {period}, {at}}}
         hold: 2
 """.encode()
