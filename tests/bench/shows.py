@@ -7,15 +7,13 @@ import time
 from collections.abc import Callable
 from math import ceil
 from pathlib import Path
-
-import cvxpy as cp
-import numpy as np
+from typing import TYPE_CHECKING
 
 from shotc.api import PlanOptions, compile_source
-from shotc.geom.bernstein import Array
-from shotc.geom.fleet_spline import differences
 from shotc.ir.limits import Limits
-from shotc.solvers.fleet_qcqp import Bounds, bounded, deviation
+
+if TYPE_CHECKING:  # a process that is measured begins with the memory of the one that starts it
+    from shotc.geom.bernstein import Array
 
 GROWTH = (100, 300, 1000, 3000)
 LARGE = (1000, 5000)
@@ -84,6 +82,10 @@ def growth() -> None:
 
 def splines() -> None:
     """Print how long the programme of Sec. IV takes a drone, beside cvxpy on the same data."""
+    import numpy as np
+
+    from shotc.solvers.fleet_qcqp import Bounds, bounded, deviation
+
     rng = np.random.default_rng(1)
     walks = np.cumsum(rng.normal(0.0, STRIDE, (WALKERS, FRAMES, 3)), axis=1)
     ends = [np.repeat(walks[:, k : k + 1 or None], 2, axis=1) for k in (0, -1)]
@@ -114,6 +116,12 @@ def splines() -> None:
 
 
 def _programme(breaks: Array, count: int) -> Callable[[Array], Array]:
+    import cvxpy as cp
+    import numpy as np
+
+    from shotc.geom.fleet_spline import differences
+    from shotc.solvers.fleet_qcqp import deviation
+
     asked, found = cp.Parameter((count, 3)), cp.Variable((count, 3))
     root = np.linalg.cholesky(deviation(breaks) + 1e-12 * np.eye(count)).T
     rate, bend, jerk = (differences(breaks, order) @ found for order in (1, 2, 3))
