@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from shotc.cli.table import clock
+from shotc.geom.apart import stretch
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
@@ -52,4 +53,4 @@ def _pair(plan: VerifiedIR, claim: Claim) -> str:
     if claim.constraint != "separation":
         return text
     apart = plan.trajectory.keyframes.mission.fleet(claim.subject).apart
-    return f"{text}; heights count {apart.across / apart.upright:.2g} times ({apart.shape})"
+    return f"{text}; heights count {stretch(apart):.2g} times ({apart.shape})"

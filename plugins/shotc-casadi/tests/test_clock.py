@@ -210,7 +210,7 @@ def test_the_control_points_of_every_stage_keep_what_is_asked() -> None:
 def test_ipopt_is_the_fallback_and_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     of = subject(compiled(FLYBY))
 
-    def given_up(made: program.ClockProblem, solver: str) -> program.ClockSolution:
+    def given_up(made: program.ClockProblem, solver: str) -> program.Solution:
         found = true(made, solver)
         return replace(found, status="stopped") if solver == "fatrop" else found
 

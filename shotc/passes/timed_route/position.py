@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock
-from shotc.passes.timed_route.moving import Even, Sides, evened, shortfalls, sides
+from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, shortfalls, sides
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
@@ -50,6 +51,7 @@ class Task:
     """One shot to be flown.
 
     looker : who flies, and whom it films
+    passing : what passes while it stands where the motion begins, and where it ends
     room : what stands; motions : its obstacles and what moves, even on the clock's pieces
     sights : whose pictures count
     """
@@ -59,6 +61,7 @@ class Task:
     clock: Clock
     room: Room
     motions: tuple[Even, ...]
+    passing: tuple[tuple[Even, ...], tuple[Even, ...]]
     sights: Sights
 
     @property
@@ -233,20 +236,24 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
     return replace(problem, floors=(*problem.floors, *(f for f in floors if len(f.offset))))
 
 
+def standing_by(motions: Sequence[Moving], breaks: Array) -> tuple[tuple[Even, ...], tuple[Even, ...]]:
+    """Return what passes while the drone stands where a motion begins, and where it ends."""
+    begin, end = breaks[0], breaks[-1]
+    windows = np.array([[begin - STAND, begin], [end, end + STAND]])
+    before, after = (tuple(evened(m, window) for m in motions) for window in windows)
+    return before, after
+
+
 def _stands(task: Task, hulls: Array) -> tuple[tuple[tuple[Even, ...], Array, int], ...]:
     """Return, for both ends, what passes while the drone stands there, where that is, and its control row.
 
     The place is a piece's hull, shape (1, 2, 3).
     """
-    begin, end = task.clock.breaks[[0, -1]]
-    found = []
-    for window, place, row in (
-        ((begin - STAND, begin), hulls[0, 0], 0),
-        ((end, end + STAND), hulls[-1, -1], -1),
-    ):
-        passing = tuple(evened(m.what, np.array(window)) for m in task.motions)
-        found.append((passing, np.tile(place, (1, 2, 1)), row))
-    return tuple(found)
+    ends = ((hulls[0, 0], 0), (hulls[-1, -1], -1))
+    return tuple(
+        (passing, np.tile(place, (1, 2, 1)), row)
+        for passing, (place, row) in zip(task.passing, ends, strict=True)
+    )
 
 
 def _standing(breaks: Array, beside: Sides, first: int, row: int) -> Floors:

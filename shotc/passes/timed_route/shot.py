@@ -17,7 +17,7 @@ from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import clock_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
-from shotc.passes.timed_route.position import Flown, Task, fly
+from shotc.passes.timed_route.position import Flown, Task, fly, standing_by
 from shotc.passes.timed_route.sights import Sights
 from shotc.solvers.conic import Status
 
@@ -65,8 +65,10 @@ def timed_shot(
     mission, drone = looker.mission, looker.drone
     shot = at_start(mission, placed.shot, start)
     clock = clock_of(mission, drone, shot, start)
-    motions = tuple(evened(m, clock.breaks) for m in (*standing(room), *around.moving))
-    task = Task(looker, shot, clock, room, motions, around.sights)
+    near = (*standing(room), *around.moving)
+    motions = tuple(evened(m, clock.breaks) for m in near)
+    passing = standing_by(near, clock.breaks)
+    task = Task(looker, shot, clock, room, motions, passing, around.sights)
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))

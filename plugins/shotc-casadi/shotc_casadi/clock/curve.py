@@ -22,11 +22,11 @@ from shotc.refiner_api import (
     turn,
 )
 from shotc_casadi.clock.problem import guess
-from shotc_casadi.clock.program import ClockSolution
 from shotc_casadi.clock.wishes import ClockSubject
+from shotc_casadi.program import Solution
 
 
-def curve_of(subject: ClockSubject, breaks: Array, solution: ClockSolution) -> Piecewise:
+def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecewise:
     """Return the position of a solution, C2, with the guide's ends to the last digit.
 
     What the nodes at both ends are off is taken back over the ways into and out of the film.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -13,7 +12,7 @@ from shotc.refiner_api import Array
 from shotc_casadi.clock.problem import ClockProblem
 from shotc_casadi.clock.symbols import POINTS, SLACK, STATES, derived
 from shotc_casadi.patience import PATIENCE, Endless, within
-from shotc_casadi.program import Solver, Status, built
+from shotc_casadi.program import Solution, Solver, Status, built
 
 TOLERANCE = 1e-5
 FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
@@ -27,31 +26,15 @@ UNITS = {
 }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ClockSolution:
-    """What a solver made of a problem; as in ``shotc_casadi.program.Solution``."""
-
-    status: Status
-    solver: Solver
-    states: Array
-    inputs: Array
-    objective: float
-    iterations: int
-    seconds: float
-    residual: float
-    stage: int
-    constraint: str
-
-
-def solve(task: ClockProblem, solver: Solver) -> ClockSolution:
+def solve(task: ClockProblem, solver: Solver) -> Solution:
     """Solve a problem from its first guess."""
     n = task.stages
     start = _flat(task.states, task.inputs)
     began = time.perf_counter()
 
-    def nothing(status: Status) -> ClockSolution:
+    def nothing(status: Status) -> Solution:
         took = time.perf_counter() - began
-        return ClockSolution(status, solver, task.states, task.inputs, np.nan, 0, took, np.nan, 0, ROWS[0])
+        return Solution(status, solver, task.states, task.inputs, np.nan, 0, took, np.nan, 0, ROWS[0])
 
     if not (np.isfinite(start).all() and np.isfinite(task.parameters).all()):
         return nothing("nan")
@@ -84,7 +67,7 @@ def solve(task: ClockProblem, solver: Solver) -> ClockSolution:
         return nothing("nan")
     violation = np.maximum(np.maximum(lower - g, g - upper), 0.0)
     worst = int(violation.argmax())
-    return ClockSolution(
+    return Solution(
         _status(stats, float(violation[worst])),
         solver,
         states,

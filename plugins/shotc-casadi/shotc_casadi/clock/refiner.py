@@ -18,11 +18,12 @@ from shotc.plugin_api import (
     stopped_early,
 )
 from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
-from shotc_casadi.clock.program import UNITS, ClockSolution
+from shotc_casadi.clock.program import UNITS
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.shown import past_what_hides
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.patience import PATIENCE
+from shotc_casadi.program import Solution
 
 NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
 STEP = 0.1  # seconds between the places that are compared with it
@@ -144,7 +145,7 @@ def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: st
     return impossible(path, state)
 
 
-def _word(solution: ClockSolution) -> str:
+def _word(solution: Solution) -> str:
     if solution.status == "nan":
         return "numbers that are none"
     return f"{solution.iterations} iterations" if solution.iterations else f"{PATIENCE:.0f} s without an end"

@@ -18,12 +18,12 @@ from shotc.refiner_api import (
 from shotc_casadi.clock.aside import led_past
 from shotc_casadi.clock.curve import curve_of, filmed
 from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
-from shotc_casadi.clock.program import ClockSolution, solve
+from shotc_casadi.clock.program import solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
 from shotc_casadi.clock.screens import Screen, looked_past
 from shotc_casadi.clock.side import held, led, passes
 from shotc_casadi.clock.wishes import ClockSubject, wishes
-from shotc_casadi.program import Solver
+from shotc_casadi.program import Solution, Solver
 
 SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
 ROUNDS = 6
@@ -48,9 +48,9 @@ class ClockRefined:
     leg: TimedLeg | None
     breaks: Array
     rounds: int
-    solution: ClockSolution
+    solution: Solution
     seconds: float
-    first: ClockSolution | None
+    first: Solution | None
     gap: Gap | None
 
 
@@ -66,8 +66,8 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
     course, start, share = first_guess if screens else guide, guess(first_guess, breaks), NEARLY
     aside = bool(over or screens)
     looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
-    best: tuple[Piecewise, ClockSolution] | None = None
-    first: ClockSolution | None = None
+    best: tuple[Piecewise, Solution] | None = None
+    first: Solution | None = None
     gap: Gap | None = None
     seconds, reach = 0.0, REACH
     rounds = 0
@@ -111,7 +111,7 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
     return ClockRefined(leg.shot, None if worse else whole, breaks, rounds, best[1], seconds, first, None)
 
 
-def _solved(task: ClockProblem, solvers: tuple[Solver, ...]) -> tuple[ClockSolution, ClockSolution | None]:
+def _solved(task: ClockProblem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solution | None]:
     """Solve by the first of the solvers, or else by the second; the second value is the first's failure."""
     solution = solve(task, solvers[0])
     if solution.status == "solved" or len(solvers) == 1:

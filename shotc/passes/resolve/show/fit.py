@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from math import asin, inf, pi, sqrt
 
+from shotc.geom.apart import spacing, stretch
 from shotc.ir.show import Apart, Box, Picture, Sphere, Torus
 
 ROGERS = 0.7797
@@ -19,19 +20,14 @@ ROUNDING = 1e-9
 STEP = 0.01  # to which a growth is found
 
 
-def spacing(apart: Apart) -> float:
-    """Return how far from each other two goals are to be, side by side, metres."""
-    return sqrt(2.0) * apart.across * (sqrt(2.0) if apart.shape == "cylinder" else 1.0)
-
-
 def most_drones(picture: Picture, apart: Apart) -> float:
     """Return a number that the drones of a picture cannot exceed; infinity where its size is not known."""
     source, gap = picture.source, spacing(apart)
     if isinstance(source, Sphere | Box | Torus):
-        stretch = apart.across / apart.upright
-        inside = _in_volume(source, gap, stretch)
+        factor = stretch(apart)
+        inside = _in_volume(source, gap, factor)
         # The edges of a cube lie on its surface.
-        return inside if picture.fill == "volume" else min(inside, _on_surface(source, gap, stretch))
+        return inside if picture.fill == "volume" else min(inside, _on_surface(source, gap, factor))
     return inf
 
 
