@@ -29,12 +29,12 @@ STATES, WIDTH = 6, 9
 
 
 class Weights(NamedTuple):
-    """w1 to w4 of Eq. 12: acceleration, pitch rate, yaw rate, the state at the end."""
+    """w1 to w4 of Eq. 12: acceleration, pitch rate, yaw rate, the state at the end; w1 and w4 as printed."""
 
     effort: float = 1.0
     pitch: float = 0.0
     yaw: float = 0.0
-    end: float = 10.0
+    end: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,11 +93,11 @@ def programme(steps: int, solver: str) -> Any:
 
 
 def solve(task: Chase, solver: str = "fatrop") -> Flight:
-    """Solve from the guess, cold: nothing of an earlier solve is used."""
+    """Solve from the guess and its own velocities and accelerations, cold: nothing of an earlier solve."""
     n = len(task.guess) - 1
     made = programme(n, solver)
-    rates_ = np.gradient(task.guess, DT, axis=0)
-    inner = np.hstack([task.guess, rates_, np.zeros((n + 1, 3))])
+    velocities = np.gradient(task.guess, DT, axis=0)
+    inner = np.hstack([task.guess, velocities, np.gradient(velocities, DT, axis=0)])
     inner[0, :6] = task.start
     low = np.tile([*[-np.inf] * 3, *[-SPEED] * 3, *[-ACCELERATION] * 3], (n + 1, 1))
     high = -low
