@@ -1,4 +1,4 @@
-"""check, compile, emit, verify and write: the only calls that the command line makes.
+"""compile, emit, verify and write: the calls that the command line makes, with ``checking``.
 
 Everything here takes bytes and gives values; ``write`` alone touches the disk.
 """
@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from shotc import plugins
+from shotc.checking import models_of
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
@@ -40,13 +41,6 @@ if TYPE_CHECKING:  # the base install has no numpy
     from shotc.passes.refine_path import Seat
 
 SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "matplotlib", "pymap3d", "threadpoolctl")
-
-
-class CheckReport(NamedTuple):
-    """What is wrong with one mission text, and the texts that the diagnostics point into."""
-
-    diagnostics: tuple[Diagnostic, ...]
-    sources: dict[str, SourceFile]
 
 
 def _ignore(_mission: MissionIR) -> None:
@@ -113,21 +107,7 @@ def json_schema() -> dict[str, Any]:
     """Return the JSON Schema of a mission, with every kind that is installed."""
     from shotc.spec.schema import json_schema as schema_of
 
-    return schema_of(_models(plugins.shot_kinds().plugins))
-
-
-def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
-    """Check one mission without a solver.
-
-    data : any bytes; name : how to show it; folder : where the files that it names are
-    """
-    kinds = plugins.shot_kinds()
-    loaded = load(data, name, folder, _models(kinds.plugins))
-    found = [*kinds.diagnostics, *loaded.diagnostics]
-    if loaded.mission is not None:
-        passes = front_passes(kinds.plugins, plugins.names("emitters"))
-        found += run(passes, loaded.mission, PassContext()).diagnostics
-    return CheckReport(tuple(found), {name: loaded.file})
+    return schema_of(models_of(plugins.shot_kinds().plugins))
 
 
 def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOptions) -> Compilation:
@@ -136,7 +116,7 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     options.refiner must be None or one of ``plugins.names("refiners")``
     """
     kinds = plugins.shot_kinds()
-    loaded = load(data, name, folder, _models(kinds.plugins))
+    loaded = load(data, name, folder, models_of(kinds.plugins))
     sources = {name: loaded.file}
     found = [*kinds.diagnostics, *loaded.diagnostics]
     if loaded.mission is None or has_errors(found):
@@ -288,10 +268,6 @@ def _unchanged(name: str, sha256: str) -> dict[str, SourceFile]:
     if hashlib.sha256(data).hexdigest() != sha256:
         return {}
     return {name: SourceFile(name, data.decode("utf-8-sig", "replace"))}
-
-
-def _models(kinds: Mapping[str, Any]) -> Mapping[str, Any]:
-    return plugins.OnDemand(kinds, lambda name: kinds[name].model)
 
 
 def _with_autopilot(keyframes: KeyframeIR, autopilot: Literal["px4", "ardupilot"] | None) -> KeyframeIR:

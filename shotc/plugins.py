@@ -5,9 +5,12 @@ against). Nothing is imported until it is asked for; a clash of names, a failed 
 version is a diagnostic that names the package, never a silent choice.
 """
 
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import Distribution, EntryPoint, distributions
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -173,12 +176,25 @@ def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> Found:
 
 
 @cache
-def _installed() -> Any:
-    """Return the entry points of all packages, which have a ``select``; Python 3.12 gave them another type.
+def _installed() -> tuple[EntryPoint, ...]:
+    """Return the entry points of all packages that name one of our groups."""
+    packages = (package for folder in sys.path for package in _extending(Path(folder)))
+    return tuple(entry for package in packages for entry in package.entry_points)
 
-    To read them takes milliseconds, and all are read whichever are wanted.
+
+def _extending(folder: Path) -> Iterator[Distribution]:
+    """Yield the packages of a folder whose entry points may be ours.
+
+    The library parses those of every package that is installed, which takes longer than to check a mission;
+    most of them never name us.
     """
-    return entry_points()
+    if not folder.is_dir():  # a zip file, or nothing
+        yield from distributions(path=[str(folder)])
+        return
+    for info in (*folder.glob("*.dist-info"), *folder.glob("*.egg-info")):
+        with suppress(OSError):
+            if b"shotc." in (info / "entry_points.txt").read_bytes():
+                yield Distribution.at(info)
 
 
 def _is_ours(entry: EntryPoint) -> bool:
@@ -187,7 +203,9 @@ def _is_ours(entry: EntryPoint) -> bool:
 
 def _by_name(group: str) -> dict[str, list[EntryPoint]]:
     table: dict[str, list[EntryPoint]] = {}
-    for entry in _installed().select(group=GROUPS[group]):
+    for entry in _installed():
+        if entry.group != GROUPS[group]:
+            continue
         known = table.setdefault(entry.name, [])
         # An editable install beside a wheel shows the same entry twice; that is no clash.
         if all((e.value, _owner(e)) != (entry.value, _owner(entry)) for e in known):

@@ -64,7 +64,7 @@ def check(specs: Specs, format: FormatOption = None, stdin_filename: StdinName =
 
 
 def _check_all(gathered: Gathered) -> tuple[list[Diagnostic], dict[str, SourceFile]]:
-    from shotc.api import check_source
+    from shotc.checking import check_source
 
     diagnostics = list(gathered.diagnostics)
     sources: dict[str, SourceFile] = {}

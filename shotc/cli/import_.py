@@ -41,7 +41,7 @@ def import_(
 
     Example: `shotc import multidrone karting.xml -o karting.yaml`
     """
-    from shotc.api import check_source
+    from shotc.checking import check_source
     from shotc.diag.model import Diagnostic
     from shotc.diag.registry import has_errors
     from shotc.importers.mission import import_multidrone

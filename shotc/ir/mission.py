@@ -4,13 +4,15 @@ World frame W (East, North, Up, metres), radians, seconds; ``path`` is where an 
 the mission file (see ``OriginMap``).
 """
 
-from typing import Literal, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
 from shotc.geom.track import Track
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.ir.show import Display, Fleet
+
+if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from shotc.ir.show import Display, Fleet
 
 ViewAngles = tuple[float | None, float | None]
 
@@ -258,8 +260,8 @@ class MissionIR(NamedTuple):
     source_sha256: str
     deferred: tuple[Deferred, ...]
     origins: OriginMap
-    fleets: tuple[Fleet, ...] = ()
-    displays: tuple[Display, ...] = ()
+    fleets: "tuple[Fleet, ...]" = ()
+    displays: "tuple[Display, ...]" = ()
     files: tuple[tuple[str, bytes], ...] = ()
 
     def drone(self, name: str) -> Drone:
@@ -270,12 +272,12 @@ class MissionIR(NamedTuple):
         """Return the target of that name; KeyError if there is none."""
         return next_named(self.targets, name)
 
-    def fleet(self, name: str) -> Fleet:
+    def fleet(self, name: str) -> "Fleet":
         """Return the fleet of that name; KeyError if there is none."""
         return next_named(self.fleets, name)
 
 
-_Named = TypeVar("_Named", Drone, Target, Fleet)
+_Named = TypeVar("_Named", Drone, Target, "Fleet")
 
 
 def next_named(items: tuple[_Named, ...], name: str) -> _Named:

@@ -5,7 +5,7 @@ kinds by an entry point in the group ``shotc.kinds`` that names a ``Kind``; ours
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple, Protocol, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
@@ -13,11 +13,13 @@ from shotc.geom.geodetic import to_world
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Rules, Subject, Target
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.ir.show import Display
 from shotc.kinds.files import FileFault
 from shotc.spec.fields import Geodetic
 from shotc.spec.shot import ShotBase
 from shotc.spec.words import nearest
+
+if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from shotc.ir.show import Display
 
 API_VERSION = 1
 MOVING = "a moving target"
@@ -60,7 +62,7 @@ class Expansion(NamedTuple):
     ideal: Ideal | None = None
     subjects: tuple[Subject, ...] = ()
     lasts: float | None = None
-    display: Display | None = None
+    display: "Display | None" = None
 
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Self:

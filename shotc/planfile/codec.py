@@ -23,7 +23,7 @@ from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
 from shotc.ir.fleet import Colors, FleetTrajectory, Lights
 from shotc.ir.records import field_names
-from shotc.ir.show import Display
+from shotc.ir.show import Display, Fleet
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.planfile.layout import Rows
 
@@ -82,7 +82,7 @@ def _rows(value: NDArray[Any]) -> list[Any]:
 @cache
 def hints(kind: type) -> dict[str, Any]:
     """Return the resolved types of a record's fields, in their order."""
-    found = get_type_hints(kind)
+    found = get_type_hints(kind, localns={"Display": Display, "Fleet": Fleet})
     return {name: found[name] for name in field_names(kind)}
 
 

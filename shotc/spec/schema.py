@@ -12,6 +12,7 @@ from typing import Any
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue, models_json_schema
 from pydantic_core import core_schema
 
+from shotc.spec.fleets import FleetSpec
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Geodetic
 from shotc.spec.shot import ShotBase
@@ -22,13 +23,14 @@ IDENTIFIER = "https://shotc.dev/schema/mission-1.json"
 
 def json_schema(kinds: Mapping[str, type[ShotBase]]) -> dict[str, Any]:
     """Return the schema of a mission whose shots are of these kinds."""
-    models: list[type[Any]] = [MissionSpec, Geodetic, *kinds.values()]
+    models: list[type[Any]] = [MissionSpec, FleetSpec, Geodetic, *kinds.values()]
     by_model, whole = models_json_schema(
         [(model, "validation") for model in models], schema_generator=_Generator
     )
     references = {model: by_model[model, "validation"] for model in models}
     definitions = dict(whole["$defs"])
     mission = definitions.pop(references[MissionSpec]["$ref"].rpartition("/")[2])
+    mission["properties"]["fleets"]["additionalProperties"] = references[FleetSpec]
     mission["properties"]["shots"]["items"] = _shots(
         {name: references[kinds[name]] for name in sorted(kinds)}
     )

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from shotc.api import PlanOptions, check_source, compile_source
+from shotc.api import PlanOptions, compile_source
+from shotc.checking import check_source
 from shotc.cli.app import COMMANDS
 from shotc.diag.registry import registry
 

@@ -12,7 +12,8 @@ from math import cos, degrees, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 
-from shotc.api import PlanOptions, check_source, compile_source
+from shotc.api import PlanOptions, compile_source
+from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.geom.camera import Vec2, Vec3, aim_at, heading_of, vertical_fov
 from shotc.ir.keyframes import KeyframeIR

@@ -7,7 +7,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from shotc.api import check_source
+from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.path import Leg, Mark

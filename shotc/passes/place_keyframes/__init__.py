@@ -20,7 +20,6 @@ from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
 from shotc.passes.place_keyframes.faults import Miss, does_not_fit, keeps, off_composition, report
 from shotc.passes.place_keyframes.flown_order import flown_order
-from shotc.passes.place_keyframes.sizes import check_size
 from shotc.passes.place_keyframes.subjects import place_subjects
 from shotc.passes.place_keyframes.turns import while_following, with_turns
 
@@ -53,6 +52,10 @@ class PlaceKeyframes:
 
 
 def _sized(mission: MissionIR, placed: PlacedShot) -> list[Diagnostic]:
+    if placed.shot.size is None:
+        return []
+    from shotc.passes.place_keyframes.sizes import check_size
+
     fault = check_size(mission, placed)
     return [] if fault is None else [fault]
 

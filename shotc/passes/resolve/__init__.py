@@ -9,29 +9,25 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from functools import partial
-from typing import ClassVar, Final, NamedTuple
+from typing import ClassVar, Final
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
 from shotc.ir.mission import GeoOrigin, MissionIR, Rules
-from shotc.ir.show import Display, Fleet
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.deferred import deferred_features
 from shotc.passes.resolve.earth import check_earth, geo_origin
-from shotc.passes.resolve.files import match_files, read_file
+from shotc.passes.resolve.files import Ground, match_files, read_file
 from shotc.passes.resolve.framing import check_framing
-from shotc.passes.resolve.framings import with_framings
 from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
-from shotc.passes.resolve.ideals import check_ideal
 from shotc.passes.resolve.names import check_names, emitters_of, once
-from shotc.passes.resolve.recordings import Ground
+from shotc.passes.resolve.seldom import check_fleets, check_ideals, framed, shown, tracks_of
 from shotc.passes.resolve.shots import Cast, expand_shots
 from shotc.passes.resolve.timing import check_timing
-from shotc.passes.resolve.tracks import read_tracks
-from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones
+from shotc.passes.resolve.world import check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE, SHOW_RATE
@@ -64,8 +60,8 @@ class Resolve:
         rules = _rules(spec.rules)
         read = partial(read_file, ir.folder, origins)
         ground = Ground(origin, origins, read)
-        tracks = read_tracks(spec, put, ground)
-        found_targets = targets(spec, put, tracks.tracks)
+        tracks, track_faults = tracks_of(ir, put, ground)
+        found_targets = targets(spec, put, tracks)
         ctx.progress("expanding the shots")
         cast = Cast(
             self.kinds,
@@ -78,14 +74,14 @@ class Resolve:
             partial(match_files, ir.folder, origins),
         )
         shots = expand_shots(spec, cast, lambda: resolve_drone("spare", DroneSpec(), put, 0.0))
-        show = _show(ir, put, ground, shots.displays)
+        show = shown(ir, put, ground, shots.displays)
         faults = once(
             [
                 *astray,
                 *zone_faults,
                 *drone_faults,
                 *([] if astray else check_targets(found_targets, origins)),
-                *tracks.diagnostics,
+                *track_faults,
                 *check_names(spec, origins, self.emitters),
                 *shots.diagnostics,
                 *show.diagnostics,
@@ -109,37 +105,16 @@ class Resolve:
             displays=shots.displays,
             files=show.files,
         )
-        mission, framings = with_framings(mission)
+        mission, framings = framed(mission)
         faults += framings
         faults += _static_faults(
             mission, geometry=not astray, timing=not drone_faults, order=not has_errors(faults)
         )
-        if spec.fleets and not astray:
-            from shotc.passes.resolve.show import check_show
-
-            faults += check_show(mission, spec, order=not has_errors(faults))
+        if not astray:
+            faults += check_fleets(mission, ir, order=not has_errors(faults))
         if not has_errors(faults):
             faults += check_grammar(mission, allowed(spec))
         return Outcome(None if stops(faults) else mission, tuple(faults))
-
-
-class _Show(NamedTuple):
-    """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others."""
-
-    fleets: tuple[Fleet, ...] = ()
-    files: tuple[tuple[str, bytes], ...] = ()
-    diagnostics: tuple[Diagnostic, ...] = ()
-
-
-def _show(ir: LoadedMission, put: Put, ground: Ground, displays: tuple[Display, ...]) -> _Show:
-    """Resolve the fleets, and read what their displays draw; a mission without them loads none of this."""
-    if not ir.spec.fleets:
-        return _Show()
-    from shotc.passes.resolve.show import fleets_of, read_material
-
-    fleets, wrong = fleets_of(ir.spec, put, ground)
-    files, missing = read_material(displays, ir.folder, ir.origins)
-    return _Show(fleets, files, (*wrong, *missing))
 
 
 def _rules(spec: RulesSpec) -> Rules:
@@ -162,7 +137,7 @@ def _static_faults(mission: MissionIR, *, geometry: bool, timing: bool, order: b
     if not geometry:
         return []
     homes = check_homes(mission)
-    homes = [*homes, *(d for shot in mission.shots for d in check_ideal(mission, shot))]
+    homes = [*homes, *check_ideals(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in check_places(mission, shot)]
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]

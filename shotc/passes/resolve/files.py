@@ -1,12 +1,13 @@
 """Reading the files that a mission names, and nothing outside the mission's folder."""
 
-from __future__ import annotations
-
 import re
+from collections.abc import Callable
 from fnmatch import translate
 from pathlib import Path
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import LARGEST, FileFault
@@ -14,7 +15,19 @@ from shotc.spec.words import closest
 
 MOST_FILES = 5_000  # frames of an animation
 _WILD = re.compile(r"[*?]")
+Read = Callable[[str, KeyPath], bytes | Diagnostic]
 NO_FOLDER = "a mission read from standard input has no folder; save it to a file"
+
+
+class Ground(NamedTuple):
+    """What a recording is read with.
+
+    origin : of W on the earth, if the mission gives one; read : the bytes of a file of the mission
+    """
+
+    origin: GeoOrigin | None
+    origins: OriginMap
+    read: Read
 
 
 def read_file(

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from math import atan2, ceil, degrees, dist, floor, hypot, isfinite, pi
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from shotc.geom.solids import (
     Cylinder,
@@ -15,7 +15,9 @@ from shotc.geom.solids import (
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Fleet
+
+if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from shotc.ir.show import Fleet
 
 ROUNDING = 1e-6  # metres
 NUDGE = 0.01  # metres that a proposed place lies farther off than it must
@@ -111,7 +113,7 @@ def signed_distance(solid: Solid, p: Vec3) -> float:
     return hypot(max(across, 0.0), max(upright, 0.0))
 
 
-def obstacles_of(mission: MissionIR, drone: Drone | Fleet) -> list[Obstacle]:
+def obstacles_of(mission: MissionIR, drone: "Drone | Fleet") -> list[Obstacle]:
     """Return all that stands and that a drone keeps clear of, the ground excepted."""
     zones = [Obstacle(z.name, z.keep, z.solid, drone.radius, z.path) for z in mission.zones]
     room = mission.rules.target_clearance + drone.radius

@@ -1,6 +1,5 @@
 """Tracks that were recorded: rows of a CSV or GPX file made the motion of a target."""
 
-from collections.abc import Callable
 from itertools import pairwise
 from math import radians
 from typing import NamedTuple
@@ -8,29 +7,15 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
 from shotc.geom.track import Track, unwrapped
-from shotc.ir.mission import GeoOrigin
-from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.origin import KeyPath
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, Table, read_table
-from shotc.kinds.gpx import read_gpx
 from shotc.kinds.located import in_world
+from shotc.passes.resolve.files import Ground
 
 PLACES = (("t", "x", "y", "z"), ("t", "lat", "lon", "height"))
 FACING = ((), ("heading",), ("heading_deg",))
 LAYOUTS = tuple((*place, *facing) for place in PLACES for facing in FACING)
-
-Read = Callable[[str, KeyPath], bytes | Diagnostic]
-
-
-class Ground(NamedTuple):
-    """What a recording is read with.
-
-    origin : of W on the earth, if the mission gives one; read : the bytes of a file of the mission
-    """
-
-    origin: GeoOrigin | None
-    origins: OriginMap
-    read: Read
 
 
 class Recording(NamedTuple):
@@ -48,8 +33,7 @@ def read_recording(file: str, ground: Ground, path: KeyPath) -> Recording | Diag
     data = ground.read(file, path)
     if isinstance(data, Diagnostic):
         return data
-    gpx = file.lower().endswith(".gpx")
-    table = read_gpx(data, timed=True) if gpx else read_table(data, LAYOUTS)
+    table = _timed_gpx(data) if file.lower().endswith(".gpx") else read_table(data, LAYOUTS)
     wrong = table if isinstance(table, FileFault) else _fault(table)
     if wrong is not None:
         return bad_file(ground.origins, path, file, wrong)
@@ -92,3 +76,9 @@ def _fault(table: Table) -> FileFault | None:
         message = f"its times do not rise: line {line} says {after:.10g} s, line {earlier} {before:.10g} s"
         return FileFault(message, line, "mend the time, or sort the rows by time")
     return None
+
+
+def _timed_gpx(data: bytes) -> Table | FileFault:
+    from shotc.kinds.gpx import read_gpx  # brings an XML parser, which few missions need
+
+    return read_gpx(data, timed=True)

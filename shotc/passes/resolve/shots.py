@@ -1,16 +1,18 @@
 """Shots: their kinds expanded to keyframes, with timing, pace and promises."""
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.ir.show import Display
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
+
+if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from shotc.ir.show import Display
 
 
 class Cast(NamedTuple):
@@ -33,7 +35,7 @@ class Shots(NamedTuple):
     """Shots that have keyframes, those of fleets, and what stands against the others."""
 
     shots: tuple[Shot, ...]
-    displays: tuple[Display, ...]
+    displays: "tuple[Display, ...]"
     diagnostics: tuple[Diagnostic, ...]
     deferred: tuple[Deferred, ...]
 

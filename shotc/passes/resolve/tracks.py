@@ -10,8 +10,9 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track, Vec3
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.passes.resolve.files import Ground
 from shotc.passes.resolve.leaps import Course, check_gap, check_jump, check_velocity
-from shotc.passes.resolve.recordings import Ground, Recording, read_recording
+from shotc.passes.resolve.recordings import Recording, read_recording
 from shotc.passes.resolve.world import Put
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import TOP_SPEED

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from math import isclose
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 
@@ -14,12 +14,14 @@ from shotc.geom.track import Track
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import OriginMap
-from shotc.ir.show import Fleet
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import PRESETS, Preset
 from shotc.spec.world import ZoneSpec
+
+if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from shotc.ir.show import Fleet
 
 Put = Callable[[Vec3 | Geodetic], Vec3]
 LEAST_AREA = 1e-4  # m^2

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.api import PlanOptions, check_source, compile_source
+from shotc.api import PlanOptions, compile_source
+from shotc.checking import check_source
 from shotc.passes.assign_drones.choice import LEAST_WAY, choose
 from shotc.passes.assign_drones.tasks import Task
 from tests.front import clean

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import Phase, assume, example, given, settings
 from hypothesis import strategies as st
 
-from shotc.api import PlanOptions, check_source, compile_source
+from shotc.api import PlanOptions, compile_source
+from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.viewpoint import judged

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.api import PlanOptions, check_source, compile_source
+from shotc.api import PlanOptions, compile_source
+from shotc.checking import check_source
 from shotc.ir.trajectory import VerifiedIR
 
 KEPT, GIVEN_UP = 1.0, 2.5  # metres off a place

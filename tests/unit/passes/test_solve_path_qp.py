@@ -7,7 +7,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from shotc.api import PlanOptions, check_source, compile_source
+from shotc.api import PlanOptions, compile_source
+from shotc.checking import check_source
 from shotc.diag.codes.convex import CODES
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism

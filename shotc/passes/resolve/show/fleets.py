@@ -12,7 +12,7 @@ from shotc.ir.show import Apart, Fleet
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
-from shotc.passes.resolve.recordings import Ground
+from shotc.passes.resolve.files import Ground
 from shotc.passes.resolve.world import Put, becalmed, limits_of
 from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec
 from shotc.spec.mission import MissionSpec

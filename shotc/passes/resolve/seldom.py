@@ -1,0 +1,75 @@
+"""What few missions have: tracks, shots on their own clock, fleets. Its modules load where a mission has it.
+
+``check`` runs at every keystroke and commit, and most of its time is loading.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.track import Track
+from shotc.ir.mission import MissionIR
+from shotc.passes.resolve.files import Ground
+from shotc.passes.resolve.world import Put
+from shotc.spec.load import LoadedMission
+
+if TYPE_CHECKING:
+    from shotc.ir.show import Display, Fleet
+
+
+def tracks_of(
+    ir: LoadedMission, put: Put, ground: Ground
+) -> tuple[Mapping[str, Track], Iterable[Diagnostic]]:
+    """Return the motion of every target that moves, and what is wrong with the others."""
+    if all(target.track is None for target in ir.spec.targets.values()):
+        return {}, ()
+    from shotc.passes.resolve.tracks import read_tracks
+
+    return read_tracks(ir.spec, put, ground)
+
+
+def framed(mission: MissionIR) -> tuple[MissionIR, list[Diagnostic]]:
+    """Return the mission with the ideals of its framings, and what stands against them."""
+    if not any(shot.ideal is not None and shot.ideal.framed for shot in mission.shots):
+        return mission, []
+    from shotc.passes.resolve.framings import with_framings
+
+    return with_framings(mission)
+
+
+def check_ideals(mission: MissionIR) -> list[Diagnostic]:
+    """Return what is wrong with the shots on their own clock."""
+    clocked = [shot for shot in mission.shots if shot.ideal is not None]
+    if not clocked:
+        return []
+    from shotc.passes.resolve.ideals import check_ideal
+
+    return [fault for shot in clocked for fault in check_ideal(mission, shot)]
+
+
+class Shown(NamedTuple):
+    """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others."""
+
+    fleets: "tuple[Fleet, ...]" = ()
+    files: tuple[tuple[str, bytes], ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def shown(ir: LoadedMission, put: Put, ground: Ground, displays: "tuple[Display, ...]") -> Shown:
+    """Resolve the fleets, and read what their displays draw."""
+    if not ir.spec.fleets:
+        return Shown()
+    from shotc.passes.resolve.show import fleets_of, read_material
+
+    fleets, wrong = fleets_of(ir.spec, put, ground)
+    files, missing = read_material(displays, ir.folder, ir.origins)
+    return Shown(fleets, files, (*wrong, *missing))
+
+
+def check_fleets(mission: MissionIR, ir: LoadedMission, *, order: bool) -> list[Diagnostic]:
+    """Return what is wrong with what fleets display."""
+    if not ir.spec.fleets:
+        return []
+    from shotc.passes.resolve.show import check_show
+
+    return check_show(mission, ir.spec, order=order)
