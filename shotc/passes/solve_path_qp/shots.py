@@ -9,6 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
 from shotc.geom.corridor import Room, breaches
+from shotc.geom.runs import worst_of_runs
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, Mark, Stop
@@ -230,17 +231,9 @@ def _deviations(room: Room, placed: PlacedShot, track: Track) -> tuple[Deviation
     """Return, for each run of keyframes that the path leaves, the worst of it."""
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
     away = np.linalg.norm(track.position(track.s) - points, axis=1)
-    runs: list[list[int]] = []
-    for i in np.flatnonzero(away > LEFT):
-        if runs and runs[-1][-1] == i - 1:
-            runs[-1].append(int(i))
-        else:
-            runs.append([int(i)])
-    worst = [max(run, key=lambda i: float(away[i])) for run in runs]
     return tuple(
         Deviation(placed.shot.id, float(away[i]), float(track.s[i]), _cause(room, points[i]))
-        for i in worst
-        if away[i] > NOTICE
+        for i in worst_of_runs(away, LEFT, NOTICE)
     )
 
 

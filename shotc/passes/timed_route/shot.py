@@ -9,6 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, breaches
+from shotc.geom.runs import worst_of_runs
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
@@ -113,19 +114,11 @@ def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
     ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
     assert flown.curve is not None
     away = np.linalg.norm(flown.curve(times) - ideal, axis=1)
-    runs: list[list[int]] = []
-    for i in np.flatnonzero(away > LEFT):
-        if runs and runs[-1][-1] == i - 1:
-            runs[-1].append(int(i))
-        else:
-            runs.append([int(i)])
-    worst = [max(run, key=lambda i: float(away[i])) for run in runs]
     return tuple(
         Deviation(
             task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, ideal[i], float(times[i]))
         )
-        for i in worst
-        if away[i] > NOTICE
+        for i in worst_of_runs(away, LEFT, NOTICE)
     )
 
 
