@@ -5,12 +5,9 @@ against). Nothing is imported until it is asked for; a clash of names, a failed 
 version is a diagnostic that names the package, never a silent choice.
 """
 
-import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from functools import cache
-from importlib.metadata import Distribution, EntryPoint, distributions
-from pathlib import Path
+from importlib.metadata import EntryPoint, distributions
 from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -177,24 +174,12 @@ def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> Found:
 
 @cache
 def _installed() -> tuple[EntryPoint, ...]:
-    """Return the entry points of all packages that name one of our groups."""
-    packages = (package for folder in sys.path for package in _extending(Path(folder)))
-    return tuple(entry for package in packages for entry in package.entry_points)
+    """Return the entry points of the packages that name one of our groups.
 
-
-def _extending(folder: Path) -> Iterator[Distribution]:
-    """Yield the packages of a folder whose entry points may be ours.
-
-    The library parses those of every package that is installed, which takes longer than to check a mission;
-    most of them never name us.
+    The library's own list parses those of every package, which takes longer than to check a mission.
     """
-    if not folder.is_dir():  # a zip file, or nothing
-        yield from distributions(path=[str(folder)])
-        return
-    for info in (*folder.glob("*.dist-info"), *folder.glob("*.egg-info")):
-        with suppress(OSError):
-            if b"shotc." in (info / "entry_points.txt").read_bytes():
-                yield Distribution.at(info)
+    naming = (d for d in distributions() if "shotc." in (d.read_text("entry_points.txt") or ""))
+    return tuple(entry for package in naming for entry in package.entry_points)
 
 
 def _is_ours(entry: EntryPoint) -> bool:
@@ -203,12 +188,10 @@ def _is_ours(entry: EntryPoint) -> bool:
 
 def _by_name(group: str) -> dict[str, list[EntryPoint]]:
     table: dict[str, list[EntryPoint]] = {}
-    for entry in _installed():
-        if entry.group != GROUPS[group]:
-            continue
+    for entry in (e for e in _installed() if e.group == GROUPS[group]):
         known = table.setdefault(entry.name, [])
-        # An editable install beside a wheel shows the same entry twice; that is no clash.
-        if all((e.value, _owner(e)) != (entry.value, _owner(entry)) for e in known):
+        # A package may be on the path twice, an editable install beside a wheel, say: the first one counts.
+        if all(_owner(e) != _owner(entry) for e in known):
             known.append(entry)
     return dict(sorted(table.items()))
 
