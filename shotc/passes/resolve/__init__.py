@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from functools import partial
-from typing import ClassVar, Final
+from typing import ClassVar, Final, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
-from shotc.ir.mission import GeoOrigin, MissionIR, Rules
+from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, Zone
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.deferred import deferred_features
@@ -24,10 +24,10 @@ from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.names import check_names, emitters_of, once
-from shotc.passes.resolve.seldom import check_fleets, check_ideals, framed, shown, tracks_of
-from shotc.passes.resolve.shots import Cast, expand_shots
+from shotc.passes.resolve.seldom import Shown, check_fleets, check_ideals, framed, shown, tracks_of
+from shotc.passes.resolve.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.timing import check_timing
-from shotc.passes.resolve.world import check_targets, drones, resolve_drone, targets, zones
+from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE, SHOW_RATE
@@ -51,70 +51,103 @@ class Resolve:
 
     def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[MissionIR]:
         """Resolve one mission."""
-        spec, origins = ir.spec, ir.origins
-        astray = check_earth(spec, origins)
-        origin = geo_origin(spec)
-        put = partial(placed, origin or ANYWHERE)
-        found_zones, zone_faults = zones(spec, put, origins)
-        found_drones, drone_faults = drones(spec, put, origins)
-        rules = _rules(spec.rules)
-        read = partial(read_file, ir.folder, origins)
-        ground = Ground(origin, origins, read)
-        tracks, track_faults = tracks_of(ir, put, ground)
-        found_targets = targets(spec, put, tracks)
+        world = _world(ir)
         ctx.progress("expanding the shots")
+        shots = self._shots(ir, world)
+        show = shown(ir, world.put, world.ground, shots.displays)
+        names = check_names(ir.spec, ir.origins, self.emitters)
+        faults = once([*world.faults, *names, *shots.diagnostics, *show.diagnostics])
+        mission, framings = framed(_mission(ir, world, shots, show))
+        faults += framings
+        faults += _judged(ir, mission, world, order=not has_errors(faults))
+        if not has_errors(faults):
+            faults += check_grammar(mission, allowed(ir.spec))
+        return Outcome(None if stops(faults) else mission, tuple(faults))
+
+    def _shots(self, ir: LoadedMission, world: _World) -> Shots:
         cast = Cast(
             self.kinds,
-            found_drones,
-            found_targets,
-            rules,
-            origin or (ANYWHERE if astray else None),
-            origins,
-            read,
-            partial(match_files, ir.folder, origins),
+            world.drones,
+            world.targets,
+            world.rules,
+            world.ground.origin or (ANYWHERE if world.astray else None),
+            ir.origins,
+            world.ground.read,
+            partial(match_files, ir.folder, ir.origins),
         )
-        shots = expand_shots(spec, cast, lambda: resolve_drone("spare", DroneSpec(), put, 0.0))
-        show = shown(ir, put, ground, shots.displays)
-        faults = once(
-            [
-                *astray,
-                *zone_faults,
-                *drone_faults,
-                *([] if astray else check_targets(found_targets, origins)),
-                *track_faults,
-                *check_names(spec, origins, self.emitters),
-                *shots.diagnostics,
-                *show.diagnostics,
-            ]
-        )
-        mission = MissionIR(
-            name=spec.mission,
-            origin=origin,
-            wind=spec.world.wind,
-            zones=found_zones,
-            targets=tuple(t for t in found_targets.values() if t is not None),
-            drones=tuple(found_drones.values()),
-            rules=rules,
-            shots=shots.shots,
-            rate=spec.output.rate or (SHOW_RATE if shots.displays and not shots.shots else RATE),
-            emit=emitters_of(spec),
-            source_sha256=ir.sha256,
-            deferred=deferred_features(spec, shots.deferred),
-            origins=origins,
-            fleets=show.fleets,
-            displays=shots.displays,
-            files=show.files,
-        )
-        mission, framings = framed(mission)
-        faults += framings
-        faults += _static_faults(
-            mission, geometry=not astray, timing=not drone_faults, order=not has_errors(faults)
-        )
-        if not astray:
-            faults += check_fleets(mission, ir, order=not has_errors(faults))
-        if not has_errors(faults):
-            faults += check_grammar(mission, allowed(spec))
-        return Outcome(None if stops(faults) else mission, tuple(faults))
+        return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, 0.0))
+
+
+class _World(NamedTuple):
+    """All but the shots.
+
+    put : puts a place into W; astray : whether its places on earth lie too far from each other
+    sound : whether every drone can fly as it is written
+    """
+
+    put: Put
+    ground: Ground
+    zones: tuple[Zone, ...]
+    drones: Mapping[str, Drone]
+    targets: Mapping[str, Target | None]
+    rules: Rules
+    faults: tuple[Diagnostic, ...]
+    astray: bool
+    sound: bool
+
+
+def _world(ir: LoadedMission) -> _World:
+    spec, origins = ir.spec, ir.origins
+    astray = check_earth(spec, origins)
+    origin = geo_origin(spec)
+    put = partial(placed, origin or ANYWHERE)
+    ground = Ground(origin, origins, partial(read_file, ir.folder, origins))
+    found_zones, zone_faults = zones(spec, put, origins)
+    found_drones, drone_faults = drones(spec, put, origins)
+    tracks, track_faults = tracks_of(ir, put, ground)
+    found_targets = targets(spec, put, tracks)
+    buried = [] if astray else check_targets(found_targets, origins)
+    return _World(
+        put,
+        ground,
+        found_zones,
+        found_drones,
+        found_targets,
+        _rules(spec.rules),
+        (*astray, *zone_faults, *drone_faults, *buried, *track_faults),
+        astray=bool(astray),
+        sound=not drone_faults,
+    )
+
+
+def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Shown) -> MissionIR:
+    spec = ir.spec
+    return MissionIR(
+        name=spec.mission,
+        origin=world.ground.origin,
+        wind=spec.world.wind,
+        zones=world.zones,
+        targets=tuple(t for t in world.targets.values() if t is not None),
+        drones=tuple(world.drones.values()),
+        rules=world.rules,
+        shots=shots.shots,
+        rate=spec.output.rate or (SHOW_RATE if shots.displays and not shots.shots else RATE),
+        emit=emitters_of(spec),
+        source_sha256=ir.sha256,
+        deferred=deferred_features(spec, shots.deferred),
+        origins=ir.origins,
+        fleets=show.fleets,
+        displays=shots.displays,
+        files=show.files,
+    )
+
+
+def _judged(ir: LoadedMission, mission: MissionIR, world: _World, *, order: bool) -> list[Diagnostic]:
+    """Return what can be told from numbers alone; ``order`` is whether names and waits all stand."""
+    if world.astray:
+        return []
+    faults = _static_faults(mission, timing=world.sound, order=order)
+    return [*faults, *check_fleets(mission, ir, order=order and not has_errors(faults))]
 
 
 def _rules(spec: RulesSpec) -> Rules:
@@ -128,16 +161,13 @@ def _rules(spec: RulesSpec) -> Rules:
     )
 
 
-def _static_faults(mission: MissionIR, *, geometry: bool, timing: bool, order: bool) -> list[Diagnostic]:
-    """Return what can be told from numbers alone; ``order`` is whether names and waits all stand.
+def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Diagnostic]:
+    """Return what is wrong with places and times.
 
     What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
     the order of the shots where all shots and homes do.
     """
-    if not geometry:
-        return []
-    homes = check_homes(mission)
-    homes = [*homes, *check_ideals(mission)]
+    homes = [*check_homes(mission), *check_ideals(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in check_places(mission, shot)]
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]
