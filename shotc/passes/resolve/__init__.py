@@ -5,8 +5,6 @@ reports all that can be told without a solver. A fault silences only what depend
 timing are judged once all names and places stand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from functools import partial
 from typing import ClassVar, Final, NamedTuple
@@ -34,6 +32,24 @@ from shotc.spec.presets import RATE, SHOW_RATE
 from shotc.spec.rules import RulesSpec
 
 ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
+
+
+class _World(NamedTuple):
+    """All but the shots.
+
+    put : puts a place into W; astray : whether its places on earth lie too far from each other
+    sound : whether every drone can fly as it is written
+    """
+
+    put: Put
+    ground: Ground
+    zones: tuple[Zone, ...]
+    drones: Mapping[str, Drone]
+    targets: Mapping[str, Target | None]
+    rules: Rules
+    faults: tuple[Diagnostic, ...]
+    astray: bool
+    sound: bool
 
 
 class Resolve:
@@ -76,24 +92,6 @@ class Resolve:
             partial(match_files, ir.folder, ir.origins),
         )
         return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, 0.0))
-
-
-class _World(NamedTuple):
-    """All but the shots.
-
-    put : puts a place into W; astray : whether its places on earth lie too far from each other
-    sound : whether every drone can fly as it is written
-    """
-
-    put: Put
-    ground: Ground
-    zones: tuple[Zone, ...]
-    drones: Mapping[str, Drone]
-    targets: Mapping[str, Target | None]
-    rules: Rules
-    faults: tuple[Diagnostic, ...]
-    astray: bool
-    sound: bool
 
 
 def _world(ir: LoadedMission) -> _World:

@@ -5,8 +5,6 @@ middle of the frame. At 24 frames a second that judders where a width takes less
 followed it stands still on screen and holds the eye, and the surroundings may go through in 3 s.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import acos, ceil, cos, hypot, pi, tan

@@ -1,7 +1,5 @@
 """What a shot shows at its first and its last frame: whom, from where, and which way they go."""
 
-from __future__ import annotations
-
 from math import hypot, pi, tan
 from typing import NamedTuple
 
