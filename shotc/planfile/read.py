@@ -16,7 +16,7 @@ from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.planfile.codec import Decoder, FieldFault, hints, show
 from shotc.planfile.sanity import inconsistencies
-from shotc.planfile.write import FORMAT, VERSION
+from shotc.planfile.write import FORMAT, VERSION, seal
 from shotc.source.file import WHOLE_FILE, Span
 
 SIZE_CAP = 256 * 2**20
@@ -35,12 +35,14 @@ class ReadPlan:
     """What stands in a plan file: the trajectory, or None after a fault, and the certificate it claims.
 
     tool : the version of shotc that wrote it
+    edited : whether its mission is another than the one that was planned
     """
 
     trajectory: TrajectoryIR | None
     certificate: tuple[Claim, ...]
     diagnostics: tuple[Diagnostic, ...]
     tool: str = ""
+    edited: bool = False
 
 
 class _NotJsonError(Exception):
@@ -73,7 +75,8 @@ def read_plan(data: bytes, name: str) -> ReadPlan:
         decoder.faults += [FieldFault(*fault) for fault in inconsistencies(trajectory)]
     if decoder.faults:
         return _refused(*_report(decoder.faults, name))
-    return ReadPlan(trajectory, certificate, (), document["tool"]["version"])
+    edited = seal(document["mission"]) != document["mission_sha256"]
+    return ReadPlan(trajectory, certificate, (), document["tool"]["version"], edited)
 
 
 def _refused(*diagnostics: Diagnostic) -> ReadPlan:
@@ -155,6 +158,7 @@ _DOCUMENT: dict[str, Any] = {
     "tool": object,
     "source": object,
     "mission": object,
+    "mission_sha256": str,
     "keyframes": object,
     "certificate": tuple[Claim, ...],
     "deviations": tuple[Deviation, ...],

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
+from hashlib import sha256
 from typing import Any
 
 from shotc import __version__
@@ -25,14 +27,14 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
     """Return the JSON value of a plan."""
     ir = plan.trajectory
     mission = ir.keyframes.mission
+    asked = {k: v for k, v in encode_mission(mission).items() if k not in ("origins", "source_sha256")}
     return {
         "format": FORMAT,
         "version": VERSION,
         "tool": {"name": "shotc", "version": __version__},
         "source": {"file": mission.origins.file, "sha256": mission.source_sha256},
-        "mission": {
-            k: v for k, v in encode_mission(mission).items() if k not in ("origins", "source_sha256")
-        },
+        "mission": asked,
+        "mission_sha256": seal(asked),
         "keyframes": [
             {
                 "shot": placed.shot.id,
@@ -48,6 +50,15 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
         "fleets": encode(ir.fleets),
         "origins": _origins(mission, plan.certificate),
     }
+
+
+def seal(mission: Any) -> str:
+    """Return the SHA-256 of the mission's JSON value, however it is laid out, hexadecimal.
+
+    The certificate is held to most of a mission. The place on earth, a lens or a pad could be anything, and
+    yet what flies is made from them.
+    """
+    return sha256(json.dumps(mission, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
 
 
 def encode_mission(mission: MissionIR) -> dict[str, Any]:

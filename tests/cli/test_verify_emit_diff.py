@@ -9,6 +9,7 @@ import pytest
 from shotc.emit.plan_json import EMITTER
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
+from shotc.planfile.write import seal
 from tests.cli.conftest import GOOD, Run
 from tests.samples import orbit_plan
 
@@ -171,7 +172,9 @@ def test_diff_of_a_plan_with_itself_and_with_another(run: Run, plan: Path) -> No
     text = data.replace('"endurance": 1200.0', '"endurance": 900.0').replace(
         '"limit": 1200.0', '"limit": 900.0'
     )
-    plan.with_name("other.json").write_text(text)
+    value = json.loads(text)
+    value["mission_sha256"] = seal(value["mission"])
+    plan.with_name("other.json").write_text(json.dumps(value))
     done = run("diff", str(plan), str(plan.with_name("other.json")))
     assert done.code == 0
     assert "1200 s -> 900 s" in done.out

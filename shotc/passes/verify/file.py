@@ -70,6 +70,10 @@ def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> l
     same_tool = read.tool == __version__
     differing = list(_differences(read.certificate, proved, same_tool=same_tool))
     label = (Label(name, WHOLE_FILE),)
+    if read.edited and not differing:
+        text = "the mission in this plan is not the one it was planned for"
+        note = "it was changed where no claim of the certificate shows it: the place on earth, a lens, a pad"
+        return [Diagnostic("V040", text, label, (note,), REPLAN)]
     if differing and not same_tool:
         many = f"{len(differing)} claims of the certificate differ"
         writer = f"the file was written by shotc {clip(read.tool)}, this is {__version__}"
