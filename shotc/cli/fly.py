@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import asdict
+from math import ceil
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -71,9 +72,19 @@ def _remarks(found: list[tuple[Fleet, Rehearsal]]) -> Iterator[str]:
         if near is not None:
             text = f"{names[near.first]} and {names[near.second]} come nearest, at {clock(near.time)}"
             yield f"{fleet.name}: {text}"
-        if near is not None and near.below:
-            pairs = "1 pair comes" if near.below == 1 else f"{near.below} pairs come"
-            yield f"{fleet.name}: {pairs} nearer than asked; plan with a larger `margin` of the separation"
+        yield f"{fleet.name}: {_verdict(fleet, came)}"
+
+
+def _verdict(fleet: Fleet, came: Rehearsal) -> str:
+    """Say whether the margin was enough, and which one cannot be used up."""
+    below = 0 if came.near is None else came.near.below
+    safe = ceil(20 * came.farthest) / 10
+    if below:
+        pairs = "1 pair comes" if below == 1 else f"{below} pairs come"
+        return f"{pairs} nearer than asked; plan with `margin: {safe:g}` of the separation"
+    if fleet.apart.margin >= 2 * came.farthest:
+        return "the margin cannot be used up in this wind"
+    return f"the margin was enough this time; `margin: {safe:g}` could not be used up"
 
 
 def _document(found: list[tuple[Fleet, Rehearsal]]) -> str:

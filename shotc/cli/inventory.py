@@ -23,6 +23,14 @@ class Group(StrEnum):
     HEADINGS = "headings"
 
 
+GROUPS: dict[str, str] = {
+    Group.KINDS: "what sorts of shots there are",
+    Group.DRONES: "models of drones, with their limits",
+    Group.REFINERS: "who refines a path, for `plan --refiner`",
+    Group.EMITTERS: "what can be written, for `output: {emit: [...]}` and `emit`",
+    Group.COMPOSITIONS: "places and sets of places on screen, for `composition` and `frame`",
+    Group.HEADINGS: "ways to turn a camera that follows nothing, for `plan --headings`",
+}
 DRONE_HEADING = (
     "name",
     "speed m/s",
@@ -33,15 +41,15 @@ DRONE_HEADING = (
     "autopilot",
     "what it is",
 )
-GroupArgument = Annotated[Group, typer.Argument(help="What to list.")]
+GroupArgument = Annotated[Group | None, typer.Argument(help="What to list; without it, what can be listed.")]
 
 
-def show(group: GroupArgument) -> None:
+def show(group: GroupArgument = None) -> None:
     """List what a mission can name: kinds, drones, refiners, emitters, compositions or headings.
 
     Example: `shotc list kinds`
     """
-    rows = _rows(group)
+    rows = list(GROUPS.items()) if group is None else _rows(group)
     console.out("\n".join(table(rows)) if rows else "")
 
 

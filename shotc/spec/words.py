@@ -22,6 +22,12 @@ _MEANT = {
     "name": "id",
     "type": "kind",
     "subject": "target",
+    "circle": "torus",
+    "ring": "torus",
+    "ball": "sphere",
+    "box": "cube",
+    "mesh": "model",
+    "outline": "svg",
     "angle": "sweep",
     "wide": "long",
     "american": "medium-full",
@@ -41,6 +47,8 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     if len(word) > _LONGEST_WORD:
         return None
     words = list(known)
+    if slip := get_close_matches(word, words, n=1, cutoff=0.9):
+        return slip[0]
     if _MEANT.get(word) in words:
         return _MEANT[word]
     close = get_close_matches(word, words, n=1, cutoff=0.6)

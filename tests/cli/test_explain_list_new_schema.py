@@ -57,6 +57,19 @@ def test_lists_name_and_summary(run: Run, group: str, name: str) -> None:
     assert rows[name]
 
 
+def test_without_a_group_the_groups_are_listed(run: Run) -> None:
+    result = run("list")
+    assert result.code == 0
+    assert [line.split()[0] for line in result.out.splitlines()] == [
+        "kinds",
+        "drones",
+        "refiners",
+        "emitters",
+        "compositions",
+        "headings",
+    ]
+
+
 def test_drones_are_listed_with_what_they_may_do(run: Run) -> None:
     heading, *rows = (re.split(r"  +", line) for line in run("list", "drones").out.splitlines())
     assert heading[:6] == ["name", "speed m/s", "climb m/s", "accel. m/s^2", "hfov deg", "endurance min"]

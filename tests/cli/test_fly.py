@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -61,6 +62,22 @@ def test_it_tells_where_drones_come_nearer_than_asked(run: Run, tmp_path: Path) 
     assert done.code == 0
     assert "nearer than asked" in done.out
     assert "margin" in done.out.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ("margin", "verdict"),
+    [(0.8, "the margin cannot be used up in this wind"), (0.0, "the margin was enough this time")],
+)
+def test_it_judges_the_margin(run: Run, tmp_path: Path, margin: float, verdict: str) -> None:
+    roomy = fleet(PADS)._replace(apart=Apart("ellipsoid", 1.0, 1.0, margin))
+    show = written(tmp_path, plan(mission(fleets=(roomy,))))
+    said = run("fly", show).out.splitlines()[-1]
+    assert verdict in said
+    (row,) = json.loads(run("fly", show, "--format", "json").out)["fleets"]
+    assert (margin >= 2 * row["farthest"]) == (margin > 0)
+    if not margin:
+        proposed = float(re.search(r"`margin: ([\d.]+)`", said)[1])
+        assert 2 * row["farthest"] <= proposed <= 2 * row["farthest"] + 0.1
 
 
 def test_a_plan_without_fleets_is_a_mistake_of_usage(run: Run, tmp_path: Path) -> None:

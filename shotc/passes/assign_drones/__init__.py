@@ -15,7 +15,7 @@ from shotc.kinds.base import Kind
 from shotc.passes.assign_drones.choice import Choice, choose
 from shotc.passes.assign_drones.tasks import Task, busiest, tasks_of
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.names import AUTO, nobody
 from shotc.spec.load import LoadedMission
 
 
@@ -32,7 +32,7 @@ class AssignDrones:
         ctx.progress("choosing drones")
         spec = ir.spec
         if not spec.drones:
-            return Outcome(None, (_nobody(ir),))
+            return Outcome(None, tuple(nobody(spec, ir.origins)))
         tasks = tasks_of(ir, self.kinds)
         if tasks is None:
             # A shot is wrong by itself, whoever films it: resolve says how.
@@ -52,21 +52,14 @@ def _with(ir: LoadedMission, choice: Choice) -> LoadedMission:
     return ir._replace(spec=ir.spec.model_copy(update={"shots": shots}))
 
 
-def _nobody(ir: LoadedMission) -> Diagnostic:
-    first = next(i for i, shot in enumerate(ir.spec.shots) if shot.drone == AUTO)
-    label = ir.origins.value(("shots", first, "drone"))
-    return Diagnostic(
-        "K014", "there is no drone to choose from", (label,), help="define drones under `drones`"
-    )
-
-
 def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:
     time, busy = busiest(tasks)
     shots = ", ".join(f"`{task.id}`" for task in busy)
     number = len(ir.spec.drones)
     labels = tuple(ir.origins.value(("shots", task.number, "id")) for task in busy)
     if len(busy) > number:
-        message = f"{len(busy)} shots are filmed at t = {time:.1f} s, and there are {number} drones"
+        there = "there is 1 drone" if number == 1 else f"there are {number} drones"
+        message = f"{len(busy)} shots are filmed at t = {time:.1f} s, and {there}"
         return Diagnostic(
             "K014", message, labels, (f"they are {shots}",), "add a drone, or move a shot in time"
         )

@@ -29,7 +29,7 @@ def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str]
 
     emitters : the names that can be used, or None where that is not known
     """
-    faults = [*_drones(spec, origins), *_ids(spec, origins), *_waits(spec, origins)]
+    faults = [*nobody(spec, origins), *_drones(spec, origins), *_ids(spec, origins), *_waits(spec, origins)]
     for i, name in enumerate(emitters_of(spec)):
         if emitters is not None and name not in emitters:
             path = ("output", "emit", i)
@@ -53,6 +53,16 @@ def _merged(group: list[Diagnostic]) -> Diagnostic:
     labels = (first, *(label._replace(text="here, too") for label in others[: _SHOWN - 1]))
     notes = (f"it stands in {1 + len(others)} places",) if len(others) >= _SHOWN else ()
     return group[0]._replace(labels=labels, notes=(*group[0].notes, *notes))
+
+
+def nobody(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
+    """Return that there is no drone to choose from, where there is none and a shot leaves it open."""
+    if spec.drones:
+        return []
+    first = [("shots", i, "drone") for i, shot in enumerate(spec.shots) if shot.drone == AUTO][:1]
+    help_ = "define drones under `drones`"
+    message = "there is no drone to choose from"
+    return [Diagnostic("K014", message, (origins.value(path),), help=help_) for path in first]
 
 
 def _drones(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:

@@ -68,6 +68,15 @@ def test_the_nearest_drone_films_and_one_drone_is_never_in_two_places() -> None:
     assert sorted(shots.values()) == ["cam1", "cam2", "cam3"]
 
 
+def test_a_mission_without_drones_is_told_by_check_and_by_plan_alike() -> None:
+    head, _, rest = HEAD.partition("drones:")
+    text = head + "shots:\n" + rest.partition("shots:\n")[2] + SIDE.replace("cam1", "auto")
+    (told,) = check_source(text.encode(), "m.yaml", None).diagnostics
+    assert (told.code, told.message) == ("K014", "there is no drone to choose from")
+    done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    assert done.diagnostics == (told,)
+
+
 def test_more_shots_at_a_time_than_drones_are_told_with_the_time() -> None:
     text = (
         HEAD.split("  cam2:")[0] + "shots:\n" + (SIDE + PASS).replace("cam1", "auto").replace("cam2", "auto")
@@ -75,7 +84,7 @@ def test_more_shots_at_a_time_than_drones_are_told_with_the_time() -> None:
     assert check_source(text.encode(), "m.yaml", None).diagnostics == ()
     done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
     assert [d.code for d in done.diagnostics] == ["K014"]
-    assert done.diagnostics[0].message == "2 shots are filmed at t = 15.0 s, and there are 1 drones"
+    assert done.diagnostics[0].message == "2 shots are filmed at t = 15.0 s, and there is 1 drone"
 
 
 @pytest.mark.parametrize("wrong", ["altitude: 1", "target: nobody"])

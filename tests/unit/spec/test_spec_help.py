@@ -75,6 +75,9 @@ def test_the_help_names_what_was_meant(right, wrong, message, help_, loads):
         ("max_speed", ["radius", "speed"], "speed"),
         ("xy", ["proxy"], None),
         ("mavic", ["x500", "mini"], None),
+        ("subject", ["target", "id"], "target"),
+        ("subject", ["target", "subjects"], "subjects"),
+        ("circle", ["sphere", "cube", "torus"], "torus"),
     ],
 )
 def test_the_closest_word(word, known, meant):
