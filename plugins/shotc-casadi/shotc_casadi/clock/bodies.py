@@ -61,18 +61,24 @@ def inscribed(part: Solid) -> tuple[Array, Array, Array]:
         flat, half, middle = np.eye(2), np.full(2, part.radius), np.array(part.centre)
     else:
         corners = np.array(part.points)
-        scale, middle = ellipse(corners)
+        middle, scale = ellipse(corners)
         value, flat = np.linalg.eigh(scale.T @ scale)
         mirrored = np.linalg.norm(corners[:, None] + corners[None] - 2 * middle, axis=2).min(axis=1)
         # John: shrunk by the dimension, or by its root where it is its own mirror image, it is inside.
         even = bool(mirrored.max() < 1e-6 * np.sqrt(1 / value.min()))
         half = 1.0 / np.sqrt(value) / (sqrt(2.0) if even else 2.0)
-    bottom, top = part.bottom, part.top
-    bottom = bottom if isfinite(bottom) else (top if isfinite(top) else 0.0) - 2 * ENDLESS
-    top = top if isfinite(top) else bottom + 2 * ENDLESS + (2 * ENDLESS if not isfinite(part.bottom) else 0.0)
+    bottom, top = _ends(part)
     axes = np.eye(3)
     axes[:2, :2] = flat
     return axes, np.array([*half, 0.5 * (top - bottom)]), np.array([*middle, 0.5 * (bottom + top)])
+
+
+def _ends(part: Solid) -> tuple[float, float]:
+    """Return the height of the bottom and the top of a solid, a long way off where it has none."""
+    if isfinite(part.bottom):
+        return part.bottom, part.top if isfinite(part.top) else part.bottom + 2 * ENDLESS
+    top = part.top if isfinite(part.top) else ENDLESS
+    return top - 2 * ENDLESS, top
 
 
 def kept_from(bodies: Sequence[Body], wanted: ClockWishes, eyes: Array) -> ClockWishes:

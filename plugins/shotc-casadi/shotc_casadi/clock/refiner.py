@@ -155,7 +155,9 @@ def _word(solution: Solution) -> str:
 def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:
     solution, shot = refined.solution, refined.shot
     kept = refined.leg is None and refined.gap is None and solution.status == "solved"
+    costs = () if refined.costs is None else refined.costs
     return (
+        *((f"{shot}.{which}_cost", cost) for which, cost in zip(("refine", "guide"), costs, strict=False)),
         (f"{shot}.refine_stages", float(len(refined.breaks) - 1)),
         (f"{shot}.refine_rounds", float(refined.rounds)),
         (f"{shot}.refine_iterations", float(solution.iterations)),
