@@ -19,7 +19,7 @@ from shotc_casadi.clock.screens import ellipse
 from shotc_casadi.clock.symbols import BODY
 from shotc_casadi.clock.wishes import ClockWishes
 
-NEAR = 2.0  # metres beyond the potential field within which an ellipsoid counts
+NEAR = 1.0  # metres beyond the potential field within which an ellipsoid counts
 COUNTS = (0, 1, 2, 4, 8)  # ellipsoids a programme may have, so that few are built
 NONE = 1e2  # added to the squared distance, where there is no ellipsoid
 ENDLESS = 1e3  # metres of half a height that stand for one without an end

@@ -21,5 +21,5 @@ HIDDEN = 5.0  # of a second in which something stands right before the target, i
 TOGETHER = 20.0  # of how several subjects appear: half frames, logarithms of sizes and angles, squared
 LOOSE = 1e-3  # of the place's weight there: it is what else is free, and what follows from how they appear
 FIELD = 1.0  # of the potential field, which is 1 in the middle of what is kept away from
-RANGE = 1.0  # metres beyond the clearance at which it ends
+RANGE = 0.5  # metres beyond the clearance at which it ends
 TOUCH = 100.0  # of a second in what is kept away from, in units of the place's weight
