@@ -9,7 +9,7 @@ from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import View, aim_at, frustum_margins, nearest_depth, silhouette_bounds
-from shotc.geom.convex import distances
+from shotc.geom.convex import bounded, distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid, convex_parts
@@ -68,6 +68,7 @@ __all__ = [
     "Watch",
     "aim_at",
     "at_start",
+    "bounded",
     "convex_parts",
     "corridor",
     "cylinder",

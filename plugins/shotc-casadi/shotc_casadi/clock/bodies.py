@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isfinite, sqrt
+from math import sqrt
 
 import numpy as np
 
-from shotc.refiner_api import Array, Cylinder, Solid, Surroundings
+from shotc.refiner_api import Array, Cylinder, Solid, Surroundings, bounded
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.screens import ellipse
 from shotc_casadi.clock.symbols import BODY
@@ -22,7 +22,7 @@ from shotc_casadi.clock.wishes import ClockWishes
 NEAR = 1.0  # metres beyond the potential field within which an ellipsoid counts
 COUNTS = (0, 1, 2, 4, 8)  # ellipsoids a programme may have, so that few are built
 NONE = 1e2  # added to the squared distance, where there is no ellipsoid
-ENDLESS = 1e3  # metres of half a height that stand for one without an end
+ENDLESS = 1e3  # metres of half a height that is that of something without an end
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,18 +67,14 @@ def inscribed(part: Solid) -> tuple[Array, Array, Array]:
         # John: shrunk by the dimension, or by its root where it is its own mirror image, it is inside.
         even = bool(mirrored.max() < 1e-6 * np.sqrt(1 / value.min()))
         half = 1.0 / np.sqrt(value) / (sqrt(2.0) if even else 2.0)
-    bottom, top = _ends(part)
+    tall = bounded(part)
     axes = np.eye(3)
     axes[:2, :2] = flat
-    return axes, np.array([*half, 0.5 * (top - bottom)]), np.array([*middle, 0.5 * (bottom + top)])
-
-
-def _ends(part: Solid) -> tuple[float, float]:
-    """Return the height of the bottom and the top of a solid, a long way off where it has none."""
-    if isfinite(part.bottom):
-        return part.bottom, part.top if isfinite(part.top) else part.bottom + 2 * ENDLESS
-    top = part.top if isfinite(part.top) else ENDLESS
-    return top - 2 * ENDLESS, top
+    return (
+        axes,
+        np.array([*half, 0.5 * (tall.top - tall.bottom)]),
+        np.array([*middle, 0.5 * (tall.bottom + tall.top)]),
+    )
 
 
 def kept_from(bodies: Sequence[Body], wanted: ClockWishes, eyes: Array) -> ClockWishes:

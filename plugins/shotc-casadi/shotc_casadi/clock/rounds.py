@@ -110,16 +110,23 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
         course, start = found, (solution.states, solution.inputs)
     if best is None:
         return ClockRefined(leg.shot, None, breaks, rounds, solution, seconds, first, gap)
-    whole, unaimed = _filmed(subject, *best[:2]), Gap(leg.start, "the camera's limits", float("nan"), "")
+    whole, costs, gap = _weighed(subject, best)
+    return ClockRefined(leg.shot, whole, breaks, rounds, best[1], seconds, first, gap, costs)
+
+
+def _weighed(
+    subject: ClockSubject, best: tuple[Piecewise, Solution, ClockProblem]
+) -> tuple[TimedLeg | None, tuple[float, float] | None, Gap | None]:
+    """Return the leg of the best round where it is no worse than the guide, the costs, and what is amiss."""
+    leg, whole = subject.leg, _filmed(subject, *best[:2])
     if whole is None:
-        return ClockRefined(leg.shot, None, breaks, rounds, best[1], seconds, first, unaimed)
-    if subject.together:
-        costs = flown_cost(best[2], breaks, whole), flown_cost(best[2], breaks, leg)
-        worse = costs[0] > costs[1]
-    else:
-        costs, worse = None, astray(subject, whole) > max(ALLOWED, astray(subject, leg))
-    kept = None if worse else whole
-    return ClockRefined(leg.shot, kept, breaks, rounds, best[1], seconds, first, None, costs)
+        return None, None, Gap(leg.start, "the camera's limits", float("nan"), "")
+    if not subject.together:
+        worse = astray(subject, whole) > max(ALLOWED, astray(subject, leg))
+        return None if worse else whole, None, None
+    breaks = best[0].breaks
+    costs = flown_cost(best[2], breaks, whole), flown_cost(best[2], breaks, leg)
+    return None if costs[0] > costs[1] else whole, costs, None
 
 
 def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> TimedLeg | None:

@@ -1,4 +1,4 @@
-"""Several subjects in one picture, in numbers: what is asked of each, and the camera that is in the problem."""
+"""Several subjects in one picture, in numbers: what is asked of each, and the camera in the problem."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ class ClockWishes:
     usual : distance to the target in the film, metres; watches : whether anything is filmed
     placed : whether the author gave the places; yields : whether the guide cannot keep a framing's
     centres : of all that is to be seen, (N + 1, J, 3), W, metres
-    subjects : how several appear together, (N + 1, J, SUBJECT), as in picture.FIELDS; of one (N + 1, 0, SUBJECT)
+    subjects : how several are to appear, (N + 1, J, SUBJECT), as in picture.FIELDS; of one J is 0
     past : what to look past, (N + 1, K, LINE), as in symbols.cover; near : which screens those are, by node
     bodies : what to keep away from, (N + 1, B, BODY), as in symbols.inside; beside : which those are, by node
     """

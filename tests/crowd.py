@@ -1,6 +1,6 @@
 """Seeded scenes in which others walk into the way of a camera, flown with and without what keeps it away.
 
-``python plugins/shotc-casadi/tests/crowd.py`` measures them and prints the table in the plugin's README.
+``python -m tests.crowd`` measures them and prints the table in the plugin's README.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ class Flown(NamedTuple):
 
     nearest : to the solid of anybody, metres, the clearance being 1.3 or so; screen : largest error, half
         frames; off : from the ideal place, metres
-    turning : root of the mean square of the camera's angular acceleration, rad/s^2; jerk : of the place's, m/s^3
+    turning : root of the mean square of the camera's angular acceleration, rad/s^2
+    jerk : that of the place's jerk, m/s^3
     milliseconds : of all solves, warm; iterations : of those
     """
 
@@ -51,7 +52,7 @@ class Flown(NamedTuple):
 def scene(seed: int) -> str:
     """Return a mission: a runner is filmed from the side, and walkers cross the camera's way."""
     rng = np.random.default_rng(seed)
-    apart, height = rng.uniform(2.2, 5.0), rng.uniform(2.4, 3.0)
+    apart, height = rng.uniform(2.2, 5.0), rng.uniform(2.5, 3.0)
     walkers = []
     for i in range(WALKERS):
         meets = rng.uniform(13.0, 23.0)
