@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
@@ -69,16 +68,16 @@ def scene(seed: int) -> str:
 
 
 @contextmanager
-def only(field: bool, ellipsoid: bool) -> Iterator[None]:
-    """Leave out the potential field, the ellipsoids or both."""
-    before = rounds.bodies_of, weights.FIELD
+def only(field: bool, ellipsoid: bool, reach: float = weights.RANGE) -> Iterator[None]:
+    """Leave out the potential field, the ellipsoids or both, or have the field end elsewhere."""
+    before = rounds.bodies_of, weights.FIELD, weights.RANGE
     if not ellipsoid:
         rounds.bodies_of = lambda _around, _breaks: ()
-    weights.FIELD = before[1] if field else 0.0
+    weights.FIELD, weights.RANGE = before[1] if field else 0.0, reach
     try:
         yield
     finally:
-        rounds.bodies_of, weights.FIELD = before
+        rounds.bodies_of, weights.FIELD, weights.RANGE = before
 
 
 def fly(text: str) -> Flown | None:
@@ -124,24 +123,20 @@ def _gap(path: PathIR, name: str, t: np.ndarray, eyes: np.ndarray) -> float:
 
 def main() -> None:
     """Print what every combination comes to, over all scenes that can be flown."""
-    began = time.perf_counter()
     texts = [text for text in map(scene, SCENES) if fly(text) is not None]
     print(f"{len(texts)} of {len(SCENES)} scenes are flown")  # noqa: T201
     for name, parts in {
         "neither": (False, False),
         "ellipsoid": (False, True),
         "both": (True, True),
+        "both, in a range of 1 m": (True, True, 1.0),
     }.items():
         with only(*parts):
-            found = [fly(text) for text in texts]
-        table = np.array(found)
-        print(  # noqa: T201
-            f"{name}: nearest {table[:, 0].min():.3f} m, mean {table[:, 0].mean():.3f} m; screen "
-            f"{table[:, 1].mean():.4f}, worst {table[:, 1].max():.4f}; off {table[:, 2].mean():.2f} m; "
-            f"turning {table[:, 3].mean():.3f}; jerk {table[:, 4].mean():.2f}; "
-            f"{np.median(table[:, 5]):.0f} ms, {table[:, 6].mean():.0f} iterations; flown {len(found)}"
-        )
-    print(f"{time.perf_counter() - began:.0f} s")  # noqa: T201
+            rows = np.array([found for text in texts if (found := fly(text)) is not None])
+        mean = rows.mean(axis=0)
+        cells = [f"{rows[:, 0].min():.3f} m", f"{mean[0]:.3f} m", f"{mean[1]:.4f}", f"{mean[2]:.2f} m"]
+        cells += [f"{mean[3]:.3f} rad/s^2", f"{mean[4]:.2f} m/s^3", f"{mean[6]:.0f}"]
+        print(f"| {name} | {' | '.join(cells)} | {np.median(rows[:, 5]):.0f} ms |")  # noqa: T201
 
 
 if __name__ == "__main__":

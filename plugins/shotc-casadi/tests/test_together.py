@@ -23,18 +23,8 @@ from shotc.ir.framed import lens_of
 from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
 from shotc.passes.base import PassContext
 from shotc.refiner_api import restrict, surroundings
+from tests.faces import MISSION, drawn
 
-MISSION = """\
-shotc: 1
-mission: faces
-{world}targets:
-  a: {{{a}, radius: 0.4, height: 1.8}}
-  b: {{{b}, radius: 0.4, height: 1.8}}
-drones: {{cam: {{model: x500, home: [20, -20, 0]}}}}
-rules: {{allow: [fast-pan]}}
-shots:
-  - {{id: s, kind: framing, drone: cam, timing: {{{start}duration: {lasts}}}, subjects: [{subjects}]}}
-"""
 FRAMES = "{target: a, frame: [-0.3, 0]}, {target: b, frame: [0.3, 0]}"
 STILL = MISSION.format(
     world="", a="at: [-2, 0, 4]", b="at: [2, 0, 4]", start="", lasts=8,
@@ -145,6 +135,9 @@ def test_two_who_stand_beside_the_axis_are_filmed_from_the_place_on_it() -> None
     text = STILL.replace("SIZE", f"{seen.size:.6f}")
     of = subject(text)
     made = task(of)
+    table = made.parameters.copy()
+    table[:, 4] = 0.0  # nothing draws it to the ideal place, which is there
+    made = replace(made, parameters=table)
     filmed = (breaks_of(of) > of.leg.start) & (breaks_of(of) < of.leg.end)
     # From a place that is off by metres, and a camera that looks past them, the same is found.
     start = made.states.copy()
@@ -210,26 +203,6 @@ def test_who_walks_behind_another_is_looked_at_past_him() -> None:
     assert claim(ours, "a visible") > 0.99
     assert claim(ours, "b visible") > 0.99
     assert not [d for d in ours.diagnostics if d.code[0] == "R"]
-
-
-def drawn(seed: int) -> str:
-    """Two or three who walk along a way of their own each, framed with or without size and view."""
-    rng = np.random.default_rng(seed)
-    speed, number = rng.uniform(0.5, 3), int(rng.integers(2, 4))
-    course = np.cumsum(np.vstack([[0.0, 0.0], rng.uniform(8, 25, (3, 2))]), axis=0)
-    tracks, asked = [], []
-    for name, u in zip("abc"[:number], (-0.35, 0.35, 0.0), strict=False):
-        way = course + rng.uniform(-4, 4, course.shape)
-        points = ", ".join(f"[{x:.2f}, {y:.2f}, 0.9]" for x, y in way)
-        tracks.append(f"track: {{points: [{points}], speed: {speed:.2f} m/s}}")
-        size = f", size: {rng.uniform(0.15, 0.4):.2f}" if name == "a" or rng.random() < 0.3 else ""
-        view = f", view: {{azimuth: {rng.uniform(0, 360):.0f} deg}}" if rng.random() < 0.3 else ""
-        asked.append(f"{{target: {name}, frame: [{u}, 0]{size}{view}}}")
-    text = MISSION.format(world="", a=tracks[0], b=tracks[1], start="", lasts=6, subjects=", ".join(asked))
-    if number < 3:
-        return text
-    third = f"  c: {{{tracks[2]}, radius: 0.4, height: 1.8}}\ndrones"
-    return text.replace("drones", third, 1)
 
 
 @pytest.mark.parametrize("seed", [1, 6, 8, 11, 13, 17])
