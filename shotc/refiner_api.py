@@ -5,10 +5,11 @@ Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it
 
 from __future__ import annotations
 
+from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
-from shotc.geom.camera import View, aim_at, frustum_margins
-from shotc.geom.convex import distances
+from shotc.geom.camera import View, aim_at, frustum_margins, nearest_depth, silhouette_bounds
+from shotc.geom.convex import bounded, distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid, convex_parts
@@ -67,6 +68,7 @@ __all__ = [
     "Watch",
     "aim_at",
     "at_start",
+    "bounded",
     "convex_parts",
     "corridor",
     "cylinder",
@@ -81,6 +83,7 @@ __all__ = [
     "least_out",
     "leg_of",
     "moved",
+    "nearest_depth",
     "others_of",
     "places",
     "quintic_hermite",
@@ -90,12 +93,14 @@ __all__ = [
     "seen",
     "shortest_time",
     "shortfall",
+    "silhouette_bounds",
     "smoother",
     "spline",
     "steady",
     "subdivide",
     "surroundings",
     "turn",
+    "viewpoint",
     "with_camera",
     "within",
 ]

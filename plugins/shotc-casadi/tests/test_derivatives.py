@@ -13,13 +13,14 @@ from shotc_casadi.derivatives import derived, differentiated, laid_out
 from shotc_casadi.symbols import STATES, WIDTH, size, stage
 
 N = 3
-KINDS = [*product(("none", "points", "silhouette", "clock"), (0, 2))]
+KINDS = [*product(("none", "points", "silhouette", "clock"), (0, 2)), ("beside", 1), ("together", 2)]
+CLOCKS = {"clock": (), "beside": (0, 2), "together": (1, 1, 2)}
 
 
 @cache
 def made(kind, planes):
-    """A stage of a shot with keyframes, or of one on its own clock."""
-    return clock.stage(planes) if kind == "clock" else stage(kind, planes)
+    """A stage of a shot with keyframes, or of one on its own clock, beside ellipsoids or of two subjects."""
+    return clock.stage(planes, *CLOCKS[kind]) if kind in CLOCKS else stage(kind, planes)
 
 
 def sizes(s):

@@ -32,6 +32,10 @@ WEIGHTS = {
     "steep": weights.STEEP,
     "yielding place": weights.YIELDS,
     "hidden": weights.HIDDEN,
+    "together": weights.TOGETHER,
+    "loose place": weights.LOOSE,
+    "field": weights.FIELD,
+    "touch": weights.TOUCH,
 }
 
 
@@ -45,6 +49,7 @@ def test_every_condition_is_there():
     for made in (OURS, OURS_4PT, LOOK_AT, ANG):
         assert f"| `{made.name}` |" in README
     assert PATIENCE == 30.0  # "half a minute"
+    assert f"in a range of {weights.RANGE} m" in README
 
 
 def test_yaw_and_pitch_weigh_the_same_and_rates_nothing():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,12 +38,15 @@ class Watch:
     """Whose camera turns, and how.
 
     kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the looker's subjects
+    course : (yaw, pitch) that it is to have at times (M,), shape (M, 2), unwrapped, where somebody has found
+        them already
     ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
     """
 
     looker: Looker
     kept: Vec2 | None = None
     ends: Array | None = None
+    course: Callable[[Array], Array] | None = None
 
 
 def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
@@ -87,6 +91,8 @@ def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
     """Return the yaw and the pitch that put the subjects in their places, unwrapped; shape (M, 2)."""
     if watch.kept is not None:
         return np.tile(np.array(watch.kept), (len(times), 1))
+    if watch.course is not None:
+        return watch.course(times)
     if not watch.looker.subjects:
         yaw = _motion(position.derivative()(times)[:, :2])
         return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])

@@ -22,6 +22,7 @@ from shotc.refiner_api import (
     turn,
 )
 from shotc_casadi.clock.problem import guess
+from shotc_casadi.clock.symbols import PLACED
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.program import Solution
 
@@ -31,7 +32,7 @@ def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecew
 
     What the nodes at both ends are off is taken back over the ways into and out of the film.
     """
-    states = solution.states.copy()
+    states = solution.states[:, :PLACED].copy()
     leg = subject.leg
     rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]])[0]
     for k, edge in ((0, leg.start), (-1, leg.end)):
@@ -47,13 +48,16 @@ def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecew
     return quintic_hermite(breaks, states[:, :3], states[:, 3:6], states[:, 6:])
 
 
-def filmed(subject: ClockSubject, position: Piecewise) -> TimedLeg | None:
-    """Return the leg with a new position and the camera that follows from it, or None without one."""
+def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None = None) -> TimedLeg | None:
+    """Return the leg with a new position and the camera that follows from it, or None without one.
+
+    camera : yaw and pitch over mission time, where they are found already; the body's yaw follows
+    """
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
     ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
     clock = Clock(leg.curve.breaks, leg.start, leg.end)
     looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
-    turned = turn(Watch(looker, subject.aim, ends), clock, position)
+    turned = turn(Watch(looker, subject.aim, ends, camera), clock, position)
     if turned.curve is None:
         return None
     breaks = position.breaks

@@ -10,7 +10,8 @@ import numpy as np
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import Array, Planes
 from shotc_casadi.clock import weights
-from shotc_casadi.clock.symbols import FIELDS, HIDDEN, INPUTS, PLANE, POINTS, SLACK
+from shotc_casadi.clock.several import angles, turning_room
+from shotc_casadi.clock.symbols import FIELDS, PLACED, PLANE, POINTS, SLACK, Sizes
 from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, steepest
 
 STAGES = 100  # of the film, if its pieces allow
@@ -18,24 +19,25 @@ COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so t
 FREE = 1.0  # metres of slack of what means nothing: a constraint needs an interior
 UNFILMED = 1e3
 WIDE = 5e-4  # half the width of the box about the given states of both ends, m and so on
+OPEN = 1.0  # of a slack in the first guess
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockProblem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(planes, screens))
-    states, inputs : first guess, shapes (N + 1, STATES) and (N, INPUTS), or one more where there are screens
-    state_bounds : (lower, upper), shapes as states
+    parameters : shape (N + 1, symbols.size(*sizes))
+    states, inputs : first guess, shapes (N + 1, sizes.states) and (N, sizes.inputs)
+    state_bounds : (lower, upper), shapes as states; least : of each input, shape (sizes.inputs,)
     held, driven : (lower, upper) of a stage's constraints, as in symbols.stage
     """
 
-    planes: int
-    screens: int
+    sizes: Sizes
     parameters: Array
     states: Array
     inputs: Array
     state_bounds: tuple[Array, Array]
+    least: Array
     held: tuple[Array, Array]
     driven: tuple[Array, Array]
 
@@ -58,14 +60,18 @@ def breaks_of(subject: ClockSubject) -> Array:
     return np.append(np.concatenate(cut), breaks[-1])
 
 
-def guess(curve: Piecewise, breaks: Array) -> tuple[Array, Array]:
-    """Return states and inputs along a position curve."""
+def guess(curve: Piecewise, breaks: Array, camera: Piecewise | None = None) -> tuple[Array, Array]:
+    """Return states and inputs along a position curve, and along the leg whose camera is in the problem."""
     orders = [curve, curve.derivative(1), curve.derivative(2)]
     states = np.concatenate([order(breaks)[:, :3] for order in orders], axis=1)
-    inputs = np.zeros((len(breaks) - 1, INPUTS))
-    inputs[:, :3] = np.diff(states[:, 6:], axis=0) / np.diff(breaks)[:, None]
-    inputs[:, SLACK] = 0.1
-    return states, inputs
+    length = np.diff(breaks)[:, None]
+    jerk = np.diff(states[:, 6:], axis=0) / length
+    if camera is None:
+        return states, np.column_stack([jerk, np.full(len(jerk), 0.1)])
+    turning = angles(camera, breaks)
+    return np.column_stack([states, turning]), np.column_stack(
+        [jerk, np.diff(turning[:, [2, 5]], axis=0) / length]
+    )
 
 
 def problem(
@@ -77,33 +83,49 @@ def problem(
     start: tuple[Array, Array],
 ) -> ClockProblem:
     """Return the programme; share : of each limit that is used; start : as ``guess`` returns."""
-    states, inputs = start
     limits = subject.drone.limits
-    low, high = np.full_like(states, -inf), np.full_like(states, inf)
-    low[:, 5], high[:, 5] = -share * limits.descent, share * limits.climb
-    rest = guess(subject.leg.curve.channels(0, 1, 2), breaks[[0, -1]])[0]
-    for k, given in zip((0, -1), rest, strict=True):
-        low[k], high[k] = given - WIDE, given + WIDE
     table, count = _half_spaces(planes, len(breaks) - 1)
-    screens = wanted.past.shape[1]
-    if screens:
-        inputs = np.column_stack([inputs[:, :HIDDEN], np.ones(len(inputs))])
+    sizes = Sizes(count, wanted.past.shape[1], wanted.bodies.shape[1], wanted.subjects.shape[1])
+    moves = start[1][:, : sizes.moves]
+    inputs = np.column_stack([moves, np.full((len(moves), sizes.inputs - sizes.moves), OPEN)])
+    least = np.full(sizes.inputs, -inf)
+    least[sizes.moves :] = 0.0
+    if not sizes.subjects:
+        least[SLACK] = 0.0
     speed, acceleration, jerk = (
         (share * bound) ** 2 for bound in (limits.speed, limits.acceleration, limits.jerk)
     )
-    walls = np.zeros(count * POINTS + screens)
-    driven_low = np.concatenate([[-inf, -inf, -share * limits.descent, 0.0, 0.0], walls])
-    driven_high = np.concatenate([[jerk, speed, share * limits.climb, inf, inf], walls + inf])
+    low = np.zeros(sizes.limits + count * POINTS + sizes.screens + sizes.bodies)
+    low[:3] = -inf, -inf, -share * limits.descent
+    high = np.full_like(low, inf)
+    high[:3] = jerk, speed, share * limits.climb
+    rows = [wanted.past, wanted.bodies, wanted.subjects]
+    flat = [row.reshape(len(breaks), -1) for row in rows]
     return ClockProblem(
-        count,
-        screens,
-        np.column_stack([_parameters(subject, breaks, wanted), table, wanted.past.reshape(len(breaks), -1)]),
-        states,
+        sizes,
+        np.column_stack([_parameters(subject, breaks, wanted), table, *flat]),
+        start[0],
         inputs,
-        (low, high),
+        _bounds(subject, breaks, sizes, share),
+        least,
         (np.full(2, -inf), np.array([speed, acceleration])),
-        (driven_low, driven_high),
+        (low, high),
     )
+
+
+def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, share: float) -> tuple[Array, Array]:
+    """Return the bounds of all states: at both ends those of the guide."""
+    limits, leg = subject.drone.limits, subject.leg
+    low = np.full((len(breaks), sizes.states), -inf)
+    high = -low
+    low[:, 5], high[:, 5] = -share * limits.descent, share * limits.climb
+    if sizes.subjects:
+        low[:, PLACED:], high[:, PLACED:] = turning_room(subject.drone, share)
+    camera = leg.curve if sizes.subjects else None
+    rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]], camera)[0]
+    for k, given in zip((0, -1), rest, strict=True):
+        low[k], high[k] = given - WIDE, given + WIDE
+    return low, high
 
 
 def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Array:
@@ -111,28 +133,44 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
     length = np.append(np.diff(breaks), 0.0)
     filmed = (breaks >= leg.start - 1e-9) & (breaks < leg.end - 1e-9)
     near = 1.0 / wanted.usual**2
-    share = np.where(filmed, 1.0, weights.FAINT) * length
-    place = 0.5 * (share + np.append(0.0, share[:-1]))
-    binds = weights.PLACE
-    if wanted.placed:
-        binds = weights.YIELDS if wanted.yields or wanted.past.shape[1] else weights.PLACED
-    turn = np.array(weights.TURN)
-    turn = np.where(filmed[:, None], turn, (0.0 if wanted.placed else weights.UNWATCHED) * turn)
+    binds, turn = _binds(subject, wanted), np.array(weights.TURN)
+    free = wanted.placed and not subject.together
+    turn = np.where(filmed[:, None], turn, (0.0 if free else weights.UNWATCHED) * turn)
+    drone, half = subject.drone, np.tan(subject.drone.hfov / 2)
+    unit = weights.TOGETHER if subject.together else binds
     values = {
         "length": length,
         "ideal": wanted.ideal,
-        "place": binds * near * place,
+        "place": binds * near * _shared(np.where(filmed, 1.0, weights.FAINT) * length),
         "leash": np.full(n + 1, near / weights.LEASH**2),
         "target": wanted.target,
         "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
         "turn": turn if wanted.watches else np.zeros((n + 1, 6)),
-        "steep": np.tile(steepest(subject.drone, subject.watched), (n + 1, 1)),
+        "steep": np.tile(steepest(drone, subject.watched), (n + 1, 1)),
         "free": np.where(filmed & wanted.watches, 0.0, UNFILMED),
         "price": np.full(n + 1, weights.STEEP / wanted.usual),
-        "hidden": np.full(n + 1, weights.HIDDEN * binds),
+        "hidden": np.full(n + 1, weights.HIDDEN * unit),
+        "field": weights.FIELD * _shared(length),
+        "touch": np.full(n + 1, weights.TOUCH * unit),
+        "picture": weights.TOGETHER * _shared(filmed * length),
+        "lens": np.tile([half, half / drone.aspect], (n + 1, 1)),
     }
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
     return np.column_stack(table)
+
+
+def _binds(subject: ClockSubject, wanted: ClockWishes) -> float:
+    """Return the weight of the place."""
+    if subject.together:
+        return weights.LOOSE
+    if not wanted.placed:
+        return weights.PLACE
+    return weights.YIELDS if wanted.yields or wanted.past.shape[1] else weights.PLACED
+
+
+def _shared(stages: Array) -> Array:
+    """Return what nodes weigh, half of the stages to either side."""
+    return np.asarray(0.5 * (stages + np.append(0.0, stages[:-1])))
 
 
 def _half_spaces(planes: Planes, stages: int) -> tuple[Array, int]:

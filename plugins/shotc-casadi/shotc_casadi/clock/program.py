@@ -10,7 +10,7 @@ import numpy as np
 
 from shotc.refiner_api import Array
 from shotc_casadi.clock.problem import ClockProblem
-from shotc_casadi.clock.symbols import POINTS, SLACK, STATES, derived
+from shotc_casadi.clock.symbols import POINTS, Sizes, derived
 from shotc_casadi.patience import PATIENCE, Endless, within
 from shotc_casadi.program import Solution, Solver, Status, built
 
@@ -38,14 +38,12 @@ def solve(task: ClockProblem, solver: Solver) -> Solution:
 
     if not (np.isfinite(start).all() and np.isfinite(task.parameters).all()):
         return nothing("nan")
-    programme = programme_of(n, (task.planes, task.screens), solver)
+    programme = programme_of(n, task.sizes, solver)
     lower, upper = _constraint_bounds(task)
-    inputs_low = np.full_like(task.inputs, -np.inf)
-    inputs_low[:, SLACK:] = 0.0
     given = {
         "x0": start,
         "p": task.parameters.ravel(),
-        "lbx": _flat(task.state_bounds[0], inputs_low),
+        "lbx": _flat(task.state_bounds[0], np.tile(task.least, (n, 1))),
         "ubx": _flat(task.state_bounds[1], np.full_like(task.inputs, np.inf)),
         "lbg": lower,
         "ubg": upper,
@@ -61,8 +59,9 @@ def solve(task: ClockProblem, solver: Solver) -> Solution:
     seconds = time.perf_counter() - began
     stats = programme.stats()
     x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
-    inner = x[:-STATES].reshape(n, -1)
-    states, inputs = np.vstack([inner[:, :STATES], x[-STATES:]]), inner[:, STATES:]
+    wide = task.sizes.states
+    inner = x[:-wide].reshape(n, -1)
+    states, inputs = np.vstack([inner[:, :wide], x[-wide:]]), inner[:, wide:]
     if not (np.isfinite(x).all() and np.isfinite(g).all()):
         return nothing("nan")
     violation = np.maximum(np.maximum(lower - g, g - upper), 0.0)
@@ -82,9 +81,27 @@ def solve(task: ClockProblem, solver: Solver) -> Solution:
 
 
 @lru_cache(maxsize=16)
-def programme_of(stages: int, sizes: tuple[int, int], solver: Solver) -> Any:
-    """Return the solver of all problems of one shape; sizes : half-spaces and ellipsoids of a stage."""
+def programme_of(stages: int, sizes: Sizes, solver: Solver) -> Any:
+    """Return the solver of all problems of one shape."""
     return built(derived(*sizes), stages, solver, TOLERANCE)
+
+
+def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
+    """Return what a motion costs by a programme; what ellipsoids ask slacks for is paid.
+
+    inputs : shape (N, sizes.moves), without those slacks
+    """
+    sizes, made = task.sizes, derived(*task.sizes)
+    u = np.zeros((len(inputs), sizes.inputs))
+    u[:, : sizes.moves] = inputs[:, : sizes.moves]
+    rows = np.array(made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[2])
+    lack = np.maximum(-rows[2 + sizes.limits + POINTS * sizes.planes :].T, 0.0)
+    if sizes.screens:
+        u[:, sizes.moves] = lack[:, : sizes.screens].max(axis=1)
+    if sizes.bodies:
+        u[:, -1] = lack[:, sizes.screens :].max(axis=1)
+    value = made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[0]
+    return float(np.array(value).sum()) + float(made.last_cost(states[-1], task.parameters[-1])[0])
 
 
 def _status(stats: dict[str, Any], residual: float) -> Status:
@@ -96,26 +113,31 @@ def _status(stats: dict[str, Any], residual: float) -> Status:
 
 def _high(task: ClockProblem) -> int:
     """Return how many rows a stage has: the motion, held and driven constraints."""
-    return STATES + 7 + POINTS * task.planes + task.screens
+    sizes = task.sizes
+    return sizes.states + 2 + len(task.driven[0])
 
 
 def _name(row: int, task: ClockProblem) -> str:
-    high, stages = _high(task), task.stages
-    inner = row % high if row < stages * high else STATES + row - stages * high
-    if inner < STATES:
+    high, stages, sizes = _high(task), task.stages, task.sizes
+    inner = row % high if row < stages * high else sizes.states + row - stages * high
+    if inner < sizes.states:
         return "the motion from stage to stage"
-    inner -= STATES
+    inner -= sizes.states
     if inner < len(ROWS):
         return ROWS[inner]
-    if inner < 7:
+    inner -= 2
+    if inner < sizes.limits:
         return "the gimbal's pitch"
-    return "clearance" if inner < 7 + POINTS * task.planes else "the line of sight"
+    inner -= sizes.limits + POINTS * sizes.planes
+    if inner < 0:
+        return "clearance"
+    return "the line of sight" if inner < sizes.screens else "distance"
 
 
 def _constraint_bounds(task: ClockProblem) -> tuple[Array, Array]:
     ends = []
     for side in (0, 1):
-        rows = np.concatenate([np.zeros(STATES), task.held[side], task.driven[side]])
+        rows = np.concatenate([np.zeros(task.sizes.states), task.held[side], task.driven[side]])
         ends.append(np.concatenate([np.tile(rows, task.stages), task.held[side]]))
     return ends[0], ends[1]
 

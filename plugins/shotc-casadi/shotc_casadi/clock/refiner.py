@@ -20,7 +20,7 @@ from shotc.plugin_api import (
 from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
 from shotc_casadi.clock.program import UNITS
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.clock.shown import past_what_hides
+from shotc_casadi.clock.shown import no_less, past_what_hides
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.patience import PATIENCE
 from shotc_casadi.program import Solution
@@ -40,15 +40,16 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
     name : of the refiner. A shot that cannot be refined keeps its guide, with an error that says why.
     """
     told: list[Diagnostic] = []
-    # What several subjects ask for together is not in this problem: their guide is flown.
-    shared = {p.shot.id for p in path.keyframes.shots if len(p.subjects) > 1}
     legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
-    for shot in [leg.shot for leg in legs if leg.shot not in shared]:
+    for shot in [leg.shot for leg in legs]:
         ctx.progress(f"refine shot {shot}")
         subject = subject_of(path, shot)
         refined = refine_clock(subject)
         said = _report(path, subject, refined, name)
         told += [] if said is None else [said]
+        shared = subject.together and refined.leg is not None
+        if shared and refined.leg is not None and not no_less(subject, subject.leg, refined.leg):
+            refined = replace(refined, leg=None)
         refined, moved = _taken(path, refined, past_what_hides(subject, refined))
         path = replace(moved, stats=(*moved.stats, *_stats(refined)))
     return path, tuple(told)
@@ -154,7 +155,9 @@ def _word(solution: Solution) -> str:
 def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:
     solution, shot = refined.solution, refined.shot
     kept = refined.leg is None and refined.gap is None and solution.status == "solved"
+    costs = () if refined.costs is None else refined.costs
     return (
+        *((f"{shot}.{which}_cost", cost) for which, cost in zip(("refine", "guide"), costs, strict=False)),
         (f"{shot}.refine_stages", float(len(refined.breaks) - 1)),
         (f"{shot}.refine_rounds", float(refined.rounds)),
         (f"{shot}.refine_iterations", float(solution.iterations)),

@@ -13,7 +13,8 @@ from math import isfinite, sqrt
 import numpy as np
 
 from shotc.refiner_api import Array, Cylinder, Mask, Solid, convex_parts, cylinder, flights, flying, moved
-from shotc_casadi.clock.wishes import SCREEN, ClockSubject, ClockWishes
+from shotc_casadi.clock.symbols import LINE
+from shotc_casadi.clock.wishes import ClockSubject, ClockWishes
 
 ENCLOSES = sqrt(2.0)  # the semi-axes of an ellipsoid over those of the upright cylinder that it goes round
 WIDER = 1.2  # of what is a ball or has no end, so that it counts before it hides
@@ -29,10 +30,12 @@ class Screen:
     """An ellipsoid that moves.
 
     scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
+    before : the index of the subject that it may stand before
     """
 
     scale: Array
     centres: Array
+    before: int = 0
 
     def cover(self, eyes: Array, points: Array) -> Array:
         """Return d_v of lines of sight, above 0 hidden; -inf where the point is before the horizon.
@@ -49,10 +52,12 @@ class Screen:
 
 
 def screens_of(subject: ClockSubject, breaks: Array) -> tuple[Screen, ...]:
-    """Return all that may stand before the subject at the nodes: zones, other targets, other drones."""
-    if subject.watched is None:
-        return ()
-    return tuple(_screens(subject, subject.watched.target, breaks))
+    """Return all that may stand before a subject at the nodes: zones, other targets, other drones."""
+    return tuple(
+        replace(screen, before=i)
+        for i, one in enumerate(subject.framed)
+        for screen in _screens(subject, one.target, breaks)
+    )
 
 
 def _screens(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Screen]:
@@ -79,25 +84,26 @@ def looked_past(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array, fil
     """
     if not screens:
         return wanted
-    points = wanted.target[:, :3]
-    covers = np.array([screen.cover(eyes, points) for screen in screens])
+    points = wanted.centres
+    covers = np.array([screen.cover(eyes, points[:, screen.before]) for screen in screens])
     near = (covers > -NEAR) & filmed
     if wanted.near is not None:
         near |= wanted.near
     most = int(near.sum(axis=0).max(initial=0))
     count = next((c for c in COUNTS if c >= most), most)
-    past = np.zeros((len(eyes), count, SCREEN))
-    past[:, :, -1] = NONE
+    past = np.zeros((len(eyes), count, LINE))
+    past[:, :, 12] = NONE
     for k in range(len(eyes)):
         for i, j in enumerate(np.flatnonzero(near[:, k])):
-            past[k, i] = [*screens[int(j)].scale.T.ravel(), *screens[int(j)].centres[k], 1.0]
+            screen = screens[int(j)]
+            past[k, i] = [*screen.scale.T.ravel(), *screen.centres[k], 1.0, *points[k, screen.before]]
     return replace(wanted, past=past, near=near)
 
 
 def covered(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array) -> Array:
     """Return the most that anything covers each line of sight, d_v, above 0 hidden; shape (N + 1,)."""
-    points = wanted.target[:, :3]
-    return np.asarray(np.max([screen.cover(eyes, points) for screen in screens], axis=0, initial=-np.inf))
+    covers = [screen.cover(eyes, wanted.centres[:, screen.before]) for screen in screens]
+    return np.asarray(np.max(covers, axis=0, initial=-np.inf))
 
 
 def enclosing(part: Solid) -> tuple[Array, Array]:
@@ -105,7 +111,7 @@ def enclosing(part: Solid) -> tuple[Array, Array]:
     if isinstance(part, Cylinder):
         middle, flat = np.array(part.centre), np.eye(2) / part.radius
     else:
-        middle, flat = _ellipse(np.array(part.points))
+        middle, flat = ellipse(np.array(part.points))
     ends = isfinite(part.bottom) and isfinite(part.top)
     half = 0.5 * (part.top - part.bottom)
     scale = np.zeros((3, 3))
@@ -114,7 +120,7 @@ def enclosing(part: Solid) -> tuple[Array, Array]:
     return scale, np.array([*middle, 0.5 * (part.bottom + part.top) if ends else 0.0])
 
 
-def _ellipse(points: Array) -> tuple[Array, Array]:
+def ellipse(points: Array) -> tuple[Array, Array]:
     """Return the centre c and the scale S of a small ellipse |S (x - c)| <= 1 about points (Khachiyan)."""
     n = len(points)
     lifted = np.column_stack([points, np.ones(n)]).T

@@ -30,7 +30,7 @@ class Shown(NamedTuple):
 
 
 def past_what_hides(subject: ClockSubject, plain: ClockRefined) -> ClockRefined | None:
-    """Return a shot refined so that more of its subject is seen than it is in a plain refinement, or None.
+    """Return a shot refined so that more of its subjects is seen than in a plain refinement, or None.
 
     Where the author gave the places they stay; what the shot promises is kept, or is broken no further.
     """
@@ -38,25 +38,43 @@ def past_what_hides(subject: ClockSubject, plain: ClockRefined) -> ClockRefined 
     failed = plain.solution.status != "solved" or plain.gap is not None
     if failed or subject.watched is None or ideal is None or ideal.placed:
         return None
-    before = shown(subject, plain.leg or subject.leg)
-    if before.hidden <= GAIN:
+    before = plain.leg or subject.leg
+    if _hidden(subject, before) <= GAIN:
         return None
     found = refine_clock(subject, screens_of(subject, plain.breaks))
     if found.leg is None:
         return None
-    after = shown(subject, found.leg)
-    better = after.hidden < before.hidden - GAIN and after.cropped <= before.cropped + SLACK
-    return found if better and _promised(subject, before, after) else None
+    better = _hidden(subject, found.leg) < _hidden(subject, before) - GAIN
+    return found if better and as_whole(subject, before, found.leg) else None
 
 
-def shown(subject: ClockSubject, leg: TimedLeg) -> Shown:
-    """Return what a leg shows of the subject of its shot in the film."""
-    assert subject.watched is not None
+def no_less(subject: ClockSubject, before: TimedLeg, after: TimedLeg) -> bool:
+    """Tell whether a leg shows as much of all subjects as another, and breaks no promise that that keeps."""
+    return _hidden(subject, after) <= _hidden(subject, before) + GAIN and as_whole(subject, before, after)
+
+
+def as_whole(subject: ClockSubject, before: TimedLeg, after: TimedLeg) -> bool:
+    """Tell whether no subject is cropped in more frames than it was, and promises are kept as they were."""
+    for which in range(len(subject.framed)):
+        old, new = shown(subject, before, which), shown(subject, after, which)
+        if new.cropped > old.cropped + SLACK or not _promised(subject, old, new):
+            return False
+    return True
+
+
+def _hidden(subject: ClockSubject, leg: TimedLeg) -> float:
+    """Return the share of the frames in which a subject is hidden, added up over all of them."""
+    return sum(shown(subject, leg, which).hidden for which in range(len(subject.framed)))
+
+
+def shown(subject: ClockSubject, leg: TimedLeg, which: int = 0) -> Shown:
+    """Return what a leg shows of one of the subjects of its shot in the film."""
+    one = subject.framed[which]
     t = np.linspace(leg.start, leg.end, max(2, int(RATE * (leg.end - leg.start))))
     flight = DroneTrajectory(subject.drone.name, leg.curve, (), (), ())
     others = others_of(tuple(flights(subject.path).values()), subject.drone.name)
-    frames = seen(subject.mission, flight, subject.watched.target, t, others)
-    u, v = subject.watched.reference or (0.0, 0.0)
+    frames = seen(subject.mission, flight, one.target, t, others)
+    u, v = one.reference or (0.0, 0.0)
     off = np.nan_to_num(np.hypot(frames.u - u, frames.v - v), nan=np.inf)
     return Shown(
         float(frames.hidden.mean()),

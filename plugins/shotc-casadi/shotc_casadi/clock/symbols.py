@@ -1,29 +1,69 @@
 """One stage of a shot on its own clock in CasADi symbols: dynamics, cost and constraints.
 
 State (9): position, velocity, acceleration (W, SI). Input (4): jerk; metres by which the gimbal's pitch
-range is left; where something may hide the target, a fifth: by how much the worst does. Stages have given
-lengths, and the jerk is even on each, so that the position is a cubic:
-its control points, those of the velocity and the ends of the acceleration bound it at every instant.
+range is left. Of several subjects the camera is part of the problem: its yaw and its pitch, each with rate
+and acceleration, are six states more, and their jerks are inputs instead of that slack. Where something may
+hide a subject, another input is by how much the worst does; where the camera may come too near to something,
+another is how far it is in its ellipsoid. Stages have given lengths, and the jerk is even on each, so that
+the position is a cubic: its control points, those of the velocity and the ends of the acceleration bound it
+at every instant.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 
 from shotc_casadi.clock.angles import over_ground, turning
-from shotc_casadi.clock.wishes import SCREEN
+from shotc_casadi.clock.picture import SUBJECT, picture
 from shotc_casadi.derivatives import Derived, differentiated
 from shotc_casadi.symbols import Stage
 
-STATES, INPUTS = 9, 4
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
-JERK, SLACK, HIDDEN = slice(0, 3), 3, 4
+PLACED = 9  # states that are the camera's place and its derivatives
+YAW, PITCH = 9, 12  # each with rate and acceleration
+JERK, SLACK, CAMERA_JERK = slice(0, 3), 3, slice(3, 5)
 POINTS = 4  # control points of a stage's position
 PLANE = 5  # normal, offset at the stage's start, change of the offset over it
+SCREEN = 13  # what is looked past: see ``cover``
+LINE = SCREEN + 3  # the same, and the point that is looked at
+BODY = 14  # what is kept away from: see ``inside``
 TINY = 1e-9  # added to a square that is not to be none
+
+
+class Sizes(NamedTuple):
+    """What a stage has: half-spaces, ellipsoids to look past, others to keep out of, subjects in one picture.
+
+    subjects : 0 where the camera follows one or none, and is no part of the problem
+    """
+
+    planes: int
+    screens: int = 0
+    bodies: int = 0
+    subjects: int = 0
+
+    @property
+    def states(self) -> int:
+        """How many states there are."""
+        return PLACED + (6 if self.subjects else 0)
+
+    @property
+    def moves(self) -> int:
+        """How many inputs there are besides the slacks of ellipsoids, which come last."""
+        return 5 if self.subjects else 4
+
+    @property
+    def inputs(self) -> int:
+        """How many inputs there are."""
+        return self.moves + (self.screens > 0) + (self.bodies > 0)
+
+    @property
+    def limits(self) -> int:
+        """How many rows of ``driven`` there are before those of half-spaces and ellipsoids."""
+        return 3 if self.subjects else 5
+
 
 FIELDS = {
     "length": 1,
@@ -37,79 +77,105 @@ FIELDS = {
     "free": 1,
     "price": 1,
     "hidden": 1,
+    "field": 1,
+    "touch": 1,
+    "picture": 1,
+    "lens": 2,
 }
-"""The parameters of a stage and their sizes; half-spaces follow, PLANE numbers each, then what may hide the
-target, SCREEN numbers each.
+"""The parameters of a stage and their sizes; half-spaces follow, PLANE numbers each, then what may hide a
+subject, LINE numbers each, what is kept away from, BODY numbers each, and several subjects, SUBJECT each.
 
 length : seconds
 ideal : where the camera would be, W, metres; place : weight of the squared distance to it
 leash : 1/m^2, by which that weight grows with the squared distance
-target : its position, velocity, acceleration and jerk
+target : its position, velocity, acceleration and jerk; of several subjects their middle's
 jerk : weight of the camera's squared jerk
-turn : weights of the squares of the ray's yaw and pitch rate, acceleration and jerk, as in ``Turning``
+turn : weights of the squares of the ray's yaw and pitch rate, acceleration and jerk, as in ``Turning``; of
+    the camera's, where it is part of the problem
 steep : tangents of the lowest and the highest elevation of the ray that the gimbal reaches
 free : metres added to what that leaves, where nothing is filmed; price : of a metre that is missing
-hidden : price of the target's being hidden, for a second and a unit of d_v
+hidden : price of a subject's being hidden, for a second and a unit of d_v
+field : weight of the potential field; touch : price of being in an ellipsoid, for a second
+picture : weight of how several subjects appear; lens : tan of half the fields of view
 """
 
 
-def stage(planes: int, screens: int = 0) -> Stage:
-    """Return a stage with that many half-spaces to stay in, and ellipsoids to look past.
+def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> Stage:
+    """Return a stage with that many half-spaces to stay in, ellipsoids to look past and out of, and subjects.
 
     held is horizontal speed squared and acceleration squared. driven is jerk squared; of the velocity's
-    middle control point the horizontal square and the climb; what is left of the gimbal's pitch range below
-    and above, metres; then, for each half-space, the slack of the position's control points, metres; then,
-    for each ellipsoid, by how much less than the input says it hides the target.
+    middle control point the horizontal square and the climb; for one subject, what is left of the gimbal's
+    pitch range below and above, metres; then, for each half-space, the slack of the position's control
+    points, metres; then, for each ellipsoid, by how much less than the input says it hides a subject, or
+    how far the place is out of it beyond what the input says.
     """
-    z = ca.SX.sym("z", STATES + INPUTS + (screens > 0))
-    p = ca.SX.sym("p", size(planes, screens))
-    x, u = z[:STATES], z[STATES:]
-    given = _fields(p)
+    sizes = Sizes(planes, screens, bodies, subjects)
+    z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(*sizes))
+    x, u = z[: sizes.states], z[sizes.states :]
+    given, walls, past, near, shown = _cut(p, sizes)
     h, jerk = given["length"], u[JERK]
     place, v, a = x[POSITION], x[VELOCITY], x[ACCELERATION]
-    following = ca.vertcat(
-        place + h * (v + h * (a / 2 + h * jerk / 6)), v + h * (a + h * jerk / 2), a + h * jerk
-    )
+    following = _integrated(x[:PLACED], jerk, h)
     t = given["target"]
     ray = t[:3] - place
-    turned = ca.vertcat(*turning(ray, t[3:6] - v, t[6:9] - a, t[9:] - jerk))
-    passing = (
-        h * given["jerk"] * ca.sumsqr(jerk)
-        + h * ca.dot(given["turn"], turned**2)
-        + h * given["price"] * u[SLACK]
-    )
-    first = p.numel() - PLANE * planes - SCREEN * screens
-    past = p[first + PLANE * planes :]
-    covers = [cover(past[SCREEN * i : SCREEN * (i + 1)], place, t[:3]) for i in range(screens)]
-    if covers:
-        passing += h * given["hidden"] * u[HIDDEN]
     off = ca.sumsqr(place - given["ideal"])
     node = given["place"] * off * (1 + given["leash"] * off)
-    middle = v + h * a / 2
-    low, high = given["steep"][0], given["steep"][1]
-    room = given["free"] + u[SLACK]
+    passing = h * given["jerk"] * ca.sumsqr(jerk)
+    limits = [ca.sumsqr(jerk), ca.sumsqr((v + h * a / 2)[:2]), (v + h * a / 2)[2]]
+    ends = following
+    if subjects:
+        turns = u[CAMERA_JERK]
+        ends = ca.vertcat(
+            following, *(_integrated(x[k : k + 3], turns[i], h) for i, k in enumerate((YAW, PITCH)))
+        )
+        turned = ca.vertcat(x[YAW + 1], x[PITCH + 1], x[YAW + 2], x[PITCH + 2], turns)
+        aim = (x[YAW], x[PITCH])
+        node += given["picture"] * sum(picture(one, place, aim, given["lens"]) for one in shown)
+    else:
+        turned = ca.vertcat(*turning(ray, t[3:6] - v, t[6:9] - a, t[9:] - jerk))
+        passing += h * given["price"] * u[SLACK]
+        low, high = given["steep"][0], given["steep"][1]
+        room = given["free"] + u[SLACK]
+        limits += [ray[2] - low * over_ground(ray) + room, high * over_ground(ray) - ray[2] + room]
+    passing += h * ca.dot(given["turn"], turned**2)
+    covers = [cover(line[:SCREEN], place, line[SCREEN:]) for line in past]
+    if covers:
+        passing += h * given["hidden"] * u[sizes.moves]
+    depths = [inside(body, place) for body in near]
+    if depths:
+        passing += h * given["touch"] * u[-1]
+        reached = [ca.fmax(0.0, 1.0 - q / body[-1]) for q, body in zip(depths, near, strict=True)]
+        node += given["field"] * ca.sumsqr(ca.vertcat(*reached))
+    driven = ca.vertcat(
+        *limits,
+        *_slacks(walls, place, v, following, h),
+        *(u[sizes.moves] - covered for covered in covers),
+        *(q - 1.0 + u[-1] for q in depths),
+    )
+    held = ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a))
+    return Stage(z, p, ends, node, passing, held, driven)
+
+
+def _integrated(x: Any, jerk: Any, h: Any) -> Any:
+    """Return a value, its rate and its acceleration after a stage of even jerk."""
+    n = x.numel() // 3
+    q, v, a = x[:n], x[n : 2 * n], x[2 * n :]
+    return ca.vertcat(q + h * (v + h * (a / 2 + h * jerk / 6)), v + h * (a + h * jerk / 2), a + h * jerk)
+
+
+def _slacks(walls: list[Any], place: Any, v: Any, following: Any, h: Any) -> list[Any]:
+    """Return how far each control point of the position is in each half-space, metres."""
     points = [
         place,
         place + h * v / 3,
         following[POSITION] - h * following[VELOCITY] / 3,
         following[POSITION],
     ]
-    slack = [
+    return [
         ca.dot(plane[:3], point) - plane[3] - (k / (POINTS - 1)) * plane[4]
-        for plane in (p[first + PLANE * i : first + PLANE * (i + 1)] for i in range(planes))
+        for plane in walls
         for k, point in enumerate(points)
     ]
-    driven = ca.vertcat(
-        ca.sumsqr(jerk),
-        ca.sumsqr(middle[:2]),
-        middle[2],
-        ray[2] - low * over_ground(ray) + room,
-        high * over_ground(ray) - ray[2] + room,
-        *slack,
-        *(u[HIDDEN] - covered for covered in covers),
-    )
-    held = ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a))
-    return Stage(z, p, following, node, passing, held, driven)
 
 
 def cover(screen: Any, eye: Any, point: Any) -> Any:
@@ -123,20 +189,35 @@ def cover(screen: Any, eye: Any, point: Any) -> Any:
     return screen[12] - ca.sumsqr(ca.cross(away, ray)) / (ca.sumsqr(ray) + TINY)
 
 
-@lru_cache(maxsize=8)
-def derived(planes: int, screens: int = 0) -> Derived:
-    """Return the functions of one stage with that many half-spaces and ellipsoids."""
-    return differentiated(stage(planes, screens))
+def inside(body: Any, eye: Any) -> Any:
+    """Return the squared distance from the middle of an ellipsoid, where that is the unit ball.
+
+    body : BODY numbers: scale by columns, centre, what is added to the square where there is none, and the
+        square at which the potential field ends (viewpoint Eq. 12 and 13)
+    """
+    scale, centre = ca.reshape(body[:9], 3, 3), body[9:12]
+    return ca.sumsqr(scale @ (eye - centre)) + body[12]
 
 
-def size(planes: int, screens: int = 0) -> int:
+@lru_cache(maxsize=16)
+def derived(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> Derived:
+    """Return the functions of one stage of those sizes."""
+    return differentiated(stage(planes, screens, bodies, subjects))
+
+
+def size(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> int:
     """Return how many parameters a stage has."""
-    return sum(FIELDS.values()) + PLANE * planes + SCREEN * screens
+    return sum(FIELDS.values()) + PLANE * planes + LINE * screens + BODY * bodies + SUBJECT * subjects
 
 
-def _fields(p: Any) -> dict[str, Any]:
-    cut, at = {}, 0
+def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:
+    """Return the parameters by name, and those of half-spaces, screens, bodies and subjects, each apart."""
+    fields, at = {}, 0
     for name, width in FIELDS.items():
-        cut[name] = p[at : at + width]
+        fields[name] = p[at : at + width]
         at += width
-    return cut
+    rows: list[list[Any]] = []
+    for count, width in zip(sizes, (PLANE, LINE, BODY, SUBJECT), strict=True):
+        rows.append([p[at + width * i : at + width * (i + 1)] for i in range(count)])
+        at += width * count
+    return fields, rows[0], rows[1], rows[2], rows[3]

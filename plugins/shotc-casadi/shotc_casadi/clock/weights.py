@@ -18,3 +18,10 @@ FAINT = 1e-3  # of the place's weight, on the ways into and out of the film, aga
 UNSEEN = 0.1  # of the jerk's weight there
 UNWATCHED = 0.1  # of the ray's weights there, unless the author gave the places
 HIDDEN = 5.0  # of a second in which something stands right before the target, in units of the place's weight
+TOGETHER = 20.0  # of how several subjects appear: half frames, logarithms of sizes and angles, squared
+LOOSE = (
+    0.1  # of the place's weight there: what is free follows the ideal, not a far-off picture that is as good
+)
+FIELD = 1.0  # of the potential field, which is 1 in the middle of what is kept away from
+RANGE = 0.5  # metres beyond the clearance at which it ends
+TOUCH = 100.0  # of a second in what is kept away from, in units of the place's weight

@@ -9,8 +9,9 @@ import numpy as np
 
 from shotc.plugin_api import MissionIR, PathIR
 from shotc.refiner_api import Array, Drone, Mask, PlacedShot, PlacedSubject, TimedLeg, ideal_place, places
+from shotc_casadi.clock.several import pictured
+from shotc_casadi.clock.symbols import BODY, LINE
 
-SCREEN = 13  # numbers of what is looked past: see symbols.cover
 AROUND = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
 SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
 STEEPEST = tan(89.0 * pi / 180)
@@ -38,6 +39,16 @@ class ClockSubject:
         return self.placed.subjects[0] if self.placed.subjects and self.aim is None else None
 
     @property
+    def framed(self) -> tuple[PlacedSubject, ...]:
+        """All that is to be seen, where the camera follows something."""
+        return self.placed.subjects if self.aim is None else ()
+
+    @property
+    def together(self) -> bool:
+        """Whether several subjects share the picture, so that the camera is part of the problem."""
+        return len(self.framed) > 1
+
+    @property
     def aim(self) -> tuple[float, float] | None:
         """The yaw and pitch that the camera keeps, if the author gave them."""
         return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim
@@ -50,7 +61,10 @@ class ClockWishes:
     ideal (N + 1, 3), target (N + 1, 12) : as in symbols.FIELDS
     usual : distance to the target in the film, metres; watches : whether anything is filmed
     placed : whether the author gave the places; yields : whether the guide cannot keep a framing's
-    past : what to look past, (N + 1, K, SCREEN), as in symbols.cover; near : which screens those are, by node
+    centres : of all that is to be seen, (N + 1, J, 3), W, metres
+    subjects : how several are to appear, (N + 1, J, SUBJECT), as in picture.FIELDS; of one J is 0
+    past : what to look past, (N + 1, K, LINE), as in symbols.cover; near : which screens those are, by node
+    bodies : what to keep away from, (N + 1, B, BODY), as in symbols.inside; beside : which those are, by node
     """
 
     ideal: Array
@@ -59,8 +73,12 @@ class ClockWishes:
     watches: bool
     placed: bool
     yields: bool
+    centres: Array
+    subjects: Array
     past: Array
+    bodies: Array
     near: Mask | None = None
+    beside: Mask | None = None
 
     @property
     def screened(self) -> int:
@@ -73,18 +91,29 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     ideal = np.array(
         [ideal_place(subject.mission, subject.placed.shot, subject.leg.start, float(u)) for u in t]
     )
-    watched, shot = subject.watched, subject.placed.shot
+    watched, shot, n = subject.watched, subject.placed.shot, len(t)
     placed = shot.ideal is not None and (shot.ideal.placed or shot.ideal.framed)
-    nothing = np.zeros((len(t), 0, SCREEN))
+    centres = seen_at(subject, t)
+    shown = pictured(subject.mission, subject.framed, centres)
+    nothing = (centres, shown, np.zeros((n, 0, LINE)), np.zeros((n, 0, BODY)))
     if watched is None:
-        away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((len(t), 9))])
-        return ClockWishes(ideal, away, 100.0, watches=False, placed=placed, yields=False, past=nothing)
-    target = motion(subject.mission, watched.target, t)
+        away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((n, 9))])
+        return ClockWishes(ideal, away, 100.0, False, placed, False, *nothing)
+    target = np.mean([motion(subject.mission, one.target, t) for one in subject.framed], axis=0)
     filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
     usual = max(NEAREST, float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1))))
     off = np.linalg.norm(subject.leg.curve(t)[filmed, :3] - ideal[filmed], axis=1).max()
     yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT * usual)
-    return ClockWishes(ideal, target, usual, watches=True, placed=placed, yields=yields, past=nothing)
+    return ClockWishes(ideal, target, usual, True, placed, yields, *nothing)
+
+
+def seen_at(subject: ClockSubject, t: Array) -> Array:
+    """Return the centres of all that a shot shows at mission times t, shape (M, J, 3)."""
+    found = np.zeros((len(t), len(subject.framed), 3))
+    for j, one in enumerate(subject.framed):
+        target = subject.mission.target(one.target)
+        found[:, j] = [target.at(float(u)) for u in t]
+    return found
 
 
 def motion(mission: MissionIR, name: str, t: Array) -> Array:

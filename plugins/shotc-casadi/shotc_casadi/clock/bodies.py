@@ -1,0 +1,98 @@
+"""What the camera keeps away from, as ellipsoids: a hard one with a slack, and a potential field about it.
+
+An ellipsoid in a solid, its half-axes longer by the clearance, lies within what the clearance forbids: the
+length of the sum of two vectors is at most that of both. So it never takes a place that may be flown, and
+the half-spaces that carry the proof are never against it (viewpoint Eq. 12 and 13).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import sqrt
+
+import numpy as np
+
+from shotc.refiner_api import Array, Cylinder, Solid, Surroundings, bounded
+from shotc_casadi.clock import weights
+from shotc_casadi.clock.screens import ellipse
+from shotc_casadi.clock.symbols import BODY
+from shotc_casadi.clock.wishes import ClockWishes
+
+NEAR = 1.0  # metres beyond the potential field within which an ellipsoid counts
+COUNTS = (0, 1, 2, 4, 8)  # ellipsoids a programme may have, so that few are built
+NONE = 1e2  # added to the squared distance, where there is no ellipsoid
+ENDLESS = 1e3  # metres of half a height that is that of something without an end
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """An ellipsoid that moves.
+
+    scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
+    reach : the distance there at which the potential field about it ends; longest : its longest half-axis, m
+    """
+
+    scale: Array
+    centres: Array
+    reach: float
+    longest: float
+
+    def distance(self, eyes: Array) -> Array:
+        """Return how far places at the nodes are from the middle, where it is the unit ball; (N + 1,)."""
+        return np.asarray(np.linalg.norm((eyes - self.centres) @ self.scale.T, axis=1))
+
+
+def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
+    """Return all that a shot is flown clear of, at the nodes: targets, other drones, obstacles."""
+    found = []
+    for what in (motion.what for motion in around.motions):
+        axes, half, middle = inscribed(what.part)
+        longer = half + what.clearance
+        longest = float(longer[:2].max() if longer[2] > ENDLESS else longer.max())
+        scale = (axes / longer).T
+        found.append(Body(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest))
+    return tuple(found)
+
+
+def inscribed(part: Solid) -> tuple[Array, Array, Array]:
+    """Return the axes (by columns), half-axes and centre of an ellipsoid in a convex solid."""
+    if isinstance(part, Cylinder):
+        flat, half, middle = np.eye(2), np.full(2, part.radius), np.array(part.centre)
+    else:
+        corners = np.array(part.points)
+        middle, scale = ellipse(corners)
+        value, flat = np.linalg.eigh(scale.T @ scale)
+        mirrored = np.linalg.norm(corners[:, None] + corners[None] - 2 * middle, axis=2).min(axis=1)
+        # John: shrunk by the dimension, or by its root where it is its own mirror image, it is inside.
+        even = bool(mirrored.max() < 1e-6 * np.sqrt(1 / value.min()))
+        half = 1.0 / np.sqrt(value) / (sqrt(2.0) if even else 2.0)
+    tall = bounded(part)
+    axes = np.eye(3)
+    axes[:2, :2] = flat
+    return (
+        axes,
+        np.array([*half, 0.5 * (tall.top - tall.bottom)]),
+        np.array([*middle, 0.5 * (tall.bottom + tall.top)]),
+    )
+
+
+def kept_from(bodies: Sequence[Body], wanted: ClockWishes, eyes: Array) -> ClockWishes:
+    """Return the wishes with the ellipsoids that come near places ``eyes`` at the nodes, (N + 1, 3).
+
+    Those that came near before stay.
+    """
+    if not bodies:
+        return wanted
+    beside = np.array([body.longest * (body.distance(eyes) - body.reach) < NEAR for body in bodies])
+    if wanted.beside is not None:
+        beside |= wanted.beside
+    most = int(beside.sum(axis=0).max(initial=0))
+    count = next((c for c in COUNTS if c >= most), most)
+    table = np.zeros((len(eyes), count, BODY))
+    table[:, :, 12], table[:, :, 13] = NONE, 1.0
+    for k in range(len(eyes)):
+        for i, j in enumerate(np.flatnonzero(beside[:, k])):
+            body = bodies[int(j)]
+            table[k, i] = [*body.scale.T.ravel(), *body.centres[k], 0.0, body.reach**2]
+    return replace(wanted, bodies=table, beside=beside)

@@ -1,0 +1,86 @@
+"""How a subject appears, in CasADi symbols: place on screen, size and viewing angle (viewpoint Eq. 7 to 9).
+
+The terms are those of ``shotc.geom.viewpoint``, by which the ideal of a framing is found: half frames on
+screen, the logarithm of the exact outline's size, chords of the view, hinges that keep the subject whole.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from shotc.refiner_api import View, nearest_depth, silhouette_bounds, viewpoint
+
+FIELDS = {
+    "centre": 3,
+    "solid": 2,
+    "uv": 2,
+    "size": 1,
+    "toward": 3,
+    "elevation": 1,
+    "placed": 1,
+    "sized": 1,
+    "whole": 1,
+    "viewed": 3,
+    "level": 1,
+}
+"""The parameters of a subject and their sizes.
+
+centre : W, metres; solid : radius and height; uv, size, elevation : as in ``viewpoint.Wanted``
+toward : unit vector from it to where the camera is wanted, level where only the bearing counts
+placed, sized, whole, level : factors of what is off its place, of the logarithm of the size, of what is out
+    of the frame, and of what is not level; viewed : of the chord, the level chord, and the elevation
+"""
+SUBJECT = sum(FIELDS.values())
+DEEP = 0.01  # of its distance, by which a subject counts as before the camera at least
+TINY = 1e-12
+
+
+def picture(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
+    """Return the sum of the squares of all that is off; arguments as in ``residuals``."""
+    return ca.sumsqr(residuals(subject, eye, aim, lens))
+
+
+def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
+    """Return how far a subject is off what is asked, as a column.
+
+    subject : SUBJECT numbers; eye : W, metres; aim : yaw and pitch, rad; lens : as in symbols.FIELDS
+    Smooth wherever the camera is out of the subject; one that reaches behind the camera is moved before it.
+    """
+    given = _cut(subject)
+    radius, height = given["solid"][0], given["solid"][1]
+    camera = View(ca.cos(aim[0]), ca.sin(aim[0]), ca.cos(aim[1]), ca.sin(aim[1]), lens[0], lens[1])
+    away = given["centre"] - eye
+    far = ca.sqrt(ca.sumsqr(away) + TINY)
+    flat = ca.sqrt(ca.sumsqr(away[:2]) + TINY)
+    offset = _before(camera, away, far, (radius, height))
+    u, v, _ = camera.project(offset)
+    left, right, low, high = silhouette_bounds(camera, offset, radius, height)
+    edges = ca.vertcat(-left, right, -low, high) - viewpoint.EDGE
+    return ca.vertcat(
+        given["placed"] * (ca.vertcat(u, v) - given["uv"]),
+        given["sized"] * ca.log(0.5 * (high - low) / given["size"]),
+        given["whole"] * ca.fmax(0.0, edges),
+        given["viewed"][0] * (-away / far - given["toward"]),
+        given["viewed"][1] * (-away[:2] / flat - given["toward"][:2]),
+        given["viewed"][2] * (ca.atan2(-away[2], flat) - given["elevation"]),
+        given["level"] * away[2] / far,
+    )
+
+
+def _before(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> tuple[Any, Any, Any]:
+    """Return an offset moved along the camera's axis until all of a subject is before it, hardly else."""
+    depth = nearest_depth(camera, (away[0], away[1], away[2]), *solid)
+    push = 0.5 * (ca.sqrt(depth**2 + (DEEP * far) ** 2) - depth)
+    axis = (camera.cos_pitch * camera.cos_yaw, camera.cos_pitch * camera.sin_yaw, camera.sin_pitch)
+    x, y, z = (away[i] + push * axis[i] for i in range(3))
+    return x, y, z
+
+
+def _cut(p: Any) -> dict[str, Any]:
+    cut, at = {}, 0
+    for name, width in FIELDS.items():
+        cut[name] = p[at : at + width]
+        at += width
+    return cut

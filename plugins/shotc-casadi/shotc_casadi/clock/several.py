@@ -1,0 +1,86 @@
+"""Several subjects in one picture, in numbers: what is asked of each, and the camera in the problem."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.plugin_api import MissionIR, Piecewise
+from shotc.refiner_api import (
+    CAM_PITCH,
+    CAM_YAW,
+    Array,
+    Drone,
+    PlacedSubject,
+    quintic_hermite,
+    viewpoint,
+)
+from shotc_casadi.clock.picture import SUBJECT
+from shotc_casadi.clock.symbols import PITCH, PLACED, YAW
+
+
+def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array) -> Array:
+    """Return the parameters of subjects that share a picture, shape (M, J, SUBJECT); of one none of them.
+
+    centres : of theirs, (M, J, 3). What is free weighs as in ``viewpoint``, as faintly as the ideal has it.
+    """
+    if len(subjects) < 2:
+        return np.zeros((len(centres), 0, SUBJECT))
+    sized = any(s.size is not None for s in subjects)
+    rows = np.zeros((len(centres), len(subjects), SUBJECT))
+    rows[:, :, :3] = centres
+    for j, subject in enumerate(subjects):
+        rows[:, j, 3:] = _asked(mission, subject, sized)
+    return rows
+
+
+def _asked(mission: MissionIR, subject: PlacedSubject, sized: bool) -> list[float]:
+    """Return all parameters of a subject but its centre, in the order of picture.FIELDS."""
+    target = mission.target(subject.target)
+    azimuth, elevation = subject.view or (None, None)
+    both = azimuth is not None and elevation is not None
+    toward = viewpoint.direction(azimuth or 0.0, (elevation or 0.0) if both else 0.0)
+    silent = 0.0 if sized else viewpoint.FAINT
+    return [
+        target.radius,
+        target.height,
+        *(subject.reference or (0.0, 0.0)),
+        viewpoint.LONG if subject.size is None else subject.size,
+        *toward,
+        elevation or 0.0,
+        viewpoint.FAINT if subject.reference is None else 1.0,
+        silent if subject.size is None else 1.0,
+        viewpoint.STEEP if subject.size is None or subject.size <= 1.0 else 0.0,
+        float(both),
+        float(azimuth is not None and not both),
+        float(elevation is not None and not both),
+        viewpoint.FAINT if elevation is None else 0.0,
+    ]
+
+
+def angles(curve: Piecewise, breaks: Array) -> Array:
+    """Return the camera's yaw and pitch of a leg with their rates and accelerations, shape (N + 1, 6)."""
+    orders = [curve, curve.derivative(1), curve.derivative(2)]
+    return np.column_stack([order(breaks)[:, c] for c in (CAM_YAW, CAM_PITCH) for order in orders])
+
+
+def turned(breaks: Array, states: Array) -> Piecewise:
+    """Return the yaw and the pitch of a solution as a curve."""
+    value, rate, acceleration = (states[:, [YAW + k, PITCH + k]] for k in range(3))
+    return quintic_hermite(breaks, value, rate, acceleration)
+
+
+def turning_room(drone: Drone, share: float) -> tuple[Array, Array]:
+    """Return the bounds of the camera's angles, rates and accelerations, two of shape (6,).
+
+    A body that is free adds what it turns to what the gimbal does. share : of rates that is used
+    """
+    gimbal, limits = drone.gimbal, drone.limits
+    fixed = drone.body == "follow-camera"
+    rate = limits.yaw_rate + (0.0 if fixed else gimbal.rate)
+    acceleration = limits.yaw_acceleration + (0.0 if fixed else gimbal.acceleration)
+    high = share * np.array([np.inf, rate, acceleration, 0.0, gimbal.rate, gimbal.acceleration])
+    low = -high
+    low[PITCH - PLACED], high[PITCH - PLACED] = gimbal.pitch
+    return low, high
