@@ -42,7 +42,7 @@ class KeepApart:
         fleets, stats = [], list(ir.stats)
         for flight, wanted in zip(ir.fleets, ir.wanted, strict=True):
             ctx.progress(f"separation in fleet {flight.fleet}")
-            keeper = Keeper(mission, _fleet(mission, flight), flight, ctx)
+            keeper = Keeper(mission, _fleet(mission, flight), flight, wanted, ctx)
             fleets.append(keeper.keep())
             found += keeper.faults
             stats += keeper.stats()
