@@ -17,7 +17,7 @@ from shotc.geom.separation import closest
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.show import Fleet
 from shotc.passes.base import PassContext
-from shotc.passes.keep_apart.pushed import DIGITS, ROUNDS, SLACK, pushed
+from shotc.passes.keep_apart.pushed import DIGITS, ROUNDS, kept, pushed
 from shotc.solvers.fleet_qcqp import Bounds, bounded, short
 
 FACTORS = (1.5, 2.5, 4.0)
@@ -111,7 +111,7 @@ class _Trial:
         if len(done.failed):
             return False
         coef = short(breaks, done.coef, bounds, DIGITS)
-        if closest(breaks, coef, fleet.apart).proven >= fleet.apart.across - SLACK:
+        if kept(closest(breaks, coef, fleet.apart).proven, fleet.apart.across):
             return True
         tried = pushed(breaks, coef, fleet, ctx.seed, min(ROUNDS, self.left))
         self.left -= tried.rounds

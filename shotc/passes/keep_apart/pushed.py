@@ -27,7 +27,7 @@ DIGITS = 6
 """Decimals of a metre that control points keep, as in ``assign-goals``."""
 
 SLACK = 1e-6
-"""What the proof may fall short of, metres, as in verification."""
+"""What the proof may fall short of, a share of the distance and of a metre at least, as in verification."""
 
 
 HOPELESS = 0.05
@@ -45,6 +45,11 @@ class Pushed:
     coef: Array | None
     rounds: int
     reached: float
+
+
+def kept(proven: float, across: float) -> bool:
+    """Tell whether a proved distance is the one to be kept, metres."""
+    return proven >= across - SLACK * max(1.0, across)
 
 
 def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS) -> Pushed:
@@ -68,7 +73,7 @@ def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = 
         if len(done.failed):
             continue
         reached = max(reached, closest(breaks, done.coef, fleet.apart).proven)
-        if reached >= fleet.apart.across - SLACK:
+        if kept(reached, fleet.apart.across):
             return Pushed(done.coef, k + 1, reached)
     return Pushed(None, rounds, reached)
 

@@ -16,7 +16,7 @@ from shotc.ir.show import Fleet
 from shotc.passes.base import PassContext
 from shotc.passes.keep_apart.faults import Tried, standing_too_near, too_near
 from shotc.passes.keep_apart.longer import Stretch, longer
-from shotc.passes.keep_apart.pushed import SLACK, Pushed, pushed
+from shotc.passes.keep_apart.pushed import Pushed, kept, pushed
 
 
 class Keeper:
@@ -37,7 +37,7 @@ class Keeper:
         """Return the flight with its drones kept apart, or as it is where there are faults."""
         found = closest(self.flight.breaks, self.coef, self.fleet.apart)
         self.proven = found.proven
-        if found.proven >= self.across - SLACK:
+        if kept(found.proven, self.across):
             return self.flight
         for window in windows(self.coef):
             self._mend(window)
@@ -60,7 +60,7 @@ class Keeper:
     def _mend(self, window: Window) -> None:
         breaks, coef = window.breaks(self.flight.breaks), self.coef[:, window.points]
         found = closest(breaks, coef, self.fleet.apart)
-        if found.proven >= self.across - SLACK:
+        if kept(found.proven, self.across):
             return
         self.ctx.progress(f"mending fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
         standing = self._standing(window)
@@ -86,6 +86,6 @@ class Keeper:
             at = np.repeat(self.coef[:, stop : stop + 1], 4, axis=1)
             time = float(self.flight.breaks[stop])
             found = closest(np.array([time, time + 1.0]), at, self.fleet.apart)
-            if found.proven < self.across - SLACK:
+            if not kept(found.proven, self.across):
                 return replace(found, time=time)
         return None
