@@ -121,6 +121,13 @@ def bounded(breaks: Array, wanted: Array, bounds: Bounds) -> Bounded:
     return Bounded(coef, np.array(failed, dtype=np.intp), len(bad), most, exact)
 
 
+def short(breaks: Array, coef: Array, bounds: Bounds, digits: int) -> Array:
+    """Return control points with few digits, of those drones that keep the bounds with them."""
+    rounded = np.round(coef, digits)
+    kept = overdraft(breaks, rounded, bounds) <= 0.0
+    return np.where(kept[:, None, None], rounded, coef)
+
+
 def deviation(breaks: Array) -> Array:
     """Return the matrix of Eq. 8: x.W.x is the integral of the squared spline, shape (P + 3, P + 3)."""
     t = knots(breaks)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import zipfile
 from base64 import b64decode
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import GeoOrigin
+from tests import skybrush
 from tests.e2e import shows, written
 from tests.e2e.command import run
 from tests.e2e.conftest import ROOT, SHOWS
@@ -380,9 +380,7 @@ def test_solids_are_filled_all_round(show: Show) -> None:
 
 
 def test_the_show_file_flies_the_plan(show: Show) -> None:
-    with zipfile.ZipFile(show.out / "lakeside-show.skyc") as archive:
-        assert archive.testzip() is None
-        content = json.loads(archive.read("show.json"))
+    content = skybrush.read(show.bytes("lakeside-show.skyc"))
     drones = content["swarm"]["drones"]
     assert [drone["settings"]["name"] for drone in drones] == show.rows.names
     t = show.rows["t_s"][0]

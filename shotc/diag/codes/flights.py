@@ -105,16 +105,19 @@ CODES: tuple[CodeInfo, ...] = (
         "stands-too-near",
         "two drones of a fleet stand too near to each other",
         "Where a fleet stands, in a picture or on its pads, nothing can be mended by flying otherwise: the places "
-        "themselves are nearer than the separation with its margin.",
+        "themselves are nearer than the separation with its margin. The message says how much larger they have to "
+        "be.",
     ),
     _by_files(
         "D086",
         "passes-too-near",
         "two drones of a fleet pass too near to each other, and no way round was found",
         "Drones that would come too near are pushed apart, all at once and as little as does, until the separation "
-        "is proved for every instant. That can fail where the goals of single frames are too near, or where "
-        "there is no time to go round each other. Straight moves between pictures never fail where the places "
-        "are sqrt(2) times the separation apart.",
+        "is proved for every instant. That can fail where there is no time to go round each other. The stretch is "
+        "then planned anew with more time, and the least `period` or `transition` found to be enough is what the "
+        "message asks for: written into the mission it gives that very flight. Straight moves between pictures, "
+        "and from pads, never fail where the places are sqrt(2) times the separation apart, so wider pads help, "
+        "too. The message also says what separation the best flight keeps that was found in the time asked for.",
     ),
     _planned(
         "D087",

@@ -23,7 +23,7 @@ from shotc.ir.show import Fleet
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.bound_splines.faults import too_quick
 from shotc.solvers.fleet_move import least_piece, least_pieces
-from shotc.solvers.fleet_qcqp import Bounded, Bounds, bounded, overdraft
+from shotc.solvers.fleet_qcqp import Bounded, Bounds, bounded, overdraft, short
 
 DIGITS = 6
 """Decimals of a metre that control points keep, as in ``assign-goals``."""
@@ -78,9 +78,7 @@ class _Fitter:
         if len(done.failed):
             self.faults.append(self._too_quick(breaks, wanted, int(done.failed[0])))
             return
-        short = np.round(done.coef, DIGITS)
-        kept = overdraft(breaks, short, self.bounds) <= 0.0
-        self.coef[:, window.points] = np.where(kept[:, None, None], short, done.coef)
+        self.coef[:, window.points] = short(breaks, done.coef, self.bounds, DIGITS)
 
     def _slowest(self, breaks: Array, wanted: Array) -> int | None:
         """Return who could not even go straight from the first to the last place in time, if anybody."""

@@ -22,6 +22,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.keep_apart.faults import bent, fleets_meet
 from shotc.passes.keep_apart.off_goals import farthest
+from shotc.passes.keep_apart.pushed import kept
 from shotc.passes.keep_apart.repair import Keeper
 
 MUCH = 0.5
@@ -42,7 +43,7 @@ class KeepApart:
         fleets, stats = [], list(ir.stats)
         for flight, wanted in zip(ir.fleets, ir.wanted, strict=True):
             ctx.progress(f"separation in fleet {flight.fleet}")
-            keeper = Keeper(mission, _fleet(mission, flight), flight, ctx)
+            keeper = Keeper(mission, _fleet(mission, flight), flight, wanted, ctx)
             fleets.append(keeper.keep())
             found += keeper.faults
             stats += keeper.stats()
@@ -65,6 +66,6 @@ def _meeting(mission: MissionIR, one: FleetTrajectory, other: FleetTrajectory) -
     fleets = _fleet(mission, one), _fleet(mission, other)
     apart = stricter(fleets[0].apart, fleets[1].apart)
     near = closest_between(one.breaks, one.coef, other.breaks, other.coef, apart)
-    if near.proven >= apart.across - 1e-6:
+    if kept(near.proven, apart.across):
         return []
     return [fleets_meet(mission, fleets, near, apart.across)]

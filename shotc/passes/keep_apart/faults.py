@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from math import ceil, floor
+from typing import NamedTuple
+
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing
-from shotc.geom.bernstein import Array
-from shotc.geom.separation import Nearest, closest
+from shotc.geom.separation import Nearest
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Fleet, drone_names
+from shotc.passes.keep_apart.longer import Stretch
 from shotc.passes.keep_apart.off_goals import Off
+from shotc.passes.resolve.show.pads import wider
 
-Stretch = tuple[Array, Array, Nearest]
-"""The breaks of a window, the control points its goals ask for, and what comes nearest in it."""
+
+class Tried(NamedTuple):
+    """What was tried of a stretch in vain.
+
+    found : what comes nearest as its goals ask for; best : separation of the best flight found, metres
+    seconds : in which it could be flown, where any time is enough
+    """
+
+    found: Nearest
+    best: float
+    seconds: float | None
 
 
 def standing_too_near(
@@ -23,7 +37,9 @@ def standing_too_near(
     shown = _shown(flight, found.time)
     where = "on or over its pads" if shown is None else f"in display `{shown.display}`"
     path = fleet.path if shown is None else _path(mission, shown)
-    change = "lay the fleet out wider" if shown is None else "make the picture larger, or use fewer drones"
+    share = ceil(fleet.apart.across / max(found.attained, 1e-3) * 100.0) / 100.0
+    larger = f"make the picture {share:.2f} times as large, or use fewer drones"
+    change = wider(mission, fleet, fleet.apart.across) if shown is None else larger
     return Diagnostic(
         "D085",
         f"two drones of `{fleet.name}` stand {found.attained:.2f} m apart {where}, "
@@ -34,27 +50,31 @@ def standing_too_near(
     )
 
 
-def too_near(mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, at: Stretch) -> Diagnostic:
+def too_near(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -> Diagnostic:
     """Return D086: between two stops no flight was found that keeps the drones apart."""
-    breaks, wanted, found = at
-    shown = _shown(flight, found.time)
-    path = fleet.path if shown is None else _path(mission, shown)
-    dense = _densest(flight, fleet, breaks, wanted)
-    notes = [_who(fleet, found)]
-    if dense is None:
-        change = "give it a longer `transition`, or a longer `period`"
-    else:
-        frame, near = dense
-        notes.append(f"the goals of frame {frame + 1} alone are only {near:.2f} m apart")
-        change = "make the animation larger, or use fewer drones"
+    path = fleet.path if stretch.shown is None else _path(mission, stretch.shown)
+    found, across = tried.found, fleet.apart.across
     return Diagnostic(
         "D086",
         f"two drones of `{fleet.name}` come within {found.attained:.2f} m of each other at "
-        f"{found.time:.2f} s, and {fleet.apart.across:.2f} m is the least",
+        f"{found.time:.2f} s, and {across:.2f} m is the least",
         (mission.origins.key(path), *_rule(mission, fleet)),
-        tuple(notes),
-        f"{change}; places {spacing(fleet.apart):.2f} m apart are always enough for a straight way",
+        (
+            _who(fleet, found),
+            f"the best flight found within their limits keeps {floor(tried.best * 100) / 100:.2f} m",
+        ),
+        "; or ".join(_remedies(mission, fleet, stretch, tried)),
     )
+
+
+def _remedies(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -> Iterator[str]:
+    """Yield what would do, as far as it is known: it was planned so, or straight ways cannot fail then."""
+    if tried.seconds is not None:
+        yield f"give it `{stretch.key}: {tried.seconds:.2f}`, with which they can be kept apart"
+    if stretch.from_pads or stretch.shown is None:
+        yield wider(mission, fleet, spacing(fleet.apart))
+    elif tried.seconds is None:
+        yield "make the figure larger, use fewer drones, or ask for no more than what was found"
 
 
 def fleets_meet(mission: MissionIR, fleets: tuple[Fleet, Fleet], found: Nearest, across: float) -> Diagnostic:
@@ -88,20 +108,6 @@ def bent(mission: MissionIR, fleet: Fleet, off: Off) -> Diagnostic:
         if limits
         else "put more frames between those where the figure turns back, or make it move less",
     )
-
-
-def _densest(flight: FleetTrajectory, fleet: Fleet, breaks: Array, wanted: Array) -> tuple[int, float] | None:
-    """Return the frame whose goals are nearest to each other, if they are too near, and how near."""
-    worst: tuple[int, float] | None = None
-    frames = [s.index for s in flight.shown if breaks[0] - 1e-9 <= s.start <= breaks[-1] + 1e-9]
-    if len(frames) != wanted.shape[1] - 4:
-        return None  # Not an animation.
-    for frame, k in zip(frames, range(2, wanted.shape[1] - 2), strict=True):
-        standing = wanted[:, [k] * 4]
-        near = closest(breaks[:2], standing, fleet.apart).attained
-        if near < min(fleet.apart.across, worst[1] if worst else fleet.apart.across):
-            worst = frame, near
-    return worst
 
 
 def _who(fleet: Fleet, found: Nearest) -> str:

@@ -14,35 +14,20 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet
 from shotc.passes.base import PassContext
-from shotc.passes.keep_apart.faults import standing_too_near, too_near
-from shotc.solvers.fleet_qcqp import Bounds, bounded
-from shotc.solvers.fleet_repair import Index, Push, Pusher
-
-ROUNDS = 25
-GROWTH = 1.8
-"""By which the weight of being apart grows from round to round."""
-
-WEIGHT = 10.0
-MARGIN = (0.02, 0.004)
-"""Share of the distance that is asked for beyond it: in the first round, and more in each that follows."""
-
-NOISE = 0.01
-"""Shift by which two that fly at each other head-on are given a side, metres."""
-
-DIGITS = 6
-"""Decimals of a metre that control points keep, as in ``assign-goals``."""
-
-SLACK = 1e-6
-"""What the proof may fall short of, metres, as in verification."""
+from shotc.passes.keep_apart.faults import Tried, standing_too_near, too_near
+from shotc.passes.keep_apart.longer import Stretch, longer
+from shotc.passes.keep_apart.pushed import Pushed, kept, pushed
 
 
 class Keeper:
-    """Mends the flight of one fleet."""
+    """Mends the flight of one fleet; wanted : control points that its goals ask for, as in ``ShowIR``."""
 
-    def __init__(self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, ctx: PassContext) -> None:
+    def __init__(
+        self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, wanted: Array, ctx: PassContext
+    ) -> None:
         self.mission, self.fleet, self.flight, self.ctx = mission, fleet, flight, ctx
+        self.wanted = wanted
         self.across = fleet.apart.across
-        self.bounds = Bounds(fleet.limits)
         self.coef = flight.coef.copy()
         self.faults: list[Diagnostic] = []
         self.rounds = 0
@@ -52,7 +37,7 @@ class Keeper:
         """Return the flight with its drones kept apart, or as it is where there are faults."""
         found = closest(self.flight.breaks, self.coef, self.fleet.apart)
         self.proven = found.proven
-        if found.proven >= self.across - SLACK:
+        if kept(found.proven, self.across):
             return self.flight
         for window in windows(self.coef):
             self._mend(window)
@@ -75,19 +60,25 @@ class Keeper:
     def _mend(self, window: Window) -> None:
         breaks, coef = window.breaks(self.flight.breaks), self.coef[:, window.points]
         found = closest(breaks, coef, self.fleet.apart)
-        if found.proven >= self.across - SLACK:
+        if kept(found.proven, self.across):
             return
         self.ctx.progress(f"mending fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
         standing = self._standing(window)
         if standing is not None:
             self.faults.append(standing_too_near(self.mission, self.fleet, self.flight, standing))
             return
-        mended = self._pushed(breaks, coef)
-        if mended is None:
-            wanted = self.flight.coef[:, window.points]
-            self.faults.append(too_near(self.mission, self.fleet, self.flight, (breaks, wanted, found)))
+        done = pushed(breaks, coef, self.fleet, self.ctx.seed)
+        self.rounds += done.rounds
+        if done.coef is None:
+            self.faults.append(self._too_near(window, found, done))
             return
-        self.coef[:, window.points] = mended
+        self.coef[:, window.points] = done.coef
+
+    def _too_near(self, window: Window, found: Nearest, done: Pushed) -> Diagnostic:
+        stretch = Stretch.of(self.flight, window.breaks(self.flight.breaks), self.wanted[:, window.points])
+        seconds = longer(stretch, self.fleet, self.ctx)
+        best = max(found.proven, done.reached)
+        return too_near(self.mission, self.fleet, stretch, Tried(found, best, seconds))
 
     def _standing(self, window: Window) -> Nearest | None:
         """Return who is too near at one of its stops, where nothing can be mended."""
@@ -95,36 +86,6 @@ class Keeper:
             at = np.repeat(self.coef[:, stop : stop + 1], 4, axis=1)
             time = float(self.flight.breaks[stop])
             found = closest(np.array([time, time + 1.0]), at, self.fleet.apart)
-            if found.proven < self.across - SLACK:
+            if not kept(found.proven, self.across):
                 return replace(found, time=time)
         return None
-
-    def _pushed(self, breaks: Array, wanted: Array) -> Array | None:
-        """Return control points that keep the separation and the limits, or None after all rounds."""
-        pusher = Pusher(breaks, self.bounds.scaled(0.999), self.fleet.apart)
-        rng = np.random.default_rng(self.ctx.seed)
-        coef, movable = wanted, np.zeros(0, dtype=np.intp)
-        for k in range(ROUNDS):
-            self.rounds += 1
-            distance = self.across * (1.0 + MARGIN[0] + k * MARGIN[1])
-            crowded = np.setdiff1d(pusher.crowded(coef, distance), movable)
-            coef, movable = _shaken(coef, crowded, rng), np.union1d(movable, crowded)
-            coef = pusher.push(coef, wanted, movable, Push(distance, WEIGHT * GROWTH**k))
-            within = self._within(breaks, coef)
-            if within is None:
-                continue
-            if closest(breaks, within, self.fleet.apart).proven >= self.across - SLACK:
-                return within
-        return None
-
-    def _within(self, breaks: Array, coef: Array) -> Array | None:
-        """Return the nearest splines within the limits, with few digits, or None where there are none."""
-        done = bounded(breaks, np.round(coef, DIGITS), self.bounds)
-        return None if len(done.failed) else done.coef
-
-
-def _shaken(coef: Array, rows: Index, rng: np.random.Generator) -> Array:
-    """Shift the inner control points of some drones a little, so that those head-on have a side to pass."""
-    coef = coef.copy()
-    coef[rows, 3:-3] += rng.normal(scale=NOISE, size=(len(rows), coef.shape[1] - 6, 3))
-    return coef

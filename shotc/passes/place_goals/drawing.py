@@ -5,13 +5,14 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.importers.xml_tree import Node, XmlFault, parse_xml
-from shotc.ir.show import Drawing
+from shotc.ir.show import Color, Drawing
 from shotc.passes.place_goals.body import SourceFault
 from shotc.passes.place_goals.flat import FlatBody, Shape, chain, standing
 
@@ -21,6 +22,9 @@ ARC = 48
 """Lines that an elliptic arc becomes: a circle is off by a five-hundredth of its radius at most."""
 MOST = 100_000
 """Elements, with those that `use` repeats, and lines in all."""
+
+DARK = 32
+"""Largest part of a colour, of 255, below which a light that shows it would not be seen."""
 
 _FOREIGN = re.compile(r"url\(\s*['\"]?\s*(?![#'\"\s])|@import", re.IGNORECASE)
 _DEEPEST = 200  # elements in elements, with those that `use` puts there
@@ -69,9 +73,7 @@ def _scaled(source: Drawing, shapes: list[Shape]) -> FlatBody | SourceFault:
     if high[1] - low[1] <= 1e-9 * (high[0] - low[0]) or high[1] <= low[1]:
         return _fault(source, "has no height", "all of it lies on one level line", "draw something taller")
     scale = source.height / (high[1] - low[1])
-    placed = [
-        Shape((s.edges - (low + high) / 2.0) * scale, s.filled, s.parity, s.width * scale) for s in shapes
-    ]
+    placed = [replace(s, edges=(s.edges - (low + high) / 2.0) * scale, width=s.width * scale) for s in shapes]
     return standing(placed, source.centre, source.heading)
 
 
@@ -139,8 +141,18 @@ def _shapes(data: bytes) -> list[Shape]:
         if len(edges):
             width = float(element.stroke_width or 0.0) if stroked else 0.0
             parity = element.values.get("fill-rule") == "evenodd"
-            found.append(Shape(edges * (1.0, -1.0), filled, parity, max(width, 1e-6 * float(np.ptp(edges)))))
+            width = max(width, 1e-6 * float(np.ptp(edges)))
+            color = _color(element.fill if filled else element.stroke)
+            found.append(Shape(edges * (1.0, -1.0), filled, parity, width, color))
     return found
+
+
+def _color(paint: Any) -> Color | None:
+    """Return a colour that a light can have, or None: what the reader cannot read is black to it."""
+    if paint is None or paint.value is None or paint.alpha == 0:
+        return None
+    color = (int(paint.red), int(paint.green), int(paint.blue))
+    return color if max(color) >= DARK else None
 
 
 def _hidden(values: dict[str, Any]) -> bool:

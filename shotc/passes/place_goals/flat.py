@@ -6,14 +6,30 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
-from shotc.geom.columns import Columns, Spans, columns_below, drawn, spans, through_edges, united, volume
+from shotc.geom.columns import (
+    Columns,
+    Numbers,
+    Spans,
+    columns_below,
+    drawn,
+    spans,
+    through_edges,
+    united,
+    volume,
+)
 from shotc.ir.fleet import Colors
+from shotc.ir.show import Color
 from shotc.passes.place_goals.body import Fill, upright_axes
 
 COLUMNS = 0.25
 """Columns drawn for each point: most of them carry several, and thin strokes are hit often enough."""
+
+FINE, MOST = 2000, 200_000
+"""Columns, and points of each shape's edges and of all, by which it is told what is seen at a place."""
+UNPAINTED: Color = (255, 255, 255)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,12 +39,14 @@ class Shape:
     edges : shape (E, 2, 2), from (right, up) to (right, up), metres from the picture's middle
     filled : whether its inside is seen; parity : whether that is what an odd number of edges is round
     width : of its lines, metres, which are drawn with the fills where it has no inside to be seen
+    color : in which it is painted, None where lights have none of it
     """
 
     edges: Array
     filled: bool
     parity: bool
     width: float
+    color: Color | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,8 +77,12 @@ class FlatBody:
         return False
 
     def colors(self, places: Array) -> Colors | None:
-        """Return none: the mission says."""
-        return None
+        """Return the colours of the shapes that are seen at places, or of the nearest edges beside them."""
+        if all(shape.color is None for shape in self.shapes):
+            return None
+        flat = ((places - self.centre) @ self.axes.T)[:, [0, 2]]
+        seen = _seen(self.shapes, flat)
+        return np.array([self.shapes[k].color or UNPAINTED for k in seen], dtype=np.uint8)
 
     @property
     def outlines(self) -> float:
@@ -104,3 +126,27 @@ def _along(edges: Array, count: int, rng: np.random.Generator) -> Array:
     length = np.maximum(ends[k] - np.concatenate([[0.0], ends])[k], 1e-300)
     share = 1.0 - (ends[k] - place) / length
     return np.asarray(edges[k, 0] + share[:, None] * (edges[k, 1] - edges[k, 0]))
+
+
+def _seen(shapes: Sequence[Shape], places: Array) -> Numbers:
+    """Return which shape is seen at places (n, 2): of the filled ones there the last, or else the nearest."""
+    rng = np.random.default_rng(0)
+    count = max(4, min(FINE, MOST // len(shapes)))
+    points = np.concatenate([_along(s.edges, count, rng) for s in shapes])
+    found: Numbers = np.asarray(cKDTree(points).query(places)[1], dtype=np.intp) // count
+    corners = np.concatenate([places, *(s.edges.reshape(-1, 2) for s in shapes)])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    columns = columns_below(low[:1], high[:1], FINE, rng)
+    column = np.clip((places[:, 0] - low[0]) / columns.cell[0], 0, len(columns.places) - 1).astype(np.intp)
+    tall = 2.0 * float(high[1] - low[1])
+    for k, shape in enumerate(shapes):
+        if shape.filled:
+            inside = spans(through_edges(columns, shape.edges), shape.parity)
+            # Spans one above another, column after column, as one line on which every place has its own.
+            ends = inside.column * tall + inside.low - low[1]
+            below = np.searchsorted(ends, column * tall + places[:, 1] - low[1], side="right") - 1
+            some = np.flatnonzero(below >= 0)
+            at = below[some]
+            held = (inside.column[at] == column[some]) & (places[some, 1] <= inside.high[at])
+            found[some[held]] = k
+    return found

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 from base64 import b64decode
 from functools import cache
 from io import BytesIO
@@ -21,7 +20,7 @@ from shotc.geom.fleet_spline import places
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.sampling import light_colors
 from shotc.ir.trajectory import VerifiedIR
-from tests import sky
+from tests import sky, skybrush
 from tests.records import replace
 from tests.samples import orbit_plan
 from tests.skybrush import color_at, place_at
@@ -33,7 +32,7 @@ def read(plan: VerifiedIR) -> dict[str, Any]:
     (artifact,) = EMITTER.emit(plan).artifacts
     with ZipFile(BytesIO(artifact.data)) as zipped:
         assert zipped.namelist() == ["show.json"]
-        return dict(json.loads(zipped.read("show.json")))
+    return skybrush.read(artifact.data)
 
 
 @cache
@@ -74,6 +73,11 @@ def test_key_points_are_as_the_server_wants_them(step: float) -> None:
         assert settings["landAt"] == points[-1][1]
         assert trajectory["landingTime"] == pytest.approx(trajectory["takeoffTime"] + points[-1][0])
         assert trajectory["version"] == 1
+
+
+@pytest.mark.parametrize("name", skybrush.DAMAGE)
+def test_the_reader_knows_what_the_loader_refuses(name: str) -> None:
+    assert list(skybrush.faults(skybrush.damaged(content(), name)))
 
 
 def test_it_takes_few_points_and_no_waiting() -> None:

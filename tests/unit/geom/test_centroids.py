@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf
 
 import numpy as np
@@ -58,6 +59,29 @@ def test_every_point_is_of_its_nearest_goal() -> None:
     found = centroids(points, 150)
     distance = np.linalg.norm(points - found.goals[found.labels], axis=1)
     assert distance == pytest.approx(cKDTree(found.goals).query(points)[0])
+
+
+def test_every_point_is_of_its_nearest_goal_whatever_they_begin_with() -> None:
+    """Also where goals begin at one place, or far off, and all move far: nothing is missed."""
+    points = ball_of(3000)
+    for start in (np.zeros((40, 3)), np.repeat(points[:20], 2, axis=0), 5.0 + points[:40], points[:2]):
+        found = centroids(points, len(start), start)
+        distance = np.linalg.norm(points - found.goals[found.labels], axis=1)
+        assert distance == pytest.approx(cKDTree(found.goals).query(points)[0])
+
+
+@pytest.mark.parametrize("shape", [ball_of, cube_of])
+def test_momentum_ends_below_plain_steps(shape: Callable[[int, int], Array]) -> None:
+    shares = []
+    for seed in range(4):
+        points = shape(8000, seed)
+        goals = halved(points, 200)
+        for _ in range(60):
+            labels = cKDTree(goals).query(points)[1]
+            goals = np.stack([points[labels == k].mean(axis=0) for k in range(200)])
+        shares.append(coverage(points, centroids(points, 200).goals) / coverage(points, goals))
+    assert max(shares) < 0.995
+    assert np.mean(shares) < 0.985
 
 
 def test_the_cost_that_is_told_is_that_of_a_plain_search() -> None:

@@ -259,6 +259,18 @@ def test_places_that_are_too_near_are_told() -> None:
     assert "0.80 m" in found.message
 
 
+@pytest.mark.parametrize("wide", [1.0, 3.0, 12.0])
+def test_pads_at_just_the_distance_that_is_kept_are_enough(wide: float) -> None:
+    """The proof's gap goes with the distance, and so does what it may fall short of."""
+    asked = Apart("ellipsoid", wide, wide, 0.0)
+    pads = tuple(map(tuple, grid(9, wide).tolist()))
+    points = lattice(9, [0, 0, 60], 1.5 * wide, 2, asked)
+    done = planned(goals((fleet(9, apart=asked, pads=pads),), (display(picture()),), {"show": [[points]]}))
+    assert done.value is not None, done.diagnostics
+    flight = done.value.fleets[0]
+    assert closest(flight.breaks, flight.coef, asked).attained == pytest.approx(wide, abs=2e-6 * wide)
+
+
 def test_two_fleets_that_meet_are_told() -> None:
     near = fleet(8, name="other", pads=tuple(map(tuple, (grid(8) + np.array([60.0, 0, 0])).tolist())))
     sets = {"show": [[lattice(8, [0, 0, 40], 2.0, 2)]], "next": [[lattice(8, [4, 0, 40], 2.0, 2)]]}

@@ -200,3 +200,54 @@ def test_gradients_of_the_file_itself_are_fine() -> None:
     body = drawn(svg('<rect fill="url(\'#g\')" width="5" height="5"/>'))
     assert isinstance(body, FlatBody)
     assert body.shapes[0].filled
+
+
+def painted(body: str, places: list[tuple[float, float]]) -> list[tuple[int, ...]] | None:
+    """Return the colours at places of a drawing 100 wide and high, in its own units."""
+    corners = '<path d="M0 0 L0 0.01 M100 100 L100 99.99" fill="none" stroke="#010101"/>'
+    drawing = drawing_body(Drawing("a.svg", HERE, 100.0, 0.0), svg(corners + body))
+    assert isinstance(drawing, FlatBody)
+    at = np.array([[x - 50.0, 0.0, 50.0 - y] for x, y in places]) + np.array(HERE)
+    found = drawing.colors(at)
+    return None if found is None else [tuple(row) for row in found.tolist()]
+
+
+def test_lights_have_the_colours_of_what_is_painted() -> None:
+    inherited = '<style>.sea{fill:#08f}</style><g fill="red"><rect width="60" height="60"/>'
+    over = '<rect class="sea" x="20" y="20" width="20" height="20"/></g>'
+    over += '<rect x="80" width="10" height="10" fill="lime"/>'
+    line = '<path d="M0 90 H100" fill="none" stroke="rgb(255,128,0)"/>'
+    places = [(10.0, 10.0), (30.0, 30.0), (85.0, 5.0), (62.0, 30.0), (50.0, 91.0)]
+    assert painted(inherited + over + line, places) == [
+        (255, 0, 0),
+        (0, 136, 255),
+        (0, 255, 0),
+        (255, 0, 0),  # beside it: the nearest
+        (255, 128, 0),
+    ]
+    ring = '<path fill="red" fill-rule="evenodd" d="M10 10 H90 V90 H10 Z M30 30 H70 V70 H30 Z"/>'
+    under = '<rect x="5" y="5" width="90" height="90" fill="blue"/>'
+    assert painted(under + ring, [(20.0, 20.0), (50.0, 50.0)]) == [(255, 0, 0), (0, 0, 255)]
+
+
+NO_LIGHT = (
+    "",
+    'fill="black"',
+    'fill="rubbish"',
+    'fill="#12"',
+    'fill="url(#none)"',
+    'fill="rgba(0,255,0,0)"',
+    'fill="currentColor"',
+    'style="fill:expression(1)"',
+    'fill="rgb(nan,1e999,-4)"',
+)
+
+
+@pytest.mark.parametrize("paint", NO_LIGHT)
+def test_what_is_no_colour_of_a_light_is_left_white(paint: str) -> None:
+    other = '<rect x="60" width="30" height="30" fill="red"/>'
+    assert painted(f'<rect width="30" height="30" {paint}/>', [(15.0, 15.0)]) is None
+    assert painted(f'<rect width="30" height="30" {paint}/>{other}', [(15.0, 15.0), (70.0, 9.0)]) == [
+        (255, 255, 255),
+        (255, 0, 0),
+    ]

@@ -97,7 +97,7 @@ def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     one, other = fleet.pads[found.one], fleet.pads[found.other]
     away = dist(one, other)
     which = f"pads {found.one + 1} and {found.other + 1} are {away:.2f} m apart"
-    help_ = _wider(mission, fleet)
+    help_ = wider(mission, fleet, max(fleet.apart.across, 2 * fleet.radius))
     if away < 2 * fleet.radius:
         note = f"{which}, and each body has a radius of {fleet.radius:.2f} m"
         message = f"drones of fleet `{fleet.name}` stand inside each other"
@@ -112,9 +112,8 @@ def _asked(apart: Apart) -> str:
     return f"{apart.across:.2f} m side by side{margin}"
 
 
-def _wider(mission: MissionIR, fleet: Fleet) -> str:
-    """Say how the layout keeps the separation."""
-    least = max(fleet.apart.across, 2 * fleet.radius)
+def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:
+    """Say how the layout has its pads so far apart, metres."""
     path = (*fleet.path, "layout")
     if (*path, "grid") in mission.origins.keys:
         return f"give the grid a spacing of {_up(least)} m or more"
