@@ -35,7 +35,8 @@ def from_its_place(planned: Planned, shot: Written) -> tuple[Array, Array]:
     """Times of a shot's rows and how far its camera is from the place beside the target, metres."""
     rows = planned.motion.where(shot=shot["id"])
     t, timing = rows["t_s"], shot["timing"]
-    share = (t - number(timing["start"])) / number(timing["duration"])
+    start = number(timing["start"]) if "start" in timing else t[0]  # after another: from its first row
+    share = (t - start) / number(timing["duration"])
     assert share.min() > -1e-9
     assert share.max() < 1 + 1e-9
     ideal = place(shot, planned.courses[shot["target"]], t, share)
