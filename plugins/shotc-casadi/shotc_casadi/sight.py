@@ -1,23 +1,18 @@
 """Where a keyframe's centre ray meets the world: the look-at points of earlier tools."""
 
-from __future__ import annotations
-
 from math import cos, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shotc.refiner_api import Array, PlacedKeyframe, distances
-
-if TYPE_CHECKING:
-    from shotc_casadi.wishes import Subject
+from shotc.plugin_api import MissionIR
+from shotc.refiner_api import Array, PlacedKeyframe, Room, distances
 
 STEPS = 2000
 HORIZON = 1000.0  # metres: how far a ray is followed
 NEAR = 1e-3
 
 
-def sight_point(subject: Subject, keyframe: PlacedKeyframe, angles: tuple[float, ...]) -> Array:
+def sight_point(mission: MissionIR, room: Room, keyframe: PlacedKeyframe, angles: tuple[float, ...]) -> Array:
     """Return the first point of the ground, a target or a keep-out zone on a keyframe's centre ray.
 
     Where the ray meets nothing, the point on it as far away as the keyframe's target.
@@ -25,7 +20,7 @@ def sight_point(subject: Subject, keyframe: PlacedKeyframe, angles: tuple[float,
     yaw, pitch = angles[0], angles[1]
     eye = np.array(keyframe.at)
     ray = np.array([cos(yaw) * cos(pitch), sin(yaw) * cos(pitch), sin(pitch)])
-    hits = [_march(o.part, eye, ray) for o in subject.room.obstacles]
+    hits = [_march(o.part, eye, ray) for o in room.obstacles]
     if ray[2] < 0:
         hits.append(float(-eye[2] / ray[2]))
     met = [h for h in hits if h is not None and 0.0 < h <= HORIZON]
@@ -33,7 +28,7 @@ def sight_point(subject: Subject, keyframe: PlacedKeyframe, angles: tuple[float,
         return np.asarray(eye + min(met) * ray)
     away = 50.0
     if keyframe.target is not None:
-        away = float(np.linalg.norm(np.array(subject.mission.target(keyframe.target).centre) - eye))
+        away = float(np.linalg.norm(np.array(mission.target(keyframe.target).centre) - eye))
     return np.asarray(eye + away * ray)
 
 

@@ -72,7 +72,12 @@ def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
     nothing = _nothing(subject, s)
     if condition.aims == "angles":
         return Wishes(*nothing[:4], turn, nothing[5], nothing[6])
-    points = np.array([sight_point(subject, k, tuple(a)) for (_, k), a in zip(keys, angles, strict=True)])
+    points = np.array(
+        [
+            sight_point(subject.mission, subject.room, k, tuple(a))
+            for (_, k), a in zip(keys, angles, strict=True)
+        ]
+    )
     x, i = _progress(at, s)
     looked_at = (1 - x) * points[i] + x * points[i + 1]
     _, radius, height, place, _, _, whole = nothing
