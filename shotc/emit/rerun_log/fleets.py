@@ -63,8 +63,8 @@ def log_fleets(stream: Any, plan: VerifiedIR) -> dict[str, tuple[Plot, ...]]:
 
 
 def log_words(stream: Any, plan: VerifiedIR) -> None:
-    """Log what the first fleet shows, the summary and the certificate of a mission of fleets alone."""
-    for start, text in show_texts(plan, plan.trajectory.fleets[0]):
+    """Log what the fleets show, the summary and the certificate of a mission of fleets alone."""
+    for start, text in show_texts(plan):
         stream.set_time("t", duration=start)
         stream.log("summary", rr.TextDocument(text, media_type="text/markdown"))
 

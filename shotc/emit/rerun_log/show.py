@@ -18,15 +18,29 @@ from shotc.ir.trajectory import VerifiedIR
 WORDS = {**SHOWN, "transit": "Flying to the next display", "shot": "Showing"}
 
 
-def show_texts(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
-    """Return what to show from which time on, seconds: what the fleet does, then summary and certificate."""
+def show_texts(plan: VerifiedIR) -> list[tuple[float, str]]:
+    """Return what to show from which time on, seconds: what all fleets do, then summary and certificate."""
     body = f"{_summary(plan)}\n\n{certificate_text(plan.certificate)}\n"
-    heads = [
-        (phase.start, f"## {WORDS[phase.name]}\n{phase.start:.1f} s to {phase.end:.1f} s")
+    fleets = plan.trajectory.fleets
+    doing = {flight.fleet: dict(_heads(plan, flight)) for flight in fleets}
+    texts = []
+    for time in sorted({time for heads in doing.values() for time in heads}):
+        now = [
+            (name, heads[max((t for t in heads if t <= time), default=min(heads))])
+            for name, heads in doing.items()
+        ]
+        said = (f"## {head}" if len(fleets) == 1 else f"## `{name}`: {head}" for name, head in now)
+        texts.append((time, "\n\n".join([*said, body])))
+    return texts
+
+
+def _heads(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
+    """Return what a fleet does from which time on, a title and a line; of one time the last counts."""
+    phases = [
+        (phase.start, f"{WORDS[phase.name]}\n{phase.start:.1f} s to {phase.end:.1f} s")
         for phase in flight.phases
     ]
-    heads += _pictures(plan, flight)
-    return [(time, f"{head}\n\n{body}") for time, head in sorted(dict(heads).items())]
+    return phases + _pictures(plan, flight)
 
 
 def _pictures(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
@@ -39,10 +53,10 @@ def _pictures(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, st
         pictures = displays[key[0]].pictures
         kind = picture_name(pictures[key[1]])
         start, end = spans[0].start, spans[-1].end
-        title = f"## Picture {key[1] + 1} of {len(pictures)} of `{key[0]}`"
+        title = f"Picture {key[1] + 1} of {len(pictures)} of `{key[0]}`"
         heads.append((start, f"{title}\n{kind}, {start:.1f} s to {end:.1f} s"))
         if key[1] + 1 < len(pictures):
-            heads.append((end, f"## On the way to picture {key[1] + 2} of `{key[0]}`\nfrom {end:.1f} s"))
+            heads.append((end, f"On the way to picture {key[1] + 2} of `{key[0]}`\nfrom {end:.1f} s"))
     return heads
 
 

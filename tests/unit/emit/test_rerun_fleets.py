@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -62,8 +63,22 @@ def test_plots_hold_the_extremes_of_all_drones_and_their_limits() -> None:
 def test_words_tell_which_picture_stands() -> None:
     plan = sky.plan()
     flight = plan.trajectory.fleets[0]
-    heads = {time: text.splitlines()[0] for time, text in show_texts(plan, flight)}
+    heads = {time: text.splitlines()[0] for time, text in show_texts(plan)}
     assert heads[0.0] == "## Taking off"
     assert heads[flight.shown[0].start] == "## Picture 1 of 2 of `shapes`"
     assert heads[flight.shown[0].end] == "## On the way to picture 2 of `shapes`"
     assert heads[flight.shown[1].start] == "## Picture 2 of 2 of `shapes`"
+
+
+def test_words_tell_what_each_of_two_fleets_does() -> None:
+    plan = sky.plan()
+    first = plan.trajectory.fleets[0]
+    late = tuple(replace(phase, start=phase.start + 1.0, end=phase.end + 1.0) for phase in first.phases[1:])
+    second = replace(first, fleet="chorus", shown=(), phases=(first.phases[0], *late))
+    both = replace(plan, trajectory=replace(plan.trajectory, fleets=(first, second)))
+    texts = dict(show_texts(both))
+    assert set(texts) == {time for time, _ in show_texts(plan)} | {phase.start for phase in second.phases}
+    now = texts[second.phases[1].start]
+    assert "## `chorus`: Flying to the next display" in now
+    assert "## `swarm`: " in now
+    assert "## `chorus`: Taking off" in texts[first.phases[1].start]
