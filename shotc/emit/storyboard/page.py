@@ -96,7 +96,7 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
 
 
 def _grid_of(boards: tuple[ShotBoard, ...]) -> float:
-    """Return one width of ground squares for the whole page: about a third of the usual altitude."""
+    """Return one width of ground squares for all pictures: about a third of the usual altitude."""
     heights = [abs(float(m.pose[2])) for board in boards for m in board.moments]
     return max(1.0, round_length(float(np.median(heights)) / 1.5)) if heights else 10.0
 
@@ -151,7 +151,7 @@ def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
 
 def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> float:
     """Draw the legend at the right edge and return where it begins."""
-    entries = [*entries, f"grid {grid:g} m"]
+    entries = [*entries, f"grid in pictures {grid:g} m"]
     style = Type(8.5, QUIET)
     widths = [canvas.extent(text, style)[0] + 0.46 for text in entries]
     x = left = WIDTH - MARGIN - sum(widths) + 0.16
