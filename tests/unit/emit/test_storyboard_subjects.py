@@ -12,50 +12,14 @@ from shotc.emit.storyboard.composition import composition_text
 from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.frame import Cell, draw_frame
 from shotc.emit.storyboard.subjects import at_time
-from shotc.geom.bernstein import Piecewise
-from shotc.ir.keyframes import PlacedShot, PlacedSubject
+from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
-from shotc.ir.mission import Composition, Ideal, Subject
-from shotc.ir.trajectory import Claim, Reference, VerifiedIR
+from shotc.ir.mission import Composition
+from shotc.ir.trajectory import Reference, VerifiedIR
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
+from tests.pairs import MAST, PLACES, held, pair_plan
 from tests.records import replace
-from tests.samples import SPEED, TOWER, orbit_plan
-
-MAST = replace(TOWER, name="mast", centre=(0.0, 0.0, 25.0), radius=1.0, height=2.0)
-PLACES: dict[str, Vec2] = {"tower": (0.0, -1 / 3), "mast": (0.0, 1 / 3)}
-FRAME = {"tower": FRAMES["lower-third"], "mast": FRAMES["upper-third"]}
-
-
-def held(place: Vec2, start: float = 22.0, end: float = 52.0) -> Piecewise:
-    return Piecewise(np.array([start, end]), np.tile(np.array(place), (1, 6, 1)))
-
-
-def claims(**shares: float) -> tuple[Claim, ...]:
-    whole = replace(SPEED, shot="half", upper=False, hard=False, limit=1.0, unit="of samples")
-    return tuple(replace(whole, constraint=f"{name} in frame", worst=share) for name, share in shares.items())
-
-
-def pair_plan() -> VerifiedIR:
-    """The sample orbit, filming the tower and a mast on it all along."""
-    plan = orbit_plan()
-    trajectory = plan.trajectory
-    mission, (placed,), (flight,) = (
-        replace(trajectory.keyframes.mission, targets=(TOWER, MAST)),
-        trajectory.keyframes.shots,
-        trajectory.drones,
-    )
-    written = tuple(Subject(name, FRAME[name], None, None, ()) for name in PLACES)
-    subjects = tuple(PlacedSubject(name, place, None, None, ()) for name, place in PLACES.items())
-    shot = replace(placed.shot, ideal=Ideal("world", None, ()), subjects=written, keyframes=())
-    framing = tuple(Reference("half", name, 22.0, 52.0, held(place)) for name, place in PLACES.items())
-    keyframes = replace(
-        trajectory.keyframes,
-        mission=replace(mission, shots=(shot,)),
-        shots=(PlacedShot(shot, (), subjects),),
-    )
-    drones = (replace(flight, keyframes=(), framing=framing),)
-    changed = replace(trajectory, keyframes=keyframes, drones=drones)
-    return VerifiedIR(changed, (*plan.certificate, *claims(tower=1.0, mast=0.75)))
+from tests.samples import TOWER, orbit_plan
 
 
 def marks(monkeypatch: pytest.MonkeyPatch, plan: VerifiedIR) -> tuple[list[Vec2], list[Vec2], list[str]]:
