@@ -13,7 +13,7 @@ SAME_PLACE = 1e-6
 def composition_text(placed: PlacedShot) -> str:
     """Return a shot's compositions and which of their places it uses, by subject where they differ.
 
-    That is "thirds (center)", or "left left-third, right right-third"; "" where nothing is framed.
+    That is "thirds (center)", or "one left-third; other right-third"; "" where nothing is framed.
     """
     words: dict[str, dict[str, list[str]]] = {}
     for target, composition, reference in _wanted(placed):
@@ -24,7 +24,7 @@ def composition_text(placed: PlacedShot) -> str:
     said = {target: ", ".join(_phrase(*item) for item in sets.items()) for target, sets in words.items()}
     if len(set(said.values())) <= 1:
         return next(iter(said.values()), "")
-    return ", ".join(f"{target} {text}" for target, text in said.items())
+    return "; ".join(f"{target} {text}" for target, text in said.items())
 
 
 def _wanted(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:

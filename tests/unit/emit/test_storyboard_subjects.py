@@ -88,7 +88,7 @@ def test_the_fault_of_any_subject_is_written_with_its_name(monkeypatch: pytest.M
 
 def test_the_heading_tells_every_subject_s_place_and_share() -> None:
     (board,) = shot_boards(pair_plan())
-    assert board.composition == "tower lower-third, mast upper-third"
+    assert board.composition == "tower lower-third; mast upper-third"
     assert [(name, said.in_frame) for name, said in board.framing] == [("tower", 1.0), ("mast", 0.75)]
 
 
