@@ -9,8 +9,8 @@ from textwrap import wrap
 
 from shotc.cli.fleet_summary import display_rows, headline, nearest
 from shotc.cli.table import clock, table
-from shotc.emit.screen import percent
-from shotc.ir.phases import Phase
+from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
+from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 
 WIDTH = 100
@@ -40,38 +40,33 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
 
 
 def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
-    """Return a heading and one row a shot: name, kind, when, how long, and what the framing is worth."""
+    """Return a heading and the rows of every shot: name, kind, when, how long, what its framing is worth.
+
+    A shot of several targets has a row for each.
+    """
     kinds = {shot.id: shot.kind for shot in plan.trajectory.keyframes.mission.shots}
-    several = len(plan.trajectory.drones) > 1
-    head = ("drone",) if several else ()
-    rows: list[tuple[str, ...]] = [
-        (*head, "shot", "kind", "from", "lasts", "target in frame", "screen error", "size")
-    ]
-    for drone in plan.trajectory.drones:
-        who = (drone.drone,) if several else ()
-        rows += [
-            (*who, phase.shot, kinds[phase.shot], *_shot(plan.certificate, phase))
-            for phase in drone.phases
-            if phase.shot is not None
-        ]
-    return rows
+    flown = [(d.drone, p) for d in plan.trajectory.drones for p in d.phases if p.shot in kinds]
+    targets = {shot: framed_targets(plan.certificate, shot) for shot in kinds}
+    rows: list[tuple[str, ...]] = []
+    for drone, phase in flown:
+        assert phase.shot is not None
+        own = (drone, phase.shot, kinds[phase.shot], clock(phase.start), f"{phase.end - phase.start:.2f} s")
+        for i, target in enumerate(targets[phase.shot] or ("",)):
+            told = certified(plan.certificate, phase.shot, target)
+            rows.append((*(own if i == 0 else ("",) * len(own)), target or "-", *_framing(told)))
+    several = any(len(names) > 1 for names in targets.values())
+    in_frame = "in frame" if several else "target in frame"
+    head = ("drone", "shot", "kind", "from", "lasts", "target", in_frame, "screen error", "size")
+    known = {"drone": len(plan.trajectory.drones) == 1, "target": not several}
+    shown = [k for k, name in enumerate(head) if not known.get(name)]
+    return [tuple(row[k] for k in shown) for row in (head, *rows)]
 
 
-def _shot(certificate: Sequence[Claim], phase: Phase) -> tuple[str, ...]:
-    claims = [c for c in certificate if c.shot == phase.shot]
-
-    def worst(ending: str, pick: int) -> float | None:
-        values = sorted(c.worst for c in claims if c.constraint.endswith(ending) and isfinite(c.worst))
-        return values[pick] if values else None
-
-    frame, error = worst("in frame", 0), worst("screen error", -1)
-    small, large = worst("size smallest", 0), worst("size largest", -1)
+def _framing(told: ScreenSummary) -> tuple[str, str, str]:
     return (
-        clock(phase.start),
-        f"{phase.end - phase.start:.2f} s",
-        "-" if frame is None else percent(frame),
-        "-" if error is None else f"{error:.3f}",
-        "-" if small is None or large is None else f"{small:.2f} to {large:.2f}",
+        "-" if told.in_frame is None else percent(told.in_frame),
+        "-" if told.error is None else f"{told.error:.3f}",
+        "-" if told.size is None else "{:.2f} to {:.2f}".format(*told.size),
     )
 
 
@@ -88,11 +83,16 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
             f"{ways['exact']} by arithmetic, {ways['sampled']} at every output sample",
         )
     )
-    facts += [
-        ("bent", f"shot {d.shot} leaves its ideal by up to {d.distance:.2f} m: {d.cause}")
-        for d in plan.trajectory.deviations
-    ]
+    facts += [("bent", text) for text in _bent(plan.trajectory.deviations)]
     return facts + [("note", note) for note in notes]
+
+
+def _bent(deviations: Iterable[Deviation]) -> list[str]:
+    """Tell how far shots leave their ideals: of the stretches with one cause, the worst."""
+    most: dict[tuple[str, str], float] = {}
+    for d in deviations:
+        most[d.shot, d.cause] = max(d.distance, most.get((d.shot, d.cause), 0.0))
+    return [f"shot {s} leaves its ideal by up to {m:.2f} m: {cause}" for (s, cause), m in most.items()]
 
 
 def _used(certificate: Iterable[Claim]) -> list[str]:
@@ -111,10 +111,11 @@ def _used(certificate: Iterable[Claim]) -> list[str]:
     return texts
 
 
-def _closest(certificate: Iterable[Claim]) -> list[str]:
+def _closest(claims: Sequence[Claim]) -> list[str]:
+    """Tell what is come nearest to, and by whom where several fly."""
     near = [
         c
-        for c in certificate
+        for c in claims
         if c.unit == "m"
         and not c.upper
         and isfinite(c.worst)
@@ -123,9 +124,10 @@ def _closest(certificate: Iterable[Claim]) -> list[str]:
         and not c.constraint.endswith(OUT)
     ]
     near.sort(key=lambda c: c.worst - c.limit)
+    several = len({c.subject for c in claims}) > 1
     return [
         f"{c.worst:.2f} m, {c.limit:.2f} m needed: {c.constraint}"
-        + "".join(f" of {drone}" for drone in c.drones)
+        + "".join(f" of {drone}" for drone in c.drones or (c.subject,) * several)
         + ("" if c.time is None else f" at {clock(c.time)}")
         for c in near[:2]
     ]

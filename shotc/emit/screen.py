@@ -14,6 +14,9 @@ from shotc.ir.mission import Composition
 from shotc.ir.sampling import clock, framed, references, seen
 from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 
+IN_FRAME = " in frame"
+"""How the claim ends that tells how much of the time a target is seen whole; before it stands its name."""
+
 TOPS = (0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0)
 """Half frames: where plots of screen errors end. What is farther off is out of the frame by a whole one."""
 
@@ -40,6 +43,7 @@ class ScreenSummary:
 
     error, time, shot : None where nothing has a reference
     in_frame, visible : share of samples, 0 to 1, or None where nothing is framed, or nothing said
+    size : smallest and largest projected height over frame height, or None where nothing is said
     """
 
     error: float | None
@@ -47,6 +51,7 @@ class ScreenSummary:
     shot: str | None
     in_frame: float | None
     visible: float | None = None
+    size: tuple[float, float] | None = None
 
 
 def screen_tracks(plan: VerifiedIR) -> tuple[ScreenTrack, ...]:
@@ -85,20 +90,32 @@ def summary(tracks: tuple[ScreenTrack, ...]) -> ScreenSummary:
     return ScreenSummary(float(worst.error[at]), float(worst.t[at]), worst.shot, share)
 
 
-def certified(certificate: tuple[Claim, ...], shot: str | None = None) -> ScreenSummary:
-    """Return what a certificate says of a plan's framing, or of one shot's: the worst of all subjects."""
+def framed_targets(certificate: tuple[Claim, ...], shot: str) -> tuple[str, ...]:
+    """Return the targets of which a certificate tells how they are framed in a shot, in its order."""
+    claims = [c.constraint for c in certificate if c.shot == shot and c.constraint.endswith(IN_FRAME)]
+    return tuple(dict.fromkeys(constraint.removesuffix(IN_FRAME) for constraint in claims))
+
+
+def certified(
+    certificate: tuple[Claim, ...], shot: str | None = None, target: str | None = None
+) -> ScreenSummary:
+    """Return what a certificate says of a plan's framing, or of one shot's: of a target, or of the worst."""
     claims = [c for c in certificate if c.shot is not None and shot in (None, c.shot)]
 
     def said(ending: str) -> list[Claim]:
-        return [c for c in claims if c.constraint.endswith(ending) and isfinite(c.worst)]
+        named = [c for c in claims if c.constraint.endswith(ending) and isfinite(c.worst)]
+        return [c for c in named if target in (None, c.constraint.removesuffix(ending))]
 
     worst = max(said(" screen error"), key=lambda c: c.worst, default=None)
+    small = min((c.worst for c in said(" size smallest")), default=None)
+    large = max((c.worst for c in said(" size largest")), default=None)
     return ScreenSummary(
         None if worst is None else worst.worst,
         None if worst is None else worst.time,
         None if worst is None else worst.shot,
-        min((c.worst for c in said(" in frame")), default=None),
+        min((c.worst for c in said(IN_FRAME)), default=None),
         min((c.worst for c in said(" visible")), default=None),
+        None if small is None or large is None else (small, large),
     )
 
 

@@ -36,7 +36,8 @@ def draw_ground(canvas: Canvas, box: Box, board: Board, mission: MissionIR, seen
     eye = np.array([seen.eye])
     sheet = _sheet(box, np.concatenate([pads, lights[0], eye]))
     canvas.polygons([box.outline()], GROUND_FAR)
-    draw_squares(canvas, sheet, max(5.0, round_length(float(np.max(reach_of(sheet))) / 3.0)))
+    step = max(5.0, round_length(float(np.max(reach_of(sheet))) / 3.0))
+    draw_squares(canvas, sheet, step)
     zones(canvas, sheet, mission)
     _look(canvas, sheet, seen)
     squares = [_square(at, PAD).outline() for at in sheet.place(pads)]
@@ -46,7 +47,7 @@ def draw_ground(canvas: Canvas, box: Box, board: Board, mission: MissionIR, seen
     _eye(canvas, sheet.place(eye[0]))
     content = [_around(sheet.place(points), 0.03) for points in (pads, lights[0], eye)]
     taken = [north_arrow(canvas, sheet, content)]
-    taken.append(scale_bar(canvas, sheet, content + taken))
+    taken.append(scale_bar(canvas, sheet, step, content + taken))
     _names(canvas, sheet, mission, (content, taken))
     canvas.polygons([box.outline()], "none", INK, 0.8)
 

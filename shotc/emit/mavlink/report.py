@@ -144,8 +144,8 @@ def note(file: str, drone: Drone, count: int, error: Error) -> str:
         return text
     return (
         f"{text}, heading within {degrees(error.heading):.1f} deg, adds at most {error.screen:.3f} of the"
-        f" screen (shot {error.shot}, t = {error.time:.1f} s); films for about {error.filmed:.0f} s of"
-        f" {error.planned:.0f} s"
+        f" screen (shot {error.shot}, t = {error.time:.1f} s); its waypoints take about {error.filmed:.0f} s"
+        f" where the plan films {error.planned:.0f} s"
     )
 
 

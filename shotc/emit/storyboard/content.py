@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.emit.screen import ScreenSummary, certified
+from shotc.emit.screen import ScreenSummary, certified, framed_targets
+from shotc.emit.storyboard.composition import composition_text
+from shotc.emit.storyboard.subjects import Framed, at_keyframe, at_time
 from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
-from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Target
-from shotc.ir.occlusion import others_of
-from shotc.ir.sampling import SAME_TIME, references, seen
+from shotc.ir.mission import Drone, MissionIR, Shot, Target
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
 
 MOST_PLACED, MOST_GENERATED = 12, 6
@@ -24,20 +24,19 @@ class Moment:
 
     number : from 1, of the keyframe in the shot, or of the moment among those shown
     time, hold : seconds; pose : channels, shape (7,)
-    reference : (u, v) wanted of the subject, or None
-    asked : (u, v) where the user's own heading and pitch had put it, or None
-    fault : "cropped" or "hidden" where the subject is not seen as it should be, or ""
+    framed : its subjects, the foremost first
     """
 
     number: int
     time: float
     pose: Array
     hold: float
-    target: str | None
-    reference: Vec2 | None
-    asked: Vec2 | None
-    composition: Composition
-    fault: str
+    framed: tuple[Framed, ...]
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        """The names of its subjects."""
+        return tuple(subject.target for subject in self.framed)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,7 +45,9 @@ class ShotBoard:
 
     start, end : seconds; path : shape (n, 3), W; flight : the whole flight, shape (m, 3)
     total : how many keyframes the user wrote, or None where a kind generated them
-    framing : what the certificate says of it; note : where the path left its ideal, or ""
+    composition : which places on screen it gives its subjects, in words, or ""
+    framing : what the certificate says of each of its subjects, by name
+    note : where the path left its ideal, or ""
     """
 
     shot: Shot
@@ -57,7 +58,8 @@ class ShotBoard:
     total: int | None
     path: Array
     flight: Array
-    framing: ScreenSummary
+    composition: str
+    framing: tuple[tuple[str, ScreenSummary], ...]
     note: str
 
 
@@ -102,7 +104,11 @@ def _board(
         total=len(times) if by_hand and shot.ideal is None else None,
         path=flight.curve(np.linspace(start, end, 200))[:, :3],
         flight=flight.curve(np.linspace(flight.curve.start, flight.curve.end, 600))[:, :3],
-        framing=certified(plan.certificate, shot.id),
+        composition=composition_text(placed),
+        framing=tuple(
+            (target, certified(plan.certificate, shot.id, target))
+            for target in framed_targets(plan.certificate, shot.id)
+        ),
         note="" if worst is None else f"leaves its ideal by up to {worst.distance:.1f} m: {worst.cause}",
     )
 
@@ -115,49 +121,18 @@ def _spread(times: list[KeyframeTime], most: int) -> list[KeyframeTime]:
 
 def _keyframe(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime) -> Moment:
     placed, flight = pair
-    keyframe, written = placed.keyframes[at.index], placed.shot.keyframes[at.index]
-    own_angles = keyframe.placed and written.aim is not None and len(written.aim) == 2
     return Moment(
         number=at.index + 1,
         time=at.time,
         pose=flight.curve(at.time),
-        hold=keyframe.hold,
-        target=keyframe.target,
-        reference=keyframe.reference,
-        asked=keyframe.asked if own_angles else None,
-        composition=written.composition,
-        fault=_fault(plan, flight, keyframe.target, at.time),
+        hold=placed.keyframes[at.index].hold,
+        framed=at_keyframe(plan, pair, at),
     )
 
 
 def passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int) -> Moment:
     """Return the moment of a shot at some time, seconds."""
-    placed, flight = pair
-    shot = placed.shot
-    spans = [f for f in flight.framing if f.shot == shot.id and f.start - SAME_TIME <= time]
-    target = spans[-1].target if spans and time <= spans[-1].end + SAME_TIME else None
-    wanted = None
-    if target is not None:
-        u, v = (float(c) for c in references(flight, shot.id, target, np.array([time]))[0])
-        wanted = None if np.isnan(u) else (u, v)
-    passed = [k.index for k in flight.keyframes if k.shot == shot.id and k.time <= time + SAME_TIME]
-    return Moment(
-        number=number,
-        time=time,
-        pose=flight.curve(time),
-        hold=0.0,
-        target=target,
-        reference=wanted,
-        asked=None,
-        composition=_composition(shot, passed[-1] if passed else 0),
-        fault=_fault(plan, flight, target, time),
-    )
-
-
-def _composition(shot: Shot, keyframe: int) -> Composition:
-    if shot.ideal is None:
-        return shot.keyframes[keyframe].composition
-    return shot.subjects[0].composition if shot.subjects else Composition("none")
+    return Moment(number, time, pair[1].curve(time), hold=0.0, framed=at_time(plan, pair, time))
 
 
 def standing(mission: MissionIR, board: ShotBoard) -> MissionIR:
@@ -167,13 +142,3 @@ def standing(mission: MissionIR, board: ShotBoard) -> MissionIR:
         places = dict.fromkeys(target.at(moment.time) for moment in board.moments)
         found += [target] if target.track is None else [target._replace(centre=p, track=None) for p in places]
     return mission._replace(targets=tuple(found))
-
-
-def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str | None, time: float) -> str:
-    if target is None:
-        return ""
-    others = others_of(plan.trajectory.drones, flight.drone)
-    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]), others)
-    if not frames.in_frame[0]:
-        return "cropped"
-    return "hidden" if frames.hidden[0] else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees
 
@@ -13,6 +14,7 @@ from shotc.emit.storyboard.canvas import Box, Canvas, Type, chip
 from shotc.emit.storyboard.content import Moment
 from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.scene import Picture, draw_scene, name_places, picture
+from shotc.emit.storyboard.subjects import Framed
 from shotc.geom.camera import heading_of
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, MissionIR
@@ -43,16 +45,14 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
     """Draw a panel: the picture, and its caption under it; grid is the width of a ground square, metres."""
     box, mission = cell.picture, frozen(mission, moment.time)
     shown = picture(moment.pose, box.width / box.height, box)
-    draw_scene(canvas, shown, mission, moment.target, grid)
-    if moment.target is not None:
-        _composition(canvas, shown, moment.composition)
+    draw_scene(canvas, shown, mission, moment.targets, grid)
+    for composition in dict.fromkeys(subject.composition for subject in moment.framed):
+        _composition(canvas, shown, composition)
     taken: list[Box] = []
-    if moment.target is not None:
-        target = mission.target(moment.target)
-        taken += _marks(canvas, shown, moment, shown.offset(target))
-    if moment.fault:
-        taken.append(chip(canvas, (box.right - 0.07, box.top - 0.07), moment.fault.upper(), KEEP_OUT))
-    _names(canvas, shown, mission, moment.target, taken)
+    for subject in moment.framed:
+        taken += _marks(canvas, shown, subject, shown.offset(mission.target(subject.target)))
+    taken += _faults(canvas, box, moment.framed)
+    _names(canvas, shown, mission, moment.targets, taken)
     canvas.polygons([box.outline()], "none", INK, 0.8)
     _caption(canvas, cell, moment, mission)
 
@@ -60,13 +60,6 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
 def caption_height(width: float) -> float:
     """Return the height of the caption under a picture in a cell of some width, inches."""
     return 0.17 + (2 if width > WIDE else 3) * LINE
-
-
-def is_moved(moment: Moment) -> bool:
-    """Tell whether composition moved the subject visibly away from where the user had it."""
-    if moment.asked is None or moment.reference is None:
-        return False
-    return bool(np.hypot(*np.subtract(moment.asked, moment.reference)) > 0.02)
 
 
 def clock(seconds: float) -> str:
@@ -93,15 +86,15 @@ def _composition(canvas: Canvas, shown: Picture, composition: Composition) -> No
         canvas.disc((float(x), float(y)), 0.032, (*WHITE, 0.9), (*INK, 0.55), 0.5)
 
 
-def _marks(canvas: Canvas, shown: Picture, moment: Moment, offset: Vec3) -> list[Box]:
-    """Draw where the subject is wanted and where it is; return the room that takes."""
+def _marks(canvas: Canvas, shown: Picture, subject: Framed, offset: Vec3) -> list[Box]:
+    """Draw where a subject is wanted and where it is; return the room that takes."""
     taken: list[Box] = []
-    if moment.reference is not None:
-        if moment.asked is not None and is_moved(moment):
-            _asked(canvas, shown, moment.asked, moment.reference)
-            x, y = (float(c) for c in shown.place(np.array(moment.asked)))
+    if subject.reference is not None:
+        if subject.asked is not None and subject.is_moved:
+            _asked(canvas, shown, subject.asked, subject.reference)
+            x, y = (float(c) for c in shown.place(np.array(subject.asked)))
             taken.append(Box(x - 0.07, y - 0.07, 0.14, 0.14))
-        x, y = _cross(canvas, shown, moment.reference)
+        x, y = _cross(canvas, shown, subject.reference)
         taken.append(Box(x - 0.13, y - 0.13, 0.26, 0.26))
     u, v, depth = shown.camera.project(offset)
     if depth > 0 and max(abs(u), abs(v)) <= 1:
@@ -131,16 +124,30 @@ def _asked(canvas: Canvas, shown: Picture, asked: Vec2, reference: Vec2) -> None
     canvas.polygons([diamond], (*WHITE, 0.35), INK, 0.8, shown.box)
 
 
-def _names(canvas: Canvas, shown: Picture, mission: MissionIR, subject: str | None, taken: list[Box]) -> None:
-    """Write the names of what is seen, the subject's first, none across the subject."""
+def _faults(canvas: Canvas, box: Box, framed: Sequence[Framed]) -> list[Box]:
+    """Write what is wrong with the subjects, with its name where there are several; return the room."""
+    taken: list[Box] = []
+    top = box.top - 0.07
+    for subject in framed:
+        if subject.fault:
+            name = f"{subject.target} " if len(framed) > 1 else ""
+            taken.append(chip(canvas, (box.right - 0.07, top), name + subject.fault.upper(), KEEP_OUT))
+            top = taken[-1].y - 0.04
+    return taken
+
+
+def _names(
+    canvas: Canvas, shown: Picture, mission: MissionIR, subjects: Sequence[str], taken: list[Box]
+) -> None:
+    """Write the names of what is seen, the subjects' first, none across a subject."""
     box = shown.box
     inner = Box(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
-    things = sorted(name_places(shown, mission), key=lambda thing: thing[0] != subject)
+    things = sorted(name_places(shown, mission), key=lambda thing: thing[0] not in subjects)
     targets = {target.name for target in mission.targets}
     labels, bodies, others = [], [], []
     for name, color, seen in things:
         place = seen
-        if name == subject:
+        if name in subjects:
             for mark in (mark for mark in taken if mark.meets(seen)):
                 place = place.with_box(mark)
             bodies.append(seen)
@@ -160,9 +167,9 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> 
     canvas.text(box.x + 0.26, base, clock(moment.time), Type(9.5, INK, bold=True))
     canvas.text(box.right, base, compass(float(pose[CAM_YAW])), Type(9.5, INK, bold=True, across="right"))
     facts = [f"pitch {round(degrees(pose[CAM_PITCH])):+d}°", f"hfov {degrees(pose[HFOV]):.0f}°"]
-    if moment.target is not None:
-        away = float(np.linalg.norm(np.subtract(mission.target(moment.target).centre, pose[:3])))
-        facts.append(f"{metres(away)} away")
+    away = [float(np.linalg.norm(np.subtract(mission.target(t).centre, pose[:3]))) for t in moment.targets]
+    if away:
+        facts.append(f"{' to '.join(dict.fromkeys(map(metres, (min(away), max(away)))))} away")
     facts.append(f"alt {metres(float(pose[2]))}")
     if moment.hold > 0:
         facts.append(f"hold {moment.hold:g} s")

@@ -33,16 +33,17 @@ def corner(
     return min(rooms, key=lambda room: sum(room.meets(other) for other in content))
 
 
-def scale_bar(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
-    """Draw the scale; return the room it takes."""
+def scale_bar(canvas: Canvas, sheet: Sheet, step: float, content: Sequence[Box]) -> Box:
+    """Draw the scale, and write how wide the sheet's squares are, metres; return the room that takes."""
     length = round_length(0.26 * sheet.box.width / sheet.inches)
     width = length * sheet.inches
-    room = corner(sheet.box, (width + 0.12, 0.31), LOWER_FIRST, content)
+    text, style = f"{length:g} m · grid {step:g} m", Type(7.5, INK)
+    room = corner(sheet.box, (max(width, canvas.extent(text, style)[0]) + 0.12, 0.31), LOWER_FIRST, content)
     x, y = room.x + 0.06, room.y + 0.07
     canvas.polygons([room.outline()], (*GROUND_FAR, 0.85))
     for i, face in enumerate((INK, WHITE)):
         canvas.polygons([Box(x + i * width / 2, y, width / 2, 0.055).outline()], face, INK, 0.7)
-    canvas.text(x, y + 0.09, f"{length:g} m", Type(7.5, INK))
+    canvas.text(x, y + 0.09, text, style)
     return room
 
 

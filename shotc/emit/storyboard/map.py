@@ -22,7 +22,7 @@ from shotc.emit.palette import (
 )
 from shotc.emit.storyboard.canvas import Box, Canvas, Type
 from shotc.emit.storyboard.content import Moment, ShotBoard, standing
-from shotc.emit.storyboard.furniture import height_marks, north_arrow, scale_bar, view_name
+from shotc.emit.storyboard.furniture import height_marks, north_arrow, round_length, scale_bar, view_name
 from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.geom.bernstein import Array
@@ -34,12 +34,16 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 NUMBER = 0.095
 """Radius of a frame's number, inches."""
 
+MOST_SQUARES = 20
+"""In half of what a sheet shows; they are drawn larger where there would be more."""
+
 
 def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, grid: float) -> None:
-    """Draw the map of one shot into ``box``; grid is the width of a ground square, metres."""
+    """Draw the map of one shot into ``box``; grid is the width of a ground square in its pictures, metres."""
     whole, mission = mission, standing(mission, board)
     sheet = sheet_of(box, board, mission)
-    _ground(canvas, sheet, grid)
+    step = _step(sheet, grid)
+    _ground(canvas, sheet, step)
     zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
     for moment in board.moments:
@@ -47,17 +51,22 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     _tracks(canvas, sheet, board, whole)
     _targets(canvas, sheet, mission)
     _path(canvas, sheet, board)
-    taken = _furniture(canvas, sheet, board, mission)
+    taken = _furniture(canvas, sheet, (board, step), mission)
     _numbers(canvas, sheet, board, taken)
     _names(canvas, sheet, board, mission, taken)
     canvas.polygons([box.outline()], "none", INK, 0.8)
 
 
-def _ground(canvas: Canvas, sheet: Sheet, grid: float) -> None:
+def _step(sheet: Sheet, grid: float) -> float:
+    """Return the width of a sheet's squares, metres: the pictures' own where these are not too many."""
+    most = float(np.max(reach_of(sheet)))
+    return grid if most <= MOST_SQUARES * grid else round_length(most / 8)
+
+
+def _ground(canvas: Canvas, sheet: Sheet, step: float) -> None:
     box = sheet.box
     canvas.polygons([box.outline()], GROUND_FAR if sheet.is_plan else SKY_LOW)
-    most = float(np.max(reach_of(sheet)))
-    squares(canvas, sheet, grid * max(1.0, float(np.ceil(most / grid / 20))))
+    squares(canvas, sheet, step)
     if sheet.is_plan:
         return
     level = min(float(sheet.at(np.zeros(2))[1]), box.top)
@@ -157,8 +166,9 @@ def _clear_of(strip: Array, marks: Array, start: int) -> int:
     return int(free[np.argmin(np.abs(free - start))]) if len(free) else start
 
 
-def _furniture(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[Box]:
-    """Draw scale and directions; return the room they take."""
+def _furniture(canvas: Canvas, sheet: Sheet, what: tuple[ShotBoard, float], mission: MissionIR) -> list[Box]:
+    """Draw directions, scale and how wide the squares are; return the room they take."""
+    board, step = what
     content = [_square(at, 0.06) for at in sheet.place(board.path[::4])]
     content += [_square(sheet.place(m.pose[:3]), 2 * NUMBER) for m in board.moments]
     content.append(_square(sheet.place(np.array(board.drone.home)), 0.1))
@@ -170,7 +180,7 @@ def _furniture(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionI
     else:
         taken = height_marks(canvas, sheet)
         taken.append(view_name(canvas, sheet, content + taken))
-    return [*taken, scale_bar(canvas, sheet, content + taken)]
+    return [*taken, scale_bar(canvas, sheet, step, content + taken)]
 
 
 def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, taken: list[Box]) -> None:

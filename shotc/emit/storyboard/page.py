@@ -23,13 +23,13 @@ from shotc.emit.palette import (
 from shotc.emit.screen import ScreenSummary, certified, percent
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard.content import ShotBoard, shot_boards
-from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame, is_moved
+from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.map import draw_map
 from shotc.ir.trajectory import Claim, VerifiedIR
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
-HEADING, FOOTING, BAND = 1.40, 0.85, 0.60
+HEADING, FOOTING, BAND, LINE = 1.40, 0.85, 0.60, 0.18
 MANY = 4
 """From more shots than this on, pictures and maps are set smaller."""
 
@@ -54,7 +54,12 @@ class Layout:
 
     def height(self, board: ShotBoard) -> float:
         """Return the height of a shot's part of the page, inches."""
-        return BAND + self.rows(board) * self.pitch + 0.22
+        return band_height(board) + self.rows(board) * self.pitch + 0.22
+
+
+def band_height(board: ShotBoard) -> float:
+    """Return the height of the words above a shot's pictures, inches: a line for each of its subjects."""
+    return BAND + LINE * max(0, len(board.framing) - 1)
 
 
 def layout(aspect: float, shots: int) -> Layout:
@@ -91,7 +96,7 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
 
 
 def _grid_of(boards: tuple[ShotBoard, ...]) -> float:
-    """Return one width of ground squares for the whole page: about a third of the usual altitude."""
+    """Return one width of ground squares for all pictures: about a third of the usual altitude."""
     heights = [abs(float(m.pose[2])) for board in boards for m in board.moments]
     return max(1.0, round_length(float(np.median(heights)) / 1.5)) if heights else 10.0
 
@@ -128,13 +133,13 @@ def _ratio(aspect: float) -> str:
 
 def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
     """Return what the legend has to explain on this page."""
-    moments = [moment for board in boards for moment in board.moments]
+    framed = [subject for board in boards for moment in board.moments for subject in moment.framed]
     mission = plan.trajectory.keyframes.mission
     keeps = {zone.keep for zone in mission.zones}
     known = (
-        ("wanted", any(m.reference is not None for m in moments)),
-        ("actual", any(m.target is not None for m in moments)),
-        ("your framing", any(is_moved(m) for m in moments)),
+        ("wanted", any(subject.reference is not None for subject in framed)),
+        ("actual", bool(framed)),
+        ("your framing", any(subject.is_moved for subject in framed)),
         ("subject", bool(mission.targets)),
         ("keep out", "out" in keeps),
         ("keep in", "in" in keeps),
@@ -146,7 +151,7 @@ def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
 
 def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> float:
     """Draw the legend at the right edge and return where it begins."""
-    entries = [*entries, f"grid {grid:g} m"]
+    entries = [*entries, f"grid in pictures {grid:g} m"]
     style = Type(8.5, QUIET)
     widths = [canvas.extent(text, style)[0] + 0.46 for text in entries]
     x = left = WIDTH - MARGIN - sum(widths) + 0.16
@@ -194,7 +199,7 @@ def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: Veri
     mission = plan.trajectory.keyframes.mission
     canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
     _band(canvas, top, board)
-    start = top - BAND
+    start = top - band_height(board)
     rows = place.rows(board)
     tall = rows * place.pitch - 0.17
     draw_map(canvas, Box(MARGIN, start - tall, place.map_width, tall), board, mission, grid)
@@ -207,12 +212,9 @@ def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: Veri
 
 
 def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
-    base = top - 0.40
-    right = _framing(board.framing)
-    complete = all(share in (None, 1.0) for share in (board.framing.in_frame, board.framing.visible))
-    style = Type(9.5, INK if complete else KEEP_OUT, across="right")
-    canvas.text(WIDTH - MARGIN, base, right, style)
-    end = WIDTH - MARGIN - canvas.extent(right, style)[0] - 0.25
+    base = top - band_height(board) + 0.20
+    end = min((_told(canvas, base, i, board) for i in range(len(board.framing))), default=WIDTH - MARGIN)
+    end -= 0.25
     title = canvas.fitted(board.shot.id, Type(15, INK, bold=True), 4.0)
     canvas.text(MARGIN, base, board.shot.id, title)
     x = MARGIN + canvas.extent(board.shot.id, title)[0] + 0.22
@@ -224,12 +226,23 @@ def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
         canvas.text(x, base, board.note, canvas.fitted(board.note, Type(9.5, KEEP_OUT), end - x))
 
 
+def _told(canvas: Canvas, base: float, i: int, board: ShotBoard) -> float:
+    """Write how one of a shot's subjects is framed, the last one lowest; return where that begins."""
+    target, framing = board.framing[i]
+    text = _framing(framing)
+    if len(board.framing) > 1:
+        text = f"{target}: {text}"
+    complete = all(share in (None, 1.0) for share in (framing.in_frame, framing.visible))
+    style = Type(9.5, INK if complete else KEEP_OUT, across="right")
+    canvas.text(WIDTH - MARGIN, base + LINE * (len(board.framing) - 1 - i), text, style)
+    return WIDTH - MARGIN - canvas.extent(text, style)[0]
+
+
 def _facts(board: ShotBoard) -> list[str]:
     facts = [board.shot.kind]
     facts += [board.shot.subject] if board.shot.subject else []
     facts += [f"{clock(board.start)} to {clock(board.end)} ({board.end - board.start:.1f} s)"]
-    sets = list(dict.fromkeys(m.composition.name for m in board.moments if m.target is not None))
-    facts += [f"composition {', '.join(sets)}"] if sets else []
+    facts += [f"composition {board.composition}"] if board.composition else []
     if board.total is None and len(board.moments) > 1:
         facts.append(f"{len(board.moments)} moments")
     elif board.total is not None and board.total > len(board.moments):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import pairwise
 from math import tan
@@ -52,16 +53,18 @@ def picture(pose: Array, aspect: float, box: Box) -> Picture:
     return Picture(camera, (float(pose[0]), float(pose[1]), float(pose[2])), float(pose[CAM_PITCH]), box)
 
 
-def draw_scene(canvas: Canvas, shown: Picture, mission: MissionIR, subject: str | None, grid: float) -> None:
+def draw_scene(
+    canvas: Canvas, shown: Picture, mission: MissionIR, subjects: Collection[str], grid: float
+) -> None:
     """Draw everything that stands in the world, the far things first.
 
-    subject : the target that is drawn in full colour; grid : width of a ground square, metres
+    subjects : the targets that are drawn in full colour; grid : width of a ground square, metres
     """
     _sky_and_ground(canvas, shown)
     _grid(canvas, shown, grid)
     for thing in painting_order(shown.eye, _things(mission)):
         if isinstance(thing, Target):
-            _target(canvas, shown, thing, SUBJECT if thing.name == subject else shade(SUBJECT, 1.45))
+            _target(canvas, shown, thing, SUBJECT if thing.name in subjects else shade(SUBJECT, 1.45))
         else:
             _zone(canvas, shown, thing)
 

@@ -89,8 +89,8 @@ def side_axes(board: ShotBoard, mission: MissionIR) -> Array:
     """
     first = board.moments[0]
     way = np.array([np.cos(first.pose[CAM_YAW]), np.sin(first.pose[CAM_YAW])])
-    if first.target is not None:
-        toward = np.subtract(mission.target(first.target).centre[:2], board.path[:, :2].mean(axis=0))
+    if first.targets:
+        toward = np.subtract(mission.target(first.targets[0]).centre[:2], board.path[:, :2].mean(axis=0))
         away = float(np.hypot(*toward))
         way = toward / away if away > 1.0 else way
     return np.array([[*way, 0.0], [0.0, 0.0, 1.0]])
@@ -112,7 +112,7 @@ def outline(axes: Array, solid: Solid) -> Array:
 
 def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, Array]:
     """Return the lower left and upper right corner of what is to be shown, metres."""
-    framed = {m.target for m in board.moments if m.target}
+    framed = {target for m in board.moments for target in m.targets}
     subjects = [target for target in mission.targets if target.name in framed]
     shapes = [board.path @ axes.T, *(outline(axes, cylinder(subject)) for subject in subjects)]
     low, high = _corners(shapes)

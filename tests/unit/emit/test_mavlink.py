@@ -61,6 +61,7 @@ def test_the_note_states_count_tolerances_and_the_worst_frame() -> None:
     count = emission.artifacts[0].data.count(b"SimpleItem")
     assert emission.notes[0].startswith(f"px4 cam1.plan: {count} items, position within 0.")
     assert "(shot half, t = " in emission.notes[0]
+    assert emission.notes[0].endswith("; its waypoints take about 31 s where the plan films 30 s")
 
 
 @pytest.mark.parametrize("autopilot", ["px4", "ardupilot"])

@@ -91,7 +91,7 @@ def test_moments_show_what_is_flown() -> None:
     assert [m.number for m in board.moments] == [1, 2, 3, 4, 5]
     for moment, keyframe in zip(board.moments, plan.trajectory.keyframes.shots[0].keyframes, strict=True):
         np.testing.assert_allclose(moment.pose[:3], keyframe.at, atol=0.05)
-        assert moment.fault == ""
+        assert [subject.fault for subject in moment.framed] == [""]
 
 
 def test_a_cropped_and_a_hidden_subject_are_marked() -> None:
@@ -105,7 +105,7 @@ def test_a_cropped_and_a_hidden_subject_are_marked() -> None:
         keyframes = replace(plan.trajectory.keyframes, mission=changed)
         other = VerifiedIR(replace(plan.trajectory, keyframes=keyframes), plan.certificate)
         (board,) = shot_boards(other)
-        assert [moment.fault for moment in board.moments] == faults
+        assert [subject.fault for moment in board.moments for subject in moment.framed] == faults
 
 
 def test_the_worst_error_is_found_where_it_is() -> None:
@@ -244,7 +244,9 @@ def test_generated_shots_are_shown_evenly_in_time() -> None:
     (board,) = shot_boards(dense_plan(placed=False))
     assert [m.time for m in board.moments] == pytest.approx([22, 28, 34, 40, 46, 52])
     assert board.total is None
-    assert {(m.target, m.reference, m.asked) for m in board.moments} == {("tower", (0.0, 0.0), None)}
+    assert {(s.target, s.reference, s.asked) for m in board.moments for s in m.framed} == {
+        ("tower", (0.0, 0.0), None)
+    }
     (board,) = shot_boards(dense_plan(placed=True))
     assert board.total == 31
 
@@ -262,8 +264,9 @@ def test_only_the_user_s_own_angles_are_shown_as_his_framing(aim: tuple[float, .
     keyframes = replace(plan.trajectory.keyframes, shots=(changed,))
     (board,) = shot_boards(VerifiedIR(replace(plan.trajectory, keyframes=keyframes), plan.certificate))
     own = aim is not None and len(aim) == 2
-    assert board.moments[0].asked == ((0.3, 0.0) if own else None)
-    assert frame.is_moved(board.moments[0]) == own
+    (subject,) = board.moments[0].framed
+    assert subject.asked == ((0.3, 0.0) if own else None)
+    assert subject.is_moved == own
 
 
 SHEET = Box(1.0, 1.0, 4.0, 3.0)

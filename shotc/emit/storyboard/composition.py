@@ -1,0 +1,60 @@
+"""Which places on screen a shot gives its subjects, in words."""
+
+from __future__ import annotations
+
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition
+from shotc.spec.compositions import NAMED_POINTS
+
+SAME_PLACE = 1e-6
+
+
+def composition_text(placed: PlacedShot) -> str:
+    """Return a shot's compositions and which of their places it uses, by subject where they differ.
+
+    That is "thirds (center)", or "one left-third; other right-third"; "" where nothing is framed.
+    """
+    words: dict[str, dict[str, list[str]]] = {}
+    for target, composition, reference in _wanted(placed):
+        flown = words.setdefault(target, {}).setdefault(composition.name, [])
+        place = _place(composition, reference)
+        if place and place not in flown:
+            flown.append(place)
+    said = {target: ", ".join(_phrase(*item) for item in sets.items()) for target, sets in words.items()}
+    if len(set(said.values())) <= 1:
+        return next(iter(said.values()), "")
+    return "; ".join(f"{target} {text}" for target, text in said.items())
+
+
+def _wanted(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
+    # What the composition pass chose: between keyframes a reference also passes by other places.
+    shot = placed.shot
+    if shot.ideal is not None:
+        return [
+            (subject.target, written.composition, subject.reference)
+            for subject, written in zip(placed.subjects, shot.subjects, strict=True)
+        ]
+    return [
+        (keyframe.target, written.composition, keyframe.reference)
+        for keyframe, written in zip(placed.keyframes, shot.keyframes, strict=True)
+        if keyframe.target is not None
+    ]
+
+
+def _phrase(name: str, flown: list[str]) -> str:
+    return f"{name} ({', '.join(flown)})" if flown else name
+
+
+def _place(composition: Composition, reference: Vec2 | None) -> str:
+    """Return the name of the point that is used, as a mission would write it; "" where there is no choice."""
+    if reference is None or len(composition.points) < 2:
+        return ""
+    if not any(_same(point, reference) for point in composition.points):
+        return "elsewhere"
+    named = (name for name, point in NAMED_POINTS.items() if _same(point, reference))
+    return next(named, "[{:.3g}, {:.3g}]".format(*reference))
+
+
+def _same(a: Vec2, b: Vec2) -> bool:
+    return max(abs(a[0] - b[0]), abs(a[1] - b[1])) < SAME_PLACE

@@ -1,0 +1,104 @@
+"""Whom a moment of a shot frames: where each subject is wanted, by which composition, and how it is seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import Composition, Shot
+from shotc.ir.occlusion import others_of
+from shotc.ir.sampling import SAME_TIME, references, seen
+from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Reference, VerifiedIR
+
+MOVED = 0.02
+"""From how far on it is told where the user's own framing had a subject, (u, v) units."""
+
+
+@dataclass(frozen=True, slots=True)
+class Framed:
+    """One subject at one moment.
+
+    reference : (u, v) wanted of it, or None
+    asked : (u, v) where the user's own heading and pitch had put it, or None
+    fault : "cropped" or "hidden" where it is not seen as it should be, or ""
+    """
+
+    target: str
+    reference: Vec2 | None
+    asked: Vec2 | None
+    composition: Composition
+    fault: str
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether composition moved the subject visibly away from where the user had it."""
+        if self.asked is None or self.reference is None:
+            return False
+        return bool(np.hypot(*np.subtract(self.asked, self.reference)) > MOVED)
+
+
+def at_keyframe(
+    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime
+) -> tuple[Framed, ...]:
+    """Return whom a keyframe frames: one subject, or none."""
+    placed, flight = pair
+    keyframe, written = placed.keyframes[at.index], placed.shot.keyframes[at.index]
+    if keyframe.target is None:
+        return ()
+    own_angles = keyframe.placed and written.aim is not None and len(written.aim) == 2
+    return (
+        Framed(
+            target=keyframe.target,
+            reference=keyframe.reference,
+            asked=keyframe.asked if own_angles else None,
+            composition=written.composition,
+            fault=_fault(plan, flight, keyframe.target, at.time),
+        ),
+    )
+
+
+def at_time(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float) -> tuple[Framed, ...]:
+    """Return whom a shot frames at some time, seconds, the foremost first."""
+    placed, flight = pair
+    shot = placed.shot
+    spans = _spans([f for f in flight.framing if f.shot == shot.id], time)
+    passed = [k.index for k in flight.keyframes if k.shot == shot.id and k.time <= time + SAME_TIME]
+    found = []
+    for target in dict.fromkeys(span.target for span in spans):
+        u, v = (float(c) for c in references(flight, shot.id, target, np.array([time]))[0])
+        found.append(
+            Framed(
+                target=target,
+                reference=None if np.isnan(u) else (u, v),
+                asked=None,
+                composition=_composition(shot, target, passed[-1] if passed else 0),
+                fault=_fault(plan, flight, target, time),
+            )
+        )
+    return tuple(found)
+
+
+def _spans(framing: Sequence[Reference], time: float) -> list[Reference]:
+    """Return the stretches that a time is in; where one ends as another begins, the later one."""
+    inside = [f for f in framing if f.start - SAME_TIME <= time <= f.end + SAME_TIME]
+    last = max((f.start for f in inside), default=0.0)
+    return [f for f in inside if time < f.end - SAME_TIME] or [f for f in inside if f.start == last]
+
+
+def _composition(shot: Shot, target: str, keyframe: int) -> Composition:
+    if shot.ideal is None:
+        return shot.keyframes[keyframe].composition
+    own = (subject.composition for subject in shot.subjects if subject.target == target)
+    return next(own, Composition("none"))
+
+
+def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str, time: float) -> str:
+    others = others_of(plan.trajectory.drones, flight.drone)
+    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]), others)
+    if not frames.in_frame[0]:
+        return "cropped"
+    return "hidden" if frames.hidden[0] else ""

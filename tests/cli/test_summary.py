@@ -1,0 +1,70 @@
+"""What `plan` prints at its end: whose every number is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from shotc.cli.summary import WIDTH, shot_rows, summary
+from shotc.ir.path import Deviation
+from shotc.ir.trajectory import Claim, VerifiedIR
+from tests.pairs import claims, pair_plan
+from tests.records import replace
+from tests.samples import SPEED, orbit_plan
+
+
+def facts(plan: VerifiedIR, name: str) -> list[str]:
+    """The facts of one name, each on one line."""
+    found: list[str] = []
+    for line in summary(plan, [Path("out/plan.json")], []).splitlines():
+        assert len(line) <= WIDTH
+        if line[2:12].strip():
+            found.append(line[2:])
+        elif line.strip():
+            found[-1] += " " + line.strip()
+    return [line[len(name) :].strip() for line in found if line.startswith(f"{name} ")]
+
+
+def test_a_shot_of_several_targets_has_a_row_for_each() -> None:
+    assert shot_rows(pair_plan()) == [
+        ("shot", "kind", "from", "lasts", "target", "in frame", "screen error", "size"),
+        ("half", "keyframes", "0:22.0", "30.00 s", "tower", "100 %", "0.031", "0.60 to 0.70"),
+        ("", "", "", "", "mast", "75 %", "0.024", "0.05 to 0.06"),
+    ]
+
+
+def test_a_shot_of_one_target_has_a_row_that_needs_no_name() -> None:
+    plan = orbit_plan()
+    one = VerifiedIR(plan.trajectory, claims("tower", 0.5, 0.1, (0.2, 0.3)))
+    head = ("shot", "kind", "from", "lasts", "target in frame", "screen error", "size")
+    start = ("half", "keyframes", "0:22.0", "30.00 s")
+    assert shot_rows(one) == [head, (*start, "50 %", "0.100", "0.20 to 0.30")]
+    assert shot_rows(plan) == [head, (*start, "-", "-", "-")]
+
+
+def near(drone: str, worst: float) -> Claim:
+    claim = replace(SPEED, constraint="ground clearance", unit="m", upper=False, limit=2.0)
+    return replace(claim, subject=drone, worst=worst, time=16.5)
+
+
+def test_what_is_come_nearest_to_names_the_drone_where_several_fly() -> None:
+    plan = orbit_plan()
+    alone = VerifiedIR(plan.trajectory, (SPEED, near("cam1", 2.38)))
+    both = VerifiedIR(plan.trajectory, (SPEED, near("cam1", 2.4), near("cam2", 2.38)))
+    assert facts(alone, "closest") == ["2.38 m, 2.00 m needed: ground clearance at 0:16.5"]
+    assert facts(both, "closest") == [
+        "2.38 m, 2.00 m needed: ground clearance of cam2 at 0:16.5",
+        "2.40 m, 2.00 m needed: ground clearance of cam1 at 0:16.5",
+    ]
+
+
+def test_of_the_stretches_bent_by_one_cause_the_worst_is_told() -> None:
+    plan = orbit_plan()
+    bent = tuple(
+        Deviation("half", distance, 30.0, cause)
+        for distance, cause in ((0.59, "zone tree"), (0.2, "drone cam2"), (0.64, "zone tree"))
+    )
+    changed = VerifiedIR(replace(plan.trajectory, deviations=bent), plan.certificate)
+    assert facts(changed, "bent") == [
+        "shot half leaves its ideal by up to 0.64 m: zone tree",
+        "shot half leaves its ideal by up to 0.20 m: drone cam2",
+    ]
