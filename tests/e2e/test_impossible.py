@@ -154,6 +154,16 @@ CASES = {
         ),
         labelled=("speed: 5 m/s",),
     ),
+    "duration of a generated shot too short": Case(
+        TOWER.partition("  - id: pass")[0]
+        + "  - {id: round, kind: orbit, drone: cam1, target: tower, radius: 45, altitude: 12, sweep: 120 deg,\n"
+        + "     timing: {duration: 12 s}}\n",
+        "T001",
+        "timing: {duration",
+        (rf"given 12 s, but {TIME} is the shortest", r"from \d+ % to \d+ % of its way it takes"),
+        (put("12 s", rf"`duration: {TIME}`", "%s s"),),
+        labelled=("speed: 5 m/s",),
+    ),
     "keyframe time impossible": Case(
         tower("tower, hold: 1 s", "tower, hold: 1 s, time: 9.5 s"),
         "T002",

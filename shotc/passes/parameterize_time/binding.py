@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -50,10 +50,12 @@ _SHOWN = {
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """The seconds between two neighbouring keyframes, and how long each limit binds in them."""
+    """The seconds between two neighbouring keyframes, and how long each limit binds in them.
 
-    first: Mark
-    second: Mark
+    where : which two, in words
+    """
+
+    where: str
     seconds: float
     held: dict[str, float]
 
@@ -83,7 +85,7 @@ def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
             seconds += float(step[inside].sum())
             for name, where in binds.items():
                 held[name] = held.get(name, 0.0) + float(step[inside & where].sum())
-        stretches.append(Stretch(a, b, seconds, {n: t for n, t in held.items() if t > 0}))
+        stretches.append(Stretch(_where(marks, a, b), seconds, {n: t for n, t in held.items() if t > 0}))
     total: dict[str, float] = {}
     for stretch in stretches:
         for name, time in stretch.held.items():
@@ -91,6 +93,15 @@ def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
     names = tuple(sorted(total, key=lambda name: -total[name]))
     bound = sorted((s for s in stretches if s.held), key=lambda s: -s.seconds)
     return Holdup(tuple(bound), names)
+
+
+def _where(marks: Sequence[Mark], a: Mark, b: Mark) -> str:
+    """Return between which keyframes a stretch is, or, where nobody wrote them, which share of the way."""
+    if len({mark.path for mark in marks}) == len(marks):
+        return f"from keyframe {a.index + 1} to {b.index + 1}"
+    first, whole = marks[0].s, marks[-1].s - marks[0].s or 1.0
+    low, high = ((mark.s - first) / whole for mark in (a, b))
+    return f"from {low:.0%} to {high:.0%} of its way".replace("%", " %")
 
 
 def _held(move: Move, ceiling: Ceiling) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
@@ -110,8 +121,7 @@ def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str
         binds = " and ".join(
             f"{shown_limit(mission, drone, name)} for {stretch.held[name]:.1f} s" for name in longest
         )
-        where = f"from keyframe {stretch.first.index + 1} to {stretch.second.index + 1}"
-        notes.append(f"{where} it takes {stretch.seconds:.1f} s, held back by {binds}")
+        notes.append(f"{stretch.where} it takes {stretch.seconds:.1f} s, held back by {binds}")
     return tuple(notes)
 
 
