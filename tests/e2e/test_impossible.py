@@ -156,8 +156,8 @@ CASES = {
     ),
     "duration of a generated shot too short": Case(
         TOWER.partition("  - id: pass")[0]
-        + "  - {id: round, kind: orbit, drone: cam1, target: tower, radius: 45, altitude: 12, sweep: 120 deg,\n"
-        + "     timing: {duration: 12 s}}\n",
+        + "  - {id: round, kind: orbit, drone: cam1, target: tower, radius: 45, altitude: 12,"
+        + " sweep: 120 deg,\n     timing: {duration: 12 s}}\n",
         "T001",
         "timing: {duration",
         (rf"given 12 s, but {TIME} is the shortest", r"from \d+ % to \d+ % of its way it takes"),
