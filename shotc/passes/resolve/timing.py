@@ -88,7 +88,7 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
         return [_too_long(mission, shot, drone, least, asked or 0.0)]
     if asked is None or asked >= least - SLACK:
         return []
-    label = timing_label(mission, shot)
+    label = _duration_label(mission, shot)
     holds = sum(k.hold for k in shot.keyframes)
     remedy = f"give it more than {_up(least)} s, or write `timing: auto`; {SHORTEST}"
     if holds > asked + SLACK:
@@ -96,9 +96,8 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
         labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
         note = f"its holds alone last {holds:.1f} s; the shot is given {asked:.1f} s"
         return [Diagnostic("K003", f"shot `{shot.id}` holds longer than it lasts", labels, (note,), remedy)]
-    note = (
-        f"the {length(shot.keyframes):.1f} m between its keyframes need {_pace(mission, shot, drone, least)}"
-    )
+    way = f"the {length(shot.keyframes):.1f} m of its way"
+    note = f"{way} need {_pace(mission, shot, drone, least)}"
     message = f"shot `{shot.id}` cannot be flown in {asked:.1f} s"
     return [Diagnostic("K004", message, (label,), (note,), remedy)]
 
@@ -201,6 +200,12 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
             "drop or shorten shots, or cut the mission in two",
         )
     ]
+
+
+def _duration_label(mission: MissionIR, shot: Shot) -> Label:
+    """Return a label on the seconds that a shot is given, or as ``timing_label`` where none are."""
+    path = (*shot.path, "timing", "duration")
+    return mission.origins.value(path) if path in mission.origins.values else timing_label(mission, shot)
 
 
 def timing_label(mission: MissionIR, shot: Shot, text: str = "") -> Label:
