@@ -98,8 +98,9 @@ CODES: tuple[CodeInfo, ...] = (
         "cannot-keep-up",
         "a shot has to be flown faster than its drone flies",
         "To keep its place beside a target the camera has to go as fast as that place does. Where that is more than "
-        "the drone's speed, less the wind, over seconds, no plan can keep it. Take a faster drone, slow the target "
-        "down, or give the shot a place that asks for less way.",
+        "the drone's speed, less the wind, over seconds, no plan can keep it. The help names what of the shot would "
+        "let it: a place nearer to the target or on the inside of its bends, a longer `duration` where the shot moves "
+        "by itself; or a higher `limits: {speed: ...}` of a drone that flies so fast.",
         ("times: [0, 40]", "times: [11, 17]"),
         ("{start: 15, duration: 10}", "{start: 11, duration: 6}"),
     ),
