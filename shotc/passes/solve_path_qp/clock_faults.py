@@ -56,15 +56,8 @@ def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
         path = mission.target(short.target).path
         labels.append(mission.origins.value((*path, "track"), f"{short.left:.1f} s are left of it then"))
         remedies = [f"{remedy} and {_shortened(short)}" for remedy in remedies]
-    recorded = _recorded(mission, shot)
-    if recorded and asked is not None:
-        later = float(up(found.late))
-        firsts = [
-            f"`begins: {plain(begins + later)} s` for the track of `{name}`" for name, begins in recorded
-        ]
-        remedies.append(
-            f"let it be filmed later: {' and '.join(firsts)}, and `start: {plain(asked + later)} s`"
-        )
+    if asked is not None:
+        remedies += _begun_later(mission, shot, asked, float(up(found.late)))
     remedies.append(f"shorten what comes before, {ALONE}")
     return Diagnostic("T003", message, tuple(labels), tuple(notes), ", or ".join(remedies))
 
@@ -96,6 +89,16 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -
 def _shortened(found: OutsideTrack) -> str:
     left = floor(found.left * 10) / 10
     return f"`duration: {left:.1f} s` or less" if left > 0 else ""
+
+
+def _begun_later(mission: MissionIR, shot: Shot, asked: float, later: float) -> list[str]:
+    """Return what lets the recordings of a shot, and so all of its shots, begin later; empty without any."""
+    recorded = _recorded(mission, shot)
+    if not recorded:
+        return []
+    begins = " and ".join(f"`begins: {plain(first + later)} s` of `{name}`" for name, first in recorded)
+    shots = f"every shot of it as much later, this one at `start: {plain(asked + later)} s`"
+    return [f"let its track begin {plain(later)} s later, or more ({begins}), and {shots}"]
 
 
 def _recorded(mission: MissionIR, shot: Shot) -> list[tuple[str, float]]:

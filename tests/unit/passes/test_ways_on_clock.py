@@ -102,7 +102,7 @@ def test_a_track_that_ends_before_the_later_shot_does_leaves_so_much_of_it(tmp_p
 
 def test_a_recording_that_begins_later_leaves_the_drone_time_for_the_whole_of_it(tmp_path: Path) -> None:
     told = only(ride(tmp_path, "start: 0, duration: 40")[1], "T003")
-    numbers = re.search(r"`begins: ([\d.]+) s` for the track of `rider`, and `start: ([\d.]+) s`", told.help)
+    numbers = re.search(r"`begins: ([\d.]+) s` of `rider`\).* `start: ([\d.]+) s`", told.help)
     assert numbers is not None, told
     plan, found = ride(tmp_path, f"start: {numbers[2]}, duration: 40", f", begins: {numbers[1]}")
     assert plan is not None, found
