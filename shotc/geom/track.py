@@ -4,7 +4,7 @@ from bisect import bisect_right
 from functools import lru_cache
 from itertools import pairwise
 from math import atan2, hypot, inf, pi
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 Vec3 = tuple[float, float, float]
 
@@ -64,6 +64,11 @@ class Track(NamedTuple):
             return 0.0
         way = hypot(*(b - a for a, b in zip(self.points[i], self.points[i + 1], strict=True)))
         return way / (self.times[i + 1] - self.times[i])
+
+    def beginning(self, start: float) -> Self:
+        """Return the same motion with its first row at a time, seconds."""
+        times = tuple(start + (t - self.times[0]) for t in self.times)
+        return self._replace(times=times, since=times[0], until=times[-1])
 
     def _row(self, t: float) -> tuple[int, float]:
         """Return the row before a time, and how far it is to the next, 0 to 1."""

@@ -12,13 +12,20 @@ class TrackSpec(Model):
     """How a target moves: rows of a file, a constant velocity, or points at one speed or at given times."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (
-        OneOf((("file",), ("start", "velocity"), ("points", "speed"), ("points", "times"))),
+        OneOf(
+            (("file",), ("file", "begins"), ("start", "velocity"), ("points", "speed"), ("points", "times"))
+        ),
     )
 
     file: RelativePath | None = Field(
         default=None,
         description="CSV file of t,x,y,z or t,lat,lon,height and maybe heading (rad) or heading_deg; or a "
         "GPX file with times, which count from its first point",
+    )
+    begins: NonNegativeDuration | None = Field(
+        default=None,
+        description="when the file's first row happens, from mission start; the others come as long after it "
+        "as in the file",
     )
     start: Position | None = Field(default=None, description="where the target is at time 0")
     velocity: Velocity | None = Field(default=None, description="[east, north, up]")

@@ -22,7 +22,7 @@ _BY_FILE = _PASSING.replace("points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]
 
 
 _WARNINGS = (7, 8, 34, 35)
-_PLANNED = (8, 9)
+_PLANNED = (8, 9, 11)
 
 
 def _code(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
@@ -98,8 +98,9 @@ CODES: tuple[CodeInfo, ...] = (
         "cannot-keep-up",
         "a shot has to be flown faster than its drone flies",
         "To keep its place beside a target the camera has to go as fast as that place does. Where that is more than "
-        "the drone's speed, less the wind, over seconds, no plan can keep it. Take a faster drone, slow the target "
-        "down, or give the shot a place that asks for less way.",
+        "the drone's speed, less the wind, over seconds, no plan can keep it. The help names what of the shot would "
+        "let it: a place nearer to the target or on the inside of its bends, a longer `duration` where the shot moves "
+        "by itself; or a higher `limits: {speed: ...}` of a drone that flies so fast.",
         ("times: [0, 40]", "times: [11, 17]"),
         ("{start: 15, duration: 10}", "{start: 11, duration: 6}"),
     ),
@@ -147,8 +148,29 @@ CODES: tuple[CodeInfo, ...] = (
         "track-too-short",
         "the track of a target ends before its shot does",
         "A track from a file ends with its last row. A shot without a `start` begins when its drone is in place, "
-        "and then its target has to be known until it ends. Shorten the shot, give the track more rows, or have "
-        "the drone start nearer to it.",
+        "and then its target has to be known until it ends. Shorten the shot, give the track more rows, let "
+        "it begin later by `begins`, or have the drone start nearer to it.",
+    ),
+    _code(
+        11,
+        "target-in-the-way",
+        "every way to a shot, or home, meets a target",
+        "Ways to shots and home are the plan's own. It goes straight, round targets and over them, and sets out at "
+        "other times, and takes the first on which the body keeps `rules.target_clearance` from all of them at "
+        "every instant. Here there is none, mostly for zones that leave no room beside a target. Start the shot "
+        "at another time, put `home` elsewhere, or widen the zone.",
+        (
+            "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]",
+            "points: [[0, 0, 0.9], [0.5, 0, 0.9], [30, 0, 0.9]], times: [0, 14, 26]",
+        ),
+        (
+            "drones:",
+            "world: {zones: {lane: {keep: in, box: {center: [50, 0, 1.95], size: [140, 3.2, 3.9]}}}}\ndrones:",
+        ),
+        ("home: [0, -30, 0]", "home: [-12, 0, 0]"),
+        ("kind: lateral", "kind: lead"),
+        (" side: left,", ""),
+        ("altitude: 4", "altitude: 3"),
     ),
     _code(
         21,
@@ -167,7 +189,7 @@ CODES: tuple[CodeInfo, ...] = (
         "a recorded track has a gap",
         "Two rows of a file are more than 3 s and ten times the usual time apart. A target is taken to go "
         "straight and evenly from row to row, so across the gap it may be elsewhere, and the picture without it. "
-        "Give the rows that are missing, or film before or after the gap.",
+        "Where it is at one place at both ends of the gap it is taken to have stood, and nothing is said. Give the rows that are missing, or film before or after the gap.",
         _BY_FILE,
         _PASSING,
         phase="other",

@@ -76,7 +76,10 @@ CODES: tuple[CodeInfo, ...] = (
         "start-too-early",
         "a shot starts before its drone can be there",
         "`start` is when the first frame is filmed. Take-off, the shots before and the way between them take "
-        "longer than that; what they take is listed. Start later, or shorten what comes before.",
+        "longer than that; what they take is listed. Start later, or shorten what comes before. A moving target goes "
+        "on while the start is put off, so the start that is named is one at which the drone is where the shot "
+        "begins then; where a recorded track ends too soon for that, so is how long the shot can be. A recording "
+        "that is let begin later (`track: {file: ..., begins: 10 s}`) leaves the drone that much more time.",
         ("start: 20 s", "start: 7 s"),
     ),
     _code(

@@ -77,7 +77,7 @@ def start_too_early(
         "T003",
         f"shot `{leg.shot}` starts at {plain(asked)} s, but {up(earliest)} s is the earliest possible",
         (timing_label(mission, leg.path, "start"),),
-        (f"before it come {_listed(phases)}",),
+        (f"before it come {listed(phases)}",),
         f"give it `start: {up(earliest)} s` or later, or shorten what comes before",
     )
 
@@ -94,7 +94,7 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
         "T004",
         f"the flight of `{drone.name}` takes {up(total)} s, and its endurance is {plain(drone.endurance)} s",
         tuple(labels),
-        (f"longest first: {_listed(tuple(longest))}",),
+        (f"longest first: {listed(tuple(longest))}",),
         f"shorten the mission by {up(total - drone.endurance)} s, or cut it in two",
     )
 
@@ -141,7 +141,8 @@ def _either(remedies: list[str]) -> str:
     return ", or ".join(remedies)
 
 
-def _listed(phases: tuple[Phase, ...]) -> str:
+def listed(phases: tuple[Phase, ...]) -> str:
+    """Write what phases are and how long they last, in their order."""
     named = [f"{'shot `' + p.shot + '`' if p.shot else p.name} {p.end - p.start:.1f} s" for p in phases[:6]]
     rest = sum(p.end - p.start for p in phases[6:])
     return ", ".join(named) + (f" and {len(phases) - 6} more of {rest:.1f} s" if rest > 0 else "")

@@ -6,19 +6,16 @@ The ideal is where the camera would be; a plan may leave it, but not for the who
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, floor, hypot, inf
+from math import ceil, floor, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
-from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.place_keyframes.faults import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
+from shotc.passes.resolve.keeping_up import check_speed
 from shotc.passes.resolve.obstacles import ROUNDING
 from shotc.passes.resolve.timing import timing_label
-
-WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good
-STEPS = 200  # places at which an ideal is looked at
 
 
 def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
@@ -30,7 +27,7 @@ def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     yield from _low(mission, shot)
     yield from _tilted(mission, shot)
     if not outside:
-        yield from _fast(mission, shot)
+        yield from check_speed(mission, shot)
 
 
 def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
@@ -101,34 +98,3 @@ def _tilted(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     if not drone.gimbal.pitch[0] - TILT <= pitch <= drone.gimbal.pitch[1] + TILT:
         key = "pitch" if (*shot.path, "pitch") in mission.origins.values else "look_at"
         yield beyond_gimbal(mission, drone, (*shot.path, key), pitch)
-
-
-def _fast(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell an ideal that is faster than the drone, on average over a window."""
-    duration, start = shot.timing.duration or 0.0, shot.timing.start or 0.0
-    limit = mission.drone(shot.drone).limits.speed
-    window = min(WINDOW, duration)
-    worst, when = 0.0, start
-    for i in range(STEPS + 1):
-        t = start + (duration - window) * i / STEPS
-        a, b = (ideal_place(mission, shot, start, u) for u in (t, t + window))
-        speed = hypot(b[0] - a[0], b[1] - a[1]) / window
-        if speed > worst:
-            worst, when = speed, t
-    if worst <= limit * (1 + 1e-6):
-        return
-    wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
-    yield Diagnostic(
-        "M005",
-        f"drone `{shot.drone}` cannot keep up in shot `{shot.id}`",
-        (
-            mission.origins.value((*shot.path, "kind")),
-            mission.origins.value((*mission.drone(shot.drone).path, "limits", "speed"), "the drone's speed"),
-        ),
-        (
-            f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
-            f"the drone flies {limit:.1f} m/s{wind}",
-        ),
-        f"take a drone that flies more than {ceil(worst * 10) / 10 + mission.wind:.1f} m/s, or slow down "
-        "what it films",
-    )

@@ -11,6 +11,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 GAP = 10.0  # times the usual time between rows; smart recorders leave out up to that much
 LEAST_GAP = 3.0  # seconds; over less a straight line is a fair guess
 ROUNDING = 1e-6  # of a speed
+STOOD = 0.1  # metres: what has moved by less in a gap is taken to have stood, as recorders that pause do
 
 
 class Course(NamedTuple):
@@ -67,12 +68,12 @@ def check_velocity(course: Course, speed: float, origins: OriginMap, *key: str |
 
 
 def check_gap(course: Course, origins: OriginMap) -> Diagnostic | None:
-    """Return a warning of the longest gap of a recorded track, if it has one."""
+    """Return a warning of the longest gap of a recorded track in which its target moves, if it has one."""
     times, points = course.track.times, course.track.points
     spaces = [t - s for s, t in pairwise(times)]
     usual = sorted(spaces)[(len(spaces) - 1) // 2]
     least = max(LEAST_GAP, GAP * usual)
-    gaps = [i for i, space in enumerate(spaces) if space > least]
+    gaps = [i for i, s in enumerate(spaces) if s > least and dist(points[i], points[i + 1]) > STOOD]
     if not gaps:
         return None
     i = max(gaps, key=lambda k: spaces[k])

@@ -64,7 +64,10 @@ def _too_fast(spec: TrackSpec, course: Course, origins: OriginMap) -> Iterator[D
 def _track(spec: TrackSpec, put: Put, ground: Ground, path: KeyPath) -> Recording | Diagnostic:
     """Return a track; only one from a file has lines."""
     if spec.file is not None:
-        return read_recording(spec.file, ground, (*path, "file"))
+        recording = read_recording(spec.file, ground, (*path, "file"))
+        if isinstance(recording, Diagnostic) or spec.begins is None:
+            return recording
+        return recording._replace(track=recording.track.beginning(spec.begins))
     if spec.start is not None and spec.velocity is not None:
         return Recording(Track((0.0,), (put(spec.start),), after=spec.velocity), ())
     points = [put(point) for point in spec.points or ()]

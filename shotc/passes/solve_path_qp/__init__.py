@@ -14,11 +14,12 @@ from typing import ClassVar
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
-from shotc.ir.mission import Drone
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.corridor.room import flight_room, pad_room
+from shotc.passes.solve_path_qp.clock_faults import outside_track, too_late, way_met
 from shotc.passes.solve_path_qp.faults import (
     cut_framing,
     failure,
@@ -28,9 +29,10 @@ from shotc.passes.solve_path_qp.faults import (
     swings,
 )
 from shotc.passes.solve_path_qp.legs import Flight, drone_legs
-from shotc.passes.solve_path_qp.on_clock import Flown, OutsideTrack
+from shotc.passes.solve_path_qp.on_clock import Flown
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
+from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate, Trouble
 from shotc.passes.timed_route.faults import left_place, stopped_on_clock
 from shotc.passes.timed_route.moving import moving_targets
 from shotc.passes.timed_route.others import other_drones
@@ -167,13 +169,11 @@ def _on_clock(
         placed = shot.shot if isinstance(shot, ShotCurve) else shot
         ctx.progress(f"way to and through shot {placed.shot.id}")
         trouble = flown.film(shot)
-        if isinstance(trouble, NoMotion | OutsideTrack):
-            return _stopped(*warnings, stopped_on_clock(mission, placed.shot, trouble))
         if trouble is not None:
-            return _stopped(*warnings, failure(mission, flight.drone, flight.room, placed, trouble))
+            return _stopped(*warnings, _told(mission, flight, placed, trouble))
     trouble = flown.home()
     if trouble is not None:
-        return _stopped(*warnings, failure(mission, flight.drone, flight.room, None, trouble))
+        return _stopped(*warnings, _told(mission, flight, None, trouble))
     away = (
         d
         for d in flown.deviations
@@ -183,6 +183,21 @@ def _on_clock(
     deviations = (*(d for s in shots if isinstance(s, ShotCurve) for d in s.deviations), *flown.deviations)
     stats = (*(x for s in shots if isinstance(s, ShotCurve) for x in s.stats), *flown.stats)
     return _Planned(tuple(flown.legs), deviations, stats, (*warnings, *left))
+
+
+def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble: Trouble) -> Diagnostic:
+    """Return the error for what stands in the way of a shot on the clock, or of the way home."""
+    if isinstance(trouble, Meets):
+        return way_met(mission, flight.drone, None if placed is None else placed.shot, trouble)
+    if placed is not None:
+        if isinstance(trouble, OutsideTrack):
+            return outside_track(mission, placed.shot, trouble)
+        if isinstance(trouble, TooLate):
+            return too_late(mission, placed.shot, trouble)
+        if isinstance(trouble, NoMotion):
+            return stopped_on_clock(mission, placed.shot, trouble)
+    assert not isinstance(trouble, NoMotion | OutsideTrack | TooLate)
+    return failure(mission, flight.drone, flight.room, placed, trouble)
 
 
 def _stopped(*diagnostics: Diagnostic) -> _Planned:

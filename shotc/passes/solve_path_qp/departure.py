@@ -1,12 +1,14 @@
 """When to set out on an unfilmed way, and over which height, so that nothing that moves is met on it.
 
 A drone leaves as late as it can and still be in time, or, where nobody waits for it, at once. Where that
-way meets a target or another drone, it sets out at another time, or goes over the top.
+way meets a target or another drone, it sets out at another time, or goes round or over the top. A way that
+comes too near to a target would be refused by the proof: it is chosen only where there is no other, not
+even a late one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -27,9 +29,20 @@ COMFORT = 0.5  # metres beyond a clearance: twice what two drones or a target co
 EARLY = 1.0  # seconds by which a drone is in place where it has the time
 DELAYS = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0)  # seconds that it may wait
 SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the time it has to spare that it waits
-LIFTS = (0.0, 4.0, 10.0, 20.0)  # metres over the higher end of the way
+CLOSER, ZOOMS = 20, 2  # parts into which a step is cut where it is nearest to a target, and how often
+PROVED = 1e-6  # metres
 
-Ways = Callable[[float], list[Leg] | None]
+Course = Callable[[Array], Array]
+"""Places (M, 3) at mission times (M,)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """A target that a way comes too near to: when, and by how many metres."""
+
+    owner: str
+    time: float
+    lack: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,12 +51,14 @@ class Way:
 
     end : mission time at which the last one ends
     room : least distance on it beyond a clearance, metres; unseen : least distance out of a picture
+    met : the target that it comes too near to, if there is one
     """
 
     legs: tuple[Leg, ...]
     end: float
     room: float = inf
     unseen: float = inf
+    met: Meeting | None = None
 
     @property
     def clear(self) -> bool:
@@ -63,18 +78,20 @@ def choose(
     mission: MissionIR,
     drone: Drone,
     around: Around,
-    ways: Ways,
+    ways: Iterable[list[Leg]],
     span: tuple[float, float | None],
     then: Then | None = None,
 ) -> Way | None:
-    """Return the first way in time on which nothing is met, else the roomiest; None where there is none.
+    """Return the first way in time on which nothing is met, else the best; None where there is none.
 
-    ways : the legs that go over a height by so many metres more than they need, if there are any
+    The best meets no target, is the least late, and has the most room, in this order.
+
+    ways : legs that lead there, those to be preferred first
     span : mission times from which the drone may leave, and by which it has to be there, if it has to
     then : what it flies next, which is not to meet anything either
     """
     tried: list[Way] = []
-    for legs in (found for lift in LIFTS if (found := ways(lift)) is not None):
+    for legs in ways:
         for way in _tries(mission, drone, around, legs, span, then):
             in_time = span[1] is None or way.end <= span[1]
             if way.clear and way.unseen >= 0.0 and (in_time or not tried):
@@ -83,7 +100,11 @@ def choose(
         if not around.moving:
             break
     due = inf if span[1] is None else span[1]
-    return max(tried, key=lambda way: (way.end <= due, min(way.room, COMFORT), way.unseen), default=None)
+
+    def worth(way: Way) -> tuple[bool, float, float, float]:
+        return way.met is None, -max(0.0, way.end - due), min(way.room, COMFORT), way.unseen
+
+    return max(tried, key=worth, default=None)
 
 
 def _tries(
@@ -98,6 +119,7 @@ def _tries(
     curves = [motion.curve for leg in legs if (motion := leg_motion(mission, drone, leg)) is not None]
     lasts = sum(float(curve.end) for curve in curves)
     next_motion = None if then is None else leg_motion(mission, drone, then.leg)
+    film = None if next_motion is None else next_motion.curve.channels(0, 1, 2)
     spare = 0.0 if due is None else max(0.0, due - EARLY - begin - lasts)
     delays = DELAYS if due is None else tuple(dict.fromkeys(share * spare for share in SHARES))
     for delay in delays:
@@ -107,48 +129,82 @@ def _tries(
             yield Way(tuple(started), leaves + lasts)
             return
         until = max(leaves + lasts, due or 0.0, 0.0 if then is None else then.ready)
-        film = [] if next_motion is None else [next_motion.curve.channels(0, 1, 2)]
-        times = np.arange(begin, until + sum(float(c.end) for c in film) + STEP, STEP)
-        places = _places(legs, [c.channels(0, 1, 2) for c in curves], times - leaves)
-        for curve in film:
-            inside = times >= until
-            places[inside] = curve(np.minimum(times[inside] - until, float(curve.end)))
-        upright = _upright(legs, [float(c.end) for c in curves], times - leaves)
-        room = _room(around.moving, times, places, upright)
+        course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, until)
+        times = np.arange(begin, until + (0.0 if film is None else float(film.end)) + STEP, STEP)
+        places, upright = course.at(times), course.upright(times)
+        room = min(_room(what, times, places, upright) for what in around.moving)
         unseen = seen_on(drone, around.sights, times, places)
-        yield Way(tuple(started), leaves + lasts, room, unseen)
+        met = _met(around.moving, course, times[times <= until])
+        yield Way(tuple(started), leaves + lasts, room, unseen, met)
 
 
-def _places(legs: list[Leg], curves: Sequence[Piecewise], clock: Array) -> Array:
-    """Return where the drone is at times since it left, standing before and after."""
-    places = np.tile(np.array(legs[0].pose[:3]), (len(clock), 1))
-    begin = 0.0
-    for curve in curves:
-        end = begin + float(curve.end)
-        inside = clock >= begin
-        places[inside] = curve(np.minimum(clock[inside] - begin, float(curve.end)))
-        begin = end
-    return places
+@dataclass(frozen=True, slots=True, eq=False)
+class _Course:
+    """Where a drone is on a way, before and after it.
+
+    curves : places over the time of each leg that takes any; leaves : mission time
+    film : places of the shot that it flies from mission time ``until`` on, if there is one on a path
+    """
+
+    legs: list[Leg]
+    curves: Sequence[Piecewise]
+    leaves: float
+    film: Piecewise | None
+    until: float
+
+    def at(self, times: Array) -> Array:
+        """Return places (M, 3) at mission times (M,); it stands before and after."""
+        places = np.tile(np.array(self.legs[0].pose[:3]), (len(times), 1))
+        begin = self.leaves
+        for curve in self.curves:
+            _from(places, times, begin, curve)
+            begin += float(curve.end)
+        if self.film is not None:
+            _from(places, times, self.until, self.film)
+        return places
+
+    def upright(self, times: Array) -> Mask:
+        """Tell at which times it rises from its pad or sinks to it, where targets need no clearance."""
+        found = np.zeros(len(times), dtype=bool)
+        begin = self.leaves
+        for leg, curve in zip(self.legs, self.curves, strict=False):
+            if leg.phase == "takeoff":
+                found |= times <= begin + float(curve.end)
+            if leg.phase == "land":
+                found |= times >= begin
+            begin += float(curve.end)
+        return found
 
 
-def _upright(legs: list[Leg], lasts: list[float], clock: Array) -> Mask:
-    """Tell at which times the drone rises from its pad or sinks to it, where targets need no clearance."""
-    found = np.zeros(len(clock), dtype=bool)
-    begin = 0.0
-    for leg, last in zip(legs, lasts, strict=False):
-        if leg.phase == "takeoff":
-            found |= clock <= begin + last
-        if leg.phase == "land":
-            found |= clock >= begin
-        begin += last
-    return found
+def _from(places: Array, times: Array, begin: float, curve: Piecewise) -> None:
+    """Put the places of a curve in from a time on."""
+    inside = times >= begin
+    places[inside] = curve(np.minimum(times[inside] - begin, float(curve.end)))
 
 
-def _room(moving: Sequence[Moving], times: Array, places: Array, upright: Mask) -> float:
-    """Return the least distance from what moves beyond the clearance from it, metres."""
-    least = inf
-    for what in moving:
-        counts = np.ones(len(times), dtype=bool) if what.always else ~upright
-        away = distances(what.part, places[counts] - what.at(times[counts]))
-        least = min(least, float(away.min(initial=inf)) - what.clearance)
-    return least
+def _room(what: Moving, times: Array, places: Array, upright: Mask) -> float:
+    """Return the least distance from something that moves beyond the clearance from it, metres."""
+    counts = np.ones(len(times), dtype=bool) if what.always else ~upright
+    away = distances(what.part, places[counts] - what.at(times[counts]))
+    return float(away.min(initial=inf)) - what.clearance
+
+
+def _met(moving: Sequence[Moving], course: _Course, times: Array) -> Meeting | None:
+    """Return the target that a course comes nearest to, if that is too near."""
+    nearest = [_nearest(what, course, times) for what in moving if not what.always]
+    worst = max(nearest, key=lambda met: met.lack, default=None)
+    return worst if worst is not None and worst.lack > PROVED else None
+
+
+def _nearest(what: Moving, course: _Course, times: Array) -> Meeting:
+    """Return where a course is nearest to a target, looked at ever more closely: it is to stand the proof."""
+    step, least, when = STEP, inf, float(times[0])
+    for _ in range(1 + ZOOMS):
+        near = times[~course.upright(times)]
+        if not len(near):
+            break
+        away = distances(what.part, course.at(near) - what.at(near))
+        least, when = float(away.min()), float(near[int(away.argmin())])
+        inside = np.linspace(max(when - step, times[0]), min(when + step, times[-1]), 2 * CLOSER + 1)
+        step, times = step / CLOSER, inside
+    return Meeting(what.owner, when, what.clearance - least)

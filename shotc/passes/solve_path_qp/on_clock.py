@@ -6,8 +6,8 @@ it are timed here as the time pass will time them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import partial
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from shotc.geom.bernstein import Piecewise
@@ -30,34 +30,26 @@ from shotc.passes.solve_path_qp.legs import (
     way_to,
 )
 from shotc.passes.solve_path_qp.shots import Failure, ShotCurve
+from shotc.passes.solve_path_qp.starts import (
+    Meets,
+    OutsideTrack,
+    Reached,
+    TooLate,
+    Trouble,
+    later,
+    outside,
+    put_off,
+)
+from shotc.passes.solve_path_qp.sweeps import with_sweeps
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import lead_in
 from shotc.passes.timed_route.flights import flight
-from shotc.passes.timed_route.shot import Around, NoMotion, TimedShot, timed_shot
+from shotc.passes.timed_route.shot import Around, NoMotion, timed_shot
 
-TRIES = 6
-SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
 LATER = (2.0, 5.0, 10.0)  # seconds that such a shot may begin later where something is met on the way to it
-
-
-@dataclass(frozen=True, slots=True)
-class OutsideTrack:
-    """A shot that cannot be filmed while its target's track lasts: when it would begin, seconds."""
-
-    target: str
-    start: float
-
-
-Trouble = Failure | NoMotion | OutsideTrack
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Reached:
-    """A planned shot, the way to it, and by how many seconds the drone is late there."""
-
-    shot: TimedShot
-    way: Way
-    late: float
+LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
+LATE = 1e-6  # seconds
+AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
 
 
 @dataclass(slots=True)
@@ -85,15 +77,17 @@ class Flown:
         """Add a shot and the way to it."""
         return self._path(shot) if isinstance(shot, ShotCurve) else self._timed(shot)
 
-    def home(self) -> Failure | None:
+    def home(self) -> Failure | Meets | None:
         """Add the way home."""
         pose = end_of(self.legs)
-        span = (self.clock, None)
-        way = choose(self.mission, self.drone, self.around, partial(self._back, pose), span)
-        if way is None:
-            back = way_home(self.flight, pose)
-            assert not isinstance(back, list)
+        back = way_home(self.flight, pose)
+        if not isinstance(back, list):
             return back
+        ways = self._ways_home(pose, back)
+        way = choose(self.mission, self.drone, self.around, ways, (self.clock, None))
+        assert way is not None
+        if way.met is not None:
+            return Meets(way.met)
         self._take(way)
         return None
 
@@ -101,12 +95,29 @@ class Flown:
         """Return the drone's flight as far as it is planned, as the time pass will fly it."""
         return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
-    def _back(self, pose: Pose, lift: float) -> list[Leg] | None:
-        """Return the way home, first straight up by so many metres."""
-        top = _at(pose, pose[2] + lift)
-        up = self._through([pose, top], self.drone.path) if lift else []
-        back = way_home(self.flight, top)
-        return [*up, *back] if up is not None and isinstance(back, list) else None
+    def _ways_home(self, pose: Pose, direct: list[Leg]) -> Iterator[list[Leg]]:
+        """Return the direct way home, the one round everything, and those first straight up."""
+        yield direct
+        around = way_home(self._beside(direct, None), pose)
+        if isinstance(around, list):
+            yield around
+        for metres in LIFTS:
+            top = _at(pose, pose[2] + metres)
+            up = self._through([pose, top], self.drone.path)
+            back = way_home(self.flight, top)
+            if up is not None and isinstance(back, list):
+                yield [*up, *back]
+
+    def _beside(self, direct: list[Leg], due: float | None) -> Flight:
+        """Return the flight in a room where the targets stand all along the ways that they go meanwhile.
+
+        direct : legs that take about as long; due : when the drone has to be there, if it has to
+        """
+        until = due
+        if until is None:
+            until = self.clock + AMPLE * sum(leg_time(self.mission, self.drone, leg) for leg in direct)
+        span = (self.clock, max(self.clock, until))
+        return replace(self.flight, room=with_sweeps(self.flight.room, self.around.moving, span))
 
     def _through(self, stops: list[Pose], path: KeyPath) -> list[Leg] | None:
         """Return the legs from each of some poses to the next."""
@@ -124,6 +135,8 @@ class Flown:
         way = self._way(shot.pose, shot, timing.start, ready)
         if not isinstance(way, Way):
             return way
+        if way.met is not None:
+            return Meets(way.met)
         pose = end_of(way.legs) if way.legs else end_of(self.legs)
         placed = turned(self.drone, shot, pose)
         self._take(way)
@@ -152,38 +165,45 @@ class Flown:
         if not isinstance(direct, list):
             return direct
 
-        def over(metres: float) -> list[Leg] | None:
-            if not metres:
-                return [*lift, *direct]
-            high = max(pose[2], near[2]) + metres
-            # Straight up from a pad there is the take-off already.
-            stops = [pose, *([] if lift else [_at(pose, high)]), _at(near, high), near]
-            found = self._through(stops, path)
-            return None if found is None else [*lift, *found]
+        def ways() -> Iterator[list[Leg]]:
+            yield [*lift, *direct]
+            around = way_to(self._beside([*lift, *direct], due), pose, near, path)
+            if isinstance(around, list):
+                yield [*lift, *around]
+            for metres in LIFTS:
+                high = max(pose[2], near[2]) + metres
+                # Straight up from a pad there is the take-off already.
+                stops = [pose, *([] if lift else [_at(pose, high)]), _at(near, high), near]
+                found = self._through(stops, path)
+                if found is not None:
+                    yield [*lift, *found]
 
-        found = choose(self.mission, self.drone, self.around, over, (self.clock, due), then)
+        found = choose(self.mission, self.drone, self.around, ways(), (self.clock, due), then)
         assert found is not None
         return found
 
     def _timed(self, placed: PlacedShot) -> Trouble | None:
         shot = placed.shot
         fixed = shot.timing.start
-        start = fixed
-        if start is None:
+        if fixed is None:
             ready = self.ends.get(shot.timing.after or "", 0.0)
             start = max(
                 ready, self.clock + lead_in(self.mission, self.drone, shot, self.clock), self._since(placed)
             )
-        reached = self._reached(placed, start)
-        for _ in range(TRIES):
-            if fixed is not None or not isinstance(reached, _Reached) or reached.late <= 0.0:
-                break
-            start += reached.late + SPARE
-            reached = self._reached(placed, start)
-        if not isinstance(reached, _Reached):
+            reached = put_off(self.mission, self._reached, placed, start)
+        else:
+            reached = self._reached(placed, fixed)
+        if not isinstance(reached, Reached):
             return reached
-        if fixed is None and not reached.way.clear:
-            reached = self._later(placed, start) or reached
+        trouble = self._late(placed, reached)
+        if trouble is not None:
+            return trouble
+        if not reached.way.clear and (fixed is None or reached.way.met is not None):
+            freer = self._later(placed, reached.shot.leg.start)
+            if fixed is None:
+                reached = freer or reached
+            if reached.way.met is not None:
+                return Meets(reached.way.met, None if freer is None else freer.shot.leg.start)
         self._take(reached.way)
         leg = _shifted(reached.shot.leg, turns_to(reached.shot.leg.pose, end_of(self.legs)))
         self.legs.append(leg)
@@ -193,38 +213,58 @@ class Flown:
         self.stats += reached.shot.stats
         return None
 
-    def _later(self, placed: PlacedShot, start: float) -> _Reached | None:
+    def _late(self, placed: PlacedShot, reached: Reached) -> Trouble | None:
+        """Return what is wrong with when a shot is reached, or with how long it can last then."""
+        start, fixed = reached.shot.leg.start, placed.shot.timing.start
+        if reached.late <= LATE:
+            return outside(self.mission, placed, start)
+        if fixed is None:
+            return self._too_late(reached, reached, None)
+        first = put_off(self.mission, self._reached, placed, later(fixed, reached.late))
+        if isinstance(first, OutsideTrack):
+            return self._too_late(reached, reached, first)
+        if not isinstance(first, Reached):
+            return first
+        short = outside(self.mission, placed, first.shot.leg.start) if first.late <= LATE else None
+        return self._too_late(reached, first, short)
+
+    def _too_late(self, asked: Reached, first: Reached, short: OutsideTrack | None) -> TooLate:
+        """Return by how much a shot is late.
+
+        first : the same shot at the first start at which it is not, or the last that was tried
+        """
+        leg, there = first.shot.leg, first.late <= LATE
+        path = TimedPath(self.drone.name, (*self.legs, *first.way.legs, leg))
+        before = [p for p in flight(self.mission, path, dict(self.ends)).phases if p.end <= leg.start + LATE]
+        if not there:
+            before[-1] = replace(before[-1], end=leg.start + first.late)
+        run_up = leg.start - float(leg.curve.start)
+        return TooLate(asked.late, leg.start if there else None, short, tuple(before), run_up)
+
+    def _later(self, placed: PlacedShot, start: float) -> Reached | None:
         """Return the first of some later starts to which there is a way on which nothing is met."""
         for more in LATER:
             reached = self._reached(placed, start + more)
-            if isinstance(reached, _Reached) and reached.late <= 0.0 and reached.way.clear:
+            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear:
                 return reached
         return None
 
-    def _reached(self, placed: PlacedShot, start: float) -> _Reached | Trouble:
+    def _reached(self, placed: PlacedShot, start: float) -> Reached | Trouble:
         """Plan a shot for a start, and the way to it."""
-        outside = self._outside(placed, start)
-        if outside is not None:
-            return outside
+        short = outside(self.mission, placed, start)
+        if short is not None:
+            return short
         looker = Looker(self.mission, self.drone, placed.subjects)
         made = timed_shot(looker, self.flight.room, self.around, placed, start)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)
         way = self._way(made.leg.pose, placed, begins)
-        return _Reached(made, way, way.end - begins) if isinstance(way, Way) else way
+        return Reached(made, way, way.end - begins) if isinstance(way, Way) else way
 
     def _since(self, placed: PlacedShot) -> float:
         tracks = (self.mission.target(s.target).track for s in placed.subjects)
         return max((track.since for track in tracks if track is not None), default=0.0)
-
-    def _outside(self, placed: PlacedShot, start: float) -> OutsideTrack | None:
-        end = start + (placed.shot.timing.duration or 0.0)
-        for subject in placed.subjects:
-            track = self.mission.target(subject.target).track
-            if track is not None and end > track.until + 1e-6:
-                return OutsideTrack(subject.target, start)
-        return None
 
     def _take(self, way: Way) -> None:
         self.legs += way.legs

@@ -28,11 +28,9 @@ def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
     )
 
 
-def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: object) -> Diagnostic:
+def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagnostic:
     """Say why a shot on its own clock has no motion."""
     label = mission.origins.value((*shot.path, "kind"))
-    if not isinstance(trouble, NoMotion):
-        return _outside(mission, shot, trouble)
     if not trouble.lacks:
         message = f"no motion was found for the {trouble.what} of shot `{shot.id}`"
         notes: tuple[str, ...] = (f"the solver says: {trouble.status}",)
@@ -49,26 +47,4 @@ def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: object) -> Diagnos
         labels,
         notes,
         "move the shot or what is in its way by so much",
-    )
-
-
-def _outside(mission: MissionIR, shot: Shot, found: object) -> Diagnostic:
-    target, start = str(getattr(found, "target", "")), float(getattr(found, "start", 0.0))
-    track = mission.target(target).track
-    until = track.until if track is not None else 0.0
-    end = start + (shot.timing.duration or 0.0)
-    labels = (
-        mission.origins.value((*shot.path, "id")),
-        mission.origins.value((*mission.target(target).path, "track"), "the track"),
-    )
-    return Diagnostic(
-        "M010",
-        f"the track of `{target}` ends before shot `{shot.id}` does",
-        labels,
-        (
-            f"the drone is in place at {start:.1f} s at the earliest, so the shot ends at {end:.1f} s; "
-            f"the track ends at {until:.1f} s",
-        ),
-        f"shorten the shot by {ceil((end - until) * 10) / 10:.1f} s, give the track more rows, or have the "
-        "drone start nearer",
     )

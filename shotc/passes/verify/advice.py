@@ -32,7 +32,7 @@ def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) ->
     """Return the change that makes a claim hold; ``phase`` is the one in which it is broken."""
     if rule.help or not isfinite(claim.worst):
         return rule.help or REPLAN
-    special = _in_space(claim, rule.code)
+    special = _on_a_way(claim, rule.code, phase) or _in_space(claim, rule.code)
     if special:
         return special
     setting = _setting(mission, claim)
@@ -71,6 +71,15 @@ def _setting(mission: MissionIR, claim: Claim) -> str:
         worst = f"{total:.{DIGITS}g} {claim.unit}"
         remark = f" ({measure(mission.wind, claim.unit)} of wind are taken off)"
     return f"{verb} {which}`{'.'.join(keys)}` to {worst}{remark}"
+
+
+def _on_a_way(claim: Claim, code: str, phase: Phase | None) -> str:
+    """Return what helps on a way that is the planner's own: a lower clearance would lead it nearer still."""
+    if code != "V010" or claim.drones or phase is None or phase.shot is not None:
+        return ""
+    if phase.name == "transit":
+        return f"start the shot that comes next at another time, or put `home` elsewhere; then {REPLAN}"
+    return f"put `home` elsewhere, or end the last shot elsewhere; then {REPLAN}"
 
 
 def _in_space(claim: Claim, code: str) -> str:

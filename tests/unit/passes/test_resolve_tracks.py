@@ -238,6 +238,42 @@ def test_a_gap_is_a_warning_with_its_lines(tmp_path: Path) -> None:
     )
 
 
+def test_a_gap_in_which_nothing_moves_is_none(tmp_path: Path) -> None:
+    rows = [(0.0, 0.0)] + [(15 + i / 2, 3.0 * i) for i in range(30)]
+    text = "t,x,y,z\n" + "".join(f"{t},{x},0,0.9\n" for t, x in rows)
+    timing = "start: 15, duration: 5"
+    assert resolved(written(recorded(tmp_path, text), timing=timing), tmp_path)[1] == []
+
+
+@pytest.mark.parametrize("first", [0.0, 7.0, 40000.0])
+def test_a_recording_begins_when_the_mission_says(tmp_path: Path, first: float) -> None:
+    file = recorded(tmp_path, "".join(f"{first + t},{2 * t},0,0.9\n" for t in range(20)))
+    text = written(f"{file}, begins: 15 s", timing="start: 15, duration: 5")
+    track = track_of(text, tmp_path)
+    assert (track.times[:3], track.since, track.until) == ((15.0, 16.0, 17.0), 15.0, 34.0)
+    assert (track.at(3.0), track.at(17.0)) == ((0.0, 0.0, 0.9), (4.0, 0.0, 0.9))
+    early = only(text.replace("start: 15,", "start: 12,"), tmp_path)
+    assert (early.code, "15.00 s" in early.help) == ("M004", True)
+
+
+@pytest.mark.parametrize(
+    ("track", "code"),
+    [
+        ("file: t.csv, begins: -3 s", "S014"),
+        ("file: t.csv, begins: 15 m", "U002"),
+        ("file: t.csv, begins: 1e9", "U006"),
+        ("begins: 15 s", "S"),
+        ("points: [[0, 0, 1], [9, 0, 1]], speed: 2, begins: 15 s", "S"),
+    ],
+)
+def test_when_a_recording_begins_is_no_negative_time_and_needs_a_file(
+    tmp_path: Path, track: str, code: str
+) -> None:
+    recorded(tmp_path, "".join(f"{t},{2 * t},0,0.9\n" for t in range(20)))
+    found = resolved(written(track), tmp_path)[1]
+    assert [d.code[: len(code)] for d in found] == [code]
+
+
 @pytest.mark.parametrize("times", [(0, 5, 20, 30), (0, 0.1, 0.2, 3, 9, 11, 20), tuple(range(0, 30, 7))])
 def test_rows_that_are_seldom_are_no_gap(tmp_path: Path, times: tuple[float, ...]) -> None:
     text = "t,x,y,z\n" + "".join(f"{t},{t},0,0.9\n" for t in times)

@@ -1,0 +1,139 @@
+"""Whether a drone keeps up with the place that a shot gives it, and what of the shot would let it.
+
+A remedy is tried before it is told: the place is looked at again with the number that is proposed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import ceil, floor, hypot, inf
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.track import Vec3
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import Drone, MissionIR, Shot
+
+WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good
+STEPS = 200  # places at which an ideal is looked at
+HALVES = 7  # of the span between the nearest place and the one asked, to a hundredth of it
+MORE = (1.0, 1.05, 1.2, 1.5, 2.0)  # times the duration that would do if its target stood
+ROUNDING = 1e-6  # of a speed
+
+LEVEL = ("distance", "radius", "offset")
+"""Keys of a shot that say how far from its target it is on the map: the last, how far to its side alone."""
+
+
+def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell an ideal that is faster than the drone, on average over a window."""
+    drone = mission.drone(shot.drone)
+    limit = drone.limits.speed
+    worst, when = _fastest(mission, shot)
+    if worst <= limit * (1 + ROUNDING):
+        return
+    wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
+    window = min(WINDOW, shot.timing.duration or 0.0)
+    faster = ceil(worst * 10) / 10 + mission.wind
+    remedies = [
+        *_nearer(mission, shot, drone),
+        *_other_side(mission, shot, limit),
+        *_longer(mission, shot, worst / limit),
+        f"raise `limits: {{speed: {faster:.1f} m/s}}` of `{drone.name}` if it flies that",
+        *_slower(mission, shot),
+    ]
+    yield Diagnostic(
+        "M005",
+        f"drone `{drone.name}` cannot keep up in shot `{shot.id}`",
+        (
+            mission.origins.value((*shot.path, "kind")),
+            mission.origins.value((*drone.path, "limits", "speed"), "the drone's speed"),
+        ),
+        (
+            f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
+            f"the drone flies {limit:.1f} m/s{wind}",
+        ),
+        ", or ".join(remedies),
+    )
+
+
+def _fastest(mission: MissionIR, shot: Shot) -> tuple[float, float]:
+    """Return the highest mean speed over a window, m/s, and when that begins, seconds."""
+    duration, start = shot.timing.duration or 0.0, shot.timing.start or 0.0
+    window = min(WINDOW, duration)
+    found = []
+    for i in range(STEPS + 1):
+        t = start + (duration - window) * i / STEPS
+        a, b = (ideal_place(mission, shot, start, u) for u in (t, t + window))
+        found.append((hypot(b[0] - a[0], b[1] - a[1]) / window, -t))
+    worst, late = max(found)
+    return worst, -late
+
+
+def _keeps_up(mission: MissionIR, shot: Shot, limit: float) -> bool:
+    return _fastest(mission, shot)[0] <= limit
+
+
+def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
+    """Yield the greatest distance at which the drone keeps up, where that is clear of the target."""
+    ideal, limit = shot.ideal, drone.limits.speed
+    key = next((key for key in LEVEL if (*shot.path, key) in mission.origins.values), None)
+    if key is None or ideal is None or ideal.target is None:
+        return
+    first = ideal.points[0][1]
+    asked = abs(first[1]) if key == "offset" else hypot(first[0], first[1])
+    least = mission.target(ideal.target).radius + mission.rules.target_clearance + drone.radius
+
+    def at(metres: float) -> Shot:
+        share = metres / asked
+        return _moved(shot, lambda p: (p[0] * (1.0 if key == "offset" else share), p[1] * share, p[2]))
+
+    low, high = ceil(10 * least) / 10, asked
+    if low >= high or not _keeps_up(mission, at(low), limit):
+        return
+    for _ in range(HALVES):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _keeps_up(mission, at(middle), limit) else (low, middle)
+    told = max(ceil(10 * least) / 10, floor(10 * low) / 10)
+    if _keeps_up(mission, at(told), limit):
+        # An offset to the right is written as a negative number.
+        yield f"give it `{key}: {-told if key == 'offset' and first[1] < 0 else told:.1f} m` or nearer"
+
+
+def _other_side(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:
+    """Yield the other side, where the drone flies a bend on the inside there."""
+    if (*shot.path, "side") not in mission.origins.values or shot.ideal is None:
+        return
+    other = "right" if shot.ideal.points[0][1][1] > 0 else "left"
+    if _keeps_up(mission, _moved(shot, lambda p: (p[0], -p[1], p[2])), limit):
+        yield f"film from the other `side: {other}`"
+
+
+def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
+    """Yield a longer duration, where the shot moves about its target or along a path of its own."""
+    if shot.ideal is None or len({p for _, p in shot.ideal.points}) < 2:
+        return
+    duration, start = shot.timing.duration or 0.0, shot.timing.start or 0.0
+    tracks = (mission.target(s.target).track for s in shot.subjects)
+    until = min((track.until for track in tracks if track is not None), default=inf)
+    for more in MORE:
+        lasts = ceil(duration * share * more * 10) / 10
+        longer = shot._replace(timing=shot.timing._replace(duration=lasts))
+        if start + lasts <= until and _keeps_up(mission, longer, mission.drone(shot.drone).limits.speed):
+            yield f"give it `duration: {lasts:.1f} s`"
+            return
+
+
+def _slower(mission: MissionIR, shot: Shot) -> Iterator[str]:
+    """Yield the target, where the mission itself says how fast that goes."""
+    ideal = shot.ideal
+    if ideal is None or ideal.target is None:
+        return
+    path = (*mission.target(ideal.target).path, "track")
+    if any((*path, key) in mission.origins.values for key in ("speed", "velocity", "times")):
+        yield f"slow down `{ideal.target}`"
+
+
+def _moved(shot: Shot, move: Callable[[Vec3], Vec3]) -> Shot:
+    """Return a shot with its places beside the target moved."""
+    assert shot.ideal is not None
+    points = tuple((share, move(p)) for share, p in shot.ideal.points)
+    return shot._replace(ideal=shot.ideal._replace(points=points))

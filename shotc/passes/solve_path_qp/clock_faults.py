@@ -1,0 +1,111 @@
+"""What stood in the way of a shot on the clock, or of the way to it, said in the mission's own terms."""
+
+from __future__ import annotations
+
+from math import ceil, floor
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.passes.corridor.room import named, owner_path
+from shotc.passes.parameterize_time.faults import listed, plain, timing_label, up
+from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate
+
+ALONE = "or have the drone start nearer"
+
+
+def outside_track(mission: MissionIR, shot: Shot, found: OutsideTrack) -> Diagnostic:
+    """Return M010: the drone is there so late that the track ends before the shot does."""
+    track = mission.target(found.target).track
+    until = 0.0 if track is None else track.until
+    end = found.start + (shot.timing.duration or 0.0)
+    labels = (
+        mission.origins.value((*shot.path, "id")),
+        mission.origins.value((*mission.target(found.target).path, "track"), "the track"),
+    )
+    short = _shortened(found)
+    remedy = f"give it {short}" if short else "give the track more rows"
+    later = "let its recording begin later by `begins`, " if _recorded(mission, shot) else ""
+    return Diagnostic(
+        "M010",
+        f"the track of `{found.target}` ends before shot `{shot.id}` does",
+        labels,
+        (
+            f"the drone is in place at {found.start:.1f} s at the earliest, so the shot ends at {end:.1f} s; "
+            f"the track ends at {until:.1f} s",
+        ),
+        f"{remedy}, {later}{ALONE}",
+    )
+
+
+def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
+    """Return T003: the drone is not there at the start of a shot of what moves on meanwhile."""
+    asked, short = shot.timing.start, found.outside
+    label = mission.origins.key(shot.path) if asked is None else timing_label(mission, shot.path, "start")
+    labels, told = [label], f"shot `{shot.id}`" + ("" if asked is None else f" starts at {plain(asked)} s")
+    sum_up = f"{up(found.before[-1].end)} s, the last {found.run_up:.1f} s to come up to speed"
+    notes = [f"before it come {listed(found.before)}: {sum_up}"]
+    remedies = []
+    if found.earliest is not None:
+        message = f"{told}, but {up(found.earliest)} s is the earliest possible"
+        remedies.append(f"give it `start: {up(found.earliest)} s`" + (" or later" if short is None else ""))
+    elif short is not None:
+        message = f"{told}, and the track of `{short.target}` ends before its drone is there"
+    else:
+        message = f"{told}, and its drone does not catch up with what it films"
+    if short is not None:
+        path = mission.target(short.target).path
+        labels.append(mission.origins.value((*path, "track"), f"{short.left:.1f} s are left of it then"))
+        remedies = [f"{remedy} and {_shortened(short)}" for remedy in remedies]
+    if asked is not None:
+        remedies += _begun_later(mission, shot, asked, float(up(found.late)))
+    remedies.append(f"shorten what comes before, {ALONE}")
+    return Diagnostic("T003", message, tuple(labels), tuple(notes), ", or ".join(remedies))
+
+
+def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -> Diagnostic:
+    """Return M011: every way to a shot, or back home where that is None, meets a target."""
+    met = found.met
+    lead = "on its way home" if shot is None else f"on every way to shot `{shot.id}`"
+    where = (
+        mission.origins.value((*drone.path, "home"), "on the way back here")
+        if shot is None
+        else mission.origins.key(shot.path, "on the way to this shot")
+    )
+    remedies = [f"start the shot at {up(found.start)} s"] if found.start is not None else []
+    remedies.append(f"put `home` where {named(met.owner)} is not between it and the shots")
+    return Diagnostic(
+        "M011",
+        f"`{drone.name}` comes too near to {named(met.owner)} {lead}",
+        (where, mission.origins.key(owner_path(mission, met.owner), "is in the way")),
+        (
+            f"on the best of them its body is {ceil(met.lack * 100) / 100:.2f} m nearer than "
+            f"`target_clearance` allows, at t = {met.time:.1f} s",
+            "straight, round and over what is in the way were tried, and setting out at other times",
+        ),
+        ", or ".join(remedies),
+    )
+
+
+def _shortened(found: OutsideTrack) -> str:
+    left = floor(found.left * 10) / 10
+    return f"`duration: {left:.1f} s` or less" if left > 0 else ""
+
+
+def _begun_later(mission: MissionIR, shot: Shot, asked: float, later: float) -> list[str]:
+    """Return what lets the recordings of a shot, and so all of its shots, begin later; empty without any."""
+    recorded = _recorded(mission, shot)
+    if not recorded:
+        return []
+    begins = " and ".join(f"`begins: {plain(first + later)} s` of `{name}`" for name, first in recorded)
+    shots = f"every shot of it as much later, this one at `start: {plain(asked + later)} s`"
+    return [f"let its track begin {plain(later)} s later, or more ({begins}), and {shots}"]
+
+
+def _recorded(mission: MissionIR, shot: Shot) -> list[tuple[str, float]]:
+    """Return the targets that move in a shot, and when their tracks begin; none unless all are recorded."""
+    names = {s.target for s in shot.subjects} or ({shot.subject} if shot.subject else set())
+    moving = [(mission.target(name), mission.target(name).track) for name in sorted(names)]
+    tracks = [(target, track) for target, track in moving if track is not None]
+    if any((*target.path, "track", "file") not in mission.origins.values for target, _ in tracks):
+        return []
+    return [(target.name, track.times[0]) for target, track in tracks]

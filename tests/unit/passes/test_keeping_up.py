@@ -1,0 +1,89 @@
+"""A shot that is faster than its drone: each change that is proposed lets it keep up."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from shotc.diag.model import Diagnostic
+from tests.front import resolved
+
+MISSION = """\
+shotc: 1
+mission: bend
+targets:
+  rider:
+    track: {TRACK}
+    radius: 0.9
+    height: 1.8
+drones:
+  cam1: {model: x500, home: [0, -30, 0], limits: {speed: LIMIT}}
+shots:
+  - {id: s, drone: cam1, target: rider, SHOT, timing: {start: 2, duration: 20}}
+"""
+TURN = ", ".join(
+    f"[{x:.2f}, {y:.2f}, 0.9]"
+    for x, y in [(0, 0), (50, 0), (57.65, 1.52), (64.14, 5.86), (68.48, 12.35), (70, 20), (70, 90)]
+)
+BEND = f"points: [{TURN}], speed: 6 m/s"  # to the left, by a quarter turn of 20 m
+LATERAL = "kind: lateral, side: right, distance: 8, altitude: 4"
+
+
+def told(shot: str, limit: str = "7 m/s", track: str = BEND) -> tuple[Diagnostic, ...]:
+    text = MISSION.replace("TRACK", track).replace("LIMIT", limit).replace("SHOT", shot)
+    return tuple(d for d in resolved(text)[1] if d.code == "M005")
+
+
+def help_of(shot: str, limit: str = "7 m/s", track: str = BEND) -> str:
+    (found,) = told(shot, limit, track)
+    return found.help
+
+
+@pytest.mark.parametrize(
+    ("shot", "asked", "limit"),
+    [
+        (LATERAL, "distance: 8", "7 m/s"),
+        ("kind: flyby, behind: 9, ahead: 9, offset: -8, altitude: 4", "offset: -8", "8.3 m/s"),
+    ],
+)
+def test_the_place_that_is_proposed_is_the_farthest_at_which_it_keeps_up(
+    shot: str, asked: str, limit: str
+) -> None:
+    key, _, _ = asked.partition(":")
+    proposed = re.search(rf"`{key}: (-?[\d.]+) m` or nearer", help_of(shot, limit))
+    assert proposed is not None
+    metres = float(proposed[1])
+    assert not told(shot.replace(asked, f"{key}: {metres}"), limit)
+    assert told(shot.replace(asked, f"{key}: {metres * 1.06:.2f}"), limit)
+
+
+def test_the_other_side_is_named_where_it_is_the_inside_of_the_bend() -> None:
+    assert "`side: left`" in help_of(LATERAL)
+    assert not told(LATERAL.replace("right", "left"))
+    both = BEND.replace("[70.00, 90.00, 0.9]", "[71.52, 27.65, 0.9], [75.86, 34.14, 0.9], [90, 40, 0.9]")
+    assert "side" not in help_of(LATERAL, track=both)
+
+
+def test_a_higher_limit_is_enough() -> None:
+    limit = re.search(r"`limits: \{speed: ([\d.]+ m/s)\}`", help_of(LATERAL))
+    assert limit is not None
+    assert not told(LATERAL, limit[1])
+
+
+def test_where_the_target_itself_is_too_fast_no_place_beside_it_is_named() -> None:
+    found = help_of(LATERAL, "5 m/s")
+    assert "distance" not in found
+    assert "side" not in found
+    assert "slow down `rider`" in found
+
+
+def test_what_moves_about_its_target_is_given_more_time() -> None:
+    orbit = "kind: orbit, radius: 30, altitude: 10, sweep: 360 deg, start_azimuth: 180 deg"
+    still = "points: [[0, 0, 0.9], [1, 0, 0.9]], speed: 0.1 m/s"
+    longer = re.search(r"`duration: ([\d.]+) s`", help_of(orbit, track=still))
+    assert longer is not None
+    text = MISSION.replace("TRACK", still).replace("LIMIT", "7 m/s").replace("SHOT", orbit)
+    assert not [
+        d for d in resolved(text.replace("duration: 20", f"duration: {longer[1]}"))[1] if d.code == "M005"
+    ]

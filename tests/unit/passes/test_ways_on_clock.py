@@ -1,0 +1,178 @@
+"""Ways to shots of what moves: clear of it whichever way they lead, and in time, or told when."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shotc.api import PlanOptions, compile_source
+from shotc.diag.model import Diagnostic
+from shotc.geom.convex import distances
+from shotc.geom.corridor import Room
+from shotc.geom.solids import Cylinder
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.mission import MissionIR
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.passes.solve_path_qp.starts import CLOSE, SPARE, Reached, Trouble, put_off
+from shotc.passes.solve_path_qp.sweeps import with_sweeps
+from shotc.passes.timed_route.moving import Moving
+from shotc.passes.verify.advice import Rule, advice
+from tests.front import placed
+
+PAIR = """\
+shotc: 1
+mission: pair
+targets:
+  cyclist: {track: {points: [[-100, 0, 0.9], [-100, 0, 0.9], [60, 0, 0.9]], times: [0, 15, 42]}, radius: 0.9,
+    height: 1.8}
+  second: {track: {points: [[-100, 4, 0.9], [-100, 4, 0.9], [60, 4, 0.9]], times: [0, 15, 42]}, radius: 0.9,
+    height: 1.8}
+drones:
+  cam: {model: x500, home: HOME}
+shots:
+  - {id: duo, kind: framing, drone: cam, timing: {start: 15, duration: 12}, subjects: [
+      {target: cyclist, frame: left-third, size: SIZE}, {target: second, frame: right-third}]}
+"""
+RIDE = """\
+shotc: 1
+mission: ride
+targets:
+  rider: {track: {file: rider.csv BEGINS}, radius: 0.9, height: 1.8}
+drones:
+  cam: {model: x500, home: [-100, -15, 0]}
+shots:
+  - {id: tail, kind: chase, drone: cam, target: rider, distance: 10, altitude: 4,
+     timing: {TIMING}}
+"""
+ROWS = "t,x,y,z\n0,-100,0,0.9\n20,20,0,0.9\n40,60,113,0.9\n"
+
+
+def compiled(mission: str, folder: Path | None = None) -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
+    done = compile_source(mission.encode(), "m.yaml", folder, PlanOptions(refiner="none"))
+    return done.plan, done.diagnostics
+
+
+def ride(folder: Path, timing: str, begins: str = "") -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
+    (folder / "rider.csv").write_text(ROWS)
+    return compiled(RIDE.replace("TIMING", timing).replace(" BEGINS", begins), folder)
+
+
+def pair() -> MissionIR:
+    ir, _ = placed(PAIR.replace("SIZE", "0.7").replace("HOME", "[-85, -15, 0]"))
+    assert ir is not None
+    return ir.mission
+
+
+def only(found: tuple[Diagnostic, ...], code: str) -> Diagnostic:
+    (told,) = (d for d in found if d.code == code)
+    return told
+
+
+@pytest.mark.parametrize("size", ["0.9", "0.7"])
+@pytest.mark.parametrize("home", ["[-100, 15, 0]", "[-97, 12, 0]", "[-85, -15, 0]"])
+def test_the_way_to_a_shot_leads_round_who_stands_in_it(size: str, home: str) -> None:
+    plan, found = compiled(PAIR.replace("SIZE", size).replace("HOME", home))
+    assert plan is not None, found
+    curve = plan.trajectory.drones[0].curve
+    fly = next(p.end for p in plan.trajectory.drones[0].phases if p.name == "takeoff")
+    t = np.arange(fly, 15.0, 0.01)
+    for y in (0.0, 4.0):
+        away = distances(Cylinder((-100.0, y), 0.9, 0.0, 1.8), curve(t)[:, :3])
+        assert away.min() >= plan.trajectory.keyframes.mission.rules.target_clearance
+
+
+def test_a_start_put_off_is_one_at_which_the_drone_is_there(tmp_path: Path) -> None:
+    told = only(ride(tmp_path, "start: 0, duration: 6")[1], "T003")
+    start = re.search(r"`start: ([\d.]+) s` or later", told.help)
+    assert start is not None, told
+    assert ride(tmp_path, f"start: {start[1]}, duration: 6")[0] is not None
+
+
+def test_a_track_that_ends_before_the_later_shot_does_leaves_so_much_of_it(tmp_path: Path) -> None:
+    told = only(ride(tmp_path, "start: 0, duration: 40")[1], "T003")
+    numbers = re.search(r"`start: ([\d.]+) s` and `duration: ([\d.]+) s` or less", told.help)
+    assert numbers is not None, told
+    assert 0.0 <= 40.0 - float(numbers[1]) - float(numbers[2]) < 0.1
+    assert ride(tmp_path, f"start: {numbers[1]}, duration: {numbers[2]}")[0] is not None
+
+
+def test_a_recording_that_begins_later_leaves_the_drone_time_for_the_whole_of_it(tmp_path: Path) -> None:
+    told = only(ride(tmp_path, "start: 0, duration: 40")[1], "T003")
+    numbers = re.search(r"`begins: ([\d.]+) s` of `rider`\).* `start: ([\d.]+) s`", told.help)
+    assert numbers is not None, told
+    plan, found = ride(tmp_path, f"start: {numbers[2]}, duration: 40", f", begins: {numbers[1]}")
+    assert plan is not None, found
+
+
+def test_what_comes_before_a_shot_adds_up_to_its_earliest_start(tmp_path: Path) -> None:
+    told = only(ride(tmp_path, "start: 0, duration: 6")[1], "T003")
+    parts, total = told.notes[0].removeprefix("before it come ").split(": ")
+    told_sum = float(total.split(" s")[0])
+    assert sum(float(x) for x in re.findall(r"([\d.]+) s", parts)) == pytest.approx(told_sum, abs=0.11)
+    assert f"but {told_sum:.2f} s is the earliest" in told.message
+
+
+def test_a_shot_without_a_start_is_told_how_long_it_can_be(tmp_path: Path) -> None:
+    told = only(ride(tmp_path, "duration: 40")[1], "M010")
+    left = re.search(r"`duration: ([\d.]+) s` or less", told.help)
+    assert left is not None, told
+    assert ride(tmp_path, f"duration: {left[1]}")[0] is not None
+
+
+class Chaser:
+    """Reaches a shot by an arrival that is known for each start; keeps what was asked of it."""
+
+    def __init__(self, slope: float, offset: float) -> None:
+        self.slope, self.offset = slope, offset
+        self.starts: list[float] = []
+
+    def __call__(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+        self.starts.append(start)
+        made = type("Shot", (), {"leg": type("Leg", (), {"start": start})()})()
+        return Reached(made, None, self.offset + self.slope * start - start)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.3, 0.6, 0.8])
+def test_a_start_is_put_off_to_where_the_drone_has_caught_up(slope: float) -> None:
+    mission = pair()
+    found = put_off(mission, Chaser(slope, 5.0), PlacedShot(mission.shots[0], ()), 1.0)
+    assert isinstance(found, Reached)
+    exact = 5.0 / (1.0 - slope)
+    assert exact <= found.shot.leg.start <= exact + max(CLOSE, 2 * SPARE)
+
+
+def test_a_drone_that_falls_behind_is_given_up_soon() -> None:
+    mission, chaser = pair(), Chaser(1.0, 5.0)
+    found = put_off(mission, chaser, PlacedShot(mission.shots[0], ()), 1.0)
+    assert isinstance(found, Reached)
+    assert found.late > 0.0
+    assert len(chaser.starts) == 2
+
+
+def test_a_sweep_holds_all_places_of_its_target() -> None:
+    part = Cylinder((0.0, 0.0), 0.9, -0.9, 0.9)
+
+    def at(times: np.ndarray) -> np.ndarray:
+        return np.column_stack([np.sin(times), 0.3 * times, 1.0 + 0.1 * times])
+
+    room = with_sweeps(Room((), (), ()), [Moving("target x", part, 1.6, at)], (2.0, 5.0))
+    (swept,) = room.obstacles
+    angle = np.linspace(0.0, 2 * np.pi, 24)
+    rim = np.column_stack([0.89 * np.cos(angle), 0.89 * np.sin(angle), np.zeros(24)])
+    for t in np.arange(2.0, 5.01, 0.5):
+        assert distances(swept.part, at(np.array([t])) + rim).max() == pytest.approx(0.0, abs=1e-9)
+    assert (swept.owner, swept.clearance) == ("target x", 1.6)
+
+
+@pytest.mark.parametrize("phase", ["transit", "return"])
+def test_on_a_way_of_the_planners_own_no_rule_is_to_be_lowered(phase: str) -> None:
+    rule = ("rules", "target_clearance")
+    claim = Claim("target second", "cam", None, 1.0, 0.8, "m", False, 5.0, None, "bounded", True, False, rule)
+    help_ = advice(pair(), claim, Rule("V010"), Phase(phase, None, 0.0, 9.0))  # type: ignore[arg-type]
+    assert "lower" not in help_
+    assert "`home`" in help_
+    assert "lower" in advice(pair(), claim, Rule("V010"), Phase("shot", "duo", 0.0, 9.0))
