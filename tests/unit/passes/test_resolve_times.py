@@ -17,7 +17,7 @@ def test_a_flight_shorter_than_a_straight_line_allows() -> None:
     assert "14.6 s" in d.notes[0]
     assert "14.6 s" in d.help
     line = mission(shot).splitlines()[FIRST - 1]
-    assert span(d) == (FIRST, line.index("timing") + 1, line.index("timing") + 7)
+    assert span(d) == (FIRST, line.index("10}") + 1, line.index("10}") + 3)
     assert faults(mission(shot.replace("duration: 10", "duration: 14.6"))) == []
 
 
