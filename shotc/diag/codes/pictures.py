@@ -167,4 +167,32 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "D062",
+        "dark-drones",
+        Severity.WARNING,
+        "a flat picture has no room for all drones, and some stay dark",
+        "The lights of a text or a drawing stand on its strokes, or in its fills: one beside them would be read as part "
+        "of it. Where the strokes hold fewer drones than the fleet has, at the spacing that goals need to pass each "
+        "other, the others stand behind the picture with their lights off, at most half of the fleet (D056 refuses "
+        "more). The numbers of the help have been tried: with each of them all lights shine.",
+        _PASSING.replace("height: 20}", "height: 9}"),
+        _PASSING,
+        "plan",
+    ),
+    CodeInfo(
+        "D063",
+        "small-letters",
+        Severity.WARNING,
+        "letters too small for the distance of the lights",
+        "The smallest letters that are read have five lights in their height, and lights stand as far apart as drones "
+        "need to pass each other between pictures, one above the other usually farther than side by side. In smaller "
+        "letters the lights of one stroke are as near to those of the next as to each other. Small letters are taken to "
+        "be seven tenths of a capital.",
+        _PASSING.replace("text: GO,", "text: G,")
+        .replace("height: 20}", "height: 5}")
+        .replace("count: 60", "count: 12"),
+        _PASSING,
+        "plan",
+    ),
 )
