@@ -15,7 +15,7 @@ from shotc.ir.show import Display, Fleet, Lettering, Picture
 from shotc.passes.place_goals.body import Body, Fill
 from shotc.passes.place_goals.faults import no_points, too_few_points, viewpoint_inside
 from shotc.passes.place_goals.flat import FlatBody
-from shotc.passes.place_goals.letters import outline_reads
+from shotc.passes.place_goals.letters import lights_needed
 from shotc.passes.place_goals.lit import Lit, Strokes, on_strokes
 from shotc.passes.place_goals.model import MeshBody
 from shotc.passes.place_goals.solids import SolidBody
@@ -74,7 +74,7 @@ def laid_out(task: Task, setting: Setting, bodies: Sequence[Body], light: Light)
     source = task.picture.source
     if not isinstance(flat, FlatBody) or not isinstance(source, Lettering):
         return inside
-    if isinstance(inside, Diagnostic) or not outline_reads(source, flat, setting.number):
+    if isinstance(inside, Diagnostic) or setting.number < lights_needed(source, flat, "outline"):
         return inside
     outline = _filled(task, setting, bodies, "outline", light)
     if isinstance(outline, Diagnostic):

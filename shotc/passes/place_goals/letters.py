@@ -22,30 +22,30 @@ RESOLVED = 1.5
 
 
 def lights_needed(source: Lettering, body: FlatBody, fill: Fill) -> int:
-    """Return how many lights a text takes: as far apart along its strokes as in a letter of five."""
-    return ceil(_strokes(body, fill) * (DOTS - 1) / source.height)
+    """Return how many lights a text takes: as far apart along its strokes as in a letter of five.
 
-
-def outline_reads(source: Lettering, body: FlatBody, number: int) -> bool:
-    """Tell whether so many lights on a text's outline show both sides of its strokes."""
-    enough = number * RESOLVED * body.stroke >= body.outlines
-    return enough and number >= lights_needed(source, body, "outline")
+    Along an outline they are nearer where it takes that to show both sides of a stroke.
+    """
+    return ceil(_strokes(body, fill) / _step(source, body, fill))
 
 
 def too_few_lights(
     mission: MissionIR, picture: Picture, strokes: tuple[FlatBody, Fill], numbers: tuple[int, int | None]
 ) -> Diagnostic:
     """Warn of a fleet that is too small for a text; numbers : of drones, and of those that do, if any do."""
-    source, (number, enough) = picture.source, numbers
+    source, (body, fill), (number, enough) = picture.source, strokes, numbers
     assert isinstance(source, Lettering)
-    length = _strokes(*strokes)
+    length = _strokes(body, fill)
     note = (
-        f"its strokes are {length:.0f} m long, so its lights are {length / number:.1f} m apart; "
-        f"letters {source.height:.4g} m high need one every {source.height / (DOTS - 1):.1f} m"
+        f"its {'edges' if fill == 'outline' else 'strokes'} are {length:.0f} m long, so its lights are "
+        f"{length / number:.1f} m apart; these letters need one every {_step(source, body, fill):.1f} m"
     )
-    more = "make them larger, with more drones" if enough is None else f"use {enough} drones or more"
+    ways = ["make it larger, with more drones" if enough is None else f"use {enough} drones or more"]
+    if fill == "outline" and number >= lights_needed(source, body, "volume"):
+        ways.append("leave `fill` out")
     message = f"{number} drones are too few to read `{source.text[:40]}`"
-    return Diagnostic("D057", message, (place_of(mission, picture),), (note,), f"{more}, or fewer letters")
+    help_ = ", or ".join([*ways, "fewer letters"])
+    return Diagnostic("D057", message, (place_of(mission, picture),), (note,), help_)
 
 
 def too_small(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
@@ -62,6 +62,12 @@ def too_small(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic 
     message = f"letters {source.height:.4g} m high are too small to be read"
     help_ = f"make them larger (`{size_words(source, larger.source)}`), or keep a smaller `separation`"
     return Diagnostic("D063", message, (place_of(mission, picture, "height"),), notes, help_)
+
+
+def _step(source: Lettering, body: FlatBody, fill: Fill) -> float:
+    """Return how far apart lights may be along what they stand on, metres."""
+    step = source.height / (DOTS - 1)
+    return min(step, RESOLVED * body.stroke) if fill == "outline" else step
 
 
 def _strokes(body: FlatBody, fill: Fill) -> float:
