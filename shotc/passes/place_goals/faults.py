@@ -113,10 +113,10 @@ def _ways(fleet: Fleet, ways: Remedies, otherwise: str) -> str:
         found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'}")
     if ways.size is not None:
         found.append(f"make it {_up(ways.size[1], 2)} times as large (`{ways.size[0]}`)")
-    apart = fleet.apart
-    level, upright = ((ways.share or 0.0) * full - apart.margin for full in (apart.across, apart.upright))
-    if level > 2.0 * fleet.radius:
-        found.append(f"keep a `separation` of {_down(level)} m, {_down(upright)} m vertically")
+    if ways.share is not None:
+        full = (fleet.apart.across, fleet.apart.upright)
+        level, upright = (_down(ways.share * distance - fleet.apart.margin) for distance in full)
+        found.append(f"keep a `separation` of {level} m, {upright} m vertically")
     return ", or ".join(found) or otherwise
 
 

@@ -56,7 +56,7 @@ def _warnings(task: Task, setting: Setting, body: Body, layout: Layout) -> list[
     """Return what is to be said of a picture that can be flown."""
     found = []
     if layout.bright < setting.number:
-        ways = _remedies(task, setting, layout.placed[0], layout.bright)
+        ways = _remedies(task, setting, layout.placed[0])
         found.append(too_dark(task.mission, task.fleet, task.picture, ways, layout.bright))
     small = too_small(task.mission, task.fleet, task.picture)
     if small is not None:
@@ -77,12 +77,12 @@ def _few(task: Task, setting: Setting, body: Body, layout: Layout) -> Diagnostic
     return too_few_lights(task.mission, task.picture, (body, layout.fill), numbers)
 
 
-def _remedies(task: Task, setting: Setting, tight: Placed, known: int | None = None) -> Remedies:
-    """Find what would do; known : about how many drones, if that is known."""
-    tall = float(np.ptp(tight.points[:, 2]))
-    fit = what_fits(setting, tight)
-    about = fit if known is None else fit._replace(number=known)
-    return remedies(_trying(task, setting), task.picture, setting, about, tall)
+def _remedies(task: Task, setting: Setting, tight: Placed) -> Remedies:
+    """Find what would do."""
+    apart = task.fleet.apart
+    touching = (2.0 * task.fleet.radius + apart.margin) / apart.across
+    about = (what_fits(setting, tight), touching, float(np.ptp(tight.points[:, 2])))
+    return remedies(_trying(task, setting), task.picture, setting, about)
 
 
 def _trying(task: Task, setting: Setting) -> Fits:

@@ -28,13 +28,18 @@ class Remedies(NamedTuple):
     share: float | None
 
 
-def remedies(fits: Fits, picture: Picture, setting: Setting, fit: Fit, tall: float) -> Remedies:
-    """Return what does; fit : about what would; tall : height of a model as it is, metres."""
+def remedies(fits: Fits, picture: Picture, setting: Setting, about: tuple[Fit, float, float]) -> Remedies:
+    """Return what does.
+
+    about : what about would; the share of the spacing at which bodies touch, below which none is looked
+    for; the height of a model as it is, metres
+    """
+    fit, touching, tall = about
     full = setting.number
     numbers = dict.fromkeys(max(1, int(fit.number / STEP**k)) for k in range(TRIES))
     number = next((n for n in numbers if fits(picture, n, 1.0)), None)
     shares = (fit.share / STEP**k for k in range(TRIES))
-    share = next((s for s in shares if fits(picture, full, s)), None)
+    share = next((s for s in shares if s > touching and fits(picture, full, s)), None)
     factors = [STEP**k / fit.share for k in range(TRIES)]
     sizes = ((enlarged(picture, f, setting.room.lowest, tall), f) for f in factors)
     size = next(((size_words(picture.source, p.source), f) for p, f in sizes if fits(p, full, 1.0)), None)
