@@ -26,10 +26,7 @@ EYE = 1.7
 AWAY = 2.2
 """How far it is then from the middle of the show, in radii of the show about that middle."""
 
-LOW = 2.2
-"""How much wider a frame may be so that the ground under the show is in it, too."""
-
-BORDER = 1.12
+BORDER = 1.2
 """How much wider than the show its picture is."""
 
 MOMENTS = 40
@@ -57,9 +54,10 @@ class Audience:
         return view(self.yaw, self.pitch, self.hfov, aspect)
 
 
-def audience(plan: VerifiedIR, display: Display, aspect: float) -> Audience:
-    """Return who sees a display, in a frame that holds all of its pictures.
+def audience(plan: VerifiedIR, display: Display, aspect: float, before: tuple[float, ...] = ()) -> Audience:
+    """Return who sees a display, in a frame that holds all of its pictures, in its middle.
 
+    before : times, seconds, at which the frame holds the fleet as well, such as those of its way there
     Where it has no viewpoint, the audience stands south of it at eye height, far enough to see everything.
     """
     cloud = _cloud(plan, display)
@@ -71,10 +69,9 @@ def audience(plan: VerifiedIR, display: Display, aspect: float) -> Audience:
         reach = float(np.linalg.norm(high - low)) / 2.0
         eye = (float(middle[0]), float(middle[1]) - AWAY * max(reach, 5.0), ground + EYE)
     placed = display.viewpoint is not None
-    close = _looking(eye, cloud, aspect, placed=placed)
-    under = np.array([[middle[0], middle[1], ground]])
-    whole = _looking(eye, np.concatenate([cloud, under]), aspect, placed=placed)
-    return whole if tan(whole.hfov / 2.0) < LOW * tan(close.hfov / 2.0) else close
+    flight = flight_of(plan, display.fleet)
+    there = places(flight.breaks, flight.coef, np.array(before)).reshape(-1, 3)
+    return _looking(eye, np.concatenate([cloud, there]), aspect, placed=placed)
 
 
 def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audience:

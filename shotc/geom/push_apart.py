@@ -34,10 +34,10 @@ def push_apart(goals: Array, shape: Array, least: float, hold: Hold) -> Array | 
     """
     tree = cKDTree(shape)
     # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
-    leash = np.maximum(SLACK * least + _grain(tree), tree.query(goals)[0])
+    leash = np.maximum(SLACK * least + grain(tree), tree.query(goals)[0])
     missing = float("inf")
     for done in range(ROUNDS):
-        push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20))
+        push, lacking = pushes(goals, least, BEYOND * (1.0 + done / 20))
         if not lacking:
             return goals
         if done % PATIENCE == 0:
@@ -45,10 +45,10 @@ def push_apart(goals: Array, shape: Array, least: float, hold: Hold) -> Array | 
                 return None
             missing = lacking
         moving = np.flatnonzero(np.any(push != 0.0, axis=1))
-        wanted = _leashed(goals[moving] + push[moving], tree, leash[moving] * (1.0 + LOOSER * done / ROUNDS))
+        wanted = leashed(goals[moving] + push[moving], tree, leash[moving] * (1.0 + LOOSER * done / ROUNDS))
         goals = goals.copy()
         goals[moving] = hold(goals[moving], wanted)
-    return None if _pushes(goals, least, BEYOND)[1] else goals
+    return None if pushes(goals, least, BEYOND)[1] else goals
 
 
 def nearest_pair(goals: Array) -> float:
@@ -58,15 +58,18 @@ def nearest_pair(goals: Array) -> float:
     return float(cKDTree(goals).query(goals, k=2)[0][:, 1].min())
 
 
-def _pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
-    """Return by how much each goal is pushed, (n, 3), and how much distance all pairs lack together."""
+def pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
+    """Return by how much each goal is pushed, (n, D), and how much distance all pairs lack together.
+
+    beyond : share of the least distance that a push aims beyond it
+    """
     pairs = cKDTree(goals).query_pairs(least * (1.0 - 1e-12), output_type="ndarray")
     if not len(pairs):
         return np.zeros_like(goals), 0.0
     first, second = pairs[np.lexsort(pairs.T[::-1])].T
     apart = goals[first] - goals[second]
     distance = np.sqrt(np.einsum("pd,pd->p", apart, apart))
-    apart[distance < 1e-9] = (1.0, 0.0, 0.0)  # at one place: any way will do
+    apart[distance < 1e-9] = np.eye(goals.shape[1])[0]  # at one place: any way will do
     share = (least * (1.0 + beyond) - distance) / 2.0 / np.maximum(distance, 1e-9)
     share[distance < 1e-9] = least / 2.0
     push = share[:, None] * apart
@@ -75,7 +78,7 @@ def _pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
     return np.asarray(pushes, dtype=np.float64), float((least - distance).sum())
 
 
-def _grain(tree: cKDTree) -> float:
+def grain(tree: cKDTree) -> float:
     """Return how wide the gaps between drawn points are, which belong to the shape as well."""
     if tree.n < 2:
         return 0.0
@@ -83,7 +86,7 @@ def _grain(tree: cKDTree) -> float:
     return float(np.quantile(tree.query(sample, k=2)[0][:, 1], 0.95))
 
 
-def _leashed(goals: Array, tree: cKDTree, leash: Array) -> Array:
+def leashed(goals: Array, tree: cKDTree, leash: Array) -> Array:
     """Draw goals that are farther off the shape than their leash back to its end."""
     off, nearest = tree.query(goals)
     foot = np.asarray(tree.data)[nearest]

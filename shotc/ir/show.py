@@ -133,14 +133,15 @@ Source = Sphere | Box | Torus | Lettering | Drawing | Model
 class Picture(NamedTuple):
     """One picture, or an animation of several frames.
 
-    fill : what of it the drones stand in: all of the inside, the surface, or (flat shapes) the edges
+    fill : what of it the drones stand in: all of the inside, the surface, or (flat shapes) the edges;
+        "legible" is what of a text reads best, its inside or its edges
     color : of every light; None where the file says, white where it does not
     transition : seconds to it from the picture before it, None for as fast as the pace allows
     hold : seconds that its last frame stands
     """
 
     source: Source
-    fill: Literal["volume", "surface", "outline"]
+    fill: Literal["volume", "surface", "outline", "legible"]
     color: Color | None
     transition: float | None
     hold: float

@@ -108,9 +108,10 @@ class PictureSpec(Model):
     text: TextSpec | None = Field(default=None, description="a text")
     svg: DrawingSpec | None = Field(default=None, description="a drawing")
     model: FilesSpec | None = Field(default=None, description="meshes or point clouds, one or many")
-    fill: Literal["volume", "surface", "outline"] = Field(
-        default="volume",
-        description="where the drones stand: all of its inside, its surface, or edges of it",
+    fill: Literal["volume", "surface", "outline"] | None = Field(
+        default=None,
+        description="where the drones stand: all of its inside, its surface, or edges of it; "
+        "its inside if silent, of a text the edges where they read better",
     )
     color: LightColor | None = Field(
         default=None, description="of all lights; the file's, or white, if silent"

@@ -31,7 +31,8 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
         note = "only `text`, `svg` and `cube` have edges to stand on"
         help_ = "write `fill: surface`, or remove it"
         return Diagnostic("D009", "this picture has no outline", (label,), (note,), help_)
-    return Picture(source, spec.fill, spec.color, spec.transition, spec.hold, path)
+    fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
+    return Picture(source, fill, spec.color, spec.transition, spec.hold, path)
 
 
 def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

@@ -20,7 +20,7 @@ shots:
     viewpoint: [0, -100, 2]
     frames:
       - {sphere: {center: [0, 0, 40], radius: 15}, hold: 4}
-      - {text: {text: GO, center: [0, 0, 40], height: 20}, hold: 4, fill: outline}
+      - {text: {text: GO, center: [0, 0, 40], height: 20}, hold: 4}
 """
 
 CODES: tuple[CodeInfo, ...] = (
@@ -104,7 +104,7 @@ CODES: tuple[CodeInfo, ...] = (
         "apart. Here so many do not fit into the shape, nor within a part of that distance around it. The numbers of "
         "the help are found by trying: how many drones would fit, how large the picture would have to be, and at which "
         "separation all of them would fit.",
-        _PASSING.replace("height: 20}", "height: 5}"),
+        _PASSING.replace("height: 20}", "height: 5}, fill: outline"),
         _PASSING,
         "plan",
     ),
@@ -113,8 +113,10 @@ CODES: tuple[CodeInfo, ...] = (
         "too-few-drones",
         Severity.WARNING,
         "fewer drones than a picture needs to be seen",
-        "Letters are read where at least five lights stand in the height of a capital; the note says how long their "
-        "strokes are, and how far apart the lights would be. Anything else takes eight drones, the corners of a box.",
+        "Letters are read where at least five lights stand in the height of a capital, and along an outline where they "
+        "are near enough to show both sides of a stroke: at most one and a half strokes' width apart. The note says how "
+        "long the strokes are, and how far apart the lights would be. Anything else takes eight drones, the corners of "
+        "a box.",
         _PASSING.replace("text: GO,", "text: GOODBYE,"),
         _PASSING,
         "plan",
@@ -166,5 +168,33 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "",
         "other",
+    ),
+    CodeInfo(
+        "D062",
+        "dark-drones",
+        Severity.WARNING,
+        "a flat picture has no room for all drones, and some stay dark",
+        "The lights of a text or a drawing stand on its strokes, or in its fills: one beside them would be read as part "
+        "of it. Where the strokes hold fewer drones than the fleet has, at the spacing that goals need to pass each "
+        "other, the others stand behind the picture with their lights off, at most half of the fleet (D056 refuses "
+        "more). The numbers of the help have been tried: with each of them all lights shine.",
+        _PASSING.replace("height: 20}", "height: 9}, fill: outline"),
+        _PASSING,
+        "plan",
+    ),
+    CodeInfo(
+        "D063",
+        "small-letters",
+        Severity.WARNING,
+        "letters too small for the distance of the lights",
+        "The smallest letters that are read have five lights in their height, and lights stand as far apart as drones "
+        "need to pass each other between pictures, one above the other usually farther than side by side. In smaller "
+        "letters the lights of one stroke are as near to those of the next as to each other. Small letters are taken to "
+        "be seven tenths of a capital.",
+        _PASSING.replace("text: GO,", "text: G,")
+        .replace("height: 20}", "height: 5}")
+        .replace("count: 60", "count: 12"),
+        _PASSING,
+        "plan",
     ),
 )

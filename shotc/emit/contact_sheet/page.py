@@ -82,7 +82,9 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, COLUMNS)
         x, y = left + column * (CELL + GAP), start - row * (HEIGHT + CAPTION) - HEIGHT
-        _cell(canvas, (x, y), (board, moment), (seen, dpi))
+        # The first way comes from the ground, which none of the pictures shows.
+        way = audience(plan, board.display, ASPECT, moment.way) if i == 0 else seen
+        _cell(canvas, (x, y), (board, moment), ((seen, way), dpi))
 
 
 def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
@@ -115,17 +117,23 @@ def _middle(flight: FleetTrajectory, time: float) -> tuple[float, float, float]:
 
 
 def _cell(
-    canvas: Canvas, at: tuple[float, float], what: tuple[Board, Moment], how: tuple[Audience, float]
+    canvas: Canvas,
+    at: tuple[float, float],
+    what: tuple[Board, Moment],
+    how: tuple[tuple[Audience, Audience], float],
 ) -> None:
-    """Draw a picture with the way to it on its left, and say what and when it is."""
-    (x, y), (board, moment), seen = at, what, how[0]
+    """Draw a picture with the way to it on its left, and say what and when it is.
+
+    how : who sees the picture and the way to it, and dots an inch
+    """
+    (x, y), (board, moment), (seen, wide) = at, what, how[0]
     width = SMALL * ASPECT
     for i, time in enumerate(moment.way):
         box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT), width, SMALL)
-        _sky(canvas, box, (board.flight, time), how)
+        _sky(canvas, box, (board.flight, time), (wide, how[1]))
         canvas.text(box.x + 0.05, box.y + 0.05, clock(time), Type(6.5, WHITE))
     box = Box(x + width + SLIT, y, BIG, HEIGHT)
-    _sky(canvas, box, (board.flight, moment.time), how)
+    _sky(canvas, box, (board.flight, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
     name = (
         moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"

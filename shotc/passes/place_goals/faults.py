@@ -12,10 +12,9 @@ from shotc.geom.apart import spacing, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
-from shotc.passes.place_goals.body import Body, SourceFault
-from shotc.passes.place_goals.flat import FlatBody
+from shotc.passes.place_goals.body import SourceFault
+from shotc.passes.place_goals.remedies import Remedies
 from shotc.passes.place_goals.room import Room, lack_of, least_shift
-from shotc.passes.place_goals.spaced import Fit
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle
 
 KEYS = {
@@ -26,8 +25,6 @@ KEYS = {
     Drawing: "svg",
     Model: "model",
 }
-DOTS = 5
-"""Lights in the height of a capital, fewer of which make no letters: the smallest fonts have five."""
 FEWEST = 8
 """Drones below which no solid can be told from a box: they are its corners."""
 
@@ -83,43 +80,55 @@ def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> 
     )
 
 
-def too_many(mission: MissionIR, fleet: Fleet, picture: Picture, fit: Fit, points: Array) -> Diagnostic:
+def too_many(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies) -> Diagnostic:
     """Say that a fleet does not fit into a picture, how many would, and what else would do."""
-    apart, factor = fleet.apart, 1.0 / fit.share
-    note = (
+    message = f"{len(fleet.pads)} drones do not fit into the picture"
+    if ways.number is not None:
+        message += f"; about {ways.number} would"
+    labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
+    return Diagnostic("D056", message, labels, (passing(fleet),), _ways(fleet, ways, "show another picture"))
+
+
+def too_dark(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, number: int) -> Diagnostic:
+    """Warn of drones for which a flat picture has no room, and whose lights are off."""
+    dark, full = len(fleet.pads) - number, len(fleet.pads)
+    message = f"{dark} of {full} drones find no room in the picture and stay dark, behind it"
+    labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
+    help_ = _ways(fleet, ways, "make it larger")
+    return Diagnostic("D062", message, labels, (passing(fleet),), help_)
+
+
+def passing(fleet: Fleet) -> str:
+    """Say how far apart goals are, and why."""
+    apart = fleet.apart
+    return (
         f"so that drones can pass each other between pictures, goals are {spacing(apart):.2f} m apart on a "
         f"level and {spacing(apart) / stretch(apart):.2f} m one above the other"
     )
-    ways = [f"use about {fit.number} drones", _larger(picture, factor, points)]
-    level, upright = (fit.share * full - apart.margin for full in (apart.across, apart.upright))
-    if level > 2.0 * fleet.radius:
-        ways.append(f"keep a `separation` of {_down(level)} m, {_down(upright)} m vertically")
-    message = f"{len(fleet.pads)} drones do not fit into the picture; about {fit.number} would"
-    labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
-    return Diagnostic("D056", message, labels, (note,), ", or ".join(ways))
 
 
-def too_few(mission: MissionIR, fleet: Fleet, picture: Picture, body: Body) -> Diagnostic | None:
-    """Warn of a fleet that is too small for what it draws."""
+def _ways(fleet: Fleet, ways: Remedies, otherwise: str) -> str:
+    found = []
+    if ways.number is not None:
+        found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'}")
+    if ways.size is not None:
+        found.append(f"make it {_up(ways.size[1], 2)} times as large (`{ways.size[0]}`)")
+    if ways.share is not None:
+        full = (fleet.apart.across, fleet.apart.upright)
+        level, upright = (_down(ways.share * distance - fleet.apart.margin) for distance in full)
+        found.append(f"keep a `separation` of {level} m, {upright} m vertically")
+    return ", or ".join(found) or otherwise
+
+
+def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
+    """Warn of a fleet too small to show anything."""
     number = len(fleet.pads)
-    label = (place_of(mission, picture),)
-    if isinstance(picture.source, Lettering) and isinstance(body, FlatBody):
-        strokes = body.outlines * (1.0 if picture.fill == "outline" else 0.5)
-        step = picture.source.height / (DOTS - 1)
-        needed = ceil(strokes / step)
-        if number >= needed:
-            return None
-        note = (
-            f"its strokes are {strokes:.0f} m long, so its lights are {strokes / number:.1f} m apart; "
-            f"letters {picture.source.height:.4g} m high need one every {step:.1f} m"
-        )
-        message = f"{number} drones are too few to read `{picture.source.text[:40]}`"
-        return Diagnostic("D057", message, label, (note,), f"use {needed} drones or more, or fewer letters")
     if number >= FEWEST:
         return None
     note = f"fewer than {FEWEST} lights look alike, whatever they show"
     drones = "drone is" if number == 1 else "drones are"
     message = f"{number} {drones} too few to show a shape"
+    label = (place_of(mission, picture),)
     return Diagnostic("D057", message, label, (note,), f"use {FEWEST} drones or more")
 
 
@@ -175,22 +184,6 @@ def _moved(picture: Picture, shift: Array) -> str:
         return f"shift it by [{words}]"
     to = ", ".join(f"{c + d + 0.0:.2f}" for c, d in zip(centre, shift, strict=True))
     return f"shift it by [{words}], to `center: [{to}]`"
-
-
-def _larger(picture: Picture, factor: float, points: Array) -> str:
-    source = picture.source
-    if isinstance(source, Sphere):
-        sizes = f"radius: {_up(source.radius * factor)}"
-    elif isinstance(source, Box):
-        sizes = f"size: [{', '.join(_up(s * factor) for s in source.size)}]"
-    elif isinstance(source, Torus):
-        sizes = f"radius: {_up(source.radius * factor)}, tube: {_up(source.tube * factor)}"
-    elif isinstance(source, Model) and source.height is None:
-        sizes = f"height: {_up(float(np.ptp(points[:, 2])) * factor)}"
-    else:
-        assert source.height is not None
-        sizes = f"height: {_up(source.height * factor)}"
-    return f"make it {_up(factor, 2)} times as large (`{sizes}`)"
 
 
 def _up(value: float, digits: int = 1) -> str:

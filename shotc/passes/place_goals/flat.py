@@ -62,7 +62,7 @@ class FlatBody:
         lines = [s for s in self.shapes if fill == "outline" or not s.filled]
         edges = np.concatenate([s.edges for s in lines]) if lines else np.zeros((0, 2, 2))
         if fill == "outline":
-            return self._standing(_along(edges, count, rng))
+            return self.standing(_along(edges, count, rng))
         columns, inside = self._inside(count, rng)
         area = volume(columns, inside)
         strokes = float(sum(_lengths(s.edges).sum() * s.width for s in lines))
@@ -70,7 +70,7 @@ class FlatBody:
         parts = [_along(edges, on_lines, rng)] if on_lines else []
         if count > on_lines and len(inside.low):
             parts.append(drawn(columns, inside, count - on_lines, rng))
-        return self._standing(np.concatenate(parts)) if parts else None
+        return self.standing(np.concatenate(parts)) if parts else None
 
     def encloses(self, place: Array) -> bool:
         """Return no: it has no inside."""
@@ -80,14 +80,19 @@ class FlatBody:
         """Return the colours of the shapes that are seen at places, or of the nearest edges beside them."""
         if all(shape.color is None for shape in self.shapes):
             return None
-        flat = ((places - self.centre) @ self.axes.T)[:, [0, 2]]
-        seen = _seen(self.shapes, flat)
+        seen = _seen(self.shapes, self.flat(places))
         return np.array([self.shapes[k].color or UNPAINTED for k in seen], dtype=np.uint8)
 
     @property
     def outlines(self) -> float:
         """Length of all edges, metres."""
         return float(sum(_lengths(s.edges).sum() for s in self.shapes))
+
+    @property
+    def stroke(self) -> float:
+        """Width that strokes of this area and these edges have, metres."""
+        columns, inside = self._inside(FINE, np.random.default_rng(0))
+        return 2.0 * volume(columns, inside) / self.outlines
 
     def _inside(self, count: int, rng: np.random.Generator) -> tuple[Columns, Spans]:
         corners = np.concatenate([s.edges.reshape(-1, 2) for s in self.shapes])
@@ -96,7 +101,12 @@ class FlatBody:
         found = [spans(through_edges(columns, s.edges), s.parity) for s in self.shapes if s.filled]
         return columns, united(found)
 
-    def _standing(self, flat: Array) -> Array:
+    def flat(self, places: Array) -> Array:
+        """Return how far right and up in the picture's plane places (n, 3) are, shape (n, 2)."""
+        return np.asarray(((places - self.centre) @ self.axes.T)[:, [0, 2]])
+
+    def standing(self, flat: Array) -> Array:
+        """Return the places in W of (right, up), shape (n, 2)."""
         return np.asarray(self.centre + flat[:, :1] * self.axes[0] + flat[:, 1:] * self.axes[2])
 
 

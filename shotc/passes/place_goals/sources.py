@@ -19,6 +19,7 @@ def bodies_of(picture: Picture, files: Mapping[str, bytes]) -> Sequence[Body] | 
     """
     source = picture.source
     if isinstance(source, Model):
+        assert picture.fill != "legible"  # which is for texts
         return model_bodies(source, files, picture.fill)
     if isinstance(source, Drawing):
         body: Body | SourceFault = drawing_body(source, files[source.file])

@@ -74,6 +74,28 @@ def test_lights_are_where_the_camera_has_them() -> None:
     assert abs(row + 0.5 - (1 - v) / 2 * SIZE[1]) <= 1.0
 
 
+def test_the_pictures_are_in_the_middle_of_the_frame() -> None:
+    plan = sky.plan()
+    flight = plan.trajectory.fleets[0]
+    seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
+    away = places(flight.breaks, flight.coef, np.linspace(26.0, 42.0, 40)).reshape(-1, 3) - np.array(seen.eye)
+    u, v, _ = seen.view(ASPECT).project((away[:, 0], away[:, 1], away[:, 2]))
+    for along in (u, v):
+        assert abs(along.max() + along.min()) < 0.02
+    # The longer way fills the frame but for an even border.
+    assert 0.8 < max(u.max(), v.max()) < 0.9
+
+
+def test_a_frame_of_the_way_there_holds_the_fleet_then() -> None:
+    plan = sky.plan()
+    flight, (board,) = plan.trajectory.fleets[0], boards(plan)
+    way = board.moments[0].way
+    seen = audience(plan, board.display, ASPECT, way)
+    away = places(flight.breaks, flight.coef, np.array(way)).reshape(-1, 3) - np.array(seen.eye)
+    u, v, _ = seen.view(ASPECT).project((away[:, 0], away[:, 1], away[:, 2]))
+    assert max(np.abs(u).max(), np.abs(v).max()) < 1.0
+
+
 def test_without_a_viewpoint_the_audience_stands_in_the_south() -> None:
     plan = sky.plan(sky.mission(displays=(sky.display(viewpoint=None),)))
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
 from math import dist, pi, sin
 from pathlib import Path
@@ -289,6 +290,26 @@ def test_a_picture_in_the_ground_is_told_once() -> None:
     d = only(text)
     assert (d.code, marked(d, text), d.help) == ("D014", "[0, 0, 10]", "raise its centre by 7.25 m")
     assert faults(text.replace("[0, 0, 10]", "[0, 0, 17.25]")) == []
+
+
+@pytest.mark.parametrize(
+    ("shape", "sizes", "z"),
+    [
+        ("sphere", "radius: 1", 40),
+        ("sphere", "radius: 1", 4),
+        ("cube", "size: 1.5", 40),
+        ("torus", "radius: 1, tube: 0.4", 40),
+    ],
+)
+def test_what_is_said_of_a_size_is_enough_and_over_the_ground(shape: str, sizes: str, z: int) -> None:
+    written = "{%s: {center: [0, 0, %s], %s}, hold: 3}"
+    d = only(show(written % (shape, z, sizes)))
+    words = re.search(r"\(`([^`]*)`; `plan` may ask for more\)", d.help)
+    assert (d.code, words is not None) == ("D018", True), d.help
+    assert words is not None
+    larger, _, centre = words[1].partition(", center: [0, 0, ")
+    assert bool(centre) == (z == 4)
+    assert faults(show(written % (shape, centre.rstrip("]") or z, larger))) == []
 
 
 @pytest.mark.parametrize(("top", "help_"), [(54, "lower it by 1.25 m"), (30, "make it 2.50 m lower")])

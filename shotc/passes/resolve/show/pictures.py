@@ -13,6 +13,7 @@ from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, sig
 from shotc.passes.resolve.show.fit import growth, most_drones
 from shotc.passes.resolve.show.places import centre_label, key_of, word_of
 from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
+from shotc.passes.resolve.show.sizes import enlarged, size_words
 
 
 def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
@@ -57,12 +58,17 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
         f"goals are {spacing(fleet.apart):.2f} m apart, so that moves between pictures keep the separation",
         f"no more than {floor(most)} fit {where} this {word}, and fleet `{fleet.name}` has {count}",
     )
-    larger = ceil(10 * growth(picture, fleet.apart, count)) / 10
+    factor = growth(picture, fleet.apart, count)
+    larger = enlarged(picture, factor, mission.rules.ground_clearance + fleet.radius)
     labels = (
         mission.origins.key(key_of(picture)),
         mission.origins.value((*fleet.path, "count"), "the fleet"),
     )
-    help_ = f"make it at least {larger:.1f} times as large, or the separation smaller"
+    help_ = (
+        f"make it at least {ceil(10 * factor) / 10:.1f} times as large "
+        f"(`{size_words(picture.source, larger.source)}`; `plan` may ask for more), take {floor(most)} "
+        "drones or fewer, or a smaller separation"
+    )
     yield Diagnostic("D018", f"{count} drones do not fit {where} this {word}", labels, notes, help_)
 
 
