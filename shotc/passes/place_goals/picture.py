@@ -56,7 +56,7 @@ def _warnings(task: Task, setting: Setting, body: Body, layout: Layout) -> list[
     """Return what is to be said of a picture that can be flown."""
     found = []
     if layout.bright < setting.number:
-        ways = _remedies(task, setting, layout.placed[0])
+        ways = _remedies(task, setting, layout.placed[0], layout.bright)
         found.append(too_dark(task.mission, task.fleet, task.picture, ways, layout.bright))
     small = too_small(task.mission, task.fleet, task.picture)
     if small is not None:
@@ -77,11 +77,14 @@ def _few(task: Task, setting: Setting, body: Body, layout: Layout) -> Diagnostic
     return too_few_lights(task.mission, task.picture, (body, layout.fill), numbers)
 
 
-def _remedies(task: Task, setting: Setting, tight: Placed) -> Remedies:
-    """Find what would do."""
+def _remedies(task: Task, setting: Setting, tight: Placed, bright: int | None = None) -> Remedies:
+    """Find what would do; bright : how many lights the picture has, if it can be flown."""
+    fit = what_fits(setting, tight)
+    if bright is not None:
+        fit = fit._replace(number=bright)
     apart = task.fleet.apart
     touching = (2.0 * task.fleet.radius + apart.margin) / apart.across
-    about = (what_fits(setting, tight), touching, float(np.ptp(tight.points[:, 2])))
+    about = (fit, touching, float(np.ptp(tight.points[:, 2])))
     return remedies(_trying(task, setting), task.picture, setting, about)
 
 
