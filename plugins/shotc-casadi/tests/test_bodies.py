@@ -21,6 +21,7 @@ from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism, Solid, box
 from shotc.refiner_api import Array, Planes, restrict
 from tests import crowd
+from tests.unit.passes.test_several_drones import HEAD, PASS, SIDE
 
 PARTS = (
     Cylinder((3.0, -2.0), 0.4, 0.0, 1.8),
@@ -158,3 +159,10 @@ def test_walkers_who_come_near_are_kept_farther_away_and_the_picture_stays(seed:
     assert both.nearest > neither.nearest
     assert both.screen < neither.screen + 1e-3
     assert weights.FIELD > 0.0
+
+
+def test_drones_that_need_no_distance_are_refined_beside_one_another() -> None:
+    text = HEAD.replace("rules: {", "rules: {separation: 0, ") + SIDE + PASS
+    done = compile_source(text.encode(), "m.yaml", None, PlanOptions())
+    assert done.plan is not None, done.diagnostics
+    assert not [d for d in done.diagnostics if d.code[0] == "R"]

@@ -44,11 +44,16 @@ class Body:
 
 
 def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
-    """Return all that a shot is flown clear of, at the nodes: targets, other drones, obstacles."""
+    """Return all that a shot is flown clear of, at the nodes: targets, other drones, obstacles.
+
+    A drone that needs no distance is a point without clearance: there is nothing to be in.
+    """
     found = []
     for what in (motion.what for motion in around.motions):
         axes, half, middle = inscribed(what.part)
         longer = half + what.clearance
+        if longer.min() <= 0.0:
+            continue
         longest = float(longer[:2].max() if longer[2] > ENDLESS else longer.max())
         scale = (axes / longer).T
         found.append(Body(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest))
