@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
-from shotc.geom.push_apart import BEYOND, PATIENCE, ROUNDS, Hold, grain, leashed, pushes
+from shotc.geom.push_apart import Hold, Leash, Numbers, grain, leashed, settled
 
 FELL = 0.5
 """Goals that go at a time, for each least distance that all pairs lack together; the rest may part then."""
 ASUNDER = 4.0
 """How far apart those are, in least distances: what they leave is shared by all around."""
-
-Numbers = NDArray[np.intp]
 
 
 def push_along(goals: Array, shape: Array, least: float, slack: float, hold: Hold) -> Array | None:
@@ -24,45 +23,25 @@ def push_along(goals: Array, shape: Array, least: float, slack: float, hold: Hol
     slack : metres that a goal may be off the shape, to which the gaps between its points are added. Goals
     are drawn that near first, wherever they come from: a centroid of two strokes lies between them.
     """
-    tree = cKDTree(shape)
-    leash = slack + grain(tree)
-    goals = _settled(_drawn(goals, tree, leash), tree, least, leash, hold)
-    return None if len(_in_the_way(goals, least)) else goals
+    leash = _leash(cKDTree(shape), slack, len(goals))
+    goals, apart = settled(leashed(goals, leash.shape, leash.lengths), leash, least, hold)
+    return goals if apart else None
 
 
 def thinned(goals: Array, shape: Array, least: float, slack: float, hold: Hold) -> Array:
     """Return as many of the goals as find room, (m, D), pushed as by ``push_along``, the worst taken out."""
-    tree = cKDTree(shape)
-    leash = slack + grain(tree)
-    goals = _drawn(goals, tree, leash)
+    leash = _leash(cKDTree(shape), slack, len(goals))
+    goals = leashed(goals, leash.shape, leash.lengths)
     while True:
-        goals = _settled(goals, tree, least, leash, hold)
+        goals, _ = settled(goals, replace(leash, lengths=leash.lengths[: len(goals)]), least, hold)
         felled = _in_the_way(goals, least)
         if not len(felled):
             return goals
         goals = np.delete(goals, felled, axis=0)
 
 
-def _drawn(goals: Array, tree: cKDTree, leash: float) -> Array:
-    return leashed(goals, tree, np.full(len(goals), leash))
-
-
-def _settled(goals: Array, tree: cKDTree, least: float, leash: float, hold: Hold) -> Array:
-    """Push goals apart until they are, or until that leads no further."""
-    missing = float("inf")
-    for done in range(ROUNDS):
-        push, lacking = pushes(goals, least, BEYOND * (1.0 + done / 20))
-        if not lacking:
-            break
-        if done % PATIENCE == 0:
-            if lacking > 0.95 * missing:
-                break
-            missing = lacking
-        moving = np.flatnonzero(np.any(push != 0.0, axis=1))
-        wanted = _drawn(goals[moving] + push[moving], tree, leash)
-        goals = goals.copy()
-        goals[moving] = hold(goals[moving], wanted)
-    return goals
+def _leash(tree: cKDTree, slack: float, number: int) -> Leash:
+    return Leash(tree, np.full(number, slack + grain(tree)))
 
 
 def _in_the_way(goals: Array, least: float) -> Numbers:

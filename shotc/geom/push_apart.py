@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
@@ -20,6 +22,7 @@ LOOSER = 0.2
 PATIENCE = 25
 """Rounds in which what is missing has to fall by a twentieth, or else so many goals do not fit."""
 
+Numbers = NDArray[np.intp]
 Hold = Callable[[Array, Array], Array]
 """From goals (n, 3) and where a push takes them, to where they may go."""
 
@@ -35,20 +38,43 @@ def push_apart(goals: Array, shape: Array, least: float, hold: Hold) -> Array | 
     tree = cKDTree(shape)
     # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
     leash = np.maximum(SLACK * least + grain(tree), tree.query(goals)[0])
+    goals, apart = settled(goals, Leash(tree, leash, LOOSER), least, hold)
+    return goals if apart else None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leash:
+    """How far goals may be off a shape.
+
+    shape : its points; lengths : of every goal, shape (n,), metres
+    looser : share that they grow by up to the last round
+    """
+
+    shape: cKDTree
+    lengths: Array
+    looser: float = 0.0
+
+    def drawn(self, goals: Array, which: Numbers, done: int) -> Array:
+        """Draw goals of those numbers back that are farther off, after so many rounds."""
+        return leashed(goals, self.shape, self.lengths[which] * (1.0 + self.looser * done / ROUNDS))
+
+
+def settled(goals: Array, leash: Leash, least: float, hold: Hold) -> tuple[Array, bool]:
+    """Push goals apart until they are, or until that leads no further; return them, and whether they are."""
     missing = float("inf")
     for done in range(ROUNDS):
-        push, lacking = pushes(goals, least, BEYOND * (1.0 + done / 20))
+        push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20))
         if not lacking:
-            return goals
+            return goals, True
         if done % PATIENCE == 0:
             if lacking > 0.95 * missing:
-                return None
+                return goals, False
             missing = lacking
         moving = np.flatnonzero(np.any(push != 0.0, axis=1))
-        wanted = leashed(goals[moving] + push[moving], tree, leash[moving] * (1.0 + LOOSER * done / ROUNDS))
+        wanted = leash.drawn(goals[moving] + push[moving], moving, done)
         goals = goals.copy()
         goals[moving] = hold(goals[moving], wanted)
-    return None if pushes(goals, least, BEYOND)[1] else goals
+    return goals, not _pushes(goals, least, BEYOND)[1]
 
 
 def nearest_pair(goals: Array) -> float:
@@ -58,7 +84,7 @@ def nearest_pair(goals: Array) -> float:
     return float(cKDTree(goals).query(goals, k=2)[0][:, 1].min())
 
 
-def pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
+def _pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
     """Return by how much each goal is pushed, (n, D), and how much distance all pairs lack together.
 
     beyond : share of the least distance that a push aims beyond it
