@@ -11,6 +11,7 @@ from math import asin, inf, pi, sqrt
 
 from shotc.geom.apart import spacing, stretch
 from shotc.ir.show import Apart, Box, Picture, Sphere, Torus
+from shotc.passes.resolve.show.sizes import resized
 
 ROGERS = 0.7797
 """Most of a truncated Voronoi cell that its ball fills, in space (Rogers 1958)."""
@@ -44,15 +45,7 @@ def growth(picture: Picture, apart: Apart, count: int) -> float:
 
 
 def _scaled(picture: Picture, factor: float) -> Picture:
-    source = picture.source
-    if isinstance(source, Sphere):
-        source = source._replace(radius=factor * source.radius)
-    elif isinstance(source, Torus):
-        source = source._replace(radius=factor * source.radius, tube=factor * source.tube)
-    elif isinstance(source, Box):
-        a, b, c = source.size
-        source = source._replace(size=(factor * a, factor * b, factor * c))
-    return picture._replace(source=source)
+    return picture._replace(source=resized(picture.source, lambda metres: factor * metres))
 
 
 def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> float:

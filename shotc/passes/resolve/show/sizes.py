@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import ceil
 
 from shotc.ir.show import Box, Model, Picture, Source, Sphere, Torus
 from shotc.passes.resolve.show.shape import balls, lowest
+
+
+def resized(source: Source, change: Callable[[float], float]) -> Source:
+    """Return a picture with all its sizes changed alike, metres; a model without a height stays as it is."""
+    if isinstance(source, Sphere):
+        return source._replace(radius=change(source.radius))
+    if isinstance(source, Torus):
+        return source._replace(radius=change(source.radius), tube=change(source.tube))
+    if isinstance(source, Box):
+        a, b, c = source.size
+        return source._replace(size=(change(a), change(b), change(c)))
+    return source if source.height is None else source._replace(height=change(source.height))
 
 
 def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
@@ -13,17 +26,9 @@ def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
 
     tall : height that it has now, metres, of a model that is not given one
     """
-    if isinstance(source, Sphere):
-        return source._replace(radius=_up(source.radius * factor))
-    if isinstance(source, Torus):
-        return source._replace(radius=_up(source.radius * factor), tube=_up(source.tube * factor))
-    if isinstance(source, Box):
-        a, b, c = source.size
-        return source._replace(size=(_up(a * factor), _up(b * factor), _up(c * factor)))
     if isinstance(source, Model) and source.height is None:
-        return source._replace(height=_up(tall * factor))
-    assert source.height is not None
-    return source._replace(height=_up(source.height * factor))
+        source = source._replace(height=tall)
+    return resized(source, lambda metres: _up(metres * factor))
 
 
 def raised(source: Source, floor: float) -> Source:
