@@ -13,7 +13,6 @@ from shotc.geom.camera import View, view
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import MissionIR
 from shotc.ir.show import Box, Display, Drawing, Lettering, Model, Picture, Sphere
 from shotc.ir.trajectory import VerifiedIR
 
@@ -102,11 +101,6 @@ def _cloud(plan: VerifiedIR, display: Display) -> Array:
 def flight_of(plan: VerifiedIR, fleet: str) -> FleetTrajectory:
     """Return the flight of the fleet of that name."""
     return next(flight for flight in plan.trajectory.fleets if flight.fleet == fleet)
-
-
-def display_of(mission: MissionIR, name: str) -> Display:
-    """Return the display of that id."""
-    return next(display for display in mission.displays if display.id == name)
 
 
 def picture_name(picture: Picture) -> str:

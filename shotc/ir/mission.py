@@ -276,6 +276,13 @@ class MissionIR(NamedTuple):
         """Return the fleet of that name; KeyError if there is none."""
         return next_named(self.fleets, name)
 
+    def display(self, name: str) -> "Display":
+        """Return the display of that id; KeyError if there is none."""
+        for display in self.displays:
+            if display.id == name:
+                return display
+        raise KeyError(name)
+
 
 _Named = TypeVar("_Named", Drone, Target, "Fleet")
 

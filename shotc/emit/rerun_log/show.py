@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from shotc.emit.audience import picture_name
+from shotc.emit.audience import picture_name, pictures_shown
 from shotc.emit.rerun_log.series import Line, Plot
 from shotc.emit.rerun_log.text import SHOWN, certificate_text
 from shotc.geom.apart import stretch
@@ -46,17 +46,15 @@ def _heads(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]
 def _pictures(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
     """Return a heading for every picture, and one for the way to the next."""
     heads = []
-    displays = {display.id: display for display in plan.trajectory.keyframes.mission.displays}
-    keys = dict.fromkeys((shown.display, shown.picture) for shown in flight.shown)
-    for key in keys:
-        spans = [s for s in flight.shown if (s.display, s.picture) == key]
-        pictures = displays[key[0]].pictures
-        kind = picture_name(pictures[key[1]])
-        start, end = spans[0].start, spans[-1].end
-        title = f"Picture {key[1] + 1} of {len(pictures)} of `{key[0]}`"
-        heads.append((start, f"{title}\n{kind}, {start:.1f} s to {end:.1f} s"))
-        if key[1] + 1 < len(pictures):
-            heads.append((end, f"On the way to picture {key[1] + 2} of `{key[0]}`\nfrom {end:.1f} s"))
+    mission = plan.trajectory.keyframes.mission
+    for shown in pictures_shown(flight):
+        pictures, number = mission.display(shown.display).pictures, shown.picture + 1
+        kind = picture_name(pictures[shown.picture])
+        title = f"Picture {number} of {len(pictures)} of `{shown.display}`"
+        heads.append((shown.start, f"{title}\n{kind}, {shown.start:.1f} s to {shown.end:.1f} s"))
+        if number < len(pictures):
+            way = f"On the way to picture {number + 1} of `{shown.display}`"
+            heads.append((shown.end, f"{way}\nfrom {shown.end:.1f} s"))
     return heads
 
 

@@ -172,15 +172,12 @@ def _from(largest: int, m: Array) -> tuple[float, float, float, float]:
 
 
 def _cues(plan: VerifiedIR) -> list[Json]:
-    displays = {display.id: display for display in plan.trajectory.keyframes.mission.displays}
-    cues = [
-        {
-            "name": f"{shown.display}: {picture_name(displays[shown.display].pictures[shown.picture])}",
-            "time": round(shown.start, 3),
-        }
-        for flight in plan.trajectory.fleets
-        for shown in pictures_shown(flight)
-    ]
+    mission = plan.trajectory.keyframes.mission
+    cues = []
+    for flight in plan.trajectory.fleets:
+        for shown in pictures_shown(flight):
+            name = picture_name(mission.display(shown.display).pictures[shown.picture])
+            cues.append({"name": f"{shown.display}: {name}", "time": round(shown.start, 3)})
     return sorted(cues, key=lambda cue: cue["time"])
 
 

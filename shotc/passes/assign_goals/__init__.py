@@ -32,7 +32,7 @@ class AssignGoals:
         directors = []
         for goals in ir.fleets:
             ctx.progress(f"who goes where in fleet {goals.fleet}")
-            fleet = next(fleet for fleet in mission.fleets if fleet.name == goals.fleet)
+            fleet = mission.fleet(goals.fleet)
             directors.append(Director(mission, fleet, cast_of(fleet, goals)))
         # A display that waits for one of another fleet comes after it, so the fleets take turns.
         ends: dict[str, float] = {}

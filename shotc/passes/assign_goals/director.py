@@ -31,7 +31,7 @@ class Director:
         self.waited = 0.0
         self._found: list[Diagnostic] = []
         self._displays = [
-            (next(d for d in mission.displays if d.id == name), tuple(scenes))
+            (mission.display(name), tuple(scenes))
             for name, scenes in groupby(cast.scenes, key=lambda scene: scene.frame.display)
         ]
         self._done = 0

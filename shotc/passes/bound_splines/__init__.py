@@ -41,8 +41,7 @@ class BoundSplines:
         fleets, stats, found = [], list(ir.stats), []
         for flight in ir.fleets:
             ctx.progress(f"limits of fleet {flight.fleet}")
-            fleet = next(fleet for fleet in mission.fleets if fleet.name == flight.fleet)
-            done = _Fitter(mission, fleet, flight)
+            done = _Fitter(mission, mission.fleet(flight.fleet), flight)
             for window in windows(flight.coef):
                 done.fit(window)
             found += done.faults

@@ -38,6 +38,5 @@ def picture_at(mission: MissionIR, flight: FleetTrajectory, time: float) -> KeyP
     """Return where the picture is written that is shown at a time or comes next, or else the fleet."""
     for shown in flight.shown:
         if shown.end >= time - 1e-9:
-            display = next(d for d in mission.displays if d.id == shown.display)
-            return display.pictures[shown.picture].path
-    return next(fleet.path for fleet in mission.fleets if fleet.name == flight.fleet)
+            return mission.display(shown.display).pictures[shown.picture].path
+    return mission.fleet(flight.fleet).path

@@ -17,7 +17,7 @@ from shotc.geom.apart import spacing
 from shotc.geom.separation import closest_between
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import Fleet, stricter
+from shotc.ir.show import stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.keep_apart.faults import bent, fleets_meet
@@ -43,7 +43,7 @@ class KeepApart:
         fleets, stats = [], list(ir.stats)
         for flight, wanted in zip(ir.fleets, ir.wanted, strict=True):
             ctx.progress(f"separation in fleet {flight.fleet}")
-            keeper = Keeper(mission, _fleet(mission, flight), flight, wanted, ctx)
+            keeper = Keeper(mission, mission.fleet(flight.fleet), flight, wanted, ctx)
             fleets.append(keeper.keep())
             found += keeper.faults
             stats += keeper.stats()
@@ -58,12 +58,8 @@ class KeepApart:
         return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)), tuple(warnings))
 
 
-def _fleet(mission: MissionIR, flight: FleetTrajectory) -> Fleet:
-    return next(fleet for fleet in mission.fleets if fleet.name == flight.fleet)
-
-
 def _meeting(mission: MissionIR, one: FleetTrajectory, other: FleetTrajectory) -> list[Diagnostic]:
-    fleets = _fleet(mission, one), _fleet(mission, other)
+    fleets = mission.fleet(one.fleet), mission.fleet(other.fleet)
     apart = stricter(fleets[0].apart, fleets[1].apart)
     near = closest_between(one.breaks, one.coef, other.breaks, other.coef, apart)
     if kept(near.proven, apart.across):

@@ -129,5 +129,4 @@ def _shown(flight: FleetTrajectory, time: float) -> Shown | None:
 
 
 def _path(mission: MissionIR, shown: Shown) -> KeyPath:
-    display = next(d for d in mission.displays if d.id == shown.display)
-    return display.pictures[shown.picture].path
+    return mission.display(shown.display).pictures[shown.picture].path
