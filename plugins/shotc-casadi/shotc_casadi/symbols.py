@@ -8,6 +8,7 @@ progress is made (theta of Gebhardt and Hilliges Eq. 15, with progress as the in
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -82,7 +83,7 @@ def stage(visibility: Visibility, planes: int) -> Stage:
     z = ca.SX.sym("z", STATES + INPUTS)
     p = ca.SX.sym("p", size(planes))
     x, u = z[:STATES], z[STATES:]
-    given = fields(p)
+    given = cut(p, FIELDS)
     position = x[POSITION]
     offset = given["centre"] - position
     distance = ca.sqrt(ca.sumsqr(offset) + 1e-9)
@@ -114,13 +115,13 @@ def size(planes: int) -> int:
     return sum(FIELDS.values()) + 4 * planes
 
 
-def fields(p: Any) -> dict[str, Any]:
-    """Cut a parameter vector into its fields."""
-    cut, at = {}, 0
-    for name, width in FIELDS.items():
-        cut[name] = p[at : at + width]
+def cut(p: Any, fields: Mapping[str, int]) -> dict[str, Any]:
+    """Cut the beginning of a parameter vector into fields of these sizes."""
+    parts, at = {}, 0
+    for name, width in fields.items():
+        parts[name] = p[at : at + width]
         at += width
-    return cut
+    return parts
 
 
 def _following(x: Any, u: Any) -> Any:

@@ -11,6 +11,7 @@ from typing import Any
 import casadi as ca
 
 from shotc.refiner_api import View, nearest_depth, silhouette_bounds, viewpoint
+from shotc_casadi.symbols import cut
 
 FIELDS = {
     "centre": 3,
@@ -48,7 +49,7 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     subject : SUBJECT numbers; eye : W, metres; aim : yaw and pitch, rad; lens : as in symbols.FIELDS
     Smooth wherever the camera is out of the subject; one that reaches behind the camera is moved before it.
     """
-    given = _cut(subject)
+    given = cut(subject, FIELDS)
     radius, height = given["solid"][0], given["solid"][1]
     camera = View(ca.cos(aim[0]), ca.sin(aim[0]), ca.cos(aim[1]), ca.sin(aim[1]), lens[0], lens[1])
     away = given["centre"] - eye
@@ -76,11 +77,3 @@ def _before(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> tuple[
     axis = (camera.cos_pitch * camera.cos_yaw, camera.cos_pitch * camera.sin_yaw, camera.sin_pitch)
     x, y, z = (away[i] + push * axis[i] for i in range(3))
     return x, y, z
-
-
-def _cut(p: Any) -> dict[str, Any]:
-    cut, at = {}, 0
-    for name, width in FIELDS.items():
-        cut[name] = p[at : at + width]
-        at += width
-    return cut

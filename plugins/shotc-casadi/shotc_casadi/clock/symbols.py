@@ -19,7 +19,7 @@ import casadi as ca
 from shotc_casadi.clock.angles import over_ground, turning
 from shotc_casadi.clock.picture import SUBJECT, picture
 from shotc_casadi.derivatives import Derived, differentiated
-from shotc_casadi.symbols import Stage
+from shotc_casadi.symbols import Stage, cut
 
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
 PLACED = 9  # states that are the camera's place and its derivatives
@@ -212,12 +212,9 @@ def size(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> i
 
 def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:
     """Return the parameters by name, and those of half-spaces, screens, bodies and subjects, each apart."""
-    fields, at = {}, 0
-    for name, width in FIELDS.items():
-        fields[name] = p[at : at + width]
-        at += width
+    at = sum(FIELDS.values())
     rows: list[list[Any]] = []
     for count, width in zip(sizes, (PLANE, LINE, BODY, SUBJECT), strict=True):
         rows.append([p[at + width * i : at + width * (i + 1)] for i in range(count)])
         at += width * count
-    return fields, rows[0], rows[1], rows[2], rows[3]
+    return cut(p, FIELDS), rows[0], rows[1], rows[2], rows[3]
