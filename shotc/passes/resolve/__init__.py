@@ -22,7 +22,7 @@ from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.names import check_names, emitters_of, once
-from shotc.passes.resolve.seldom import Shown, check_fleets, check_ideals, framed, shown, tracks_of
+from shotc.passes.resolve.seldom import Show, check_fleets, check_ideals, framed, shown, tracks_of
 from shotc.passes.resolve.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones
@@ -118,7 +118,7 @@ def _world(ir: LoadedMission) -> _World:
     )
 
 
-def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Shown) -> MissionIR:
+def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> MissionIR:
     spec = ir.spec
     return MissionIR(
         name=spec.mission,

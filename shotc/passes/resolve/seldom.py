@@ -47,7 +47,7 @@ def check_ideals(mission: MissionIR) -> list[Diagnostic]:
     return [fault for shot in clocked for fault in check_ideal(mission, shot)]
 
 
-class Shown(NamedTuple):
+class Show(NamedTuple):
     """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others."""
 
     fleets: "tuple[Fleet, ...]" = ()
@@ -55,15 +55,15 @@ class Shown(NamedTuple):
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def shown(ir: LoadedMission, put: Put, ground: Ground, displays: "tuple[Display, ...]") -> Shown:
+def shown(ir: LoadedMission, put: Put, ground: Ground, displays: "tuple[Display, ...]") -> Show:
     """Resolve the fleets, and read what their displays draw."""
     if not ir.spec.fleets:
-        return Shown()
+        return Show()
     from shotc.passes.resolve.show import fleets_of, read_material
 
     fleets, wrong = fleets_of(ir.spec, put, ground)
     files, missing = read_material(displays, ir.folder, ir.origins)
-    return Shown(fleets, files, (*wrong, *missing))
+    return Show(fleets, files, (*wrong, *missing))
 
 
 def check_fleets(mission: MissionIR, ir: LoadedMission, *, order: bool) -> list[Diagnostic]:
