@@ -70,7 +70,9 @@ def test_more_than_a_mission_can_be_is_refused_at_once() -> None:
 @settings(deadline=None, max_examples=150)
 @given(st.binary(max_size=200))
 def test_any_bytes_are_read_without_a_traceback(data: bytes) -> None:
-    import_multidrone(data, "m.xml", strict=False)
+    made = import_multidrone(data, "m.xml", strict=False)
+    assert made.text is None
+    assert made.diagnostics
 
 
 @settings(deadline=None, max_examples=150)
