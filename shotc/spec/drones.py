@@ -10,20 +10,19 @@ from pydantic_core import InitErrorDetails
 from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,
-    AngleRange,
     AngularAcceleration,
     AngularRate,
     Aspect,
     Duration,
     FieldOfView,
     Jerk,
-    PitchRange,
     Position,
     PositiveLength,
     Priority,
     Speed,
 )
 from shotc.spec.fieldtypes import FieldType, Hinted, NamedOr
+from shotc.spec.later import Gimbal
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.presets import DEFAULT_MODEL, PRESETS
 from shotc.spec.quantities import Quantity, Tuple
@@ -67,15 +66,6 @@ class LimitsSpec(Model):
     jerk: Jerk | None = Field(default=None, description="jerk in space")
     yaw_rate: AngularRate | None = Field(default=None, description="turning rate of the body")
     yaw_acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
-
-
-class GimbalSpec(Model):
-    """What a gimbal reaches; what is not given is the preset's."""
-
-    pitch: PitchRange | None = Field(default=None, description="[lowest, highest] against the horizon")
-    yaw: AngleRange | None = Field(default=None, description="[lowest, highest] against the body")
-    rate: AngularRate | None = Field(default=None, description="turning rate of each axis")
-    acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
 
 
 class CameraSpec(Model):
@@ -149,7 +139,7 @@ class DroneSpec(Model):
     model: ModelName = Field(default=DEFAULT_MODEL, description="preset that fills in what is not given")
     home: Position = Field(default=(0.0, 0.0, 0.0), description="where it stands before and after")
     limits: LimitsSpec = section("what it may do")
-    gimbal: GimbalSpec = section("what its gimbal reaches")
+    gimbal: Gimbal | None = Field(default=None, description="what its gimbal reaches")
     camera: CameraSpec = section("what its camera sees")
     radius: PositiveLength | None = Field(default=None, description="radius of the sphere round its body")
     endurance: Duration | None = Field(default=None, description="longest time in the air")

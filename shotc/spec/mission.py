@@ -1,22 +1,20 @@
 """The mission as written: the top of the language's models."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, PlainValidator, ValidationInfo
 
 from shotc.spec.drones import DroneSpec
 from shotc.spec.faults import fault
 from shotc.spec.fields import Name
+from shotc.spec.later import Fleet
 from shotc.spec.model import Model, section
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase
 from shotc.spec.targets import TargetSpec
 from shotc.spec.world import WorldSpec
 from shotc.units import describe
-
-if TYPE_CHECKING:
-    from shotc.spec.fleets import FleetSpec
 
 VERSION = 1
 
@@ -40,18 +38,8 @@ def _read_shot(value: Any, info: ValidationInfo) -> ShotBase:
     return ShotBase.model_validate({key: item for key, item in value.items() if key in ShotBase.model_fields})
 
 
-def _read_fleet(value: Any) -> "FleetSpec":
-    from shotc.spec.fleets import FleetSpec
-
-    return FleetSpec.model_validate(value)
-
-
-# Functions instead of models: only those of the kinds in use are ever built, and of fleets if there are any.
+# A function instead of a union of models: only those of the kinds in use are ever built.
 Shot = Annotated[ShotBase, PlainValidator(_read_shot)]
-if TYPE_CHECKING:
-    Fleet = FleetSpec
-else:
-    Fleet = Annotated[Any, PlainValidator(_read_fleet)]
 
 
 class MissionSpec(Model):

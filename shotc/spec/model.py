@@ -14,6 +14,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from shotc.spec.faults import details_of, fault, together
+from shotc.spec.later import Later
 from shotc.spec.words import closest, elsewhere, nearest
 from shotc.units import clip, describe
 
@@ -256,7 +257,9 @@ def _instead(key: str, lack: Lack, known: Mapping[str, FieldInfo]) -> InitErrorD
 
 def _keys_below(field: FieldInfo) -> Mapping[str, object]:
     """Return the keys of the mapping that a field holds, if it holds one."""
-    for part in (field.annotation, *get_args(field.annotation)):
+    parts = (field.annotation, *get_args(field.annotation))
+    later = (x.model for part in parts for x in (*field.metadata, *get_args(part)) if isinstance(x, Later))
+    for part in (*parts, *later):
         if isinstance(part, type) and issubclass(part, Model):
             return part.model_fields
     return {}

@@ -1,27 +1,13 @@
 """Mission-wide rules and what is written out; silence means the defaults of ``presets``."""
 
-from typing import Annotated, Literal
-
 from pydantic import Field
 
 from shotc.spec import presets
 from shotc.spec.allow import Allowed
 from shotc.spec.compositions import COMPOSITIONS
 from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace
+from shotc.spec.later import MutualVisibility
 from shotc.spec.model import Model
-from shotc.spec.quantities import Quantity
-from shotc.units import SMALLEST
-
-_HALF_ANGLE = Quantity("HalfAngle", "angle", SMALLEST["angle"], 1.5707963267948966)
-
-
-class MutualVisibilitySpec(Model):
-    """Whether the drones keep out of each other's pictures."""
-
-    half_angle: Annotated[float, _HALF_ANGLE] | None = Field(
-        default=None, description="half the opening of the cone to keep free; the frame itself if silent"
-    )
-    strength: Literal["require", "prefer", "off"] = Field(default="require", description="how strictly")
 
 
 class RulesSpec(Model):
@@ -41,7 +27,7 @@ class RulesSpec(Model):
     target_clearance: NonNegativeLength = Field(
         default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"
     )
-    mutual_visibility: MutualVisibilitySpec | None = Field(
+    mutual_visibility: MutualVisibility | None = Field(
         default=None,
         description="whether drones keep out of each other's pictures; prefer, by the frame, if silent",
     )

@@ -6,40 +6,53 @@ range, names and whatever needs the world stay with ``load`` and the passes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue, models_json_schema
 from pydantic_core import core_schema
 
-from shotc.spec.fleets import FleetSpec
 from shotc.spec.mission import MissionSpec
-from shotc.spec.places import Geodetic
 from shotc.spec.shot import ShotBase
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 IDENTIFIER = "https://shotc.dev/schema/mission-1.json"
+_References = dict[type[Any], JsonSchemaValue]
 
 
 def json_schema(kinds: Mapping[str, type[ShotBase]]) -> dict[str, Any]:
     """Return the schema of a mission whose shots are of these kinds."""
-    models: list[type[Any]] = [MissionSpec, FleetSpec, Geodetic, *kinds.values()]
-    by_model, whole = models_json_schema(
-        [(model, "validation") for model in models], schema_generator=_Generator
-    )
-    references = {model: by_model[model, "validation"] for model in models}
-    definitions = dict(whole["$defs"])
+    references, definitions = _of_models({MissionSpec, *kinds.values()})
     mission = definitions.pop(references[MissionSpec]["$ref"].rpartition("/")[2])
-    mission["properties"]["fleets"]["additionalProperties"] = references[FleetSpec]
     mission["properties"]["shots"]["items"] = _shots(
         {name: references[kinds[name]] for name in sorted(kinds)}
     )
-    shared = _Shared(references[Geodetic])
+    shared = _Shared(references)
     mission = shared.hoist(mission)
     definitions = {name: shared.hoist(schema) for name, schema in definitions.items()} | shared.definitions
     head = {"$schema": DIALECT, "$id": IDENTIFIER, "title": "shotc mission"}
     used = _reachable(mission, definitions)
     return {**head, **mission, "$defs": {name: definitions[name] for name in sorted(used)}}
+
+
+def _of_models(models: set[type[Any]]) -> tuple[_References, dict[str, JsonSchemaValue]]:
+    """Return a reference to every model, with those that fields have by mark alone, and the definitions."""
+    by_model, whole = models_json_schema(
+        [(model, "validation") for model in models], schema_generator=_Generator
+    )
+    marked = models | {part["$model"] for part in _parts(whole) if "$model" in part}
+    if marked > models:
+        return _of_models(marked)
+    return {model: by_model[model, "validation"] for model in models}, dict(whole["$defs"])
+
+
+def _parts(schema: Any) -> Iterator[JsonSchemaValue]:
+    """Yield a schema and every schema in it."""
+    if isinstance(schema, dict):
+        yield schema
+    below = schema.values() if isinstance(schema, dict) else schema if isinstance(schema, list) else ()
+    for part in below:
+        yield from _parts(part)
 
 
 def _shots(references: Mapping[str, JsonSchemaValue]) -> JsonSchemaValue:
@@ -83,9 +96,9 @@ class _Generator(GenerateJsonSchema):
 class _Shared:
     """Moves marked schemas into definitions and leaves references (see ``FieldType.reference``)."""
 
-    def __init__(self, geodetic: JsonSchemaValue) -> None:
+    def __init__(self, models: _References) -> None:
         self.definitions: dict[str, JsonSchemaValue] = {}
-        self._geodetic = geodetic
+        self._models = models
 
     def hoist(self, schema: Any) -> Any:
         """Return the schema with references in place of what is marked; a description stays beside them."""
@@ -93,28 +106,23 @@ class _Shared:
             return [self.hoist(item) for item in schema]
         if not isinstance(schema, dict):
             return schema
+        about = {"description": schema["description"]} if "description" in schema else {}
         if "$model" in schema:
-            return self._geodetic
+            return {**self._models[schema["$model"]], **about}
         if "$shared" not in schema:
             return {key: self.hoist(value) for key, value in schema.items()}
         name = schema["$shared"]
         self.definitions[name] = self.hoist(schema["$of"])
-        about = {"description": schema["description"]} if "description" in schema else {}
         return {"$ref": f"#/$defs/{name}", **about}
 
 
 def _reachable(mission: JsonSchemaValue, definitions: Mapping[str, JsonSchemaValue]) -> set[str]:
     """Return the names of the definitions that a mission refers to, however indirectly."""
     seen: set[str] = set()
-    waiting: list[Any] = [mission]
+    waiting = [mission]
     while waiting:
-        schema = waiting.pop()
-        if isinstance(schema, list):
-            waiting.extend(schema)
-        elif isinstance(schema, dict):
-            name = str(schema.get("$ref", "")).removeprefix("#/$defs/")
-            if name in definitions and name not in seen:
-                seen.add(name)
-                waiting.append(definitions[name])
-            waiting.extend(schema.values())
+        named = {str(part.get("$ref", "")).removeprefix("#/$defs/") for part in _parts(waiting.pop())}
+        new = (named & definitions.keys()) - seen
+        seen |= new
+        waiting += (definitions[name] for name in new)
     return seen

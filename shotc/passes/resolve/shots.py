@@ -13,6 +13,7 @@ from shotc.spec.shot import ShotBase
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Display
+    from shotc.spec.shot_terms import RequireSpec
 
 
 class Cast(NamedTuple):
@@ -79,7 +80,7 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
 
 
 def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath) -> Shot:
-    require, timing = shot.require, shot.timing
+    timing = shot.timing
     return Shot(
         id=shot.id,
         kind=shot.kind,
@@ -88,10 +89,16 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         keyframes=expansion.keyframes,
         timing=Timing(timing.start, timing.after, timing.duration or expansion.lasts),
         pace=shot.pace or spec.rules.pace,
-        promise=Promise(require.in_frame, require.screen_error, require.size),
-        refine_optional=shot.refine.optional,
+        promise=_promise(shot.require),
+        refine_optional=shot.refine is not None and shot.refine.optional,
         path=path,
         ideal=expansion.ideal,
         subjects=expansion.subjects,
         size=shot.size,
     )
+
+
+def _promise(written: "RequireSpec | None") -> Promise:
+    if written is None:
+        return Promise()
+    return Promise(written.in_frame, written.screen_error, written.size)

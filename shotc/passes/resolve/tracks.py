@@ -16,7 +16,7 @@ from shotc.passes.resolve.recordings import Recording, read_recording
 from shotc.passes.resolve.world import Put
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import TOP_SPEED
-from shotc.spec.targets import TrackSpec
+from shotc.spec.tracks import TrackSpec
 
 SAME = 1e-6  # metres within which two points are one
 

@@ -122,7 +122,7 @@ def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: float) -> Drone:
         model=spec.model,
         home=put(spec.home),
         limits=limits_of(preset, spec.limits, wind),
-        gimbal=Gimbal(**_over(preset.gimbal, spec.gimbal)),
+        gimbal=preset.gimbal if spec.gimbal is None else Gimbal(**_over(preset.gimbal, spec.gimbal)),
         hfov=camera.field_of_view or preset.hfov,
         aspect=camera.aspect_ratio or preset.aspect,
         radius=spec.radius or preset.radius,

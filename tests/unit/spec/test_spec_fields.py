@@ -13,7 +13,8 @@ from shotc.spec import fields
 from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
 from shotc.spec.drones import CameraSpec
 from shotc.spec.places import Geodetic
-from shotc.spec.shot import KeyframeSpec, RequireSpec, TimingSpec
+from shotc.spec.shot import KeyframeSpec
+from shotc.spec.shot_terms import RequireSpec, TimingSpec
 from shotc.spec.sizes import SIZES
 
 
