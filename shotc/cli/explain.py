@@ -10,7 +10,8 @@ from typing import Annotated
 import typer
 
 from shotc.cli import console
-from shotc.diag.registry import FAMILIES, CodeInfo, registry
+from shotc.diag.code_info import CodeInfo
+from shotc.diag.registry import FAMILIES, registry
 
 _WIDTH = 80
 

@@ -1,11 +1,16 @@
-"""All codes in one table: slug, severity, explanation and the examples that tests run."""
+"""All codes in one table, which loads with the first diagnostic."""
+
+from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cache
 from importlib import import_module
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING
 
 from shotc.diag.model import Diagnostic, Severity
+
+if TYPE_CHECKING:
+    from shotc.diag.code_info import CodeInfo
 
 FAMILIES = {
     "Y": ("yaml", "text and YAML"),
@@ -26,28 +31,6 @@ FAMILIES = {
     "P": ("plugins", "plugins and options"),
     "X": ("internal", "our bug"),
 }
-
-
-class CodeInfo(NamedTuple):
-    """What ``shotc explain`` prints about one code.
-
-    phase    : the command that finds it; ``other`` where a mission alone cannot show it
-    failing  : a mission (or its bytes, backslash-escaped, for Y codes) that raises the code
-    passing  : the same mission mended
-    exact    : codes under which ``plan`` tells the same fault with exact numbers, where this one knows a
-               bound only; planning goes on past it to find them
-    """
-
-    code: str
-    slug: str
-    severity: Severity
-    summary: str
-    explanation: str
-    failing: str
-    passing: str
-    phase: Literal["check", "plan", "other"] = "check"
-    since: str = "0.1"
-    exact: tuple[str, ...] = ()
 
 
 @cache

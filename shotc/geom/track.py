@@ -11,6 +11,8 @@ Vec3 = tuple[float, float, float]
 AROUND = 1.0  # seconds before and after, over which a heading is taken from the motion
 STILL = 1e-6  # metres or m/s that are rounding
 MOVES = 0.1  # metres over that time; less is standing still
+STRAIGHT = 1e-6  # sine of the angle between two stretches that go the same way
+LEAST_LEG = 1e-9  # metres of a stretch that has a direction
 
 
 class Track(NamedTuple):
@@ -50,10 +52,32 @@ class Track(NamedTuple):
             if i == len(self.times) - 1:
                 return self.headings[-1]
             return self.headings[i] + share * (self.headings[i + 1] - self.headings[i])
-        a, b = self.at(t - AROUND), self.at(t + AROUND)
-        if hypot(b[0] - a[0], b[1] - a[1]) >= MOVES:
-            return atan2(b[1] - a[1], b[0] - a[0])
-        return self._course(t)
+        moved = self._moved(t)
+        return self._last_course(t) if moved is None else atan2(moved[1], moved[0])
+
+    def course(self, t: float) -> tuple[float, float] | None:
+        """Return the unit direction in which it moves over ground about a time, None where it stands."""
+        moved = self._moved(t)
+        return None if moved is None else (moved[0] / hypot(*moved), moved[1] / hypot(*moved))
+
+    @property
+    def underway(self) -> float:
+        """A time from which on its course is known, seconds."""
+        return self.times[0] + AROUND
+
+    @property
+    def straight(self) -> bool:
+        """Whether it goes one way only, and faces that way."""
+        legs = [(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(self.points)]
+        legs = [leg for leg in (*legs, self.after[:2]) if hypot(*leg) > LEAST_LEG]
+        if not legs:
+            return False
+        if self.headings and max(self.headings) - min(self.headings) > pi / 180:
+            return False
+        x, y = legs[0]
+        return all(
+            abs(x * b - y * a) <= STRAIGHT * hypot(x, y) * hypot(a, b) and x * a + y * b > 0 for a, b in legs
+        )
 
     def speed(self, t: float) -> float:
         """Return its speed at a time, m/s; at a row, of the stretch that begins there."""
@@ -79,7 +103,13 @@ class Track(NamedTuple):
             return i, 0.0
         return i, (t - self.times[i]) / (self.times[i + 1] - self.times[i])
 
-    def _course(self, t: float) -> float:
+    def _moved(self, t: float) -> tuple[float, float] | None:
+        """Return how far it moves over ground in the second before a time and the one after, metres."""
+        a, b = self.at(t - AROUND), self.at(t + AROUND)
+        moved = (b[0] - a[0], b[1] - a[1])
+        return moved if hypot(*moved) >= MOVES else None
+
+    def _last_course(self, t: float) -> float:
         """Return the direction of the last stretch on which it moved by a time, or of the first one ever."""
         i, _ = self._row(t)
         carried = hypot(self.after[0], self.after[1]) > STILL

@@ -7,11 +7,11 @@ the mission file (see ``OriginMap``).
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
-from shotc.geom.track import Track
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3
 from shotc.ir.origin import KeyPath, OriginMap
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from shotc.geom.track import Track
     from shotc.ir.show import Display, Fleet
 
 ViewAngles = tuple[float | None, float | None]
@@ -49,7 +49,7 @@ class Target(NamedTuple):
     radius: float
     height: float
     path: KeyPath
-    track: Track | None = None
+    track: "Track | None" = None
 
     def at(self, t: float) -> Vec3:
         """Return its centre at a mission time, metres."""

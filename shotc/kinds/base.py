@@ -13,13 +13,13 @@ from shotc.geom.geodetic import to_world
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Rules, Subject, Target
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.kinds.files import FileFault
 from shotc.spec.fields import Geodetic
 from shotc.spec.shot import ShotBase
 from shotc.spec.words import nearest
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Display
+    from shotc.kinds.files import FileFault
 
 API_VERSION = 1
 MOVING = "a moving target"
@@ -170,7 +170,7 @@ class Scene(NamedTuple):
         """Return a diagnostic on the value at ``path`` below the shot."""
         return Diagnostic(code, message, (self.origins.value((*self.path, *path)),), notes, help)
 
-    def bad_file(self, name: str, wrong: FileFault, *path: str | int) -> Diagnostic:
+    def bad_file(self, name: str, wrong: "FileFault", *path: str | int) -> Diagnostic:
         """Return the diagnostic of a file, named at ``path`` below the shot, that cannot be used."""
         return bad_file(self.origins, (*self.path, *path), name, wrong)
 
@@ -208,7 +208,7 @@ def unknown_target(origins: OriginMap, path: KeyPath, name: str, known: Mapping[
     return Diagnostic("N001", f"unknown target `{name}`", (origins.value(path),), help=help_)
 
 
-def bad_file(origins: OriginMap, path: KeyPath, name: str, wrong: FileFault) -> Diagnostic:
+def bad_file(origins: OriginMap, path: KeyPath, name: str, wrong: "FileFault") -> Diagnostic:
     """Return the diagnostic of a file that cannot be used, blamed on the line that names it."""
     where = f"{name}, line {wrong.line}" if wrong.line is not None else name
     return Diagnostic(

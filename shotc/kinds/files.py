@@ -4,10 +4,11 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
+from shotc.source.limits import MAX_TABLE_BYTES
+
 if TYPE_CHECKING:  # few missions name XML
     from shotc.source.xml import NotXml
 
-LARGEST = 4_000_000  # bytes
 MOST_ROWS = 50_000
 FARTHEST = 1e7  # metres or seconds; beyond it no mission is meant
 BOUNDS = {"lat": 90.0, "lon": 180.0, "heading": 6.3, "heading_deg": 360.0}  # 6.3: a turn, rounded up
@@ -87,7 +88,7 @@ def _rows(
 
 
 def _text(data: bytes) -> str | FileFault:
-    if len(data) > LARGEST:
+    if len(data) > MAX_TABLE_BYTES:
         return too_large(data)
     try:
         text = data.decode("utf-8-sig")
@@ -117,8 +118,8 @@ def not_xml(wrong: "NotXml") -> FileFault:
 
 
 def too_large(data: bytes) -> FileFault:
-    """Return the fault of a file of more than ``LARGEST`` bytes."""
-    return FileFault(f"the file is {len(data) / 1e6:.1f} MB; at most {LARGEST / 1e6:.0f} MB are read")
+    """Return the fault of a file of more than ``MAX_TABLE_BYTES`` bytes."""
+    return FileFault(f"the file is {len(data) / 1e6:.1f} MB; at most {MAX_TABLE_BYTES / 1e6:.0f} MB are read")
 
 
 def _columns(

@@ -82,7 +82,7 @@ def _rows(value: NDArray[Any]) -> list[Any]:
 @cache
 def hints(kind: type) -> dict[str, Any]:
     """Return the resolved types of a record's fields, in their order."""
-    found = get_type_hints(kind, localns={"Display": Display, "Fleet": Fleet})
+    found = get_type_hints(kind, localns={"Display": Display, "Fleet": Fleet, "Track": Track})
     return {name: found[name] for name in field_names(kind)}
 
 

@@ -15,7 +15,6 @@ from shotc.source.fault import Fault, FaultKind, shorten
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_ALIAS_VALUES, MAX_DEPTH, MAX_DIRECTIVES, MAX_VALUES
 from shotc.source.nodes import Alias, Collection, Entry, Node, Scalar, height_of, size_of
-from shotc.source.syntax import Complaint, explain
 
 _LOADER: Any = getattr(yaml, "CLoader", yaml.Loader)
 _DIRECTIVE = re.compile(r"^%", re.MULTILINE)
@@ -45,7 +44,7 @@ def compose(file: SourceFile) -> Composed:
     except _StopReading:
         pass
     except yaml.MarkedYAMLError as error:
-        composer.fault(explain(composer.complaint(error)))
+        composer.fault(composer.explained(error))
         composer.whole = False
     except yaml.reader.ReaderError as error:
         start = min(max(error.position, 0), len(file.text))
@@ -115,18 +114,21 @@ class _Composer:
             case yaml.DocumentStartEvent():
                 self._document(start, end)
 
-    def complaint(self, error: Any) -> Complaint:
-        """Return a parser error with the offsets that explain it."""
+    def explained(self, error: Any) -> Fault:
+        """Return the fault behind a parser error."""
+        from shotc.source.syntax import Complaint, explain
+
         length = len(self.file.text)
         mark = error.problem_mark or error.context_mark
         opened = next((frame.node.start for frame in reversed(self.stack) if frame.flow), None)
-        return Complaint(
+        complaint = Complaint(
             self.file,
             error.problem or error.context or "this is not YAML",
             min(mark.index, length) if mark else length,
             min(error.context_mark.index, length) if error.context_mark else None,
             opened,
         )
+        return explain(complaint)
 
     def fault(self, fault: Fault) -> None:
         """Keep a fault."""

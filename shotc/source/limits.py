@@ -1,9 +1,12 @@
-"""How much a mission text may hold; all are far above what missions need and far below what hurts."""
+"""How much a mission may hold; all are far above what missions need and far below what hurts."""
 
 from __future__ import annotations
 
 MAX_BYTES = 4 * 1024 * 1024
 """Bytes of one file."""
+
+MAX_TABLE_BYTES = 4_000_000
+"""Bytes of a file that a mission names: a path, a track, a drawing."""
 
 MAX_DEPTH = 64
 """Lists and mappings inside each other, aliases followed."""

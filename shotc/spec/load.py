@@ -8,19 +8,13 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from shotc.diag.codes.yaml import text_diagnostic
-from shotc.diag.model import Diagnostic, Label
-from shotc.diag.registry import code_of
-from shotc.ir.origin import KeyPath, OriginMap
-from shotc.source.file import WHOLE_FILE, SourceFile
+from shotc.diag.model import Diagnostic
+from shotc.ir.origin import OriginMap
+from shotc.source.file import SourceFile
 from shotc.source.yaml_tree import Document, parse
 from shotc.spec.mission import VERSION, MissionSpec
 from shotc.spec.shot import ShotBase
-from shotc.spec.translate import Finding, findings
-from shotc.spec.words import nearest
-from shotc.units import clip
 
-MAX_DIAGNOSTICS = 100
 # How a plan.json begins, which is YAML, too.
 _PLAN = re.compile(rb'\s*\{\s*"format"\s*:\s*"shotc-plan"')
 
@@ -52,94 +46,36 @@ def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[S
     name : how to show the file; folder : where it is; kinds : the model of every kind of shot
     """
     if _PLAN.match(data):
-        return _plan_given(name)
+        from shotc.spec.shape_faults import plan_given
+
+        return Loaded(None, (plan_given(name),), SourceFile(name, ""))
     document = parse(data, name)
     if document.faults:
+        from shotc.diag.codes.yaml import text_diagnostic
+
         return Loaded(None, tuple(text_diagnostic(fault, name) for fault in document.faults), document.file)
     origins = OriginMap(name, document.keys, document.values)
-    found = _version_findings(document.root)
-    if any(f.slug == "unknown-version" for f in found):
-        return Loaded(None, _diagnostics(found, origins), document.file)
-    spec, faults = _validate(document, kinds)
-    found += [f for f in faults if f.path != ("shotc",)] + _shot_findings(document.root, kinds)
-    if spec is None or found:
-        return Loaded(None, _diagnostics(found, origins), document.file)
-    mission = LoadedMission(spec, origins, folder, sha256(data).hexdigest())
-    return Loaded(mission, (), document.file)
+    spec, error = _validate(document, kinds)
+    if spec is None or not _is_whole(document.root, kinds):
+        from shotc.spec.shape_faults import shape_faults
 
-
-def _plan_given(name: str) -> Loaded:
-    """Return the one fault of a plan that stands where a mission is wanted."""
-    label = (Label(name, WHOLE_FILE),)
-    help_ = "give the mission's YAML file; `shotc verify`, `emit`, `view` and `diff` take plans"
-    found = Diagnostic(code_of("not-a-mission"), "this is a plan, not a mission", label, help=help_)
-    return Loaded(None, (found,), SourceFile(name, ""))
+        return Loaded(None, shape_faults(document.root, error, kinds, origins), document.file)
+    return Loaded(LoadedMission(spec, origins, folder, sha256(data).hexdigest()), (), document.file)
 
 
 def _validate(
     document: Document, kinds: Mapping[str, type[ShotBase]]
-) -> tuple[MissionSpec | None, list[Finding]]:
+) -> tuple[MissionSpec | None, ValidationError | None]:
     # The version is judged before and apart; a missing one shall not hide the other faults.
     root = {**document.root, "shotc": VERSION}
     try:
-        return MissionSpec.model_validate(root, context={"kinds": kinds}), []
+        return MissionSpec.model_validate(root, context={"kinds": kinds}), None
     except ValidationError as error:
-        return None, findings(error)
+        return None, error
 
 
-def _version_findings(root: Mapping[str, Any]) -> list[Finding]:
-    help_ = f"write `shotc: {VERSION}` as the first line"
-    if "shotc" not in root:
-        message = "the mission does not say its language version"
-        return [Finding((), "missing-version", message, help_, blame="key")]
-    value = root["shotc"]
-    if value == VERSION and not isinstance(value, bool):
-        return []
-    message = "`shotc` is the version of the language, a number"
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        message = f"language version {clip(format(value, '.6g'))} is not known"
-    note = f"this version of shotc reads language version {VERSION}"
-    return [Finding(("shotc",), "unknown-version", message, help_, (note,))]
-
-
-def _shot_findings(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> list[Finding]:
-    """Return unknown kinds, and a mission without shots."""
-    shots = root.get("shots", [])
-    if shots == []:
-        path: KeyPath = ("shots",) if "shots" in root else ()
-        help_ = "add a shot, or start from a template: shotc new"
-        return [Finding(path, "no-shots", "the mission has no shots", help_, blame="key")]
-    if not isinstance(shots, list):
-        return []
-    named = [(i, shot["kind"]) for i, shot in enumerate(shots) if isinstance(shot, dict) and "kind" in shot]
-    return [
-        _unknown_kind(("shots", i, "kind"), kind, kinds)
-        for i, kind in named
-        if isinstance(kind, str) and kind not in kinds
-    ]
-
-
-def _unknown_kind(path: KeyPath, kind: str, kinds: Mapping[str, type[ShotBase]]) -> Finding:
-    return Finding(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", nearest(kind, kinds))
-
-
-def _diagnostics(found: list[Finding], origins: OriginMap) -> tuple[Diagnostic, ...]:
-    """Return one diagnostic per faulty place, in the order of the file, at most ``MAX_DIAGNOSTICS``."""
-    first: dict[tuple[KeyPath, str], Finding] = {}
-    for finding in found:
-        first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)
-    every = sorted((_diagnostic(f, origins) for f in first.values()), key=lambda d: d.sort_key)
-    more = len(every) - MAX_DIAGNOSTICS
-    if more <= 0:
-        return tuple(every)
-    last = every[MAX_DIAGNOSTICS - 1]
-    note = f"{more} more faults of this file are not shown"
-    return (*every[: MAX_DIAGNOSTICS - 1], last._replace(notes=(*last.notes, note)))
-
-
-def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:
-    label = origins.value(finding.path) if finding.blame == "value" else origins.key(finding.path)
-    if finding.path == ():
-        label = Label(origins.file, WHOLE_FILE)
-    related = (origins.key(finding.beside, "given here"),) if finding.beside else ()
-    return Diagnostic(code_of(finding.slug), finding.message, (label, *related), finding.notes, finding.help)
+def _is_whole(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> bool:
+    """Tell whether a mission that fits its models says its version, and has shots, all of known kinds."""
+    version, shots = root.get("shotc"), root.get("shots", [])
+    known = [shot["kind"] in kinds for shot in shots]
+    return version == VERSION and version is not True and bool(known) and all(known)

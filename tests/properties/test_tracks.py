@@ -69,7 +69,7 @@ def test_a_course_is_the_last_one_gone_or_the_first(track: Track, t: float) -> N
     i = max(0, int(np.searchsorted(still.times, t, side="right")) - 1)
     ordered = [*legs[i::-1], *legs[i:]] if i < len(legs) else legs[::-1]
     gone = next((leg for leg in ordered if hypot(*leg) > 1e-6), (0.0, 1.0))
-    assert still._course(t) == pytest.approx(float(np.arctan2(gone[1], gone[0])))
+    assert still._last_course(t) == pytest.approx(float(np.arctan2(gone[1], gone[0])))
 
 
 def test_a_long_stand_costs_no_more_than_a_walk() -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
-from shotc.diag.registry import CodeInfo
 
 _PASSING = """\
 shotc: 1

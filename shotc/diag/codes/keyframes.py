@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._slips import slip
-from shotc.diag.registry import CodeInfo
 
 _PASSING = """\
 shotc: 1

@@ -5,9 +5,9 @@ What no path at all could meet is found earlier, without a solver, and has K cod
 
 from __future__ import annotations
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
-from shotc.diag.registry import CodeInfo
 
 _MISSION = """\
 shotc: 1

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Severity
-from shotc.diag.registry import CodeInfo
 
 _MISSION = """\
 shotc: 1

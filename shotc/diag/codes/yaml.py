@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Diagnostic, Label, Severity
-from shotc.diag.registry import CodeInfo
 from shotc.source.fault import Fault, FaultKind
 
 _PASSING = """\

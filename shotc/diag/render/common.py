@@ -6,8 +6,9 @@ import unicodedata
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Diagnostic, Severity
-from shotc.diag.registry import CodeInfo, registry, severity_of
+from shotc.diag.registry import registry, severity_of
 
 # Unassigned, control, format (which hold the bidirectional overrides), surrogate and line separators.
 _HIDDEN = frozenset({"Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp"})

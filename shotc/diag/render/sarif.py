@@ -9,8 +9,8 @@ from typing import Any
 from urllib.parse import quote
 
 from shotc import __version__
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Diagnostic, Label
-from shotc.diag.registry import CodeInfo
 from shotc.diag.render.common import info_of, ordered
 from shotc.source.file import SourceFile
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import atan2, hypot, pi
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
@@ -18,10 +18,11 @@ from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
-from shotc.passes.place_keyframes.faults import Miss, does_not_fit, keeps, off_composition, report
 from shotc.passes.place_keyframes.flown_order import flown_order
-from shotc.passes.place_keyframes.subjects import place_subjects
 from shotc.passes.place_keyframes.turns import while_following, with_turns
+
+if TYPE_CHECKING:
+    from shotc.passes.place_keyframes.faults import Miss
 
 NORTH = pi / 2
 
@@ -38,6 +39,8 @@ class PlaceKeyframes:
         for shot in flown_order(ir.shots):
             ctx.progress(f"placing the keyframes of {shot.id}")
             if shot.ideal is not None:
+                from shotc.passes.place_keyframes.subjects import place_subjects
+
                 subjects, found = place_subjects(ir, shot)
                 shots.append(PlacedShot(shot, (), subjects))
                 diagnostics += [*found, *_sized(ir, shots[-1])]
@@ -45,10 +48,18 @@ class PlaceKeyframes:
             placed, misses = place_shot(ir, shot)
             shots.append(PlacedShot(shot, placed))
             diagnostics += _sized(ir, shots[-1])
-            diagnostics += report(ir, shot, misses)
+            diagnostics += _reported(ir, shot, misses)
             diagnostics += while_following(ir, shot.keyframes, placed)
         value = None if has_errors(diagnostics) else KeyframeIR(ir, tuple(shots))
         return Outcome(value, tuple(diagnostics))
+
+
+def _reported(mission: MissionIR, shot: Shot, misses: tuple[Miss, ...]) -> list[Diagnostic]:
+    if not misses:
+        return []
+    from shotc.passes.place_keyframes.faults import report
+
+    return report(mission, shot, misses)
 
 
 def _sized(mission: MissionIR, placed: PlacedShot) -> list[Diagnostic]:
@@ -88,11 +99,15 @@ def _place(
     asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
     composition = keyframe.composition
     if asked is None or composition.keep or composition.watches:
+        from shotc.passes.place_keyframes.faults import keeps
+
         reference = None if composition.watches else asked
         return _placed(keyframe, aim, asked, reference), keeps(keyframe, setting, aim)
     miss: Miss | None = None
     place = nearest_candidate(setting, composition, asked)
     if place is None:
+        from shotc.passes.place_keyframes.faults import does_not_fit, off_composition
+
         place = nearest_on_verticals(setting, composition, asked)
         miss = (
             does_not_fit(keyframe, setting, asked)

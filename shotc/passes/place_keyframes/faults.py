@@ -13,6 +13,7 @@ from shotc.geom.camera import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes.candidates import (
+    TILT,
     TOUCH,
     Setting,
     has_candidate,
@@ -25,7 +26,6 @@ FARTHEST = 50.0  # times the present distance, up to which a distance that fits 
 WIDEST = radians(150)
 LEVEL = 0.1  # metres off the target's axis, below which a camera is above it
 _WARNINGS = ("G011", "G012")
-TILT = 1e-6  # rad past the gimbal's stop that are rounding
 
 
 class Miss(NamedTuple):

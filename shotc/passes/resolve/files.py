@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import bad_file
-from shotc.kinds.files import LARGEST, FileFault
+from shotc.source.limits import MAX_TABLE_BYTES
 from shotc.spec.words import closest
 
 MOST_FILES = 5_000  # frames of an animation
@@ -31,7 +31,7 @@ class Ground(NamedTuple):
 
 
 def read_file(
-    folder: Path | None, origins: OriginMap, name: str, path: KeyPath, most: int = LARGEST
+    folder: Path | None, origins: OriginMap, name: str, path: KeyPath, most: int = MAX_TABLE_BYTES
 ) -> bytes | Diagnostic:
     """Return the bytes of the file that the mission names at ``path``, or what is wrong with it.
 
@@ -60,6 +60,8 @@ def read_file(
         reason = getattr(error, "strerror", None) or "the path cannot be followed"
         return Diagnostic("N008", f"cannot read `{name}`", label, (str(reason).lower(),), "check the file")
     if size > most:
+        from shotc.kinds.files import FileFault
+
         message = f"the file has {size / 1e6:.1f} MB, and no more than {most / 1e6:.0f} MB are read"
         return bad_file(origins, path, name, FileFault(message, None, "thin it"))
     return data

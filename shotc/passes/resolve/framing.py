@@ -10,8 +10,7 @@ from shotc.geom.camera import Vec2, frustum_margins, heading_of, nearest_depth, 
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes import explicit_aim, setting_of
-from shotc.passes.place_keyframes.candidates import Setting
-from shotc.passes.place_keyframes.faults import TILT, framing_label
+from shotc.passes.place_keyframes.candidates import TILT, Setting
 
 SAME = 1e-3  # metres within which a camera looks at its own place
 
@@ -70,6 +69,10 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     """Tell a target that the user's framing does not show at all."""
     setting = setting_of(mission, drone, keyframe, aim[0])
     off = degrees(_angle_off(setting, aim))
+    if off < 90.0 and shows(setting, aim):
+        return None
+    from shotc.passes.place_keyframes.faults import framing_label
+
     straight = setting.aim((0.0, 0.0)) or aim
     right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
     remedy = f"write `look_at: {keyframe.target}`, or `{right}`"
@@ -79,13 +82,11 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     if off >= 90.0:
         note = f"it is {off:.0f} deg away from where the camera looks"
         return Diagnostic("G008", f"target `{keyframe.target}` is behind the camera", label, (note,), remedy)
-    if not shows(setting, aim):
-        note = (
-            f"it is {off:.0f} deg away from the middle of a frame {degrees(setting.hfov):.0f} deg wide; "
-            "no part of it is in the picture"
-        )
-        return Diagnostic("G009", f"target `{keyframe.target}` is out of the frame", label, (note,), remedy)
-    return None
+    note = (
+        f"it is {off:.0f} deg away from the middle of a frame {degrees(setting.hfov):.0f} deg wide; "
+        "no part of it is in the picture"
+    )
+    return Diagnostic("G009", f"target `{keyframe.target}` is out of the frame", label, (note,), remedy)
 
 
 def _angle_off(setting: Setting, aim: Vec2) -> float:

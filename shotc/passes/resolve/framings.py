@@ -18,7 +18,7 @@ from shotc.ir.framed import (
 )
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath
-from shotc.passes.place_keyframes.faults import TILT
+from shotc.passes.place_keyframes.candidates import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
 
 OFF_PLACE = 0.05  # half frames

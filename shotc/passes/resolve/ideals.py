@@ -11,7 +11,7 @@ from math import ceil, floor, inf
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.place_keyframes.faults import TILT
+from shotc.passes.place_keyframes.candidates import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
 from shotc.passes.resolve.keeping_up import check_speed
 from shotc.passes.resolve.obstacles import ROUNDING

@@ -7,19 +7,19 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR
 from shotc.passes.resolve.files import Ground
 from shotc.passes.resolve.world import Put
 from shotc.spec.load import LoadedMission
 
 if TYPE_CHECKING:
+    from shotc.geom.track import Track
     from shotc.ir.show import Display, Fleet
 
 
 def tracks_of(
     ir: LoadedMission, put: Put, ground: Ground
-) -> tuple[Mapping[str, Track], Iterable[Diagnostic]]:
+) -> "tuple[Mapping[str, Track], Iterable[Diagnostic]]":
     """Return the motion of every target that moves, and what is wrong with the others."""
     if all(target.track is None for target in ir.spec.targets.values()):
         return {}, ()

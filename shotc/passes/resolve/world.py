@@ -10,7 +10,6 @@ from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
-from shotc.geom.track import Track
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import OriginMap
@@ -21,6 +20,7 @@ from shotc.spec.presets import PRESETS, Preset
 from shotc.spec.world import ZoneSpec
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from shotc.geom.track import Track
     from shotc.ir.show import Fleet
 
 Put = Callable[[Vec3 | Geodetic], Vec3]

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Diagnostic, Severity
-from shotc.diag.registry import FAMILIES, CodeInfo, registry
+from shotc.diag.registry import FAMILIES, registry
 from tests.front import placed
 
 CHECKED = [info for info in registry().values() if info.phase == "check"]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes.yaml import CODES, FAULT_CODES, text_diagnostic
-from shotc.diag.registry import CodeInfo
 from shotc.source.fault import FAULT_KINDS
 from shotc.source.yaml_tree import parse
 

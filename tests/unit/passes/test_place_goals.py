@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import pdist
 
+from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes.pictures import CODES
 from shotc.diag.model import Diagnostic
-from shotc.diag.registry import CodeInfo
 from shotc.geom.apart import spacing, stretch
 from shotc.geom.solids import Cylinder
 from shotc.ir.fleet import GoalIR

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from shotc.diag.codes import schema, units
 from shotc.diag.registry import registry
 from shotc.source.yaml_tree import parse
-from shotc.spec.load import MAX_DIAGNOSTICS, load
+from shotc.spec.load import load
+from shotc.spec.shape_faults import MAX_DIAGNOSTICS
 
 CODES = (*schema.CODES, *units.CODES)
 CODE_OF = {info.slug: info.code for info in CODES}

@@ -1,14 +1,10 @@
 """What a shot shows at its first and its last frame: whom, from where, and which way they go."""
 
-from math import hypot, pi, tan
+from math import hypot, tan
 from typing import NamedTuple
 
-from shotc.geom.track import AROUND, MOVES, Track
-from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
-
-STRAIGHT = 1e-6  # sine of the angle between two stretches that go the same way
 
 
 class Sight(NamedTuple):
@@ -69,19 +65,9 @@ def begins(mission: MissionIR, shot: Shot) -> float | None:
     if shot.timing.start is not None or ideal is None or ideal.target is None:
         return shot.timing.start
     tracks = [mission.target(name).track for name in {ideal.target, *(s.target for s in shot.subjects)}]
-    if len(tracks) == 1 and tracks[0] is not None and _straight(tracks[0]):
-        return tracks[0].times[0] + AROUND
+    if len(tracks) == 1 and tracks[0] is not None and tracks[0].straight:
+        return tracks[0].underway
     return None
-
-
-def course(track: Track | None, t: float) -> Vec2 | None:
-    """Return the unit direction in which a target moves about a time, None where it stands."""
-    if track is None:
-        return None
-    a, b = track.at(t - AROUND), track.at(t + AROUND)
-    x, y = b[0] - a[0], b[1] - a[1]
-    way = hypot(x, y)
-    return (x / way, y / way) if way >= MOVES else None
 
 
 def minus(a: Vec3, b: Vec3) -> Vec3:
@@ -93,6 +79,8 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
     start, duration = begins(mission, shot), shot.timing.duration
     if start is None or duration is None or not shot.subjects:
         return None
+    from shotc.ir.ideal import ideal_place
+
     t = start + share * duration
     targets = [mission.target(subject.target) for subject in shot.subjects]
     first = targets[0]
@@ -101,7 +89,7 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
             ideal_place(mission, shot, start, t),
             tuple(target.name for target in targets),
             tuple(target.at(t) for target in targets),
-            course(first.track, t),
+            None if first.track is None else first.track.course(t),
             tan(drone.hfov / 2) / drone.aspect,
             first.height,
             first.track is not None,
@@ -113,17 +101,3 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
 def _sound(seen: Sight) -> Sight | None:
     """Return what is seen, unless the camera is where the target is."""
     return seen if hypot(*seen.offset) > 1e-6 else None
-
-
-def _straight(track: Track) -> bool:
-    """Tell whether a target goes one way only, and faces that way."""
-    legs = [minus(b, a) for a, b in zip(track.points, track.points[1:], strict=False)]
-    legs = [leg for leg in (*legs, track.after) if hypot(leg[0], leg[1]) > 1e-9]
-    if not legs:
-        return False
-    if track.headings and max(track.headings) - min(track.headings) > pi / 180:
-        return False
-    x, y, _ = legs[0]
-    return all(
-        abs(x * b - y * a) <= STRAIGHT * hypot(x, y) * hypot(a, b) and x * a + y * b > 0 for a, b, _ in legs
-    )

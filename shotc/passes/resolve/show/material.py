@@ -10,10 +10,11 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.show import Display, Drawing, Lettering, Model, Picture
 from shotc.kinds.base import bad_file
-from shotc.kinds.files import LARGEST, FileFault
+from shotc.kinds.files import FileFault
 from shotc.kinds.svg import svg_fault
 from shotc.passes.resolve.files import read_file
 from shotc.passes.resolve.show.places import key_of
+from shotc.source.limits import MAX_TABLE_BYTES
 
 LARGEST_MESH = 64_000_000  # bytes of one mesh or font
 MOST = 256_000_000  # bytes of all that one mission draws
@@ -71,7 +72,7 @@ def _where(picture: Picture) -> KeyPath:
 
 def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
     drawing = name.lower().endswith(".svg")
-    data = read_file(folder, origins, name, path, LARGEST if drawing else LARGEST_MESH)
+    data = read_file(folder, origins, name, path, MAX_TABLE_BYTES if drawing else LARGEST_MESH)
     if isinstance(data, Diagnostic):
         return data
     if not data:

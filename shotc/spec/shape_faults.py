@@ -1,0 +1,100 @@
+"""What is wrong with the shape of a mission, with its place in the text."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import ValidationError
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.diag.registry import code_of
+from shotc.ir.origin import KeyPath, OriginMap
+from shotc.source.file import WHOLE_FILE
+from shotc.spec.mission import VERSION
+from shotc.spec.shot import ShotBase
+from shotc.spec.translate import Finding, findings
+from shotc.spec.words import nearest
+from shotc.units import clip
+
+MAX_DIAGNOSTICS = 100
+
+
+def shape_faults(
+    root: Mapping[str, Any],
+    error: ValidationError | None,
+    kinds: Mapping[str, type[ShotBase]],
+    origins: OriginMap,
+) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with the keys and values below ``root``; of an unknown language only that.
+
+    error : what the models say of it, its version apart
+    """
+    found = _version_findings(root)
+    if not any(f.slug == "unknown-version" for f in found):
+        said = findings(error) if error is not None else []
+        found += [f for f in said if f.path != ("shotc",)] + _shot_findings(root, kinds)
+    return _diagnostics(found, origins)
+
+
+def plan_given(name: str) -> Diagnostic:
+    """Return the one fault of a plan that stands where a mission is wanted."""
+    label = (Label(name, WHOLE_FILE),)
+    help_ = "give the mission's YAML file; `shotc verify`, `emit`, `view` and `diff` take plans"
+    return Diagnostic(code_of("not-a-mission"), "this is a plan, not a mission", label, help=help_)
+
+
+def _version_findings(root: Mapping[str, Any]) -> list[Finding]:
+    help_ = f"write `shotc: {VERSION}` as the first line"
+    if "shotc" not in root:
+        message = "the mission does not say its language version"
+        return [Finding((), "missing-version", message, help_, blame="key")]
+    value = root["shotc"]
+    if value == VERSION and not isinstance(value, bool):
+        return []
+    message = "`shotc` is the version of the language, a number"
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        message = f"language version {clip(format(value, '.6g'))} is not known"
+    note = f"this version of shotc reads language version {VERSION}"
+    return [Finding(("shotc",), "unknown-version", message, help_, (note,))]
+
+
+def _shot_findings(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> list[Finding]:
+    """Return unknown kinds, and a mission without shots."""
+    shots = root.get("shots", [])
+    if shots == []:
+        path: KeyPath = ("shots",) if "shots" in root else ()
+        help_ = "add a shot, or start from a template: shotc new"
+        return [Finding(path, "no-shots", "the mission has no shots", help_, blame="key")]
+    if not isinstance(shots, list):
+        return []
+    named = [(i, shot["kind"]) for i, shot in enumerate(shots) if isinstance(shot, dict) and "kind" in shot]
+    return [
+        _unknown_kind(("shots", i, "kind"), kind, kinds)
+        for i, kind in named
+        if isinstance(kind, str) and kind not in kinds
+    ]
+
+
+def _unknown_kind(path: KeyPath, kind: str, kinds: Mapping[str, type[ShotBase]]) -> Finding:
+    return Finding(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", nearest(kind, kinds))
+
+
+def _diagnostics(found: list[Finding], origins: OriginMap) -> tuple[Diagnostic, ...]:
+    """Return one diagnostic per faulty place, in the order of the file, at most ``MAX_DIAGNOSTICS``."""
+    first: dict[tuple[KeyPath, str], Finding] = {}
+    for finding in found:
+        first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)
+    every = sorted((_diagnostic(f, origins) for f in first.values()), key=lambda d: d.sort_key)
+    more = len(every) - MAX_DIAGNOSTICS
+    if more <= 0:
+        return tuple(every)
+    last = every[MAX_DIAGNOSTICS - 1]
+    note = f"{more} more faults of this file are not shown"
+    return (*every[: MAX_DIAGNOSTICS - 1], last._replace(notes=(*last.notes, note)))
+
+
+def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:
+    label = origins.value(finding.path) if finding.blame == "value" else origins.key(finding.path)
+    if finding.path == ():
+        label = Label(origins.file, WHOLE_FILE)
+    related = (origins.key(finding.beside, "given here"),) if finding.beside else ()
+    return Diagnostic(code_of(finding.slug), finding.message, (label, *related), finding.notes, finding.help)
