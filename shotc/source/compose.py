@@ -77,9 +77,9 @@ class _Open:
         self.node = node
         self.anchor = anchor
         self.flow = flow
-        self.key: Entry | None = None
+        self.key: Scalar | None = None
         self.has_key = False
-        self.seen: dict[str, Entry] = {}
+        self.seen: dict[str, Scalar] = {}
 
 
 class _Composer:
@@ -150,7 +150,7 @@ class _Composer:
             if parent.node.entries is None:
                 parent.node.items.append(node)
             elif parent.key is not None:
-                parent.node.entries.append(parent.key._replace(value=node))
+                parent.node.entries.append(Entry(parent.key, node))
 
     def _stop(self, kind: FaultKind, message: str, start: int, hint: str) -> None:
         self.faults.append(Fault(kind, message, self.file.point(start), help=hint))
@@ -248,11 +248,11 @@ class _Composer:
             frame.key = self._key(frame, node, merge=merge)
         else:
             if frame.key is not None:
-                parent.entries.append(frame.key._replace(value=node))
+                parent.entries.append(Entry(frame.key, node))
             frame.key, frame.has_key = None, False
 
-    def _key(self, frame: _Open, node: Node, *, merge: bool) -> Entry | None:
-        """Return the key that a node stands for, or None where its value is to be dropped."""
+    def _key(self, frame: _Open, node: Node, *, merge: bool) -> Scalar | None:
+        """Return the node that is to be a key, or None where its value is to be dropped."""
         if not isinstance(node, Scalar):
             self._complex_key(node)
             return None
@@ -262,12 +262,11 @@ class _Composer:
             return None
         if not isinstance(node.value, str):
             self._key_not_text(node)
-        entry = Entry(node.text, node.start, node.end, node)
-        first = frame.seen.setdefault(node.text, entry)
-        if first is not entry:
-            self._duplicate(entry, first)
+        first = frame.seen.setdefault(node.text, node)
+        if first is not node:
+            self._duplicate(node, first)
             return None
-        return entry
+        return node
 
     def _complex_key(self, node: Node) -> None:
         """Blame a key that is no scalar, once: a ``{{ name }}`` is one inside another."""
@@ -283,13 +282,13 @@ class _Composer:
         shown = f"'{shorten(node.text)}' is {kind}, and" if node.text else "this is empty, and"
         self.blame("key-not-text", f"{shown} a key is text", node.start, node.end, hint)
 
-    def _duplicate(self, entry: Entry, first: Entry) -> None:
+    def _duplicate(self, key: Scalar, first: Scalar) -> None:
         line, _ = self.file.position(first.start)
         self.faults.append(
             Fault(
                 "duplicate-key",
-                f"the key '{shorten(entry.key)}' stands here a second time",
-                self.file.span(entry.start, entry.end),
+                f"the key '{shorten(key.text)}' stands here a second time",
+                self.file.span(key.start, key.end),
                 (f"first given on line {line}",),
                 "keep one of the two",
                 related=((self.file.span(first.start, first.end), "first given here"),),

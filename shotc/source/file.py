@@ -2,9 +2,13 @@
 
 import re
 from bisect import bisect_right
-from typing import Final, NamedTuple
+from collections.abc import Hashable, Iterator, Mapping
+from typing import Final, NamedTuple, TypeVar
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
+Offsets = tuple[int, int]
+"""First code point of a stretch of text, and the one after its last."""
+_Key = TypeVar("_Key", bound=Hashable)
 
 
 class Span(NamedTuple):
@@ -63,3 +67,23 @@ class SourceFile:
         if line == len(starts) or last < starts[line]:  # most spans lie in one line
             return Span(line, column, line, column + last - first)
         return Span(line, column, *_position(starts, last))
+
+
+class Spans(Mapping[_Key, Span]):
+    """Spans of a text, each worked out when it is asked for: a text without faults is asked for few."""
+
+    def __init__(self, file: SourceFile, offsets: Mapping[_Key, Offsets]) -> None:
+        self._file = file
+        self._offsets = offsets
+
+    def __getitem__(self, key: _Key) -> Span:
+        return self._file.span(*self._offsets[key])
+
+    def __iter__(self) -> Iterator[_Key]:
+        return iter(self._offsets)
+
+    def __len__(self) -> int:
+        return len(self._offsets)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._offsets

@@ -15,11 +15,9 @@ class Scalar(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """One key of a mapping, with its place and its value."""
+    """One key of a mapping and its value."""
 
-    key: str
-    start: int
-    end: int
+    key: Scalar
     value: "Node"
 
 

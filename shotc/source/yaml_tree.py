@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from shotc.source.compose import compose
 from shotc.source.decode import decode
 from shotc.source.fault import Fault
-from shotc.source.file import WHOLE_FILE, SourceFile, Span
+from shotc.source.file import WHOLE_FILE, Offsets, SourceFile, Span, Spans
 from shotc.source.limits import MAX_FAULTS
 from shotc.source.nodes import Alias, Collection, Node, Scalar
 
@@ -50,9 +50,10 @@ def parse(data: bytes, name: str) -> Document:
         found += _root_faults(root, file)
     if root is None:
         return Document(file, None, faults=_capped(found), whole=composed.whole)
-    flat = _Flat(file)
+    flat = _Flat()
     value = flat.add(root, ())
-    return Document(file, value, flat.keys, flat.values, _capped(found), composed.whole)
+    keys, values = Spans(file, flat.keys), Spans(file, flat.values)
+    return Document(file, value, keys, values, _capped(found), composed.whole)
 
 
 _BEGIN = "begin with 'shotc: 1' and 'mission: NAME', or start from a template: shotc new"
@@ -83,16 +84,15 @@ def _capped(faults: list[Fault]) -> tuple[Fault, ...]:
 
 
 class _Flat:
-    """The tree laid out: values as plain objects, spans by key path."""
+    """The tree laid out: values as plain objects, places by key path."""
 
-    def __init__(self, file: SourceFile) -> None:
-        self.file = file
-        self.keys: dict[KeyPath, Span] = {}
-        self.values: dict[KeyPath, Span] = {}
+    def __init__(self) -> None:
+        self.keys: dict[KeyPath, Offsets] = {}
+        self.values: dict[KeyPath, Offsets] = {}
 
     def add(self, node: Node, path: KeyPath) -> Any:
-        """Return the value of a node and note the spans in it; the depth is capped, so recursion is."""
-        self.values[path] = self.file.span(node.start, node.end)
+        """Return the value of a node and note the places in it; the depth is capped, so recursion is."""
+        self.values[path] = (node.start, node.end)
         if isinstance(node, Alias):
             node = node.target
         if isinstance(node, Scalar):
@@ -104,7 +104,8 @@ class _Flat:
             return [self.add(item, (*path, i)) for i, item in enumerate(node.items)]
         content = {}
         for entry in node.entries:
-            inner = (*path, entry.key)
-            self.keys[inner] = self.file.span(entry.start, entry.end)
-            content[entry.key] = self.add(entry.value, inner)
+            key = entry.key.text
+            inner = (*path, key)
+            self.keys[inner] = (entry.key.start, entry.key.end)
+            content[key] = self.add(entry.value, inner)
         return content
