@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 from importlib.metadata import entry_points
+from importlib.util import find_spec
 
 import pytest
 
@@ -47,6 +48,15 @@ def test_check_loads_the_kinds_that_the_mission_uses_and_no_others(checked):
     kinds = {entry.module for entry in entry_points(group="shotc.kinds")}
     assert len(kinds) > 10
     assert kinds & checked == {"shotc.kinds.orbit"}
+
+
+def test_a_clean_check_loads_no_words_for_faults_and_no_models_that_the_mission_does_not_use(checked):
+    words = {"diag.codes.yaml", "diag.code_info", "passes.place_keyframes.faults", "source.syntax"}
+    words |= {"spec.shape_faults", "spec.translate"}
+    models = {"kinds.files", "geom.track", "spec.fleets", "spec.gimbal", "spec.tracks", "spec.visibility"}
+    late = {f"shotc.{name}" for name in words | models}
+    assert all(map(find_spec, late))
+    assert not late & checked
 
 
 def test_check_loads_no_other_command(checked):
