@@ -15,6 +15,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from tests.e2e import tables, written
+from tests.e2e.command import run
+from tests.e2e.lakeside import LAKE, Show
 from tests.e2e.tables import Table
 from tests.e2e.written import Course, Written
 
@@ -113,3 +115,14 @@ def plan() -> Plan:
 def each_mission() -> list[object]:
     """Return all missions as parameters; with ``--dist loadgroup`` one process has all tests of a mission."""
     return [pytest.param(path, id=path.stem, marks=pytest.mark.xdist_group(path.stem)) for path in MISSIONS]
+
+
+@pytest.fixture(scope="session")
+def show(tmp_path_factory: pytest.TempPathFactory) -> Show:
+    """The show over the lake, planned by the command."""
+    folder = tmp_path_factory.mktemp("show")
+    for name in (LAKE.name, "heart.svg"):
+        (folder / name).write_bytes((LAKE.parent / name).read_bytes())
+    done = run("plan", LAKE.name, "-o", "out", folder=folder)
+    assert (done.code, done.err) == (0, "")
+    return Show(folder, done.out)

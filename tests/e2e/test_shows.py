@@ -5,11 +5,7 @@ from __future__ import annotations
 import io
 import json
 from base64 import b64decode
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,15 +17,14 @@ from shotc.ir.mission import GeoOrigin
 from tests import skybrush
 from tests.e2e import shows, written
 from tests.e2e.command import run
-from tests.e2e.conftest import ROOT, SHOWS
-from tests.e2e.shows import Flown, Rows
+from tests.e2e.conftest import SHOWS
+from tests.e2e.lakeside import COLORS, DIGITS, LAKE, POSITION, Show, asked
 from tests.e2e.space import signed_distance
 from tests.e2e.test_trajectory import COLUMNS, east_north_up
 from tests.skybrush import color_at, place_at
 
 pytestmark = pytest.mark.xdist_group("shows")
 
-LAKE = ROOT / "specs" / "lakeside-show.yaml"
 OUTPUTS = {
     "plan.json",
     "trajectory.csv",
@@ -38,62 +33,8 @@ OUTPUTS = {
     "contact-sheet.png",
     "mission.rrd",
 }
-POSITION = ("x_m", "y_m", "z_m")
 VELOCITY = ("vx_m_s", "vy_m_s", "vz_m_s")
 ACCELERATION = ("ax_m_s2", "ay_m_s2", "az_m_s2")
-LIGHT = ("red", "green", "blue")
-DIGITS = 1e-5
-"""What nine digits of some hundred metres leave."""
-MIDDLE = np.array([0.0, 20.0, 50.0])
-COLORS = [(255, 165, 0), (51, 153, 255), (0, 255, 0), (255, 0, 0), (255, 255, 255)]
-
-
-@dataclass(frozen=True)
-class Show:
-    """A show that the command has planned: its folder, with the mission beside its outputs."""
-
-    folder: Path
-    said: str
-
-    @property
-    def out(self) -> Path:
-        return self.folder / "out"
-
-    @cached_property
-    def document(self) -> dict[str, Any]:
-        return dict(json.loads(self.bytes("plan.json")))
-
-    @cached_property
-    def fleet(self) -> Flown:
-        (fleet,) = shows.flown(self.bytes("plan.json"))
-        return fleet
-
-    @cached_property
-    def rows(self) -> Rows:
-        return shows.rows(self.bytes("trajectory.csv"))
-
-    @cached_property
-    def mission(self) -> dict[str, Any]:
-        """The mission as its author wrote it."""
-        return written.read(self.folder / LAKE.name)
-
-    def bytes(self, name: str) -> bytes:
-        return (self.out / name).read_bytes()
-
-    def claim(self, name: str) -> dict[str, Any]:
-        (found,) = (claim for claim in self.document["certificate"] if claim["constraint"] == name)
-        return dict(found)
-
-
-@pytest.fixture(scope="session")
-def show(tmp_path_factory: pytest.TempPathFactory) -> Show:
-    """The show over the lake."""
-    folder = tmp_path_factory.mktemp("show")
-    for name in (LAKE.name, "heart.svg"):
-        (folder / name).write_bytes((LAKE.parent / name).read_bytes())
-    done = run("plan", LAKE.name, "-o", "out", folder=folder)
-    assert (done.code, done.err) == (0, "")
-    return Show(folder, done.out)
 
 
 def test_every_show_of_the_tree_is_tested_here() -> None:
@@ -270,12 +211,6 @@ def test_latitude_longitude_and_altitude(show: Show) -> None:
 # What separation is kept.
 
 
-def asked(show: Show) -> tuple[float, float]:
-    of = show.mission["fleets"]["swarm"]["separation"]
-    margin = written.number(of["margin"])
-    return written.number(of["horizontal"]) + margin, written.number(of["vertical"]) + margin
-
-
 def test_all_pairs_keep_the_separation_all_the_time(show: Show) -> None:
     """Of all pairs, at fifty instants a second, from the splines of the plan."""
     across, upright = asked(show)
@@ -306,74 +241,6 @@ def test_the_certificate_is_what_is_flown(show: Show) -> None:
         worst = show.claim(name)["worst"]
         assert share * limits[name] <= worst + 1e-9, name
         assert worst <= share * limits[name] * 1.02 + 1e-3, name
-
-
-# What the pictures show.
-
-
-def held(show: Show) -> Iterator[tuple[dict[str, Any], Array, Array]]:
-    """Every picture with the places and the lights while it is held, (n, rows, 3)."""
-    t = show.rows["t_s"][0]
-    shown = show.fleet.flight["shown"]
-    pictures = show.mission["shots"][0]["frames"]
-    assert [s["picture"] for s in shown] == list(range(len(pictures)))
-    for picture, stands in zip(pictures, shown, strict=True):
-        assert stands["end"] - stands["start"] == pytest.approx(picture["hold"], abs=1e-3)
-        during = (t >= stands["start"]) & (t <= stands["end"])
-        assert during.sum() >= 5 * picture["hold"] - 1
-        yield picture, show.rows[POSITION][:, during], show.rows[LIGHT][:, during]
-
-
-def test_pictures_stand_still_in_their_colours(show: Show) -> None:
-    for (picture, places, lights), color in zip(held(show), COLORS, strict=True):
-        assert np.ptp(places, axis=1).max() < DIGITS, picture
-        assert (lights == color).all(), picture
-    on_pads = np.isin(show.rows["t_s"][0], [0.0, show.rows["t_s"][0, -1]])
-    assert (show.rows[LIGHT][:, on_pads] == 0).all()
-
-
-def test_every_picture_is_where_it_is_asked_for(show: Show) -> None:
-    stood = {next(iter(picture)): places[:, 0] - MIDDLE for picture, places, _ in held(show)}
-    assert list(stood) == ["sphere", "cube", "torus", "svg", "text"]
-    spaced = np.sqrt(2) * asked(show)[0]
-    for name, places in stood.items():
-        # Goals are moved for their spacing by less than it.
-        assert off(name, places).max() < spaced, name
-        assert (off(name, places) < 0.1).mean() > 0.5, name
-        least = shows.nearest(places[None], show.fleet.asked["apart"])[0]
-        assert least >= np.sqrt(2) - 1e-5, name
-
-
-def off(name: str, places: Array) -> Array:
-    """How far places about the middle are from what they draw, metres."""
-    x, y, z = places.T
-    if name == "sphere":
-        return np.maximum(np.linalg.norm(places, axis=1) - 18, 0)
-    if name == "cube":
-        east, north = np.cos(np.pi / 6), np.sin(np.pi / 6)
-        corner = np.abs(np.stack([east * x - north * y, north * x + east * y, z], axis=1)) - 15
-        return np.abs(np.linalg.norm(np.maximum(corner, 0), axis=1) + np.minimum(corner.max(axis=1), 0))
-    if name == "torus":  # its axis lies to the north
-        return np.maximum(np.hypot(np.hypot(x, z) - 20, y) - 6, 0)
-    # Flat pictures: off their plane, and out of the box around them.
-    # Of a text the dots of its U are part, which stand above the capitals by a quarter of their height.
-    wide, high = {"svg": (20 * 96 / 86, 20), "text": (42, 27 * 1.25 / 2)}[name]
-    return np.abs(y) + np.maximum(np.abs(x) - wide, 0) + np.maximum(np.abs(z) - high, 0)
-
-
-def test_solids_are_filled_all_round(show: Show) -> None:
-    stood = {next(iter(picture)): places[:, 0] - MIDDLE for picture, places, _ in held(show)}
-    for name in ("sphere", "cube", "torus"):
-        assert np.abs(stood[name].mean(axis=0)).max() < 1.0, name
-    for name, reach in (("sphere", 15), ("cube", 14), ("torus", 22), ("svg", 18)):
-        assert stood[name][:, 2].max() > reach, name
-        assert stood[name][:, 2].min() < -reach, name
-    # A ring has a hole, a surface is hollow, and a heart is wide above and pointed below.
-    x, _, z = stood["torus"].T
-    assert np.hypot(x, z).min() > 20 - 6 - 0.5
-    assert np.linalg.norm(stood["cube"], axis=1).min() > 14
-    x, _, z = stood["svg"].T
-    assert np.ptp(x[z > 5]) > 3 * np.ptp(x[z < -14])
 
 
 # What is made of it.
