@@ -97,50 +97,58 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject) -> Diagnostic |
 
 def _blocked(mission: MissionIR, course: Course) -> Diagnostic | None:
     """Tell a view that is underground, out of the gimbal's range, or in something all along."""
-    shot, drone = course.shot, mission.drone(course.shot.drone)
-    need = mission.rules.ground_clearance + drone.radius
-    low = min(range(len(course.poses)), key=lambda i: course.poses[i][2])
-    z = course.poses[low][2]
-    subject = shot.subjects[0]
-    asked = next((s for s in shot.subjects if s.view is not None and s.view[1] is not None), None)
-    if len(shot.subjects) == 1 and z < need - ROUNDING:
-        where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
-        return Diagnostic(
-            "M032",
-            f"the view of `{subject.target}` puts the camera {where}",
-            (_view_label(mission, shot, subject, "elevation"),),
-            (f"the ground clearance and the body radius need {need:.2f} m",),
-            f"raise `elevation`{_enough(course, need)}, or leave it out: then it is as low as it may be",
-        )
-    pitches = sorted(p[4] for p in course.poses)
-    for pitch in (pitches[0], pitches[-1]):
-        if (
-            not drone.gimbal.pitch[0] - TILT <= pitch <= drone.gimbal.pitch[1] + TILT
-            and len(shot.subjects) == 1
-        ):
-            path = (*subject.path[:-1], "view", "elevation")
-            known = path if path in mission.origins.values else (*shot.path, "kind")
-            return beyond_gimbal(mission, drone, known, pitch)
-    if course.blocked < 1.0 or not _known(mission, shot):
+    alone = len(course.shot.subjects) == 1
+    fault = (_too_low(mission, course) or _beyond_reach(mission, course)) if alone else None
+    if fault is not None or course.blocked < 1.0 or not _known(mission, course.shot):
+        return fault
+    return _without_room(mission, course)
+
+
+def _too_low(mission: MissionIR, course: Course) -> Diagnostic | None:
+    shot, subject = course.shot, course.shot.subjects[0]
+    need = mission.rules.ground_clearance + mission.drone(shot.drone).radius
+    z = min(pose[2] for pose in course.poses)
+    if z >= need - ROUNDING:
         return None
-    t, pose = course.times[0], course.poses[0]
-    what, name, lack = max(lacks(mission, drone, (pose[0], pose[1], pose[2]), t), key=lambda found: found[2])
-    free = all(s.view is None or s.view[0] is None for s in shot.subjects)
-    owner = (
-        mission.target(name).path
-        if what == "target"
-        else next(z.path for z in mission.zones if z.name == name)
+    where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
+    return Diagnostic(
+        "M032",
+        f"the view of `{subject.target}` puts the camera {where}",
+        (_view_label(mission, shot, subject, "elevation"),),
+        (f"the ground clearance and the body radius need {need:.2f} m",),
+        f"raise `elevation`{_enough(course, need)}, or leave it out: then it is as low as it may be",
     )
-    place = ", ".join(f"{c:.1f}" for c in pose[:3])
+
+
+def _beyond_reach(mission: MissionIR, course: Course) -> Diagnostic | None:
+    shot, drone = course.shot, mission.drone(course.shot.drone)
+    low, high = drone.gimbal.pitch
+    pitches = [pose[4] for pose in course.poses]
+    beyond = [p for p in (min(pitches), max(pitches)) if not low - TILT <= p <= high + TILT]
+    if not beyond:
+        return None
+    path = (*shot.subjects[0].path[:-1], "view", "elevation")
+    known = path if path in mission.origins.values else (*shot.path, "kind")
+    return beyond_gimbal(mission, drone, known, beyond[0])
+
+
+def _without_room(mission: MissionIR, course: Course) -> Diagnostic:
+    shot, drone = course.shot, mission.drone(course.shot.drone)
+    subject = shot.subjects[0]
+    asked = next((s for s in shot.subjects if s.view is not None and s.view[1] is not None), subject)
+    x, y, z = course.poses[0][:3]
+    what, name, lack = max(lacks(mission, drone, (x, y, z), course.times[0]), key=lambda found: found[2])
+    owner = mission.target(name) if what == "target" else next(z for z in mission.zones if z.name == name)
+    free = all(s.view is None or s.view[0] is None for s in shot.subjects)
     return Diagnostic(
         "M032",
         f"the camera of shot `{shot.id}` has no room where it sees `{subject.target}` as asked",
         (
-            _view_label(mission, shot, asked or subject, "azimuth"),
-            mission.origins.key(owner, "what is in its way"),
+            _view_label(mission, shot, asked, "azimuth"),
+            mission.origins.key(owner.path, "what is in its way"),
         ),
         (
-            f"it would be at [{place}], where {what} `{name}` lacks {lack:.2f} m",
+            f"it would be at [{x:.1f}, {y:.1f}, {z:.1f}], where {what} `{name}` lacks {lack:.2f} m",
             "it is so all through the shot",
         ),
         "ask for another size or elevation: no bearing is free"

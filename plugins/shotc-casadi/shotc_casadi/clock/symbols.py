@@ -11,6 +11,7 @@ at every instant.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -115,45 +116,65 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
     given, walls, past, near, shown = _cut(p, sizes)
     h, jerk = given["length"], u[JERK]
     place, v, a = x[POSITION], x[VELOCITY], x[ACCELERATION]
-    following = _integrated(x[:PLACED], jerk, h)
-    t = given["target"]
-    ray = t[:3] - place
+    moved = _integrated(x[:PLACED], jerk, h)
     off = ca.sumsqr(place - given["ideal"])
-    node = given["place"] * off * (1 + given["leash"] * off)
-    passing = h * given["jerk"] * ca.sumsqr(jerk)
-    limits = [ca.sumsqr(jerk), ca.sumsqr((v + h * a / 2)[:2]), (v + h * a / 2)[2]]
-    ends = following
-    if subjects:
-        turns = u[CAMERA_JERK]
-        ends = ca.vertcat(
-            following, *(_integrated(x[k : k + 3], turns[i], h) for i, k in enumerate((YAW, PITCH)))
-        )
-        turned = ca.vertcat(x[YAW + 1], x[PITCH + 1], x[YAW + 2], x[PITCH + 2], turns)
-        aim = (x[YAW], x[PITCH])
-        node += given["picture"] * sum(picture(one, place, aim, given["lens"]) for one in shown)
-    else:
-        turned = ca.vertcat(*turning(ray, t[3:6] - v, t[6:9] - a, t[9:] - jerk))
-        passing += h * given["price"] * u[SLACK]
-        low, high = given["steep"][0], given["steep"][1]
-        room = given["free"] + u[SLACK]
-        limits += [ray[2] - low * over_ground(ray) + room, high * over_ground(ray) - ray[2] + room]
-    passing += h * ca.dot(given["turn"], turned**2)
-    covers = [cover(line[:SCREEN], place, line[SCREEN:]) for line in past]
-    if covers:
-        passing += h * given["hidden"] * u[sizes.moves]
+    aimed = _aims_at_several(x, u, given, shown) if subjects else _aims_at_one(x, u, given)
     depths = [inside(body, place) for body in near]
+    covers = [cover(line[:SCREEN], place, line[SCREEN:]) for line in past]
+    node = given["place"] * off * (1 + given["leash"] * off) + aimed.node
+    passing = given["jerk"] * ca.sumsqr(jerk) + aimed.slack + ca.dot(given["turn"], aimed.turned**2)
+    if covers:
+        passing += given["hidden"] * u[sizes.moves]
     if depths:
-        passing += h * given["touch"] * u[-1]
+        passing += given["touch"] * u[-1]
         reached = [ca.fmax(0.0, 1.0 - q / body[-1]) for q, body in zip(depths, near, strict=True)]
         node += given["field"] * ca.sumsqr(ca.vertcat(*reached))
+    middle = v + h * a / 2
     driven = ca.vertcat(
-        *limits,
-        *_slacks(walls, place, v, following, h),
+        ca.sumsqr(jerk),
+        ca.sumsqr(middle[:2]),
+        middle[2],
+        *aimed.limits,
+        *_slacks(walls, place, v, moved, h),
         *(u[sizes.moves] - covered for covered in covers),
         *(q - 1.0 + u[-1] for q in depths),
     )
     held = ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a))
-    return Stage(z, p, ends, node, passing, held, driven)
+    return Stage(z, p, ca.vertcat(moved, *aimed.moved), node, h * passing, held, driven)
+
+
+class _Aimed(NamedTuple):
+    """What aiming adds to a stage.
+
+    turned : rates, accelerations and jerks that turning costs; slack : cost a second of what is given way
+    node : cost of the state; moved : states of the camera after it; limits : rows of ``driven``
+    """
+
+    turned: Any
+    slack: Any = 0.0
+    node: Any = 0.0
+    moved: tuple[Any, ...] = ()
+    limits: tuple[Any, ...] = ()
+
+
+def _aims_at_one(x: Any, u: Any, given: Mapping[str, Any]) -> _Aimed:
+    """Return what it takes to follow the ray to a subject, as far as the gimbal reaches."""
+    t = given["target"]
+    ray = t[:3] - x[POSITION]
+    turned = turning(ray, t[3:6] - x[VELOCITY], t[6:9] - x[ACCELERATION], t[9:] - u[JERK])
+    low, high = given["steep"][0], given["steep"][1]
+    room = given["free"] + u[SLACK]
+    limits = (ray[2] - low * over_ground(ray) + room, high * over_ground(ray) - ray[2] + room)
+    return _Aimed(ca.vertcat(*turned), given["price"] * u[SLACK], limits=limits)
+
+
+def _aims_at_several(x: Any, u: Any, given: Mapping[str, Any], shown: Sequence[Any]) -> _Aimed:
+    """Return what it takes to have several subjects in a picture: the camera's angles are states."""
+    turns = u[CAMERA_JERK]
+    moved = (_integrated(x[k : k + 3], turns[i], given["length"]) for i, k in enumerate((YAW, PITCH)))
+    turned = ca.vertcat(x[YAW + 1], x[PITCH + 1], x[YAW + 2], x[PITCH + 2], turns)
+    pictures = sum(picture(one, x[POSITION], (x[YAW], x[PITCH]), given["lens"]) for one in shown)
+    return _Aimed(turned, node=given["picture"] * pictures, moved=tuple(moved))
 
 
 def _integrated(x: Any, jerk: Any, h: Any) -> Any:
