@@ -14,7 +14,7 @@ from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
-from shotc.ir.bodies import cylinder, flying, moved
+from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
@@ -85,6 +85,7 @@ __all__ = [
     "moved",
     "nearest_depth",
     "others_of",
+    "parts_of_one",
     "places",
     "quintic_hermite",
     "rejoined",

@@ -1,10 +1,14 @@
-"""Whether a solid stands between two points. Plain Python."""
+"""Whether a solid stands between two points, and which solids do not count. Plain Python."""
 
 from math import hypot
+from typing import Any
 
 from shotc.geom.solids import Cylinder, Prism, Solid, edges, inside_polygon
 
+S = Any  # float or NDArray[float64]; arithmetic is the same for both
 Vec3 = tuple[float, float, float]
+
+TOUCH = 1e-6  # metres of rounding, so that what stands on something touches it
 
 
 def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
@@ -17,6 +21,15 @@ def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
     if isinstance(solid, Cylinder):
         return _near(solid.centre, first, last) <= solid.radius
     return _meets(solid, first, last)
+
+
+def are_one(offset: tuple[S, S, S], across: S, tall: S) -> S:
+    """Tell whether two upright cylinders overlap or touch: parts of one thing, which do not hide each other.
+
+    offset : between their centres; across : sum of their radii; tall : half the sum of their heights, metres
+    """
+    x, y, z = offset
+    return (x * x + y * y <= (across + TOUCH) ** 2) & (abs(z) <= tall + TOUCH)
 
 
 def _level(solid: Solid, a: Vec3, b: Vec3) -> tuple[float, float] | None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.line_of_sight import are_one
+from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder
 from shotc.geom.track_array import places
 from shotc.ir.mission import Target
@@ -21,6 +23,16 @@ def cylinder(target: Target) -> Cylinder:
     """Return the target as a solid, where it stands or is at mission time 0."""
     x, y, z = target.centre
     return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
+
+
+def parts_of_one(a: Target, b: Target, t: Array) -> Mask:
+    """Tell when two targets overlap or touch, at mission times of shape (M,).
+
+    They are parts of one thing then, as a lantern and its tower, and neither hides the other.
+    """
+    apart = np.array(a.centre) + moved(a, t) - np.array(b.centre) - moved(b, t)
+    x, y, z = apart.T
+    return np.asarray(are_one((x, y, z), a.radius + b.radius, 0.5 * (a.height + b.height)))
 
 
 def flying(curve: Piecewise, times: Array) -> Array:

@@ -17,7 +17,7 @@ from math import atan2, ceil, cos, dist, hypot, inf, pi, sin
 from typing import NamedTuple
 
 from shotc.geom.camera import Vec2, Vec3, aim_at
-from shotc.geom.line_of_sight import crosses
+from shotc.geom.line_of_sight import are_one, crosses
 from shotc.geom.solids import Cylinder, depth, distance
 from shotc.geom.viewpoint import (
     LONG,
@@ -160,15 +160,23 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
 
 
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
-    """Return what stands between a camera and a target's middle or one of its sides, or None."""
+    """Return what stands between a camera and a target's middle or one of its sides, or None.
+
+    What overlaps or touches the target is a part of the same thing, and hides nothing of it.
+    """
     target = mission.target(name)
     x, y, z = target.at(t)
     level = max(hypot(x - eye[0], y - eye[1]), 1e-9)
     aside = (-(y - eye[1]) / level * target.radius, (x - eye[0]) / level * target.radius)
     points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
     solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
-    solids += [(o.name, _cylinder(o, t)) for o in mission.targets if o.name != name]
+    others = (o for o in mission.targets if o.name != name and not _parts_of_one(o, target, t))
+    solids += [(o.name, _cylinder(o, t)) for o in others]
     return next((n for n, solid in solids if any(crosses(solid, eye, p) for p in points)), None)
+
+
+def _parts_of_one(a: Target, b: Target, t: float) -> bool:
+    return bool(are_one(_minus(a.at(t), b.at(t)), a.radius + b.radius, 0.5 * (a.height + b.height)))
 
 
 def _cylinder(target: Target, t: float) -> Cylinder:

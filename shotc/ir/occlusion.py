@@ -1,6 +1,7 @@
 """What stands before a target: keep-out zones, the other targets and the other drones, instant by instant.
 
-A sight line goes from the camera to the target's centre. A drone is a ball of its radius, in flight and on
+A sight line goes from the camera to the target's centre. Targets whose cylinders overlap or touch at that
+instant are parts of one thing and do not hide each other. A drone is a ball of its radius, in flight and on
 its pad.
 """
 
@@ -13,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import hidden
 from shotc.geom.pieces import Mask
-from shotc.ir.bodies import cylinder, flying, moved
+from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 
@@ -25,14 +26,16 @@ def hiders(
 
     others : flights of the drones that count; eyes : p_W of the camera at times t, (M, 3)
     """
-    centres = np.array(mission.target(target).centre) + moved(mission.target(target), t)
+    filmed = mission.target(target)
+    centres = np.array(filmed.centre) + moved(filmed, t)
     for zone in mission.zones:
         if zone.keep == "out":
             yield f"zone {zone.name}", hidden(eyes, centres, (zone.solid,))
     for other in mission.targets:
         if other.name != target:
             away = moved(other, t)
-            yield f"target {other.name}", hidden(eyes - away, centres - away, (cylinder(other),))
+            before = hidden(eyes - away, centres - away, (cylinder(other),))
+            yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
     for flight in others:
         ball = flying(flight.curve, t)
         yield f"drone {flight.drone}", _behind(eyes, centres, ball, mission.drone(flight.drone).radius)

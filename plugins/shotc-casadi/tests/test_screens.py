@@ -10,7 +10,7 @@ import pytest
 from shotc_casadi.clock import symbols
 from shotc_casadi.clock.refiner import refine_clocks, subject_of
 from shotc_casadi.clock.rounds import refine_clock
-from shotc_casadi.clock.screens import Screen, enclosing
+from shotc_casadi.clock.screens import Screen, enclosing, screens_of
 from shotc_casadi.clock.shown import past_what_hides, shown
 from shotc_casadi.clock.wishes import ClockSubject
 
@@ -92,6 +92,17 @@ def test_a_line_of_sight_is_covered_where_points_of_it_are_in_the_ellipsoid(seed
     assert (found[clear & (least < 0.999)] > 0).all()
     assert (found[clear & (least > 1.001)] <= 0).all()
     assert (found[ends < 1.0] == -np.inf).all()
+
+
+@pytest.mark.parametrize(("radius", "one"), [("0.4", False), ("2.7", True)])
+def test_who_overlaps_the_subject_is_a_part_of_it_and_not_looked_past(radius: str, one: bool) -> None:
+    text = mission(LATERAL, **(PASSING | {"speed": 3.0, "first": 0}))
+    of = subject(text.replace("radius: 0.4, height: 2}", f"radius: {radius}, height: 2}}"))
+    breaks = np.linspace(15.0, 27.0, 25)
+    screen = screens_of(of, breaks)[0]
+    points = np.array([of.mission.target("runner").at(float(t)) for t in breaks])
+    cover = screen.cover(points + np.array([0.0, -9.0, 0.1]), points)
+    assert (cover == -np.inf).all() if one else (cover > 0.0).all()
 
 
 def test_the_programme_s_term_is_the_paper_s() -> None:

@@ -323,8 +323,9 @@ _FRAMING = (
         (
             "something stands before a target for a part of its shot",
             "Another target, a keep-out zone or another drone stands on the line of sight from the camera to the "
-            "centre of the target. The notes tell which in how many of the frames, and the middle of the longest "
-            "stretch. Film from another side or from higher up. The refiner `ours` goes aside by itself in shots of "
+            "centre of the target. Targets whose cylinders overlap or touch, as a lantern in its tower, are parts of one "
+            "thing and do not hide each other. The notes tell what hides it in how many of the frames, and the middle of "
+            "the longest stretch. Film from another side or from higher up. The refiner `ours` goes aside by itself in shots of "
             "moving targets, as far as that shows more.",
         ),
         severity=Severity.WARNING,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import pairwise
-from math import tan
+from math import dist, hypot, tan
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
 from shotc.geom.solids import Vec3, convex_parts
-from shotc.ir.bodies import cylinder
+from shotc.ir.bodies import cylinder, parts_of_one
 from shotc.ir.mission import MissionIR, Target, Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 
@@ -76,8 +76,9 @@ def _things(mission: MissionIR) -> list[Target | Zone]:
 def painting_order(eye: Vec3, things: list[Target | Zone]) -> list[Target | Zone]:
     """Return things in an order in which the later ones may cover the earlier ones.
 
-    Of two things one above the other the one on the far side of a level between them comes first;
-    otherwise the farther one does.
+    Of two things one above the other the one on the far side of a level between them comes first; of two
+    targets that overlap the one that holds the other, which is a part of it and is to be seen, or else the
+    farther one in space; otherwise the farther one on the map.
     """
     left, order = sorted(things, key=lambda thing: -_distance(eye, thing)), []
     while left:
@@ -90,7 +91,24 @@ def painting_order(eye: Vec3, things: list[Target | Zone]) -> list[Target | Zone
 
 def _is_behind(eye: Vec3, a: Target | Zone, b: Target | Zone) -> bool:
     (a_low, a_high), (b_low, b_high) = _span(a), _span(b)
-    return (a_high <= b_low and eye[2] >= b_low) or (a_low >= b_high and eye[2] <= a_low)
+    if a_high <= b_low or a_low >= b_high:
+        return (a_high <= b_low and eye[2] >= b_low) or (a_low >= b_high and eye[2] <= a_low)
+    if not (isinstance(a, Target) and isinstance(b, Target) and _overlap(a, b)):
+        return False
+    if _holds(a, b) or _holds(b, a):
+        return _holds(a, b) and not _holds(b, a)
+    return dist(cylinder(a).closest(eye), eye) > dist(cylinder(b).closest(eye), eye)
+
+
+def _overlap(a: Target, b: Target) -> bool:
+    return bool(parts_of_one(a, b, np.zeros(1))[0])  # in the picture of a moment every target stands
+
+
+def _holds(a: Target, b: Target) -> bool:
+    """Tell whether all of a target is in another, which spans as much or more of every direction."""
+    (a_low, a_high), (b_low, b_high) = _span(a), _span(b)
+    off = hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1])
+    return a_low <= b_low and b_high <= a_high and off + b.radius <= a.radius
 
 
 def _span(thing: Target | Zone) -> tuple[float, float]:

@@ -183,6 +183,28 @@ def test_what_stands_on_a_roof_is_painted_after_it_from_above_and_before_it_from
     assert names(2.0) == ["mast", "roof", "near"]
 
 
+@pytest.mark.parametrize("eye", [(0.0, 0.0, 60.0), (10.0, 0.0, 60.0), (40.0, 0.0, 22.0), (30.0, 30.0, 2.0)])
+def test_what_is_inside_of_a_target_is_painted_after_it_from_everywhere(
+    eye: tuple[float, float, float],
+) -> None:
+    tower = orbit_plan().trajectory.keyframes.mission.targets[0]
+    light = replace(tower, name="light", centre=(0.0, 0.0, 12.0), radius=4.0, height=24.0)
+    lantern = replace(tower, name="lantern", centre=(0.0, 0.0, 22.0), radius=1.5, height=3.0)
+    for things in ([light, lantern], [lantern, light]):
+        assert [thing.name for thing in painting_order(eye, list(things))] == ["light", "lantern"]
+
+
+@pytest.mark.parametrize(("eye", "last"), [((10.0, 0.0, 60.0), "lantern"), ((40.0, 0.0, 22.0), "light")])
+def test_of_targets_that_overlap_the_nearer_one_is_painted_last(
+    eye: tuple[float, float, float], last: str
+) -> None:
+    tower = orbit_plan().trajectory.keyframes.mission.targets[0]
+    light = replace(tower, name="light", centre=(0.0, 0.0, 12.0), radius=4.0, height=24.0)
+    lantern = replace(tower, name="lantern", centre=(0.0, 0.0, 24.0), radius=1.5, height=4.0)
+    for things in ([light, lantern], [lantern, light]):
+        assert painting_order(eye, list(things))[-1].name == last
+
+
 def test_words() -> None:
     assert [clock(t) for t in (0.0, 59.96, 61.25, 3600.0)] == ["0:00.0", "1:00.0", "1:01.2", "60:00.0"]
     assert [compass(yaw_of(h * pi / 180)) for h in (0, 44.6, 180, 337.6, 359.7)] == [

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from shotc.ir.mission import Target
+from shotc.geom.track import Track
+from shotc.ir.framed import hides
+from shotc.ir.mission import MissionIR, Target
 from shotc.ir.occlusion import hiders, others_of
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
@@ -48,3 +51,53 @@ def test_each_that_hides_is_named() -> None:
     of = replace(OF, targets=(MAST, other))
     found = hiders(of, others_of((eye, bird), "eye"), "mast", eye.curve(TIMES)[:, :3], TIMES)
     assert {name: bool(hides.all()) for name, hides in found} == {"target pole": True, "drone bird": True}
+
+
+def lit(x: float = 0.0, height: float = 24.0) -> MissionIR:
+    """A tower with a lantern, x metres beside its axis; height : of the lantern's middle."""
+    light: Target = replace(MAST, name="light", centre=(40.0, 0.0, 12.0), radius=4.0, height=24.0)
+    lantern: Target = replace(MAST, name="lantern", centre=(40.0 + x, 0.0, height), radius=1.5, height=4.0)
+    return replace(mission(), targets=(light, lantern))
+
+
+def hides_the_other(of: MissionIR, name: str, eye: tuple[float, float, float]) -> bool:
+    """Whether the other target hides one: as sampled, and as the course of a framing is judged by."""
+    camera = film("eye", still(at(*eye)))
+    sampled = seen(of, camera, name, TIMES).hidden
+    named = [bool(hidden.any()) for _, hidden in hiders(of, (), name, camera.curve(TIMES)[:, :3], TIMES)]
+    assert named == [bool(sampled.all())] == [hides(of, name, eye, 0.0) is not None]
+    return named[0]
+
+
+@pytest.mark.parametrize(
+    ("of", "one"),
+    [
+        (lit(height=22.0), True),  # inside
+        (lit(), True),  # out at the top by half of it
+        (lit(x=5.4, height=22.0), True),  # out at the side
+        (lit(height=26.0), True),  # upon it
+        (lit(height=26.1), False),
+        (lit(x=5.6, height=22.0), False),
+    ],
+)
+def test_targets_that_overlap_or_touch_do_not_hide_each_other(of: MissionIR, one: bool) -> None:
+    lantern = of.target("lantern").centre
+    above = hides_the_other(of, "light", (40.0, 0.0, 60.0))
+    beside = hides_the_other(of, "lantern", (-10.0, 0.0, 2.0 if lantern[0] == 40.0 else lantern[2]))
+    assert not (one and (above or beside))
+    assert one or above or beside
+
+
+def test_a_target_that_walks_into_another_is_hidden_by_it_before_and_after() -> None:
+    tower: Target = replace(MAST, name="tower", centre=(40.0, 0.0, 10.0), radius=4.0, height=20.0)
+    walk = Track((0.0, 10.0), ((60.0, 0.0, 10.0), (40.0, 0.0, 10.0)))
+    walker: Target = replace(MAST, name="walker", centre=walk.points[0], radius=0.5, height=2.0, track=walk)
+    of = replace(mission(), targets=(tower, walker))
+    eye = film("eye", still(EYE))
+    apart = walk_x(walk) > 40.0 + 4.0 + 0.5 + 1e-6
+    assert np.array_equal(seen(of, eye, "walker", TIMES).hidden, apart)
+    assert 0.7 < apart.mean() < 0.8
+
+
+def walk_x(walk: Track) -> np.ndarray:
+    return np.array([walk.at(float(t))[0] for t in TIMES])

@@ -92,6 +92,16 @@ def test_a_hidden_target_is_a_warning() -> None:
     assert float(told.notes[-1].split()[-2]) == pytest.approx(100 * (1 - share.worst), abs=0.2)
 
 
+@pytest.mark.parametrize(("beside", "found"), [(8.0, ["V031"]), (6.9, [])])
+def test_a_target_that_overlaps_the_filmed_one_does_not_hide_it(beside: float, found: list[str]) -> None:
+    (tower,) = MISSION.targets
+    annex = replace(tower, name="annex", centre=(tower.centre[0] + beside, *tower.centre[1:]), radius=1.0)
+    wide = replace(tower, radius=6.0)
+    ir = with_mission(targets=(wide, annex))
+    assert [code for code in codes(ir) if code == "V031"] == found
+    assert (claim(ir, "tower visible").worst < 1.0) is bool(found)
+
+
 def test_the_worst_of_what_is_hidden_is_the_middle_of_the_longest_stretch() -> None:
     assert longest(np.array([0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=bool)) == 6
     assert longest(np.array([1, 1, 1, 1, 0, 1], dtype=bool)) == 1

@@ -12,7 +12,18 @@ from math import isfinite, sqrt
 
 import numpy as np
 
-from shotc.refiner_api import Array, Cylinder, Mask, Solid, convex_parts, cylinder, flights, flying, moved
+from shotc.refiner_api import (
+    Array,
+    Cylinder,
+    Mask,
+    Solid,
+    convex_parts,
+    cylinder,
+    flights,
+    flying,
+    moved,
+    parts_of_one,
+)
 from shotc_casadi.clock.symbols import LINE
 from shotc_casadi.clock.wishes import ClockSubject, ClockWishes
 
@@ -31,11 +42,13 @@ class Screen:
 
     scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
     before : the index of the subject that it may stand before
+    apart : at which nodes it is a thing of its own, (N + 1,); a part of its subject hides nothing of it
     """
 
     scale: Array
     centres: Array
     before: int = 0
+    apart: Mask | bool = True
 
     def cover(self, eyes: Array, points: Array) -> Array:
         """Return d_v of lines of sight, above 0 hidden; -inf where the point is before the horizon.
@@ -48,7 +61,7 @@ class Screen:
         horizon = (away**2).sum(axis=1) - 1.0
         along = (ray * away).sum(axis=1)
         counts = (along > horizon) & (horizon > ROOM) & ((beyond**2).sum(axis=1) > 1.0 + ROOM)
-        return np.where(counts, along**2 / square - horizon, -np.inf)
+        return np.where(counts & self.apart, along**2 / square - horizon, -np.inf)
 
 
 def screens_of(subject: ClockSubject, breaks: Array) -> tuple[Screen, ...]:
@@ -70,7 +83,8 @@ def _screens(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Screen
     for other in mission.targets:
         if other.name != name:
             scale, centre = enclosing(cylinder(other))
-            yield Screen(scale, centre + moved(other, breaks))
+            apart = ~parts_of_one(mission.target(name), other, breaks)
+            yield Screen(scale, centre + moved(other, breaks), apart=apart)
     for drone, flight in flights(subject.path).items():
         if drone != subject.drone.name:
             radius = WIDER * mission.drone(drone).radius
