@@ -33,6 +33,7 @@ from shotc.geom.viewpoint import (
     viewpoint,
     whole,
 )
+from shotc.ir.begins import first_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject, Target
 
@@ -70,14 +71,6 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
     if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME:
         return shot
     return course_of(mission, shot, start).shot
-
-
-def first_start(mission: MissionIR, shot: Shot) -> float:
-    """Return when a shot begins, or where that is not known, when it may at the earliest."""
-    if shot.timing.start is not None:
-        return shot.timing.start
-    tracks = (mission.target(s.target).track for s in shot.subjects)
-    return max((track.since for track in tracks if track is not None), default=0.0)
 
 
 def course_of(mission: MissionIR, shot: Shot, start: float) -> Course:

@@ -100,7 +100,8 @@ CODES: tuple[CodeInfo, ...] = (
         "To keep its place beside a target the camera has to go as fast as that place does. Where that is more than "
         "the drone's speed, less the wind, over seconds, no plan can keep it. The help names what of the shot would "
         "let it: a place nearer to the target or on the inside of its bends, a longer `duration` where the shot moves "
-        "by itself; or a higher `limits: {speed: ...}` of a drone that flies so fast.",
+        "by itself; or a higher `limits: {speed: ...}` of a drone that flies so fast. A shot without a `start` is judged "
+        "by when what it comes after ends; where that is not known `plan` tells it.",
         ("times: [0, 40]", "times: [11, 17]"),
         ("{start: 15, duration: 10}", "{start: 11, duration: 6}"),
     ),

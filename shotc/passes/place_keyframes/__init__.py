@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, ClassVar
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.camera import Vec2, Vec3, aim_at
+from shotc.ir.flown_order import flown_order
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
-from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.passes.place_keyframes.turns import while_following, with_turns
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import Vec2, Vec3, aim_at, nearest_depth, silhouette_bounds, view
 from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
-from shotc.ir.framed import first_start, lens_of
+from shotc.ir.begins import first_start
+from shotc.ir.framed import lens_of
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR

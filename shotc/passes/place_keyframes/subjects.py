@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import pi
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.begins import first_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.limits import Vec2
@@ -57,7 +58,7 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
 
 def setting_at(mission: MissionIR, shot: Shot, target: str) -> Setting:
     """Return what the camera sees of a target half way through a shot, at its ideal place."""
-    start, duration = shot.timing.start or 0.0, shot.timing.duration or 0.0
+    start, duration = first_start(mission, shot), shot.timing.duration or 0.0
     t = start + 0.5 * duration
     drone, subject = mission.drone(shot.drone), mission.target(target)
     eye, centre = ideal_place(mission, shot, start, t), subject.at(t)

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.viewpoint import Seen, Wanted, direction, judged, nearest, size_from
+from shotc.ir.begins import first_start
 from shotc.ir.framed import (
     Course,
     course_of,
-    first_start,
     lacks,
     lens_of,
     wanted_at,

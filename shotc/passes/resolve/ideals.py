@@ -10,6 +10,7 @@ from math import ceil, floor, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
+from shotc.ir.begins import known_start
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.place_keyframes.candidates import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
@@ -19,7 +20,7 @@ from shotc.passes.resolve.timing import timing_label
 
 
 def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Yield what is wrong with a shot on its own clock; one without a start is judged from time 0."""
+    """Yield what is wrong with a shot on its own clock; one without a start from when it can begin."""
     if shot.ideal is None or shot.timing.duration is None:
         return
     outside = list(_outside(mission, shot))
@@ -33,20 +34,21 @@ def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Tell targets whose track ends before the shot does, or begins after it.
 
-    A shot without a start may begin at any time from 0 on, so only a track that is too short for it is sure.
+    A shot without a start may begin at any time from the earliest on, so only what ends too early is sure.
     """
-    duration, start = shot.timing.duration or 0.0, shot.timing.start
+    duration, start, known = shot.timing.duration or 0.0, shot.timing.start, known_start(mission, shot)
     followed = () if shot.ideal is None or shot.ideal.target is None else (shot.ideal.target,)
     for name in dict.fromkeys([*followed, *(s.target for s in shot.subjects)]):
         track = mission.target(name).track
         if track is None:
             continue
-        begins = max(0.0, track.since) if start is None else start
+        begins = max(known or 0.0, track.since) if start is None else start
         if begins >= track.since - ROUNDING and begins + duration <= track.until + ROUNDING:
             continue
         beside = mission.origins.value((*mission.target(name).path, "track"), "the track")
         until = f"to {track.until:.2f} s" if track.until < inf else "on"
-        filmed = "" if start is None else f", from {start:.2f} s to {start + duration:.2f} s"
+        filmed = "" if known is None else f" and begins at {known:.2f} s at the earliest"
+        filmed = filmed if start is None else f", from {start:.2f} s to {start + duration:.2f} s"
         yield Diagnostic(
             "M004",
             f"shot `{shot.id}` reaches beyond the track of `{name}`",

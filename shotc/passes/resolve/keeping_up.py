@@ -1,6 +1,8 @@
 """Whether a drone keeps up with the place that a shot gives it, and what of the shot would let it.
 
-A remedy is tried before it is told: the place is looked at again with the number that is proposed.
+A shot whose `start` is not written is judged where the end of what it comes after is known, or where it does
+not matter when it begins; any other one is left to planning. A remedy is tried before it is told: the place
+is looked at again with the number that is proposed.
 """
 
 from __future__ import annotations
@@ -10,12 +12,14 @@ from math import ceil, floor, hypot, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Vec3
+from shotc.ir.begins import first_start, known_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
 
 WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good
 STEPS = 200  # places at which an ideal is looked at
 HALVES = 7  # of the span between the nearest place and the one asked, to a hundredth of it
+LATE = (0.0, 6.0, 12.0, 18.0, 24.0, 30.0)  # seconds after the earliest, in which a drone comes to its shot
 MORE = (1.0, 1.05, 1.2, 1.5, 2.0)  # times the duration that would do if its target stood
 ROUNDING = 1e-6  # of a speed
 
@@ -24,12 +28,14 @@ LEVEL = ("distance", "radius", "offset")
 
 
 def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell an ideal that is faster than the drone, on average over a window."""
-    drone = mission.drone(shot.drone)
+    """Tell an ideal that is faster than the drone, on average over a window, whenever the shot begins."""
+    drone, begins = mission.drone(shot.drone), _begins(mission, shot)
     limit = drone.limits.speed
-    worst, when = _fastest(mission, shot)
-    if worst <= limit * (1 + ROUNDING):
+    if not begins or any(_fastest(mission, shot, t)[0] <= limit * (1 + ROUNDING) for t in begins):
         return
+    worst, when = _fastest(mission, shot, begins[0])
+    open_ = len(begins) > 1
+    early = f"; the shot begins at {begins[0]:.1f} s at the earliest" if open_ else ""
     wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     window = min(WINDOW, shot.timing.duration or 0.0)
     faster = ceil(worst * 10) / 10 + mission.wind
@@ -49,15 +55,34 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         ),
         (
             f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
-            f"the drone flies {limit:.1f} m/s{wind}",
+            f"the drone flies {limit:.1f} m/s{wind}{early}",
         ),
         ", or ".join(remedies),
     )
 
 
-def _fastest(mission: MissionIR, shot: Shot) -> tuple[float, float]:
-    """Return the highest mean speed over a window, m/s, and when that begins, seconds."""
-    duration, start = shot.timing.duration or 0.0, shot.timing.start or 0.0
+def _begins(mission: MissionIR, shot: Shot) -> tuple[float, ...]:
+    """Return times at which a shot may begin, seconds, the earliest first; none where that is unknown."""
+    known, ideal = known_start(mission, shot), shot.ideal
+    first = first_start(mission, shot)
+    if shot.timing.start is not None or (known is not None and ideal is not None and ideal.framed):
+        return (first,)  # the places of a framing are those of its earliest beginning
+    if known is not None:
+        return tuple(first + late for late in LATE)
+    return (first,) if _is_even(mission, shot) else ()
+
+
+def _is_even(mission: MissionIR, shot: Shot) -> bool:
+    """Tell whether the place moves alike whenever the shot begins: in the world, or by an even target."""
+    if shot.ideal is None or shot.ideal.framed:
+        return False
+    track = None if shot.ideal.target is None else mission.target(shot.ideal.target).track
+    return track is None or (len(track.times) == 1 and track.times[0] <= track.since)
+
+
+def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float]:
+    """Return the highest mean speed over a window, m/s, and when it is, if the shot begins at ``start``."""
+    duration = shot.timing.duration or 0.0
     window = min(WINDOW, duration)
     found = []
     for i in range(STEPS + 1):
@@ -69,7 +94,7 @@ def _fastest(mission: MissionIR, shot: Shot) -> tuple[float, float]:
 
 
 def _keeps_up(mission: MissionIR, shot: Shot, limit: float) -> bool:
-    return _fastest(mission, shot)[0] <= limit
+    return all(_fastest(mission, shot, t)[0] <= limit for t in _begins(mission, shot))
 
 
 def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
@@ -111,7 +136,7 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
     """Yield a longer duration, where the shot moves about its target or along a path of its own."""
     if shot.ideal is None or len({p for _, p in shot.ideal.points}) < 2:
         return
-    duration, start = shot.timing.duration or 0.0, shot.timing.start or 0.0
+    duration, start = shot.timing.duration or 0.0, first_start(mission, shot)
     tracks = (mission.target(s.target).track for s in shot.subjects)
     until = min((track.until for track in tracks if track is not None), default=inf)
     for more in MORE:

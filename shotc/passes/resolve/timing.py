@@ -9,9 +9,9 @@ from math import ceil
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.ir.flown_order import flown_order
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
-from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.passes.resolve.motion import least_shot, least_travel, length
 
 SLACK = 1e-6  # seconds of rounding

@@ -87,3 +87,44 @@ def test_what_moves_about_its_target_is_given_more_time() -> None:
     assert not [
         d for d in resolved(text.replace("duration: 20", f"duration: {longer[1]}"))[1] if d.code == "M005"
     ]
+
+
+FIRST = "  - {id: r, drone: cam1, kind: static, at: [20, -30, 8], look_at: [20, 0, 1], timing: {WHEN}}\n"
+
+
+def after(first: str, timing: str, track: str = BEND) -> list[Diagnostic]:
+    """Return M005 of the shot in the bend where another shot comes first; timing : of the later one."""
+    shot = FIRST.replace("WHEN", first) + "  - {id: s,"
+    text = MISSION.replace("start: 2, duration: 20", timing).replace("  - {id: s,", shot)
+    text = text.replace("TRACK", track).replace("LIMIT", "7 m/s").replace("SHOT", LATERAL)
+    found = resolved(text)[1]
+    assert {d.code for d in found} <= {"M005"}
+    return list(found)
+
+
+@pytest.mark.parametrize("timing", ["after: r, duration: 20", "duration: 20"])
+def test_a_shot_without_a_start_is_judged_from_the_end_of_what_it_comes_after(timing: str) -> None:
+    slow = BEND.replace("6 m/s", "4 m/s")
+    assert not after("start: 30, duration: 10", timing)  # it rests by then
+    assert not after("start: 30, duration: 10", "start: 40, duration: 20")
+    endless = "start: [0, 0, 0.9], velocity: [9, 0, 0]"
+    (fault,) = after("start: 30, duration: 10", timing, endless)
+    assert "begins at 40.0 s at the earliest" in fault.notes[0]
+    assert float(fault.notes[0].split("t = ")[1].split()[0]) >= 40.0
+    assert not after("start: 30, duration: 10", timing, slow)
+
+
+@pytest.mark.parametrize("timing", ["after: r, duration: 20", "duration: 20"])
+def test_where_the_end_of_what_comes_before_is_not_known_nothing_is_told(timing: str) -> None:
+    assert after("start: 2, duration: 3", "start: 8, duration: 12")
+    assert not after("duration: 5", timing)
+
+
+def test_what_moves_evenly_for_ever_is_told_whenever_the_shot_begins() -> None:
+    assert after("duration: 5", "duration: 20", "start: [0, 0, 0.9], velocity: [9, 0, 0]")
+    assert not after("duration: 5", "duration: 20", "start: [0, 0, 0.9], velocity: [6, 0, 0]")
+
+
+def test_a_shot_that_keeps_up_if_it_begins_a_little_later_is_left_to_planning() -> None:
+    assert not after("start: 7, duration: 2", "after: r, duration: 6")
+    assert after("start: 7, duration: 2", "start: 9.1, duration: 6")

@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import silhouette_bounds, view
+from shotc.ir.flown_order import flown_order
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
-from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
 from tests.front import clean, placed
 from tests.records import replace

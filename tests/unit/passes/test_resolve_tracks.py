@@ -328,6 +328,17 @@ def test_a_shot_without_a_start_may_begin_whenever_the_track_does(tmp_path: Path
     assert resolved(written(file, timing="duration: 30"), tmp_path)[1] == []
 
 
+def test_a_shot_that_comes_after_another_does_not_begin_before_that_ends(tmp_path: Path) -> None:
+    file = recorded(tmp_path, "0,0,0,1\n40,60,0,1\n")
+    text = written(file, timing="start: 10, duration: 20")
+    side = SIDE.replace("id: side", "id: again")
+    later = f"  - {{drone: cam1, {side}, timing: {{after: side, duration: 9}}}}\n"
+    assert not [d for d in resolved(text + later, tmp_path)[1] if d.code == "M004"]
+    d = only(text + later.replace("duration: 9", "duration: 11"), tmp_path)
+    assert d.code == "M004"
+    assert "the shot lasts 11.00 s and begins at 30.00 s at the earliest" in d.notes[0]
+
+
 def test_a_million_rows_are_refused_at_once(tmp_path: Path) -> None:
     for rows in ("".join(f"{i},1,2,3\n" for i in range(1_000_000)), "\n".join("1" * 1_000_000)):
         file = recorded(tmp_path, rows)

@@ -11,8 +11,8 @@ from itertools import pairwise
 from math import acos, degrees, dist, hypot, radians
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.flown_order import flown_order
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.passes.resolve.grammar.line import check_line
 from shotc.passes.resolve.grammar.places import placing
 from shotc.passes.resolve.grammar.sight import Sight, sight
