@@ -7,14 +7,47 @@ disk, a folder that cannot be written or Ctrl-C leave the files of an earlier ru
 
 from __future__ import annotations
 
+import json
 import os
+import re
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact
+
+FLOWN = ("plan.json", "trajectory.csv", "*.plan", "*.waypoints", "*.skyc")
+"""What is flown from, or made into something that is."""
+
+HEAD = 65536
+"""Bytes of a plan.json in which its mission's name is looked for."""
+
+
+class Earlier(NamedTuple):
+    """What an earlier run left to be flown: its mission, where a plan.json tells it, and names of files."""
+
+    mission: str | None
+    files: tuple[str, ...]
+
+
+def earlier(folder: Path) -> Earlier | None:
+    """Return the outputs in a folder that somebody may fly, or None where there are none."""
+    files = tuple(path.name for pattern in FLOWN for path in sorted(folder.glob(pattern)) if path.is_file())
+    return Earlier(_mission_of(folder / FLOWN[0]), files) if files else None
+
+
+def _mission_of(plan: Path) -> str | None:
+    """Return the mission's name from the first bytes of a plan.json: that of a show is many megabytes."""
+    try:
+        with plan.open("rb") as stream:
+            head = stream.read(HEAD).decode(errors="replace")
+    except OSError:
+        return None
+    found = re.search(r'^  "mission": \{\s*"name": ("(?:[^"\\]|\\.)*")', head, re.MULTILINE)
+    return None if found is None else str(json.loads(found[1]))
 
 
 def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tuple[Diagnostic, ...]]:

@@ -15,7 +15,7 @@ from shotc.cli.inputs import read_mission
 from shotc.cli.names import known, listed
 from shotc.cli.progress import Progress
 from shotc.cli.refiner import told
-from shotc.output import write
+from shotc.output import earlier, write
 from shotc.pipeline import PASS_NAMES
 from shotc.solvers.headings import DEFAULT, METHODS
 
@@ -133,13 +133,14 @@ def plan(
 
 def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, hands: Crew) -> int:
     """Emit and write a plan, report everything, and return the exit status."""
+    folder = output or Path("out") / (done.mission or "")
     if done.plan is None:
         console.report(done.diagnostics, done.sources)
+        _warn_of_earlier(folder)
         return console.exit_code(done.diagnostics)
     from shotc.cli.summary import summary
 
     emitted = emit_plan(done.plan, emitters, hands)
-    folder = output or Path("out") / done.plan.trajectory.keyframes.mission.name
     diagnostics = (*done.diagnostics, *emitted.diagnostics)
     paths: list[Path] = []
     if not console.exit_code(diagnostics):
@@ -148,7 +149,21 @@ def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, 
     console.report(diagnostics, done.sources)
     if paths:
         console.out(summary(done.plan, paths, emitted.notes))
+    else:
+        _warn_of_earlier(folder)
     return console.exit_code(diagnostics)
+
+
+def _warn_of_earlier(folder: Path) -> None:
+    """Say that a folder holds what an earlier run wrote: it could be flown for this mission."""
+    found = earlier(folder)
+    if found is None:
+        return
+    whose = "" if found.mission is None else f" of mission `{found.mission}`"
+    console.complain(
+        f"note: {folder}/ still holds the outputs of an earlier run{whose}, not of this one: "
+        f"{', '.join(found.files)}"
+    )
 
 
 def _dump(done: Compilation, name: str) -> None:

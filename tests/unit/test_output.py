@@ -7,7 +7,10 @@ import signal
 import pytest
 
 from shotc.emit.base import Artifact
-from shotc.output import write
+from shotc.emit.plan_json import EMITTER
+from shotc.output import earlier, write
+from tests.records import replace
+from tests.samples import orbit_plan
 
 OLD = [Artifact("plan.json", b"old plan"), Artifact("trajectory.csv", b"old rows")]
 NEW = [Artifact("plan.json", b"new plan"), Artifact("trajectory.csv", b"new rows " * 10_000)]
@@ -92,3 +95,27 @@ def test_two_files_of_one_name_are_refused_and_nothing_is_written(folder):
     assert paths == []
     assert [d.code for d in faults] == ["E902"]
     assert content(folder) == {a.name: a.data for a in OLD}
+
+
+@pytest.mark.parametrize("name", ["look", 'a "b" \\ \u00e9'])
+def test_what_an_earlier_run_left_is_found_with_its_mission(tmp_path, name):
+    assert earlier(tmp_path / "nowhere") is None
+    assert earlier(tmp_path) is None
+    (tmp_path / "notes.txt").write_text("mine")
+    assert earlier(tmp_path) is None
+    (tmp_path / "cam1.waypoints").write_text("QGC WPL 110")
+    (tmp_path / "cam1.plan").write_text("{}")
+    assert earlier(tmp_path) == (None, ("cam1.plan", "cam1.waypoints"))
+    plan = orbit_plan()
+    keyframes = replace(
+        plan.trajectory.keyframes, mission=replace(plan.trajectory.keyframes.mission, name=name)
+    )
+    named = replace(plan, trajectory=replace(plan.trajectory, keyframes=keyframes))
+    (tmp_path / "plan.json").write_bytes(EMITTER.emit(named).artifacts[0].data)
+    assert earlier(tmp_path) == (name, ("plan.json", "cam1.plan", "cam1.waypoints"))
+
+
+@pytest.mark.parametrize("data", [b"", b"{", b"\xff\xfe", b'{"mission": {"name": 3}}'])
+def test_a_plan_that_is_none_is_told_without_its_mission(tmp_path, data):
+    (tmp_path / "plan.json").write_bytes(data)
+    assert earlier(tmp_path) == (None, ("plan.json",))

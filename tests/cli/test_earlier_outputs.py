@@ -1,0 +1,38 @@
+"""A run that fails beside the outputs of an earlier one says that those are not its own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import GOOD, Run
+
+FAST = GOOD + "output: {emit: []}\n"
+IMPOSSIBLE = FAST.replace("at: [0, -50, 15]", "at: [0, 0, 12]")
+NOTE = (
+    "note: {folder}/ still holds the outputs of an earlier run of mission `look`, not of this one: plan.json"
+)
+
+
+@pytest.mark.parametrize(("options", "folder"), [(("-o", "there"), "there"), ((), "out/look")])
+def test_a_plan_that_fails_names_what_an_earlier_one_left(
+    run: Run, tmp_path: Path, options: tuple[str, ...], folder: str
+) -> None:
+    mission = tmp_path / "look.yaml"
+    mission.write_text(IMPOSSIBLE)
+    assert "note:" not in run("plan", "look.yaml", *options).err.splitlines()[-1]
+    mission.write_text(FAST)
+    done = run("plan", "look.yaml", *options)
+    assert done.code == 0
+    assert "earlier run" not in done.err
+    before = (tmp_path / folder / "plan.json").read_bytes()
+    mission.write_text(IMPOSSIBLE)
+    for flags in ((), ("--quiet",)):
+        done = run(*flags, "plan", "look.yaml", *options)
+        assert done.code == 1
+        assert done.out == ""
+        assert done.err.splitlines()[-1] == NOTE.format(folder=folder)
+        assert done.err.count("earlier run") == 1
+    assert (tmp_path / folder / "plan.json").read_bytes() == before
+    assert "earlier run" not in run("plan", "look.yaml", *options, "--stop-after", "resolve").err
