@@ -217,12 +217,15 @@ def _emitter(name: str) -> Emitter | None:
     return plugins.discover("emitters").plugins.get(name)
 
 
-def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None, crew: Crew | None = None) -> Emitted:
-    """Make the output files of a verified plan; plan.json is always among them.
+def emit_plan(
+    plan: VerifiedIR, names: Sequence[str] | None = None, crew: Crew | None = None, *, saved: bool = False
+) -> Emitted:
+    """Make the output files of a verified plan; plan.json is always among them, unless it is there already.
 
     names : emitters to run; None means those the mission asks for, and then an output whose library
         is not installed is left out with a warning (P005) instead of an error (P004)
     crew : the processes to use; what is made does not depend on them
+    saved : whether the plan was read from a plan.json, which is not made again
     """
     from shotc.emission import ALONE
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
@@ -236,7 +239,8 @@ def emit_plan(plan: VerifiedIR, names: Sequence[str] | None = None, crew: Crew |
     diagnostics += [
         plugins.not_installed(code, f"output `{n}`", [known.lacking[n]]) for n in wanted if n in known.lacking
     ]
-    emitters = (PLAN_JSON, *(known.plugins[n] for n in wanted if n in known.plugins))
+    emitters = tuple(known.plugins[n] for n in wanted if n in known.plugins)
+    emitters = emitters if saved else (PLAN_JSON, *emitters)
     for emitter, made in zip(emitters, (crew or ALONE).emit(plan, emitters), strict=True):
         if isinstance(made, ModuleNotFoundError):
             if not plugins.is_optional(made):

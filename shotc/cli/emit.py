@@ -20,7 +20,7 @@ Emit = Annotated[
 
 
 def emit(plan: PlanPath, output: Output = None, emit: Emit = None) -> None:
-    """Write a plan's output files again, without planning.
+    """Write a plan's output files again, without planning; plan.json itself stays as and where it is.
 
     The plan is proved first: what does not hold is not written. Example:
 
@@ -31,15 +31,17 @@ def emit(plan: PlanPath, output: Output = None, emit: Emit = None) -> None:
         if name not in plugins.names("emitters"):
             known = ", ".join(plugins.names("emitters"))
             raise typer.BadParameter(f"`{name}` is unknown; known: {known}", param_hint="--emit")
-    emitted = emit_plan(proved(plan), names)
+    emitted = emit_plan(proved(plan), names, saved=True)
     diagnostics = emitted.diagnostics
     paths: list[Path] = []
-    if not console.exit_code(diagnostics):
+    if not console.exit_code(diagnostics) and emitted.artifacts:
         paths, faults = write(emitted.artifacts, output or (plan if plan.is_dir() else plan.parent))
         diagnostics += faults
     console.report(diagnostics, {})
     for path in paths:
         console.out(str(path))
+    if not emitted.artifacts:
+        console.note("nothing is written: no output was asked for; name some with --emit")
     for text in emitted.notes:
         console.note(text)
     raise typer.Exit(console.exit_code(diagnostics))

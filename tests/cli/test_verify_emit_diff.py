@@ -148,8 +148,20 @@ def test_emit_writes_beside_the_plan_or_elsewhere(run: Run, plan: Path, tmp_path
     assert sorted(p.name for p in plan.parent.iterdir()) == ["framing.csv", "plan.json", "trajectory.csv"]
     assert plan.read_bytes() == before
     done = run("emit", str(plan.parent), "--emit", "csv", "-o", "tables")
-    assert "tables/trajectory.csv" in done.out
+    assert done.out.split() == ["tables/trajectory.csv", "tables/framing.csv"]
+    assert sorted(p.name for p in (tmp_path / "tables").iterdir()) == ["framing.csv", "trajectory.csv"]
     assert (tmp_path / "tables" / "framing.csv").read_bytes() == (plan.parent / "framing.csv").read_bytes()
+
+
+def test_emit_does_not_write_the_plan_again(run: Run, plan: Path) -> None:
+    text = plan.read_text()
+    plan.write_text(text.replace("{", "{ ", 1))  # as good, and not as shotc writes it
+    assert run("emit", str(plan), "--emit", "csv").code == 0
+    assert plan.read_text() == text.replace("{", "{ ", 1)
+    nothing = run("emit", str(plan), "--emit", "", "-o", "empty")
+    assert (nothing.code, nothing.out) == (0, "")
+    assert "nothing is written" in nothing.err
+    assert not Path("empty").exists()
 
 
 def test_emit_refuses_a_broken_plan_and_unknown_emitters(run: Run, plan: Path) -> None:
