@@ -13,6 +13,7 @@ from shotc.diag.registry import registry
 from shotc.pipeline import PASS_NAMES
 from shotc.solvers.headings import DEFAULT, METHODS
 from tests.cli.conftest import GOOD, Run
+from tests.front import resolved
 
 
 @pytest.mark.parametrize("name", ["Y012", "y012", "duplicate-key", "Duplicate-Key"])
@@ -111,6 +112,14 @@ def test_the_schema_is_json(run: Run) -> None:
     document = json.loads(run("schema").out)
     assert document["$schema"].startswith("https://json-schema.org/")
     assert "shots" in document["properties"]
+
+
+@pytest.mark.parametrize("name", sorted(new._templates()))
+def test_a_template_keeps_well_clear_of_what_it_films_and_is_clean(name: str) -> None:
+    mission, found = resolved(new._templates()[name])
+    assert mission is not None
+    assert found == []
+    assert not mission.targets or mission.rules.target_clearance >= 3.0
 
 
 @pytest.fixture
