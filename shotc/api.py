@@ -73,7 +73,7 @@ class Compilation(NamedTuple):
     """A compiled mission.
 
     plan : the verified plan, or None after an error or where the passes were stopped early
-    mission : its name, None where the file is no mission
+    mission : its name, None where the file says none
     """
 
     plan: VerifiedIR | None
@@ -121,28 +121,25 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     loaded = load(data, name, folder, models_of(kinds.plugins))
     sources = {name: loaded.file}
     found = [*kinds.diagnostics, *loaded.diagnostics]
-    if loaded.mission is None:
-        return Compilation(None, (), tuple(found), sources)
-    name = loaded.mission.spec.mission
-    if has_errors(found):
-        return Compilation(None, (), tuple(found), sources, name)
+    if loaded.mission is None or has_errors(found):
+        return Compilation(None, (), tuple(found), sources, loaded.title)
     ctx = PassContext(options.seed, options.progress, options.headings)
     chosen = _with_drones(loaded.mission, kinds.plugins, ctx)
     found += chosen.diagnostics
     if chosen.value is None:
-        return Compilation(None, (), tuple(found), sources, name)
+        return Compilation(None, (), tuple(found), sources, loaded.title)
     front = run(front_passes(kinds.plugins, plugins.names("emitters")), chosen.value, ctx, options.stop_after)
     found += front.diagnostics
     if front.value is None or not isinstance(front.value, KeyframeIR):
-        return Compilation(None, front.reports, tuple(found), sources, name)
+        return Compilation(None, front.reports, tuple(found), sources, loaded.title)
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
-        return Compilation(None, front.reports, (*found, *refusals), sources, name)
+        return Compilation(None, front.reports, (*found, *refusals), sources, loaded.title)
     back = _lower(front.value, kinds.plugins, options, ctx)
     found = [*without_answered(found, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
     plan = None if options.stop_after or has_errors(found) else back.value
-    return Compilation(plan, front.reports + back.reports, tuple(found), sources, name)
+    return Compilation(plan, front.reports + back.reports, tuple(found), sources, loaded.title)
 
 
 def _lower(checked: KeyframeIR, kinds: Mapping[str, Any], options: PlanOptions, ctx: PassContext) -> Run:

@@ -13,6 +13,7 @@ from shotc.ir.origin import OriginMap
 from shotc.source.file import SourceFile
 from shotc.source.yaml_tree import Document, parse
 from shotc.spec.mission import VERSION, MissionSpec
+from shotc.spec.places import NAME
 from shotc.spec.shot import ShotBase
 
 # How a plan.json begins, which is YAML, too.
@@ -33,11 +34,15 @@ class LoadedMission(NamedTuple):
 
 
 class Loaded(NamedTuple):
-    """What loading gives: a mission, or None where a diagnostic is an error."""
+    """What loading gives: a mission, or None where a diagnostic is an error.
+
+    title : the mission's name, None where it has none that is one
+    """
 
     mission: LoadedMission | None
     diagnostics: tuple[Diagnostic, ...]
     file: SourceFile
+    title: str | None = None
 
 
 def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[ShotBase]]) -> Loaded:
@@ -61,8 +66,15 @@ def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[S
 
         faults = shape_faults(document.root, error, kinds, origins)
         assert faults, "a mission is not rejected without a word"
-        return Loaded(None, faults, document.file)
-    return Loaded(LoadedMission(spec, origins, folder, sha256(data).hexdigest()), (), document.file)
+        return Loaded(None, faults, document.file, _title(document))
+    return Loaded(
+        LoadedMission(spec, origins, folder, sha256(data).hexdigest()), (), document.file, spec.mission
+    )
+
+
+def _title(document: Document) -> str | None:
+    written = document.root.get("mission")
+    return written if isinstance(written, str) and re.fullmatch(NAME.pattern, written) else None
 
 
 def _validate(

@@ -27,8 +27,9 @@ def test_a_plan_that_fails_names_what_an_earlier_one_left(
     assert done.code == 0
     assert "earlier run" not in done.err
     before = (tmp_path / folder / "plan.json").read_bytes()
-    mission.write_text(IMPOSSIBLE)
-    for flags in ((), ("--quiet",)):
+    wrong = IMPOSSIBLE.replace("drone: cam1", "dron: cam1")
+    for text, flags in ((IMPOSSIBLE, ()), (IMPOSSIBLE, ("--quiet",)), (wrong, ())):
+        mission.write_text(text)
         done = run(*flags, "plan", "look.yaml", *options)
         assert done.code == 1
         assert done.out == ""
