@@ -1,7 +1,7 @@
 """Zones and targets as obstacles to one drone: how much room a place lacks, and the shortest way out."""
 
 from collections.abc import Iterator
-from math import atan2, ceil, degrees, dist, floor, hypot, isfinite, pi
+from math import atan2, degrees, dist, hypot, isfinite, pi
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from shotc.geom.solids import (
@@ -15,6 +15,7 @@ from shotc.geom.solids import (
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
+from shotc.rounding import at_least, at_most, down, up
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Fleet
@@ -72,13 +73,14 @@ class Obstacle(NamedTuple):
         """Say where a whole path would be free of it."""
         low, high = self.solid.bottom + self.room, self.solid.top - self.room
         if self.role == "in":
-            return f"stay {self.room:.2f} m inside of it, from z = {_up(low)} to {_down(high)}"
-        above = f"fly at z = {_up(self.solid.top + self.room)} or higher" if isfinite(self.solid.top) else ""
+            return f"stay {self.room:.2f} m inside of it, from z = {at_least(low)} to {at_most(high)}"
+        top = self.solid.top + self.room
+        above = f", or fly at z = {at_least(top)} or higher" if isfinite(top) else ""
         if isinstance(self.solid, Cylinder):
-            aside = f"stay {_up(self.solid.radius + self.room)} m or more from its axis"
+            aside = f"stay {at_least(self.solid.radius + self.room)} m or more from its axis"
         else:
-            aside = f"stay {_up(self.room)} m or more from its sides"
-        return f"{aside}, or {above}" if above else aside
+            aside = f"stay {at_least(self.room)} m or more from its sides"
+        return aside + above
 
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:
         """Yield places near ``p`` that may have the room: up, down and sideways."""
@@ -153,17 +155,8 @@ def move(p: Vec3, q: Vec3) -> str:
 def outward(p: Vec3, q: Vec3) -> Vec3:
     """Round ``q`` to centimetres away from ``p``, so that the numbers given are enough."""
     return tuple(  # type: ignore[return-value]
-        (ceil(b * 100 - 1e-6) if b > a else floor(b * 100 + 1e-6)) / 100 if abs(b - a) > 1e-9 else b
-        for a, b in zip(p, q, strict=True)
+        (up(b) if b > a else down(b)) if abs(b - a) > 1e-9 else b for a, b in zip(p, q, strict=True)
     )
-
-
-def _up(metres: float) -> str:
-    return f"{ceil(metres * 100 - 1e-6) / 100:.2f}"
-
-
-def _down(metres: float) -> str:
-    return f"{floor(metres * 100 + 1e-6) / 100:.2f}"
 
 
 def _sideways(solid: Solid, p: Vec2, room: float) -> Iterator[Vec2]:
