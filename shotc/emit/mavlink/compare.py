@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink.clearance import Obstacle, shortfall
 from shotc.emit.mavlink.refly import STAY_PACE, Flown
-from shotc.emit.mavlink.thin import wrapped
 from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
+from shotc.geom.angles import wrapped
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
+from shotc.geom.angles import direction
 from shotc.geom.camera import Vec2, Vec3, aim_at
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
@@ -157,7 +158,7 @@ def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
 def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 | None) -> PlacedKeyframe:
     return PlacedKeyframe(
         at=keyframe.at,
-        yaw=_wrapped(aim[0]),
+        yaw=_direction(aim[0]),
         pitch=aim[1],
         hfov=keyframe.hfov,
         target=keyframe.target,
@@ -184,8 +185,6 @@ def _minus(a: Vec3, b: Vec3) -> Vec3:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def _wrapped(angle: float) -> float:
-    if -pi < angle <= pi:
-        return angle  # not by way of the remainder, which would change its last bits
-    wrapped = (angle + pi) % (2 * pi) - pi
-    return pi if wrapped == -pi else wrapped
+def _direction(angle: float) -> float:
+    # Not by way of the remainder where it need not be, which would change its last bits.
+    return angle if -pi < angle <= pi else direction(angle)

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
@@ -361,4 +361,4 @@ def _worse(old: Cut | None, new: Cut) -> Cut:
 
 
 def _near(angle: float, to: float) -> float:
-    return to + (angle - to + pi) % (2 * pi) - pi
+    return to + wrapped(angle - to)
