@@ -11,6 +11,7 @@ from shotc.geom.solids import (
     closest_on_segment,
     edges,
     inside_polygon,
+    signed_distance,
 )
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR
@@ -99,20 +100,6 @@ class Obstacle(NamedTuple):
             yield (p[0], p[1], self.solid.bottom - room)
         for x, y in _sideways(self.solid, (p[0], p[1]), room):
             yield (x, y, p[2])
-
-
-def signed_distance(solid: Solid, p: Vec3) -> float:
-    """Return the distance of ``p`` from the solid, inside it minus its depth; metres, exact."""
-    x, y, z = p
-    if isinstance(solid, Cylinder):
-        across = hypot(x - solid.centre[0], y - solid.centre[1]) - solid.radius
-    else:
-        across = min(dist((x, y), closest_on_segment(a, b, (x, y))) for a, b in edges(solid.points))
-        across = -across if inside_polygon(solid.points, (x, y)) else across
-    upright = max(solid.bottom - z, z - solid.top)
-    if across <= 0 and upright <= 0:
-        return max(across, upright)
-    return hypot(max(across, 0.0), max(upright, 0.0))
 
 
 def obstacles_of(mission: MissionIR, drone: "Drone | Fleet") -> list[Obstacle]:

@@ -7,9 +7,10 @@ from math import floor, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.apart import spacing
+from shotc.geom.solids import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, signed_distance
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
 from shotc.passes.resolve.show.fit import growth, most_drones
 from shotc.passes.resolve.show.places import centre_label, key_of, word_of
 from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
