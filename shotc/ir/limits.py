@@ -6,6 +6,9 @@ Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
 Range = tuple[float, float]
 
+TILT = 1e-6
+"""Radians past a gimbal's stop that are rounding."""
+
 
 class Limits(NamedTuple):
     """What a drone may do; norms as in the language definition.
@@ -24,6 +27,11 @@ class Limits(NamedTuple):
     jerk: float
     yaw_rate: float
     yaw_acceleration: float
+
+
+def reaches(pitch: Range, angle: float) -> bool:
+    """Tell whether a camera that pitches within a range comes to an angle, rad."""
+    return pitch[0] - TILT <= angle <= pitch[1] + TILT
 
 
 class Timing(NamedTuple):

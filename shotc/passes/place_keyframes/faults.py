@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.camera import Vec2, Vec3
+from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes.candidates import (
-    TILT,
     TOUCH,
     Setting,
     has_candidate,
@@ -70,7 +70,7 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
 
 def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
     """Tell of a kept framing that the gimbal does not reach, or warn that it crops its target."""
-    if not setting.pitch[0] - TILT <= aim[1] <= setting.pitch[1] + TILT:
+    if not reaches(setting.pitch, aim[1]):
         return _beyond_gimbal(keyframe, setting, aim)
     over = -setting.margin(aim)
     if over <= TOUCH:

@@ -18,7 +18,6 @@ from shotc.ir.framed import (
 )
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath
-from shotc.passes.place_keyframes.candidates import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
 from shotc.rounding import at_least, down
 
@@ -123,9 +122,8 @@ def _too_low(mission: MissionIR, course: Course) -> Diagnostic | None:
 
 def _beyond_reach(mission: MissionIR, course: Course) -> Diagnostic | None:
     shot, drone = course.shot, mission.drone(course.shot.drone)
-    low, high = drone.gimbal.pitch
     pitches = [pose[4] for pose in course.poses]
-    beyond = [p for p in (min(pitches), max(pitches)) if not low - TILT <= p <= high + TILT]
+    beyond = [p for p in (min(pitches), max(pitches)) if not drone.gimbal.reaches(p)]
     if not beyond:
         return None
     path = (*shot.subjects[0].path[:-1], "view", "elevation")

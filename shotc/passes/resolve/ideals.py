@@ -11,7 +11,6 @@ from math import inf
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.place_keyframes.candidates import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
 from shotc.passes.resolve.keeping_up import check_speed
 from shotc.passes.resolve.obstacles import ROUNDING
@@ -96,6 +95,6 @@ def _tilted(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     if shot.ideal is None or shot.ideal.aim is None:
         return
     drone, pitch = mission.drone(shot.drone), shot.ideal.aim[1]
-    if not drone.gimbal.pitch[0] - TILT <= pitch <= drone.gimbal.pitch[1] + TILT:
+    if not drone.gimbal.reaches(pitch):
         key = "pitch" if (*shot.path, "pitch") in mission.origins.values else "look_at"
         yield beyond_gimbal(mission, drone, (*shot.path, key), pitch)
