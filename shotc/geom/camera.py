@@ -9,10 +9,9 @@ from math import atan, atan2, cos, hypot, pi, sin, sqrt, tan
 from typing import Any, NamedTuple
 
 from shotc.geom.angles import direction
+from shotc.geom.vec import Vec2, Vec3
 
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
-Vec2 = tuple[float, float]
-Vec3 = tuple[float, float, float]
 
 
 class View(NamedTuple):

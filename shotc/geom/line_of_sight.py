@@ -6,13 +6,12 @@ from shotc.geom.solids import (
     Cylinder,
     Prism,
     Solid,
-    Vec2,
-    Vec3,
     closest_on_segment,
     edges,
     inside_polygon,
     segments_cross,
 )
+from shotc.geom.vec import Vec2, Vec3
 
 
 def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:

@@ -8,8 +8,7 @@ from itertools import pairwise
 from math import cos, dist, hypot, inf, sin
 from typing import NamedTuple
 
-Vec2 = tuple[float, float]
-Vec3 = tuple[float, float, float]
+from shotc.geom.vec import Vec2, Vec3
 
 
 class Cylinder(NamedTuple):

@@ -2,8 +2,10 @@
 
 from typing import NamedTuple
 
-Vec2 = tuple[float, float]
-Vec3 = tuple[float, float, float]
+from shotc.geom.vec import Vec2, Vec3
+
+__all__ = ["TILT", "Limits", "Range", "Timing", "Vec2", "Vec3", "reaches"]
+
 Range = tuple[float, float]
 
 TILT = 1e-6

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, ClassVar
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.angles import direction
-from shotc.geom.camera import Vec2, Vec3, aim_at
+from shotc.geom.camera import aim_at
+from shotc.geom.vec import Vec2, Vec3, minus
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.base import Outcome, PassContext
@@ -126,7 +127,7 @@ def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: flo
     if isinstance(keyframe.aim, tuple) and len(keyframe.aim) == 2:
         course = keyframe.aim[0]
     return Setting(
-        offset=_minus(target.centre, keyframe.at),
+        offset=minus(target.centre, keyframe.at),
         radius=target.radius,
         height=target.height,
         hfov=keyframe.hfov,
@@ -148,7 +149,7 @@ def explicit_aim(at: Vec3, aim: Vec2 | Vec3, course: float) -> Vec2:
     if len(aim) == 2:
         return aim
     # The middle of the screen can always be turned to a point, whatever the field of view.
-    return aim_at(_minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
+    return aim_at(minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
 
 
 def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
@@ -179,10 +180,6 @@ def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> fl
         if hypot(dx, dy) > 1e-6:
             return atan2(dy, dx)
     return otherwise
-
-
-def _minus(a: Vec3, b: Vec3) -> Vec3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def _direction(angle: float) -> float:

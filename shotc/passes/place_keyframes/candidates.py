@@ -9,7 +9,8 @@ from collections.abc import Iterable
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
-from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, view
+from shotc.geom.camera import aim_at, frustum_margins, view
+from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import Range
 from shotc.ir.mission import Composition
 

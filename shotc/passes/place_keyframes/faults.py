@@ -9,7 +9,7 @@ from math import degrees, hypot, pi, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.camera import Vec2, Vec3
+from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath

@@ -6,7 +6,8 @@ from collections.abc import Collection
 from math import acos, degrees, dist, hypot, pi
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import Vec2, frustum_margins, heading_of, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import frustum_margins, heading_of, nearest_depth, silhouette_bounds, view
+from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes import explicit_aim, setting_of

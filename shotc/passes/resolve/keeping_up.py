@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from math import hypot, inf
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.track import Vec3
+from shotc.geom.vec import Vec3
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.rounding import down, up

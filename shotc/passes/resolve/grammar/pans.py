@@ -12,12 +12,13 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.angles import TURN, wrapped
+from shotc.geom.vec import minus
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.place_keyframes import explicit_aim
 from shotc.passes.place_keyframes.turns import ROUNDING
 from shotc.passes.resolve.grammar.places import lasting
-from shotc.passes.resolve.grammar.sight import begins, minus, sight
+from shotc.passes.resolve.grammar.sight import begins, sight
 from shotc.passes.resolve.timing import SLACK
 from shotc.rounding import at_least
 
