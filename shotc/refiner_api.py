@@ -6,6 +6,7 @@ Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it
 from __future__ import annotations
 
 from shotc.geom import viewpoint
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import View, aim_at, frustum_margins, nearest_depth, silhouette_bounds
@@ -24,7 +25,7 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLe
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
-from shotc.passes.parameterize_time.estimate import rough_times, shortest_time
+from shotc.passes.parameterize_time.estimate import lateness, rough_times
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
@@ -80,6 +81,7 @@ __all__ = [
     "frustum_margins",
     "ideal_place",
     "kept",
+    "lateness",
     "least_out",
     "leg_of",
     "moved",
@@ -92,7 +94,6 @@ __all__ = [
     "restrict",
     "rough_times",
     "seen",
-    "shortest_time",
     "shortfall",
     "silhouette_bounds",
     "smoother",
@@ -104,4 +105,5 @@ __all__ = [
     "viewpoint",
     "with_camera",
     "within",
+    "wrapped",
 ]

@@ -8,13 +8,14 @@ is looked at again with the number that is proposed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import ceil, floor, hypot, inf
+from math import hypot, inf
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.track import Vec3
+from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start, known_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.rounding import down, up
 
 WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good
 STEPS = 200  # places at which an ideal is looked at
@@ -38,7 +39,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     early = f"; the shot begins at {begins[0]:.1f} s at the earliest" if open_ else ""
     wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     window = min(WINDOW, shot.timing.duration or 0.0)
-    faster = ceil(worst * 10) / 10 + mission.wind
+    faster = up(worst, 1) + mission.wind
     remedies = [
         *_nearer(mission, shot, drone),
         *_other_side(mission, shot, limit),
@@ -111,13 +112,13 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
         share = metres / asked
         return _moved(shot, lambda p: (p[0] * (1.0 if key == "offset" else share), p[1] * share, p[2]))
 
-    low, high = ceil(10 * least) / 10, asked
+    low, high = up(least, 1), asked
     if low >= high or not _keeps_up(mission, at(low), limit):
         return
     for _ in range(HALVES):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if _keeps_up(mission, at(middle), limit) else (low, middle)
-    told = max(ceil(10 * least) / 10, floor(10 * low) / 10)
+    told = max(up(least, 1), down(low, 1))
     if _keeps_up(mission, at(told), limit):
         # An offset to the right is written as a negative number.
         yield f"give it `{key}: {-told if key == 'offset' and first[1] < 0 else told:.1f} m` or nearer"
@@ -140,7 +141,7 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
     tracks = (mission.target(s.target).track for s in shot.subjects)
     until = min((track.until for track in tracks if track is not None), default=inf)
     for more in MORE:
-        lasts = ceil(duration * share * more * 10) / 10
+        lasts = up(duration * share * more, 1)
         longer = shot._replace(timing=shot.timing._replace(duration=lasts))
         if start + lasts <= until and _keeps_up(mission, longer, mission.drone(shot.drone).limits.speed):
             yield f"give it `duration: {lasts:.1f} s`"
