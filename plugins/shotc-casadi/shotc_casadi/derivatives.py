@@ -21,7 +21,7 @@ from shotc_casadi.symbols import Stage, stage
 Index = NDArray[np.int64]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Derived:
     """Functions of one stage and of the last node, with their derivatives laid out as the solvers ask.
 
@@ -99,7 +99,7 @@ def laid_out(d: Derived, solver: str, stages: int, x: Any, p: Any) -> dict[str, 
     return {f.name(): f for f in made}
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def derived(visibility: Visibility, planes: int) -> Derived:
     """Return the functions of one stage with that many half-spaces."""
     return differentiated(stage(visibility, planes))

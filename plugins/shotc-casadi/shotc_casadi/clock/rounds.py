@@ -5,6 +5,7 @@ anew, and solved again while that helps; then the camera.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from math import inf
 
 from shotc.plugin_api import Piecewise
@@ -25,9 +26,8 @@ from shotc_casadi.clock.screens import Screen, looked_past
 from shotc_casadi.clock.several import turned
 from shotc_casadi.clock.side import held, led, passes
 from shotc_casadi.clock.wishes import ClockSubject, wishes
-from shotc_casadi.program import Solution, Solver
+from shotc_casadi.solving import SOLVERS, Solution, by_one_of
 
-SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
 ROUNDS = 6
 REACH = 8.0  # metres beyond its clearance within which a wall counts
 SHARE = 0.5  # of the room beside a wall that is kept
@@ -84,8 +84,8 @@ def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> Clo
         wanted = kept_from(bodies, wanted, course(breaks))
         task = problem(subject, breaks, wanted, planes, share, start)
         optional = best is not None or aside
-        solution, failed = _solved(task, SOLVERS[:1] if optional else SOLVERS)
-        seconds += solution.seconds + (failed.seconds if failed else 0.0)
+        solution, failed = attempt = by_one_of(SOLVERS[:1] if optional else SOLVERS, partial(solve, task))
+        seconds += attempt.seconds
         if solution.status != "solved" and best is None and aside:
             # The room may leave no place on that side; a camera that cannot follow then is not taken.
             over, aside, course, start = [], False, guide, guess(guide, breaks, camera)
@@ -137,11 +137,3 @@ def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> T
 def flown_cost(task: ClockProblem, breaks: Array, leg: TimedLeg) -> float:
     """Return what a leg costs by a programme of several subjects, with the camera that it has."""
     return cost(task, *guess(leg.curve, breaks, leg.curve))
-
-
-def _solved(task: ClockProblem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solution | None]:
-    """Solve by the first of the solvers, or else by the second; the second value is the first's failure."""
-    solution = solve(task, solvers[0])
-    if solution.status == "solved" or len(solvers) == 1:
-        return solution, None
-    return solve(task, solvers[1]), solution
