@@ -60,4 +60,4 @@ def _scalar(value: Any) -> str:
         return f"{len(value)} bytes"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_scalar(v) for v in value) + "]"
-    return f"{len(value)} bytes" if isinstance(value, bytes) else str(value)
+    return str(value)
