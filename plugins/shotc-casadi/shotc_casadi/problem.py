@@ -124,10 +124,7 @@ def _parameters(
     wide, tall = fields_of_view(subject, stages.s)
     rate = subject.leg.curve.derivative()(stages.s)[:, :3]
     spacing = np.maximum(np.gradient(stages.s), 1e-6)
-    reference = subject.leg.curve(stages.s)[:, :3]
-    pinned, weight = _pinned(subject, stages, guess, _distance(wanted, reference, stages))
-    pinned[:, POSITION] = reference
-    weight[:, POSITION] *= margins.hold
+    pinned, weight = _pinned(subject, stages, wanted, margins, guess)
     swing = max(drone.gimbal.acceleration, drone.limits.yaw_acceleration)
     each = 1.0 / n
     values = {
@@ -172,9 +169,14 @@ def _planes(walls: Array, margins: Margins) -> Array:
     return planes.reshape(len(walls), -1)
 
 
-def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> tuple[Array, Array]:
+def _pinned(
+    subject: Subject, stages: Stages, wanted: Wishes, margins: Margins, guess: Array
+) -> tuple[Array, Array]:
     """Return wanted states and their weights: positions near the path, keyframes, rest, ends, times."""
+    assert subject.leg.curve is not None
     value = guess.copy()
+    value[:, POSITION] = subject.leg.curve(stages.s)[:, :3]
+    distance = _distance(wanted, value[:, POSITION], stages)
     weight = np.zeros_like(value)
     weight[:, POSITION] = (POSITION_ERROR / distance**2)[:, None]
     leg, s = subject.leg, stages.s
@@ -196,6 +198,7 @@ def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> 
     weight[0, TIME] = PIN
     if leg.duration is not None:
         weight[-1, TIME] = PIN
+    weight[:, POSITION] *= margins.hold
     return value, weight
 
 
