@@ -11,8 +11,7 @@ KeyframeIR --place-goals--> GoalIR --assign-goals--> ShowIR --bound-splines--> S
 
 import time
 from collections.abc import Callable, Iterable, Sequence
-from itertools import pairwise
-from typing import Any, NamedTuple, get_args, get_type_hints
+from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
@@ -134,14 +133,3 @@ def run_refined(
         return Run(None, (*early, *verdict.diagnostics), done.reports)
     said = (*early, *verdict.diagnostics, *again.diagnostics)
     return Run(again.value, said, (*done.reports[: k + 1], *again.reports))
-
-
-def mismatches(passes: Sequence[AnyPass]) -> list[str]:
-    """Name every joint of a pipeline at which one pass's output type is not the next one's input."""
-    found = []
-    for first, second in pairwise(passes):
-        (given,) = get_args(get_type_hints(first.run)["return"])
-        wanted = get_type_hints(second.run)["ir"]
-        if given is not wanted:
-            found.append(f"{first.name} gives {given.__name__}, {second.name} takes {wanted.__name__}")
-    return found

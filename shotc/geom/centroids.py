@@ -92,15 +92,6 @@ def view_plane(centre: Array, viewpoint: Array) -> tuple[Array, Array]:
     return np.array([right, np.cross(right, normal)]), normal
 
 
-def coverage(points: Array, goals: Array) -> float:
-    """Return the sum of the squared distances of points (M, D) from their nearest goals (n, D).
-
-    Source: *display* Eq. 16. For the projected cost give both ``(x - centre) @ view_plane(...)[0].T``.
-    """
-    near = cKDTree(goals).query(points)[0]
-    return float(near @ near)
-
-
 def halved(points: Array, n: int) -> Array:
     """Return the means (n, D) of n groups of points, halved again and again across their longest side."""
     means = np.empty((n, points.shape[1]))

@@ -11,7 +11,6 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import frustum_margins
 from shotc.geom.framing import Cameras
-from shotc.geom.pieces import Mask
 
 WITHIN = -0.5 * np.pi
 """Radians: what a ball is off the axis of a camera that is inside of it."""
@@ -35,13 +34,6 @@ def off_axis(cameras: Cameras, places: Array, radius: float) -> Array:
     far = np.hypot(aside, forward)
     half = np.arcsin(radius / np.maximum(far, radius)) if radius > 0 else np.zeros_like(far)
     return np.where(far > radius, np.arctan2(aside, forward) - half, WITHIN)
-
-
-def in_picture(cameras: Cameras, places: Array, radius: float, half_angle: float | None = None) -> Mask:
-    """Tell which balls reach into the picture, or into the cone of ``half_angle`` where there is one."""
-    if half_angle is None:
-        return np.asarray(outside(cameras, places, radius) < 0.0)
-    return np.asarray(off_axis(cameras, places, radius) < half_angle)
 
 
 def _away(cameras: Cameras, places: Array) -> tuple[Array, Array, Array]:

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from shotc.diag.model import Label
-from shotc.source.file import WHOLE_FILE, Span
+from shotc.source.file import WHOLE_FILE, KeyPath, Span
 
-KeyPath = tuple[str | int, ...]
+__all__ = ["KeyPath", "OriginMap"]
 
 
 class OriginMap(NamedTuple):

@@ -141,12 +141,6 @@ class Scene(NamedTuple):
         """Return a position as a point of W; the mission has an origin wherever one is geodetic."""
         return placed(self.origin, position)
 
-    def place_at(self, lat_deg: float, lon_deg: float, alt: float) -> Vec3:
-        """Return a place on the earth as a point of W; alt is above mean sea level, as the origin's."""
-        assert self.origin is not None
-        origin = (self.origin.lat_deg, self.origin.lon_deg, self.origin.alt)
-        return to_world((lat_deg, lon_deg, alt), origin)
-
     def keyframe(self, at: Vec3, target: str | None, **changes: Any) -> Keyframe:
         """Return a keyframe of a camera at ``at`` that looks at ``target`` and does not hold.
 
@@ -182,7 +176,6 @@ class Kind(NamedTuple):
     model : of its parameters, with ``kind: Literal[name]``
     expand : takes a shot of that model and its scene
     api : version of this contract that the kind was written against
-    planned : whether missions of it are planned, or only checked
     """
 
     name: str
@@ -190,7 +183,6 @@ class Kind(NamedTuple):
     model: type[ShotBase]
     expand: Callable[[Any, Scene], Expansion]
     api: int = API_VERSION
-    planned: bool = True
 
 
 def placed(origin: GeoOrigin | None, position: Place) -> Vec3:
@@ -214,12 +206,3 @@ def bad_file(origins: OriginMap, path: KeyPath, name: str, wrong: "FileFault") -
     return Diagnostic(
         "N009", f"cannot use `{name}`: {wrong.message}", (origins.value(path),), (where,), wrong.help
     )
-
-
-def postponed(kind: str) -> Callable[[ShotBase, Scene], Expansion]:
-    """Return the expansion of a kind that is part of the language but cannot be planned yet."""
-
-    def expand(shot: ShotBase, scene: Scene) -> Expansion:
-        return Expansion.of([Deferred(f"a shot of kind `{kind}`", (*scene.path, "kind"))])
-
-    return expand

@@ -4,8 +4,6 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
-from shotc.source.limits import MAX_TABLE_BYTES
-
 if TYPE_CHECKING:  # few missions name XML
     from shotc.source.xml import NotXml
 
@@ -88,8 +86,6 @@ def _rows(
 
 
 def _text(data: bytes) -> str | FileFault:
-    if len(data) > MAX_TABLE_BYTES:
-        return too_large(data)
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -115,11 +111,6 @@ def not_xml(wrong: "NotXml") -> FileFault:
     if wrong.encoding:
         return FileFault("the XML is in an encoding that cannot be read", 1, "save it as UTF-8")
     return FileFault(f"not well-formed XML: {wrong.reason}", wrong.line)
-
-
-def too_large(data: bytes) -> FileFault:
-    """Return the fault of a file of more than ``MAX_TABLE_BYTES`` bytes."""
-    return FileFault(f"the file is {len(data) / 1e6:.1f} MB; at most {MAX_TABLE_BYTES / 1e6:.0f} MB are read")
 
 
 def _columns(

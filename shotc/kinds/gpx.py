@@ -5,8 +5,7 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import Any
 
-from shotc.kinds.files import MOST_ROWS, FileFault, Table, not_xml, row_of, too_large
-from shotc.source.limits import MAX_TABLE_BYTES
+from shotc.kinds.files import MOST_ROWS, FileFault, Table, not_xml, row_of
 from shotc.source.xml import Stop, feed
 
 PLACE = ("lat", "lon", "ele")
@@ -18,8 +17,6 @@ def read_gpx(data: bytes, *, timed: bool = False) -> Table | FileFault:
     A document type declaration is refused, for entities could grow without bound.
     timed : also read when the points were passed, as a first column t: seconds from the first point on
     """
-    if len(data) > MAX_TABLE_BYTES:
-        return too_large(data)
     reader = _Gpx(timed)
     wrong = feed(data, reader)
     if wrong is not None:

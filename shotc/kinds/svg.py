@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any, NamedTuple
 
-from shotc.kinds.files import FileFault, not_xml, too_large
-from shotc.source.limits import MAX_TABLE_BYTES
+from shotc.kinds.files import FileFault, not_xml
 from shotc.source.xml import Stop, feed
 
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon"}
@@ -29,8 +28,6 @@ def svg_fault(data: bytes) -> Wrong | None:
     A document type declaration is refused, for entities could grow without bound; so are scripts and
     all that refers to anything outside of the file: nothing is ever fetched.
     """
-    if len(data) > MAX_TABLE_BYTES:
-        return Wrong(too_large(data))
     reader = _Svg()
     wrong = feed(data, reader)
     if wrong is not None:

@@ -1,4 +1,4 @@
-"""What a pass is: a frozen value with a name that turns one IR into the next, or says why it cannot."""
+"""What a pass is: a value with a name that turns one IR into the next, or says why it cannot."""
 
 from collections.abc import Callable
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar

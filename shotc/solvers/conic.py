@@ -1,4 +1,7 @@
-"""The one door to cvxpy and Clarabel: solve a problem, map every outcome onto our own statuses."""
+"""The door to cvxpy: solve a problem, map every outcome onto our own statuses.
+
+``cone_rows`` is the other one, straight to Clarabel.
+"""
 
 from __future__ import annotations
 

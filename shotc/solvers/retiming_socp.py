@@ -146,7 +146,7 @@ class _Shape:
         return whole - late, late
 
     def _middle(self) -> Array:
-        """Return x where half the cell is done, by Newton from a bracketed start."""
+        """Return x where half the cell is done, by halving."""
         slope = self.r1 - self.r0 + self.k
         low, high = np.zeros_like(self.r0), np.ones_like(self.r0)
         for _ in range(40):

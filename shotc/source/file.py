@@ -6,6 +6,8 @@ from collections.abc import Hashable, Iterator, Mapping
 from typing import Final, NamedTuple, TypeVar
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
+KeyPath = tuple[str | int, ...]
+"""Keys of mappings and places in lists, from the top of a mission."""
 Offsets = tuple[int, int]
 """First code point of a stretch of text, and the one after its last."""
 _Key = TypeVar("_Key", bound=Hashable)

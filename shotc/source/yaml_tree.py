@@ -7,11 +7,9 @@ from typing import Any, NamedTuple
 from shotc.source.compose import compose
 from shotc.source.decode import decode
 from shotc.source.fault import Fault
-from shotc.source.file import WHOLE_FILE, Offsets, SourceFile, Span, Spans
+from shotc.source.file import WHOLE_FILE, KeyPath, Offsets, SourceFile, Span, Spans
 from shotc.source.limits import MAX_FAULTS
 from shotc.source.nodes import Alias, Collection, Node, Scalar
-
-KeyPath = tuple[str | int, ...]
 
 
 class Document(NamedTuple):

@@ -1,7 +1,8 @@
 """Mappings that are read by a model of their own, loaded and built when a mission first has one.
 
-``check`` runs at every keystroke and commit, and most of its time is loading. Pydantic builds a model with
-all that its fields hold: here every one is built for itself, once, however many models have it as a field.
+``check`` runs at every keystroke and commit, and most of its time is loading. Pydantic builds a model anew
+inside every model that has it as a field: these are built once. Every shot has a timing, and is a model of
+its kind's, so that timing is here too.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic.json_schema import JsonSchemaValue
 
 from shotc.spec.fieldtypes import FieldType
+
+__all__ = ["Fleet", "Gimbal", "Later", "MutualVisibility", "Refine", "Require", "Timing", "Track"]
 
 
 class Later(FieldType):
@@ -42,19 +45,13 @@ class Later(FieldType):
 
 
 if TYPE_CHECKING:
-    from shotc.spec.fleets import FleetSpec
-    from shotc.spec.gimbal import GimbalSpec
-    from shotc.spec.shot_terms import RefineSpec, RequireSpec, TimingSpec
-    from shotc.spec.tracks import TrackSpec
-    from shotc.spec.visibility import MutualVisibilitySpec
-
-    Fleet = FleetSpec
-    Gimbal = GimbalSpec
-    MutualVisibility = MutualVisibilitySpec
-    Refine = RefineSpec
-    Require = RequireSpec
-    Timing = TimingSpec
-    Track = TrackSpec
+    from shotc.spec.fleets import FleetSpec as Fleet
+    from shotc.spec.gimbal import GimbalSpec as Gimbal
+    from shotc.spec.shot_terms import RefineSpec as Refine
+    from shotc.spec.shot_terms import RequireSpec as Require
+    from shotc.spec.shot_terms import TimingSpec as Timing
+    from shotc.spec.tracks import TrackSpec as Track
+    from shotc.spec.visibility import MutualVisibilitySpec as MutualVisibility
 else:
     Fleet = Annotated[Any, Later("shotc.spec.fleets:FleetSpec")]
     Gimbal = Annotated[Any, Later("shotc.spec.gimbal:GimbalSpec")]

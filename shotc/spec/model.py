@@ -258,11 +258,9 @@ def _instead(key: str, lack: Lack, known: Mapping[str, FieldInfo]) -> InitErrorD
 def _keys_below(field: FieldInfo) -> Mapping[str, object]:
     """Return the keys of the mapping that a field holds, if it holds one."""
     parts = (field.annotation, *get_args(field.annotation))
-    later = (x.model for part in parts for x in (*field.metadata, *get_args(part)) if isinstance(x, Later))
-    for part in (*parts, *later):
-        if isinstance(part, type) and issubclass(part, Model):
-            return part.model_fields
-    return {}
+    marks = (*field.metadata, *(mark for part in parts for mark in get_args(part)))
+    models = (*parts, *(mark.model for mark in marks if isinstance(mark, Later)))
+    return next((m.model_fields for m in models if isinstance(m, type) and issubclass(m, Model)), {})
 
 
 def _detail(loc: tuple[str | int, ...], slug: str, message: str, help_: str = "") -> InitErrorDetails:

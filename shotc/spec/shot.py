@@ -26,7 +26,6 @@ from shotc.spec.model import Model, OneOf, section
 
 # The two ways to aim a camera: at something, or by compass heading and pitch.
 AIM = OneOf((("look_at",), ("heading", "pitch")))
-AIM_IF_ANY = OneOf(AIM.forms, required=False)
 NO_DRONE = ""  # what stands for the drone of a shot that a fleet flies
 
 

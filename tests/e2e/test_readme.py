@@ -10,12 +10,13 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.cli.app import COMMANDS
-from shotc.diag.registry import registry
+from shotc.diag.registry import FAMILIES, registry
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 DOCS = sorted((ROOT / "shotc" / "docs").glob("*.md"))
-PAGES = [ROOT / "README.md", *DOCS, *sorted(ROOT.glob("plugins/*/README.md"))]
+CHANGES = ROOT / "shotc" / "CHANGELOG.md"
+PAGES = [ROOT / "README.md", CHANGES, *DOCS, *sorted(ROOT.glob("plugins/*/README.md"))]
 
 
 NUMBER = re.compile(r"\d+\.\d+")
@@ -73,7 +74,7 @@ def test_every_command_and_code_that_a_page_names_exists(page):
     text = page.read_text(encoding="utf-8")
     for command in re.findall(r"(?:`|^)shotc ([a-z]+)\b", text, re.MULTILINE):
         assert command in COMMANDS, command
-    for code in re.findall(r"\b([YSNUGKQRTVEPX]\d{3})\b", text):
+    for code in re.findall(rf"\b([{''.join(FAMILIES)}]\d{{3}})\b", text):
         assert code in registry(), code
 
 
@@ -99,3 +100,13 @@ def test_the_pre_commit_hook_runs_a_command_that_works():
 def test_missions_of_the_guides_check_clean():
     for template in sorted((ROOT / "shotc" / "templates").glob("*.yaml")):
         assert check_source(template.read_bytes(), template.name, template.parent).diagnostics == ()
+
+
+def test_the_architecture_page_draws_the_layers_that_are_enforced():
+    import tomllib
+
+    page = (ROOT / "shotc" / "docs" / "architecture.md").read_text(encoding="utf-8")
+    (drawn,) = re.findall(r"^cli → .*$", page, re.MULTILINE)
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]
+    layers = contracts["contracts"][0]["layers"]
+    assert drawn == " → ".join(layer.replace("shotc.", "") for layer in layers)

@@ -1,26 +1,12 @@
-"""Small missions of the MultiDrone project, written for the tests, and where the original ones are."""
+"""Small missions of the MultiDrone project, written for the tests."""
 
 from __future__ import annotations
-
-from pathlib import Path
 
 import yaml
 
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.importers.mission import Imported, import_multidrone
-
-
-def _repository() -> Path:
-    """The repository's root, of the main working tree where this is another one."""
-    root = Path(__file__).parents[2]
-    link = root / ".git"
-    if not link.is_file():
-        return root
-    return Path(link.read_text().removeprefix("gitdir: ").strip()).parents[2]
-
-
-ORIGINALS = sorted((_repository().parent / "shared/data/multidrone-missions").glob("*.xml"))
 
 POINT = "<RTTrajectoryPoint><x>{x}</x><y>{y}</y><altitude>-1.0</altitude><time>{t}</time></RTTrajectoryPoint>"
 ACTION = """\

@@ -11,7 +11,8 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.importers.mission import import_multidrone
-from tests.importers.files import EARTH, MISSION, ORIGINALS, POINT, action, imported, mapped, said, shots
+from tests.importers.files import EARTH, MISSION, POINT, action, imported, mapped, said, shots
+from tests.originals import ORIGINALS
 
 
 @pytest.mark.parametrize(
@@ -274,7 +275,7 @@ def test_a_secondary_sequence_gives_way() -> None:
     assert [drones[name]["priority"] for name in ("cam1", "cam2")] == [2, 1]
 
 
-@pytest.mark.skipif(not ORIGINALS, reason="the original missions are not here")
+@pytest.mark.skipif(not ORIGINALS, reason="no original missions: MULTIDRONE_MISSIONS=DIR names their folder")
 @pytest.mark.parametrize("path", ORIGINALS, ids=lambda path: path.stem)
 def test_every_production_mission_is_imported_and_accepted(path: Path) -> None:
     made = import_multidrone(path.read_bytes(), path.name, strict=False)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import numpy as np
 
@@ -18,9 +17,9 @@ from shotc.geom.sight import off_axis
 from shotc.importers.mission import import_multidrone
 from shotc.ir.sampling import cameras
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+from tests.originals import ORIGINALS
 from tests.papers.report import Section, Table
 
-ORIGINALS = sorted((Path(__file__).parents[2].parent / "shared/data/multidrone-missions").glob("*.xml"))
 STEP = 0.02  # seconds
 CONE = 30.0  # deg: half the cone that is kept free (the paper's alpha)
 

@@ -10,7 +10,7 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.framing import Cameras
-from shotc.geom.sight import in_picture
+from shotc.geom.sight import off_axis, outside
 from shotc.passes.verify.claims import slack
 from tests.sights import at, claims, film, mission, through, unfilmed
 
@@ -105,7 +105,7 @@ def test_the_question_of_a_planner_is_answered_the_same(drawn, places, aspect) -
     there = np.array(places)
     expected = [metres_out(pose, q, aspect) for q in there]
     clear = np.abs(expected) > 1e-9
-    assert (in_picture(cameras, there, RADIUS) == (np.array(expected) < 0))[clear].all()
+    assert ((outside(cameras, there, RADIUS) < 0) == (np.array(expected) < 0))[clear].all()
     angles = np.array([angle_off(pose, q) for q in there])
     clear = np.abs(angles - 0.4) > 1e-9
-    assert (in_picture(cameras, there, RADIUS, 0.4) == (angles < 0.4))[clear].all()
+    assert ((off_axis(cameras, there, RADIUS) < 0.4) == (angles < 0.4))[clear].all()

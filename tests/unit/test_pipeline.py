@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from itertools import pairwise
+from typing import ClassVar, get_args, get_type_hints
 
 import pytest
 
@@ -12,9 +14,9 @@ from shotc.passes.refine_path import Seat
 from shotc.pipeline import (
     CAMERA_NAMES,
     SHOW_NAMES,
+    AnyPass,
     default_passes,
     front_passes,
-    mismatches,
     run,
     show_passes,
 )
@@ -50,6 +52,17 @@ class Spell:
 
     def run(self, ir: Number, ctx: PassContext) -> Outcome[str]:
         return Outcome(str(ir.value))
+
+
+def mismatches(passes: Sequence[AnyPass]) -> list[str]:
+    """Name every joint of a pipeline at which one pass's output type is not the next one's input."""
+    found = []
+    for first, second in pairwise(passes):
+        (given,) = get_args(get_type_hints(first.run)["return"])
+        wanted = get_type_hints(second.run)["ir"]
+        if given is not wanted:
+            found.append(f"{first.name} gives {given.__name__}, {second.name} takes {wanted.__name__}")
+    return found
 
 
 def test_the_default_passes_fit_together_and_bear_their_names():

@@ -6,7 +6,6 @@ import pytest
 
 from shotc.kinds.files import FileFault, Table, read_table
 from shotc.kinds.gpx import read_gpx
-from shotc.source.limits import MAX_TABLE_BYTES
 
 XYZ = (("x", "y", "z"), ("lat", "lon", "height"))
 GPX = '<?xml version="1.0"?>\n<gpx xmlns="http://www.topografix.com/GPX/1/1">\n{}\n</gpx>'
@@ -41,7 +40,6 @@ def test_rows_without_a_header_take_the_first_layout() -> None:
         (b"x,y,z\n\xff\xfe\n", 2, "UTF-8"),
         (b"x,y,z\n1,\x002,3\n", 2, "NUL"),
         (b"lat,lon,height\n91,0,0\n", 2, "out of bounds for `lat`"),
-        (b" " * (MAX_TABLE_BYTES + 1), None, "MB"),
     ],
 )
 def test_a_faulty_table_names_its_line(data: bytes, line: int | None, says: str) -> None:

@@ -20,7 +20,7 @@ from shotc.ir.mission import Zone
 from shotc.ir.show import Apart, Box, Lettering, Model, Sphere, Torus
 from shotc.passes.base import PassContext
 from shotc.passes.place_goals import PlaceGoals
-from tests.front import KINDS, placed
+from tests.front import placed
 from tests.meshes import box_mesh, ply, sphere_mesh
 from tests.shows import APART, display, fleet, picture, show
 
@@ -46,7 +46,6 @@ def nearest(points: np.ndarray, apart: Apart) -> float:
     return float(pdist(points * (1, 1, stretch(apart))).min())
 
 
-@pytest.mark.skipif(not KINDS["display"].planned, reason="the language has no pictures yet")
 @pytest.mark.parametrize("info", [c for c in CODES if c.phase == "plan"], ids=lambda c: c.slug)
 def test_the_examples_that_planning_finds(info: CodeInfo) -> None:
     for text, codes in ((info.failing, {info.code}), (info.passing, set())):

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from shotc.source.file import SourceFile, Span
-from shotc.source.yaml_tree import Document, KeyPath, parse
+from shotc.source.file import KeyPath, SourceFile, Span
+from shotc.source.yaml_tree import Document, parse
 
 
 def cut(file: SourceFile, span: Span) -> str:

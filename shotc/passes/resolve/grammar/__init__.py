@@ -6,15 +6,12 @@ broken on purpose. A rule that a mission cannot break is not even loaded.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.spec.mission import MissionSpec
-
-Judge = Callable[[str, Shot], bool]
-"""Tells whether a rule, by its slug, is to be judged in a shot."""
 
 
 def allowed(spec: MissionSpec) -> Mapping[KeyPath, frozenset[str]]:
