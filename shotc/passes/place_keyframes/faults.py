@@ -5,15 +5,15 @@ Keyframes that share a line of the mission, as generated ones do, are reported o
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from math import ceil, degrees, floor, hypot, pi, radians
+from math import degrees, hypot, pi, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.camera import Vec2, Vec3
+from shotc.geom.vec import Vec2, Vec3
+from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes.candidates import (
-    TILT,
     TOUCH,
     Setting,
     has_candidate,
@@ -21,6 +21,7 @@ from shotc.passes.place_keyframes.candidates import (
     nearest_on_verticals,
     roomiest,
 )
+from shotc.rounding import at_least, at_most
 
 FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
 WIDEST = radians(150)
@@ -69,7 +70,7 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
 
 def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
     """Tell of a kept framing that the gimbal does not reach, or warn that it crops its target."""
-    if not setting.pitch[0] - TILT <= aim[1] <= setting.pitch[1] + TILT:
+    if not reaches(setting.pitch, aim[1]):
         return _beyond_gimbal(keyframe, setting, aim)
     over = -setting.margin(aim)
     if over <= TOUCH:
@@ -129,11 +130,10 @@ def _reach(setting: Setting, pitch: float) -> str:
 
 def _within_reach(setting: Setting, pitch: float) -> str:
     """Say how to bring a pitch into the gimbal's range; the number is rounded away from the horizon."""
-    up = pitch > setting.pitch[1]
-    tenths = degrees(pitch) * 10
-    enough = (ceil(tenths - 1e-6) if up else floor(tenths + 1e-6)) / 10
-    level = "higher" if up else "lower"
-    return f"let the gimbal pitch to {enough:.1f} deg, or fly {level} or farther away"
+    above = pitch > setting.pitch[1]
+    enough = (at_least if above else at_most)(degrees(pitch), 1)
+    level = "higher" if above else "lower"
+    return f"let the gimbal pitch to {enough} deg, or fly {level} or farther away"
 
 
 def _what_fits(keyframe: Keyframe, setting: Setting) -> str:
@@ -152,7 +152,7 @@ def _options(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], boo
         wide = _least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, WIDEST)
     options = [_farther(keyframe, setting, fits)]
     if wide is not None:
-        options.append(f"widen `hfov` to {ceil(degrees(wide) * 10) / 10:.1f} deg")
+        options.append(f"widen `hfov` to {at_least(degrees(wide), 1)} deg")
     return ", or ".join(option for option in options if option)
 
 
@@ -168,8 +168,8 @@ def _farther(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], boo
     k = _least(lambda k: fits(setting._replace(offset=back(k))), 1.0, FARTHEST)
     if k is None:
         return ""
-    far = ceil(k * (across if level else hypot(x, y, z)) * 10) / 10
-    return f"keep {far:.1f} m from its axis" if level else f"move to {far:.1f} m from its centre"
+    far = at_least(k * (across if level else hypot(x, y, z)), 1)
+    return f"keep {far} m from its axis" if level else f"move to {far} m from its centre"
 
 
 def _least(fits: Callable[[float], bool], low: float, high: float) -> float | None:

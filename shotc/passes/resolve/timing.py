@@ -5,7 +5,6 @@ Straight lines at full limits say what no drone can do, not what one can: that n
 
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
-from math import ceil
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
@@ -13,6 +12,7 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.passes.resolve.motion import least_shot, least_travel, length
+from shotc.rounding import at_least
 
 SLACK = 1e-6  # seconds of rounding
 SHORTEST = "`shotc plan` finds the shortest possible"
@@ -52,9 +52,9 @@ def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
     least = holds + least_travel([k.at for k in stretch], mission.drone(shot.drone).limits, rests=False)
     if end - start >= least - SLACK:
         return None
-    note = f"the {length(stretch):.1f} m between them need at least {_up(least)} s"
+    note = f"the {length(stretch):.1f} m between them need at least {at_least(least, 1)} s"
     message = f"nobody gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
-    help_ = f"set it later than {_up(start + least)} s; {EARLIEST}"
+    help_ = f"set it later than {at_least(start + least, 1)} s; {EARLIEST}"
     return Diagnostic("K004", message, (label,), (note,), help_)
 
 
@@ -68,7 +68,8 @@ def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         following = shot.keyframes[i:]
         end = keyframe.time + sum(k.hold for k in following)
         rest = least_travel([k.at for k in following], limits, rests=False)
-        more = f"more than {_up(end + rest)} s; {SHORTEST}" if rest > 0 else f"{_up(end)} s or more"
+        least = at_least(end + rest, 1)
+        more = f"more than {least} s; {SHORTEST}" if rest > 0 else f"{least} s or more"
         held = f" and is held for {keyframe.hold:.1f} s" if keyframe.hold else ""
         yield Diagnostic(
             "K002",
@@ -90,7 +91,7 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
         return []
     label = _duration_label(mission, shot)
     holds = sum(k.hold for k in shot.keyframes)
-    remedy = f"give it more than {_up(least)} s, or write `timing: auto`; {SHORTEST}"
+    remedy = f"give it more than {at_least(least, 1)} s, or write `timing: auto`; {SHORTEST}"
     if holds > asked + SLACK:
         held = [k for k in shot.keyframes if k.hold > 0]
         labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
@@ -108,13 +109,13 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
     held = f", {holds:.1f} s of holds included" if holds else ""
     wind = f" ({limits.speed + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     return (
-        f"at least {_up(least)} s at {limits.speed:.1f} m/s across{wind}, {limits.climb:.1f} m/s up, "
+        f"at least {at_least(least, 1)} s at {limits.speed:.1f} m/s across{wind}, {limits.climb:.1f} m/s up, "
         f"{limits.descent:.1f} m/s down and {limits.acceleration:.1f} m/s^2{held}"
     )
 
 
 def _too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float, asked: float) -> Diagnostic:
-    lasts = f"lasts {asked:.1f} s" if asked >= least else f"takes at least {_up(least)} s"
+    lasts = f"lasts {asked:.1f} s" if asked >= least else f"takes at least {at_least(least, 1)} s"
     return Diagnostic(
         "K005",
         f"shot `{shot.id}` is longer than drone `{drone.name}` can stay in the air",
@@ -165,7 +166,7 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
     if start is None or start >= max(there, waits) - SLACK:
         return []
     label = timing_label(mission, shot)
-    remedy = f"start it later than {_up(max(there, waits))} s; {EARLIEST}"
+    remedy = f"start it later than {at_least(max(there, waits), 1)} s; {EARLIEST}"
     if start < waits - SLACK:
         note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
         message = f"shot `{shot.id}` starts at {start:.1f} s, before the shot it waits for has ended"
@@ -176,7 +177,7 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
         labels = (label, timing_label(mission, before.shot, "the other shot"))
         return [Diagnostic("K006", message, labels, (note,), remedy)]
     origin = "its home" if before.shot is None else f"the end of `{before.shot.id}`"
-    note = f"from {origin} it takes at least {_up(there - before.time)} s to its first keyframe"
+    note = f"from {origin} it takes at least {at_least(there - before.time, 1)} s to its first keyframe"
     message = f"drone `{shot.drone}` cannot be in place for shot `{shot.id}` at {start:.1f} s"
     return [Diagnostic("K008", message, (label,), (note,), remedy)]
 
@@ -187,7 +188,7 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
     if last.shot is None or flight <= drone.endurance:
         return []
     message = f"the shots of drone `{drone.name}` take longer than it can stay in the air"
-    note = f"all its shots with the ways between take at least {_up(flight)} s"
+    note = f"all its shots with the ways between take at least {at_least(flight, 1)} s"
     return [
         Diagnostic(
             "K005",
@@ -214,8 +215,3 @@ def timing_label(mission: MissionIR, shot: Shot, text: str = "") -> Label:
     if path in mission.origins.keys:
         return mission.origins.key(path, text)
     return mission.origins.value((*shot.path, "id"), text)
-
-
-def _up(seconds: float) -> str:
-    """Write seconds rounded up to a tenth, so that the number given is enough."""
-    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"

@@ -11,12 +11,16 @@ from math import acos, ceil, cos, hypot, pi, tan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.angles import TURN, wrapped
+from shotc.geom.vec import minus
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.place_keyframes import explicit_aim
-from shotc.passes.place_keyframes.turns import ROUNDING, TURN, wrapped
+from shotc.passes.place_keyframes.turns import ROUNDING
 from shotc.passes.resolve.grammar.places import lasting
-from shotc.passes.resolve.grammar.sight import begins, minus, sight
+from shotc.passes.resolve.grammar.sight import begins, sight
+from shotc.passes.resolve.timing import SLACK
+from shotc.rounding import at_least
 
 FREE = 7.0  # seconds a frame width takes at least where nobody is followed
 FOLLOWING = 3.0  # and where the camera follows a subject
@@ -46,7 +50,7 @@ class Pan(NamedTuple):
 def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield the worst of the pans of a shot that are too fast; those whose time is not known are not told."""
     pans = list(_on_clock(mission, shot) if shot.ideal is not None else _between_keyframes(mission, shot))
-    fast = [pan for pan in pans if pan.lasts > 0 and pan.lasts < pan.least * (1 - 1e-9)]
+    fast = [pan for pan in pans if pan.lasts > 0 and pan.lasts < pan.least - SLACK]
     if not fast:
         return
     worst = max(fast, key=lambda pan: pan.least / pan.lasts)
@@ -54,7 +58,7 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     least = FREE if worst.followed is None else FOLLOWING
     when = "" if worst.when is None else f" at t = {worst.when:.1f} s"
     if worst.when is None:
-        help_ = f"give this {_up(worst.least + worst.held)} s or more"
+        help_ = f"give this {at_least(worst.least + worst.held, 1)} s or more"
     else:
         help_ = "film it from farther away, or with a wider field of view"
     yield Diagnostic(
@@ -140,7 +144,3 @@ def _angle(a: Vec3, b: Vec3) -> float:
     chord = hypot(*minus((0.0, 0.0, 0.0), a))
     product = sum(p * q for p, q in zip(a, b, strict=True)) / (chord * hypot(*b))
     return acos(max(-1.0, min(1.0, product)))
-
-
-def _up(seconds: float) -> str:
-    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"
