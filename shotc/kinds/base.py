@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
-from shotc.geom.geodetic import to_world
+from shotc.geom.geodetic import above_ground
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Rules, Subject, Target
 from shotc.ir.origin import KeyPath, OriginMap
@@ -186,12 +186,12 @@ class Kind(NamedTuple):
 
 
 def placed(origin: GeoOrigin | None, position: Place) -> Vec3:
-    """Return a position as a point of W; its height counts from the origin's altitude."""
+    """Return a position as a point of W; its height is z, over the ground."""
     if not isinstance(position, Geodetic):
         return position
     assert origin is not None
     base = (origin.lat_deg, origin.lon_deg, origin.alt)
-    return to_world((position.lat, position.lon, origin.alt + position.height), base)
+    return above_ground((position.lat, position.lon, position.height), base)
 
 
 def unknown_target(origins: OriginMap, path: KeyPath, name: str, known: Mapping[str, object]) -> Diagnostic:
