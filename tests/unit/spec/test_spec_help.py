@@ -84,6 +84,14 @@ def test_the_closest_word(word, known, meant):
     assert closest(word, known) == meant
 
 
+def test_a_value_behind_a_comment_sign_is_quoted_by_the_help(loads):
+    text = MISSION.replace("timing: {duration: 30}", "composition: HERE")
+    (found,) = (d for d in loads(text.replace("HERE", "#39f")).diagnostics if d.code == "S006")
+    assert found.help == '`#` begins a comment; put the value in quotes: "#39f"'
+    (other,) = (d for d in loads(text.replace("HERE", "# later")).diagnostics if d.code == "S006")
+    assert other.help == "write its value, or remove `composition`"
+
+
 def spiral(altitude):
     return MISSION.replace("kind: orbit", "kind: spiral").replace("altitude: 20", f"altitude: {altitude}")
 
