@@ -156,11 +156,13 @@ def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -
         origins.value(("world", "wind")),
         origins.value((*drone.path, "limits", "speed"), f"{what} `{drone.name}`"),
     )
+    none, half = max(0.0, speed - LEAST_SPEED), speed / 2
     found = Diagnostic(
         "K011",
         f"the wind leaves {what} `{drone.name}` no speed",
         labels,
         (f"it flies {speed:.1f} m/s at most, and the wind takes {wind:.1f} m/s of that",),
-        f"wait for wind below {max(0.0, speed - LEAST_SPEED):.1f} m/s, or take a faster drone",
+        f"wait for wind below {min(none, half):.1f} m/s, which leaves it half its speed "
+        f"({none:.1f} m/s leave it next to none), or take a faster drone",
     )
     return [found]
