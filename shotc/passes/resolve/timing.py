@@ -35,6 +35,8 @@ def check_timing(mission: MissionIR, shots: Iterable[Shot], *, schedule: bool) -
 def _own_times(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
     """Check that keyframe times rise, stay within the duration and leave time to fly."""
     timed = [(i, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None]
+    if timed and timed[0][0] > 0:  # the shot starts at its first keyframe
+        timed = [(0, 0.0), *timed]
     pairs = (_pair(mission, shot, i, j) for (i, _), (j, _) in pairwise(timed))
     return [*(fault for fault in pairs if fault is not None), *_past_end(mission, shot)]
 

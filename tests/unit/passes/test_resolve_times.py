@@ -25,6 +25,18 @@ def test_a_flight_shorter_than_a_straight_line_allows() -> None:
     assert faults(mission(shot.replace("duration: 10", "duration: 14.6"))) == []
 
 
+def test_a_time_counts_from_the_first_keyframe_which_needs_none() -> None:
+    shot = (
+        "id: a, kind: keyframes, keyframes: [{at: [-45, -50, 10], look_at: tower}, "
+        "{at: [50, -50, 10], look_at: tower, time: 3}]"
+    )
+    d = only(mission(shot))
+    line = mission(shot).splitlines()[FIRST - 1]
+    assert (d.code, span(d)[1]) == ("K004", line.index("3}") + 1)
+    assert d.help.startswith("set it later than 11.9 s")
+    assert faults(mission(shot.replace("time: 3", "time: 11.9"))) == []
+
+
 def test_a_keyframe_past_the_end_needs_the_time_of_what_follows_it() -> None:
     shot = (
         "id: a, kind: keyframes, timing: {duration: 10}, keyframes: ["
