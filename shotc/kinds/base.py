@@ -164,6 +164,15 @@ class Scene(NamedTuple):
         """Return a diagnostic on the value at ``path`` below the shot."""
         return Diagnostic(code, message, (self.origins.value((*self.path, *path)),), notes, help)
 
+    def lasting(self, code: str, message: str, *path: str | int) -> Diagnostic:
+        """Return the diagnostic of a shot that has to say how long it lasts, told on its timing if any."""
+        timing = (*self.path, "timing")
+        if timing not in self.origins.values:
+            return self.fault(code, message, "add `timing: {duration: ...}`", *path)
+        others = any((*timing, key) in self.origins.values for key in ("start", "after"))
+        help_ = "add `duration: ...` to `timing`" if others else "write `timing: {duration: ...}`"
+        return self.fault(code, message, help_, "timing")
+
     def bad_file(self, name: str, wrong: "FileFault", *path: str | int) -> Diagnostic:
         """Return the diagnostic of a file, named at ``path`` below the shot, that cannot be used."""
         return bad_file(self.origins, (*self.path, *path), name, wrong)
