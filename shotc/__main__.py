@@ -16,9 +16,13 @@ def main() -> None:
     # to collect on the way nor at the end. Pydantic need not look for plugins either.
     gc.set_threshold(100_000, 50, 100)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    from shotc.cli.app import run  # noqa: PLC0415  after the above, for it imports the most
+    try:
+        from shotc.cli.app import run  # noqa: PLC0415  after the above, for it imports the most
 
-    code = run(sys.argv[1:])
+        code = run(sys.argv[1:])
+    except KeyboardInterrupt:  # before the command line is there to tell it
+        sys.stderr.write("interrupted\n")
+        code = INTERRUPTED
     gc.freeze()
     if code == INTERRUPTED or "numpy" not in sys.modules:
         # What needs no numpy leaves nothing to close, and taking a process apart takes as long as a

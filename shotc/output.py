@@ -1,17 +1,21 @@
 """Writing output files: all of them, whole, or none of them.
 
 Every file is first written beside its place, under a temporary name, and flushed to the disk; only
-when all are there are they renamed into place, with interrupts held back for that moment. A full
-disk, a folder that cannot be written or Ctrl-C leave the files of an earlier run as they were.
+when all are there are they renamed into place, with interrupts held back for that moment, and if one
+cannot be, those before it are put back. A full disk, a folder or a file that cannot be written or
+Ctrl-C leave the files of an earlier run as they were.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from shutil import copyfile
+from typing import NamedTuple, Self
 
 from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact
@@ -22,26 +26,73 @@ def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tupl
     clash = _clash(artifacts)
     if clash is not None:
         return [], (clash,)
-    staged: list[tuple[Path, Path]] = []
+    missing = [p for p in (folder, *folder.parents) if not p.exists()]
+    staged: list[_Staged] = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for artifact in artifacts:
-            place = folder / artifact.name
-            if place.is_dir():
-                raise IsADirectoryError(f"{artifact.name} is a folder there")
-            temporary = folder / f".{artifact.name}.{os.getpid()}.tmp"
-            staged.append((temporary, place))
-            _write_through(temporary, artifact.data)
+            staged.append(_Staged.beside(folder / artifact.name))
+            _write_through(staged[-1].temporary, artifact.data)
         with _uninterrupted():
-            for temporary, place in staged:
-                temporary.replace(place)
+            _put_in_place(staged)
     except OSError as fault:
+        _forget(staged)
+        for made in missing:
+            with suppress(OSError):  # not empty: somebody else's
+                made.rmdir()
         return [], (_cannot_write(folder, fault),)
     finally:
-        for temporary, _ in staged:
+        _forget(staged)
+    return [file.place for file in staged], ()
+
+
+class _Staged(NamedTuple):
+    """A file to write: its place, where it is written first, and where the one it replaces is kept."""
+
+    place: Path
+    temporary: Path
+    backup: Path
+
+    @classmethod
+    def beside(cls, place: Path) -> Self:
+        """Return the names of a file; IsADirectoryError where a folder is in its place."""
+        if place.is_dir():
+            raise IsADirectoryError(f"{place.name} is a folder there")
+        temporary, backup = (place.with_name(f".{place.name}.{os.getpid()}.{end}") for end in ("tmp", "old"))
+        return cls(place, temporary, backup)
+
+
+def _put_in_place(staged: Sequence[_Staged]) -> None:
+    """Rename all files into place; where one cannot be, put back those that were replaced, and raise."""
+    for file in staged:
+        if file.place.exists():
+            _keep(file.place, file.backup)
+    done: list[_Staged] = []
+    try:
+        for file in staged:
+            file.temporary.replace(file.place)
+            done.append(file)
+    except OSError:
+        for file in done:
+            if file.backup.exists():
+                file.backup.replace(file.place)
+            else:
+                file.place.unlink()
+        raise
+
+
+def _keep(place: Path, backup: Path) -> None:
+    try:
+        backup.hardlink_to(place)
+    except OSError:  # a file system without links
+        copyfile(place, backup)
+
+
+def _forget(staged: Sequence[_Staged]) -> None:
+    for file in staged:
+        for path in (file.temporary, file.backup):
             with suppress(OSError):
-                temporary.unlink(missing_ok=True)
-    return [place for _, place in staged], ()
+                path.unlink(missing_ok=True)
 
 
 def _clash(artifacts: Sequence[Artifact]) -> Diagnostic | None:
@@ -84,7 +135,17 @@ def _uninterrupted() -> Iterator[None]:
 def _cannot_write(folder: Path, fault: OSError) -> Diagnostic:
     return Diagnostic(
         "E901",
-        f"the outputs cannot be written: {fault.strerror or fault}",
+        f"the outputs cannot be written: {(fault.strerror or str(fault)).lower()}",
         notes=(f"folder: {folder}", "files of an earlier run are as they were"),
-        help="free some space, or choose another folder with -o",
+        help=_HELP.get(fault.errno or 0, "choose another folder with -o"),
     )
+
+
+_ROOM = "free some space, or choose another folder with -o"
+_RIGHT = "choose a folder with -o that you may write to"
+_NO_FOLDER = "choose another folder with -o: something there is no folder, or is one in a file's place"
+_HELP = {
+    **dict.fromkeys((errno.ENOSPC, errno.EDQUOT, errno.EFBIG), _ROOM),
+    **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), _RIGHT),
+    **dict.fromkeys((errno.EEXIST, errno.ENOTDIR, errno.EISDIR, errno.ELOOP), _NO_FOLDER),
+}

@@ -24,7 +24,7 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLe
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
-from shotc.passes.parameterize_time.estimate import rough_times, shortest_time
+from shotc.passes.parameterize_time.estimate import lateness, rough_times
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
@@ -80,6 +80,7 @@ __all__ = [
     "frustum_margins",
     "ideal_place",
     "kept",
+    "lateness",
     "least_out",
     "leg_of",
     "moved",
@@ -91,7 +92,6 @@ __all__ = [
     "restrict",
     "rough_times",
     "seen",
-    "shortest_time",
     "shortfall",
     "silhouette_bounds",
     "smoother",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
+from difflib import get_close_matches, unified_diff
 from textwrap import fill, indent
 from typing import Annotated
 
@@ -49,10 +49,21 @@ def _page(info: CodeInfo) -> str:
         "",
         fill(info.explanation, _WIDTH),
     ]
-    for title, text in (("Raises it:", info.failing), ("Passes:", info.passing)):
-        if text:
-            parts += ["", title, "", indent(text.rstrip(), "    ")]
+    if info.failing:
+        parts += ["", "Raises it:", "", indent(info.failing.rstrip(), "    ")]
+    if info.passing:
+        parts += _mended(info.failing, info.passing)
     return "\n".join(parts)
+
+
+def _mended(failing: str, passing: str) -> list[str]:
+    """Return how a mission is mended: by the lines that change, or whole where most of it does."""
+    before, after = failing.rstrip().splitlines(), passing.rstrip().splitlines()
+    found = list(unified_diff(before, after, n=0, lineterm=""))[2:]
+    changed = [f"    {line[0]} {line[1:]}" for line in found if not line.startswith("@@")]
+    if 0 < len(changed) < len(after):
+        return ["", "Passes with:", "", *changed]
+    return ["", "Passes:", "", indent(passing.rstrip(), "    ")]
 
 
 def _listing(table: Mapping[str, CodeInfo]) -> str:

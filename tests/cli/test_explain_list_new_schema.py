@@ -21,7 +21,17 @@ def test_a_code_by_number_or_name(run: Run, name: str) -> None:
     assert result.code == 0
     assert result.out.startswith("Y012 duplicate-key: a key is given twice\nerror, since 0.1\n")
     assert "Raises it:\n\n    shotc: 1\n    mission: look\n    mission: again\n" in result.out
-    assert "Passes:" in result.out
+    assert result.out.endswith("Passes with:\n\n    - mission: again\n")
+
+
+def test_every_code_with_examples_tells_how_the_failing_one_is_mended(run: Run) -> None:
+    for info in (info for info in registry().values() if info.passing and info.code[1:].endswith("1")):
+        raises, _, passes = run("explain", info.code).out.partition("\nPasses")
+        for line in set(info.failing.splitlines()) - set(info.passing.splitlines()):
+            assert f"    {line}" in raises, info.code
+            assert f"    - {line}" in passes or passes.startswith(":"), info.code
+        for line in set(info.passing.splitlines()) - set(info.failing.splitlines()):
+            assert f"    + {line}" in passes or passes.startswith(":"), info.code
 
 
 @pytest.mark.parametrize(

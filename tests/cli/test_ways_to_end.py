@@ -106,6 +106,20 @@ def test_interrupt_of_a_process() -> None:
     assert (process.returncode, err) == (130, b"interrupted\n")
 
 
+def test_an_interrupt_while_the_command_line_loads() -> None:
+    code = (
+        "import sys\n"
+        "class Stop:\n"
+        "    def find_spec(self, name, path=None, target=None):\n"
+        "        if name == 'shotc.cli.app': raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Stop())\n"
+        "from shotc.__main__ import main\n"
+        "main()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (130, b"interrupted\n")
+
+
 @pytest.mark.skipif(os.name != "posix", reason="pipes")
 def test_a_closed_pipe_is_quiet() -> None:
     process = subprocess.Popen([*SHOTC, "explain"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)

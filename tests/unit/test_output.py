@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import errno
 import os
 import resource
 import signal
@@ -71,11 +72,43 @@ def test_an_interrupt_while_renaming_waits_until_all_are_in_place(folder, monkey
     assert content(folder) == {a.name: a.data for a in NEW}
 
 
+@pytest.mark.parametrize("links", [True, False])
+def test_where_one_file_cannot_be_renamed_those_before_it_are_put_back(folder, monkeypatch, links):
+    real = type(folder).replace
+
+    def replace(self, target):
+        if self.name.endswith(".tmp") and target.name == "trajectory.csv":
+            raise OSError(errno.EBUSY, "Device or resource busy")
+        return real(self, target)
+
+    def unlinked(self, target):
+        raise OSError(errno.EPERM, "Operation not permitted")
+
+    monkeypatch.setattr(type(folder), "replace", replace)
+    if not links:
+        monkeypatch.setattr(type(folder), "hardlink_to", unlinked)
+    paths, faults = write([Artifact("cam1.plan", b"a first one"), *NEW], folder)
+    assert paths == []
+    assert [d.message for d in faults] == ["the outputs cannot be written: device or resource busy"]
+    assert content(folder) == {a.name: a.data for a in OLD}
+
+
+def test_a_folder_that_was_made_for_nothing_is_taken_away_again(tmp_path, monkeypatch):
+    def full(descriptor):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    _, faults = write(NEW, tmp_path / "deep" / "out")
+    assert [d.help for d in faults] == ["free some space, or choose another folder with -o"]
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_file_in_the_place_of_the_folder_is_a_diagnostic(tmp_path):
     (tmp_path / "out").write_text("a file")
     paths, faults = write(NEW, tmp_path / "out")
     assert paths == []
     assert [d.code for d in faults] == ["E901"]
+    assert "is no folder" in faults[0].help
     assert (tmp_path / "out").read_text() == "a file"
 
 

@@ -10,6 +10,7 @@ from scipy.interpolate import make_interp_spline
 
 from shotc.refiner_api import CAM_PITCH, CAM_YAW, Array
 from shotc_casadi.conditions import Condition
+from shotc_casadi.due import due
 from shotc_casadi.program import Problem
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import (
@@ -85,7 +86,7 @@ def problem(
 
 
 def _pace(subject: Subject, margins: Margins) -> float:
-    return margins.limits * (subject.leg.pace if subject.leg.duration is None else 1.0)
+    return margins.limits * (1.0 if due(subject.leg) else subject.leg.pace)
 
 
 def _guess(subject: Subject, stages: Stages, wanted: Wishes, condition: Condition) -> tuple[Array, Array]:
@@ -174,21 +175,17 @@ def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> 
     hard = PIN / distance**2
     pins = [int(k) for k in stages.pins]
     rests = [stop.s for stop in leg.stops]
-    times = {m.s: m.time for m in leg.marks if m.time is not None}
+    times = dict(zip(*due(leg), strict=True))
     for k in pins:
         weight[k, POSITION] = hard[k] * 100
         if _among(s[k], rests):
             still = [*range(3, 9), YAW_RATE, YAW_ACCELERATION, PITCH_RATE, PITCH_ACCELERATION]
             value[k, still] = 0.0
             weight[k, still] = PIN
-        held = sum(stop.hold for stop in leg.stops if stop.s < s[k])
         if s[k] in times:
-            value[k, TIME], weight[k, TIME] = times[s[k]] - held, PIN
+            value[k, TIME], weight[k, TIME] = times[s[k]], PIN
     for k in (pins[0], pins[-1]):
         weight[k, [YAW, PITCH]] = 100 * PIN
-    weight[0, TIME] = PIN
-    if leg.duration is not None:
-        weight[-1, TIME] = PIN
     return value, weight
 
 

@@ -6,18 +6,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api import Leg, Piecewise
+from shotc.plugin_api import Piecewise
 from shotc.refiner_api import (
     Array,
     View,
     frustum_margins,
+    lateness,
     rough_times,
-    shortest_time,
     shortfall,
     subdivide,
     with_camera,
 )
 from shotc_casadi.conditions import Condition
+from shotc_casadi.due import due
 from shotc_casadi.problem import Margins
 from shotc_casadi.wishes import Subject, fields_of_view, wishes
 
@@ -28,15 +29,15 @@ LIMIT_STEP = 1.2  # times what was missing
 LITTLE = 0.02  # share of the room beyond the clearances that is kept where the picture needs the rest
 HOLD = 1e3
 GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
-HOPELESS = 1.1  # times a duration that a rough profile takes for no bend of the path to make up for it
-AMPLE = 0.8  # share of a duration that a rough profile may take for it to be met without a closer look
+HOPELESS = 1.1  # times what is asked that a rough profile takes for no bend of the path to make up for it
+AMPLE = 0.8  # share of what is asked that a rough profile may take for it to be met without a closer look
 
 
 class Check(NamedTuple):
     """What is left open, the worst first.
 
     lack : metres by which clearance is not proved for all s (Bernstein hulls); 0 is proved
-    late : share of the duration asked for by which the fastest flight is too long
+    late : share of a time asked for by which the fastest flight is too slow
     cropped : the most that the target sticks out of the frame, as a share of its distance
     """
 
@@ -73,27 +74,18 @@ def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
 
 
 def hopeless(subject: Subject) -> bool:
-    """Tell whether a shot's convex path is far from meeting the duration asked for."""
+    """Tell whether a shot's convex path is far from meeting the times asked for."""
     leg = subject.leg
-    if leg.duration is None:
-        return False
-    return bool(rough_times(subject.drone, leg, 1.0)[1][-1] > HOPELESS * _available(leg))
-
-
-def _available(leg: Leg) -> float:
-    """Return the seconds that a duration leaves for flying."""
-    return (leg.duration or 0.0) - sum(stop.hold for stop in leg.stops)
+    return due(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS - 1.0
 
 
 def _late(subject: Subject, camera: Piecewise) -> float:
-    """Return by how much of the duration asked for the fastest flight of this camera misses it."""
-    if subject.leg.duration is None:
-        return 0.0
+    """Return by which share of a time asked for the fastest flight of this camera misses it."""
     drone, leg = subject.drone, with_camera(subject.drone, subject.leg, camera)
-    available = _available(leg)
-    if rough_times(drone, leg, 1.0)[1][-1] < AMPLE * available:
+    asked = due(leg)
+    if not asked or asked.lateness(*rough_times(drone, leg, 1.0)) < AMPLE - 1.0:
         return 0.0
-    return max(0.0, shortest_time(drone, leg) / available - 1.0)
+    return lateness(drone, leg)
 
 
 def _cropped(subject: Subject, condition: Condition, camera: Piecewise) -> float:

@@ -10,6 +10,7 @@ from shotc.plugin_api import Piecewise
 from shotc.refiner_api import Array, NoTransit, shortfall
 from shotc_casadi.camera import NoFit, camera
 from shotc_casadi.conditions import Condition
+from shotc_casadi.due import due, unhurried
 from shotc_casadi.problem import Margins, problem
 from shotc_casadi.program import Problem, Solution, Solver, solve
 from shotc_casadi.proof import Check, checked, hopeless, tighter
@@ -59,16 +60,16 @@ def refine_shot(subject: Subject, condition: Condition, count: int | None = None
     """Refine one shot, tightening what does not hold between the nodes until it does.
 
     count : stages, or None for as many as its keyframes need
-    A shot whose duration the solver does not meet is refined for the least time: the time pass slows it
-    down to its duration, or says best what it lacks.
+    A shot whose times the solver does not meet is refined for the least time: the time pass slows it
+    down to them, or says best what it lacks.
     """
-    if subject.leg.duration is None:
+    if not due(subject.leg):
         return _refine(subject, condition, count, SOLVERS)[0]
     if not hopeless(subject):
         refined, check = _refine(subject, condition, count, SOLVERS[:1])
         if refined.camera is not None and check.late <= 0:
             return refined
-    hasty = subject._replace(leg=replace(subject.leg, duration=None, pace=1.0))
+    hasty = subject._replace(leg=unhurried(subject.leg))
     return _refine(hasty, condition, count, SOLVERS)[0]
 
 

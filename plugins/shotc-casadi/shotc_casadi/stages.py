@@ -9,6 +9,7 @@ from scipy.interpolate import PchipInterpolator
 
 from shotc.plugin_api import Leg
 from shotc.refiner_api import Array, Drone, PlacedShot, rough_times
+from shotc_casadi.due import due
 
 STAGES = 100
 PER_INTERVAL = 12
@@ -38,9 +39,10 @@ def stages(leg: Leg, placed: PlacedShot, drone: Drone, count: int | None) -> Sta
     assert curve is not None
     pins = _pins(leg, placed)
     count = count or int(np.clip(PER_INTERVAL * (len(pins) - 1), STAGES, MOST))
-    fine, t = rough_times(drone, leg, leg.pace if leg.duration is None else 1.0)
-    if leg.duration is not None:
-        t = t * (leg.duration - sum(stop.hold for stop in leg.stops)) / t[-1]
+    asked = due(leg)
+    fine, t = rough_times(drone, leg, 1.0 if asked else leg.pace)
+    if asked:
+        t = asked.kept(fine, t, leg.pace)
     knots = np.interp(pins, fine, t)
     shares = _shares(knots, count)
     parts = [

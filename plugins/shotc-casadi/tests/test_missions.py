@@ -14,7 +14,8 @@ from shotc_casadi.rounds import ROUNDS, refine_shot
 from shotc.api import emit_plan
 from shotc.diag.registry import has_errors
 from shotc.geom.corridor import shortfall
-from shotc.passes.parameterize_time.estimate import shortest_time
+from shotc.passes.parameterize_time.leg import fastest_moves, plan_of
+from shotc.passes.parameterize_time.limits import ceiling_of
 from tests.path_scenes import assert_continuous, least_room
 from tests.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of, seen
 
@@ -166,10 +167,16 @@ def test_angles_and_look_at_lead_through_the_authors_own_angles():
         )
 
 
-def test_a_duration_just_above_the_shortest_is_met():
+def earliest():
+    """Seconds at which the convex path's fastest flight passes the arc's second and last keyframe."""
     path = path_of(planned("arc", "none"))
-    shortest = shortest_time(path.keyframes.mission.drones[0], leg_named(path))
-    asked = round(1.03 * shortest, 2)
+    leg = leg_named(path)
+    (move,) = fastest_moves(leg, plan_of(leg), ceiling_of(path.keyframes.mission.drones[0]))
+    return [float(move.profile.arrival(mark.s)) for mark in leg.marks[1:]]
+
+
+def test_a_duration_just_above_the_shortest_is_met():
+    asked = round(1.03 * earliest()[-1], 2)
     done = compiled(HEAD + keyed(*ARC, more=f"timing: {{duration: {asked}}}"))
     sound(done)
     (phase,) = (p for p in done.plan.trajectory.drones[0].phases if p.shot == "s")
@@ -182,6 +189,29 @@ def test_a_duration_that_is_too_short_is_told_by_the_time_pass_alone():
     assert done.plan is None
     assert not [d for d in done.diagnostics if d.code.startswith("R")]
     assert any("14" in d.message for d in done.diagnostics)
+
+
+@pytest.mark.parametrize("share", [1.02, 1.1, 1.3, 2.5])
+@pytest.mark.parametrize("index", [1, 2])
+def test_a_keyframe_is_reached_at_its_time(index, share):
+    asked = round(share * earliest()[index - 1], 2)
+    done = compiled(HEAD + keyed(*(f"{k}, time: {asked}" if i == index else k for i, k in enumerate(ARC))))
+    sound(done)
+    (drone,) = done.plan.trajectory.drones
+    (phase,) = (p for p in drone.phases if p.shot == "s")
+    reached = [k.time for k in drone.keyframes if k.index == index]
+    assert reached == pytest.approx([phase.start + asked], abs=1e-6)
+    assert seen(done.plan).off.max() < 0.02
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_the_earliest_time_of_a_keyframe_is_what_the_limits_allow(share):
+    least = earliest()[-1]
+    done = compiled(HEAD + keyed(*ARC[:2], f"{ARC[2]}, time: {share * least:.2f}"))
+    (fault,) = (d for d in done.diagnostics if d.code == "T002")
+    told = float(fault.help.partition("time: ")[2].partition(" s")[0])
+    assert told == pytest.approx(least, rel=0.03)
+    sound(compiled(HEAD + keyed(*ARC[:2], f"{ARC[2]}, time: {told}")))
 
 
 def test_a_turn_on_the_spot_stays_framed():

@@ -11,6 +11,7 @@ from shotc.passes.parameterize_time import time_leg
 from shotc.passes.parameterize_time.grid import evened, rough_profile
 from shotc.passes.parameterize_time.leg import LegMotion, fastest_moves, plan_of
 from shotc.passes.parameterize_time.limits import ceiling_of
+from shotc.passes.parameterize_time.marks import DueLeg
 from shotc.passes.parameterize_time.move import axes_of
 
 LEAST_SPEED = 1e-3  # m/s along the path, at rest
@@ -47,6 +48,8 @@ def leg_time(mission: MissionIR, drone: Drone, leg: Leg) -> float:
     return 0.0 if motion is None else motion.duration
 
 
-def shortest_time(drone: Drone, leg: Leg) -> float:
-    """Return the seconds of the fastest flight of a leg within full limits, without its holds."""
-    return sum(move.duration for move in fastest_moves(leg, plan_of(leg), ceiling_of(drone)))
+def lateness(drone: Drone, leg: Leg) -> float:
+    """Return by which share of a time asked for the fastest flight of a leg misses it, 0 if by none."""
+    ceiling, plan = ceiling_of(drone), plan_of(leg)
+    fast = fastest_moves(leg, plan, ceiling)
+    return DueLeg(leg, plan, fast, fast, ceiling).lateness()

@@ -19,6 +19,8 @@ from shotc.passes.parameterize_time.move import Move
 from shotc.passes.parameterize_time.profile import SAME
 from shotc.passes.parameterize_time.windows import windowed_move
 
+# What a flight is late at least that no single stretch makes late; seconds that are none.
+LITTLE, SOON = 0.01, 1e-3
 # Rounding by which a time may be shorter than the shortest, relative and in seconds.
 ROUNDING = 1e-9
 # The search for the least delay that would do: first try, seconds; doublings; halvings after that.
@@ -96,6 +98,15 @@ class DueLeg:
     def possible(self) -> bool:
         """Tell whether the times can be met."""
         return isinstance(_attempt(self, _anchors(self.leg, self.plan)), Timed)
+
+    def lateness(self) -> float:
+        """Return by which share of the time between two anchors the fastest flight is late, at least 0."""
+        late = LITTLE if not self.possible() else 0.0
+        for a, b in pairwise(_anchors(self.leg, self.plan)):
+            least = sum(seconds for _, _, seconds in _parts(self.plan, self.fast, a.s, b.s))
+            room = b.arrives - a.leaves - self.plan.holds_between(a.s, b.s)
+            late = max(late, least / max(room, SOON) - 1.0) if late else 0.0
+        return late
 
     def meet(self) -> Timed | TooFast:
         """Return the moves at the times asked for, or the first that cannot be met and what could."""

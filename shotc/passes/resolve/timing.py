@@ -34,15 +34,13 @@ def check_timing(mission: MissionIR, shots: Iterable[Shot], *, schedule: bool) -
 
 def _own_times(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
     """Check that keyframe times rise, stay within the duration and leave time to fly."""
-    timed = [(i, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None]
-    if timed and timed[0][0] > 0:  # the shot starts at its first keyframe
-        timed = [(0, 0.0), *timed]
-    pairs = (_pair(mission, shot, i, j) for (i, _), (j, _) in pairwise(timed))
+    timed = [i for i, k in enumerate(shot.keyframes) if k.time is not None or i == 0]
+    pairs = (_pair(mission, shot, i, j) for i, j in pairwise(timed))
     return [*(fault for fault in pairs if fault is not None), *_past_end(mission, shot)]
 
 
 def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
-    """Check two keyframes with a time, and none with one between them."""
+    """Check two keyframes with a time, and none with one between them; the first one's is 0 if silent."""
     a, b = shot.keyframes[i], shot.keyframes[j]
     start, end = a.time or 0.0, b.time or 0.0
     label = mission.origins.value((*b.path, "time"))

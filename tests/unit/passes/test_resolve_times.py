@@ -25,16 +25,16 @@ def test_a_flight_shorter_than_a_straight_line_allows() -> None:
     assert faults(mission(shot.replace("duration: 10", "duration: 14.6"))) == []
 
 
-def test_a_time_counts_from_the_first_keyframe_which_needs_none() -> None:
+def test_a_keyframe_sooner_than_a_straight_line_from_the_start_allows() -> None:
     shot = (
-        "id: a, kind: keyframes, keyframes: [{at: [-45, -50, 10], look_at: tower}, "
-        "{at: [50, -50, 10], look_at: tower, time: 3}]"
+        "id: a, kind: keyframes, keyframes: [{at: [-45, -50, 10], look_at: tower, hold: 2}, "
+        "{at: [-5, -50, 10], look_at: tower}, {at: [51, -50, 10], look_at: tower, time: 5}]"
     )
     d = only(mission(shot))
-    line = mission(shot).splitlines()[FIRST - 1]
-    assert (d.code, span(d)[1]) == ("K004", line.index("3}") + 1)
-    assert d.help.startswith("set it later than 11.9 s")
-    assert faults(mission(shot.replace("time: 3", "time: 11.9"))) == []
+    # 96 m at 8 m/s take 12 s, after a hold of 2 s.
+    assert (d.code, d.message) == ("K004", "nobody gets there in the 5.0 s between keyframes 1 and 3")
+    assert d.notes == ("the 96.0 m between them need at least 14.0 s",)
+    assert faults(mission(shot.replace("time: 5", "time: 14.0"))) == []
 
 
 def test_a_keyframe_past_the_end_needs_the_time_of_what_follows_it() -> None:

@@ -1,0 +1,56 @@
+"""When a mission wants a shot to be where: its length and its keyframes' times, without what it holds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.plugin_api import Leg
+from shotc.refiner_api import Array
+
+
+class Due(NamedTuple):
+    """Places on the path with a time, the start first; shapes (K,).
+
+    s : path parameter; t : seconds from the start, less all holds before
+    """
+
+    s: Array
+    t: Array
+
+    def __bool__(self) -> bool:
+        """Tell whether any place but the start has a time."""
+        return len(self.s) > 1
+
+    def lateness(self, s: Array, t: Array) -> float:
+        """Return by which share of the time between two places a motion (s, t) of shapes (M,) is too slow."""
+        takes, given = np.diff(np.interp(self.s, s, t)), np.diff(self.t)
+        return float(np.max(takes / np.maximum(given, 1e-9), initial=0.0)) - 1.0
+
+    def kept(self, s: Array, t: Array, pace: float) -> Array:
+        """Return a motion's times, stretched so that every place is met; pace : of what follows the last."""
+        known = np.interp(self.s, s, t)
+        after = self.t[-1] + (t - known[-1]) / pace
+        return np.where(t <= known[-1], np.interp(t, known, self.t), after)
+
+
+def due(leg: Leg) -> Due:
+    """Return the places of a moving leg that have a time."""
+    assert leg.curve is not None
+    start, end = leg.curve.start, leg.curve.end
+    asked: dict[float, float] = {}
+    for mark in sorted(leg.marks, key=lambda m: (m.s, m.index)):
+        if mark.time is not None:
+            asked.setdefault(mark.s, mark.time - sum(stop.hold for stop in leg.stops if stop.s < mark.s))
+    waits = asked.pop(start, 0.0)
+    if leg.duration is not None:
+        asked[end] = leg.duration - sum(stop.hold for stop in leg.stops)
+    return Due(np.array([start, *asked]), np.array([0.0, *(t - waits for t in asked.values())]))
+
+
+def unhurried(leg: Leg) -> Leg:
+    """Return a leg without its times, to be flown as fast as the limits allow."""
+    marks = tuple(replace(mark, time=None) for mark in leg.marks)
+    return replace(leg, duration=None, pace=1.0, marks=marks)
