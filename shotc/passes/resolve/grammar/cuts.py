@@ -56,7 +56,7 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
         return None
     change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
     aside = to_the_side(mission, after, left, right, APART)
-    ways = (*([aside] if aside else []), f"begin `{after.id}` much nearer or much farther away")
+    ways = [aside, "begin it"] if aside else [f"begin `{after.id}`"]
     return Diagnostic(
         "F002",
         f"the cut from `{before.id}` to `{after.id}` makes `{left.names[0]}` jump",
@@ -65,7 +65,7 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
             f"it is seen from {int(degrees(angle))} deg to the side, {change}; a cut wants 30 deg or more, "
             f"or a size that changes {ALIKE:.1f} times",
         ),
-        f"{', '.join(ways)}, or write `allow: [jump-cut]` in it",
+        f"{', '.join(ways)} much nearer or much farther away, or write `allow: [jump-cut]` in it",
     )
 
 
