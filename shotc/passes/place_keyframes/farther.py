@@ -34,7 +34,8 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting
         level, offset = True, _back(setting, fits, level=True)
     if offset is None:
         return ""
-    far = f"{ceil(hypot(*offset[: 2 if level else 3]) * 10) / 10:.1f} m from its {'axis' if level else 'centre'}"
+    metres, origin = hypot(*offset[: 2 if level else 3]), "axis" if level else "centre"
+    far = f"{ceil(metres * 10) / 10:.1f} m from its {origin}"
     if not keyframe.placed:
         return f"{'keep' if level else 'move to'} {far}"
     written = ", ".join(f"{round(c, 2) + 0.0:.2f}" for c in _place(keyframe, setting, offset))
