@@ -6,6 +6,7 @@ Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it
 from __future__ import annotations
 
 from shotc.geom import viewpoint
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import View, aim_at, frustum_margins, nearest_depth, silhouette_bounds
@@ -103,4 +104,5 @@ __all__ = [
     "viewpoint",
     "with_camera",
     "within",
+    "wrapped",
 ]

@@ -186,7 +186,7 @@ def parse_quantity(value: object, dimension: Dimension) -> float:
         raise QuantityError(
             "bare-angle",
             f"{a(dimension)} needs a unit",
-            _with_unit(value, dimension),
+            _with_unit(value, dimension) if isfinite(_real(value)) else _such_as(dimension),
         )
     return _bounded(_real(value), dimension, _short(value))
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import asdict
-from math import ceil
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -13,6 +12,7 @@ import typer
 from shotc.cli import console
 from shotc.cli.plans import PlanPath, proved
 from shotc.cli.verify import Format
+from shotc.rounding import up
 
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
@@ -78,7 +78,7 @@ def _remarks(found: list[tuple[Fleet, Rehearsal]]) -> Iterator[str]:
 def _verdict(fleet: Fleet, came: Rehearsal) -> str:
     """Say whether the margin was enough, and which one cannot be used up."""
     below = 0 if came.near is None else came.near.below
-    safe = ceil(20 * came.farthest) / 10
+    safe = up(2 * came.farthest, 1)
     if below:
         pairs = "1 pair comes" if below == 1 else f"{below} pairs come"
         return f"{pairs} nearer than asked; plan with `margin: {safe:g}` of the separation"

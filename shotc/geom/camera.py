@@ -8,9 +8,10 @@ plain arithmetic only, so they take floats and numpy arrays alike (``S`` below i
 from math import atan, atan2, cos, hypot, pi, sin, sqrt, tan
 from typing import Any, NamedTuple
 
+from shotc.geom.angles import direction
+from shotc.geom.vec import Vec2, Vec3
+
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
-Vec2 = tuple[float, float]
-Vec3 = tuple[float, float, float]
 
 
 class View(NamedTuple):
@@ -156,13 +157,13 @@ def aim_at(offset: Vec3, uv: Vec2, hfov: float, aspect: float, yaw_if_vertical: 
         return None
     lean = atan2(up, forward)
     rise = atan2(wanted, sqrt(max(0.0, reach**2 - wanted**2)))
-    pitch = min((rise - lean, pi - rise - lean), key=lambda p: abs(_wrap(p)))
-    pitch = _wrap(pitch)
+    pitch = min((rise - lean, pi - rise - lean), key=lambda p: abs(direction(p)))
+    pitch = direction(pitch)
     along = forward * cos(pitch) - up * sin(pitch)
     horizontal = hypot(offset[0], offset[1])
     if horizontal < 1e-9 * length:
         return (yaw_if_vertical, pitch)
-    return (_wrap(atan2(offset[1], offset[0]) + atan2(right, along)), pitch)
+    return (direction(atan2(offset[1], offset[0]) + atan2(right, along)), pitch)
 
 
 def vertical_fov(hfov: float, aspect: float) -> float:
@@ -177,9 +178,4 @@ def heading_of(yaw: float) -> float:
 
 def yaw_of(heading: float) -> float:
     """Return the yaw in (-pi, pi] of a compass heading."""
-    return _wrap(pi / 2 - heading)
-
-
-def _wrap(angle: float) -> float:
-    wrapped = (angle + pi) % (2 * pi) - pi
-    return pi if wrapped == -pi else wrapped
+    return direction(pi / 2 - heading)

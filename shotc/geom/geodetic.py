@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cos, radians, sin, sqrt
 
-Vec3 = tuple[float, float, float]
+from shotc.geom.vec import Vec3
 
 SEMI_MAJOR = 6378137.0  # metres, WGS84
 FLATTENING = 1 / 298.257223563

@@ -1,10 +1,17 @@
 """Whether a solid stands between two points. Plain Python."""
 
-from math import hypot
+from math import dist
 
-from shotc.geom.solids import Cylinder, Prism, Solid, edges, inside_polygon
-
-Vec3 = tuple[float, float, float]
+from shotc.geom.solids import (
+    Cylinder,
+    Prism,
+    Solid,
+    closest_on_segment,
+    edges,
+    inside_polygon,
+    segments_cross,
+)
+from shotc.geom.vec import Vec2, Vec3
 
 
 def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
@@ -15,7 +22,7 @@ def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
     p, q = (tuple(s + t * (e - s) for s, e in zip(a[:2], b[:2], strict=True)) for t in span)
     first, last = (p[0], p[1]), (q[0], q[1])
     if isinstance(solid, Cylinder):
-        return _near(solid.centre, first, last) <= solid.radius
+        return dist(solid.centre, closest_on_segment(first, last, solid.centre)) <= solid.radius
     return _meets(solid, first, last)
 
 
@@ -29,24 +36,7 @@ def _level(solid: Solid, a: Vec3, b: Vec3) -> tuple[float, float] | None:
     return (low, high) if low <= high else None
 
 
-def _near(c: tuple[float, float], a: tuple[float, float], b: tuple[float, float]) -> float:
-    """Return the distance from a point to a stretch of a line."""
-    x, y = b[0] - a[0], b[1] - a[1]
-    square = x * x + y * y
-    t = 0.0 if square == 0 else max(0.0, min(1.0, ((c[0] - a[0]) * x + (c[1] - a[1]) * y) / square))
-    return hypot(a[0] + t * x - c[0], a[1] + t * y - c[1])
-
-
-def _meets(prism: Prism, a: tuple[float, float], b: tuple[float, float]) -> bool:
+def _meets(prism: Prism, a: Vec2, b: Vec2) -> bool:
     if inside_polygon(prism.points, a) or inside_polygon(prism.points, b):
         return True
-    return any(_cross(a, b, c, d) for c, d in edges(prism.points))
-
-
-def _cross(
-    a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]
-) -> bool:
-    def side(p: tuple[float, float], q: tuple[float, float], r: tuple[float, float]) -> float:
-        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-
-    return side(a, b, c) * side(a, b, d) <= 0 and side(c, d, a) * side(c, d, b) <= 0
+    return any(segments_cross(a, b, c, d) for c, d in edges(prism.points))

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.camera import View
-from shotc.geom.solids import Cylinder, Prism, Solid, Vec2, Vec3, convex_hull, convex_parts
+from shotc.geom.solids import Cylinder, Prism, Solid, convex_hull, convex_parts
+from shotc.geom.vec import Vec2, Vec3
 
 Array = NDArray[np.float64]
 

@@ -5,11 +5,10 @@ closest point to a point, and its support function.
 """
 
 from itertools import pairwise
-from math import cos, hypot, inf, sin
+from math import cos, dist, hypot, inf, sin
 from typing import NamedTuple
 
-Vec2 = tuple[float, float]
-Vec3 = tuple[float, float, float]
+from shotc.geom.vec import Vec2, Vec3
 
 
 class Cylinder(NamedTuple):
@@ -77,26 +76,28 @@ def box(centre: Vec3, size: Vec3, heading: float) -> Prism:
     return Prism(points, centre[2] - size[2] / 2, centre[2] + size[2] / 2)
 
 
+def signed_distance(solid: Solid, p: Vec3) -> float:
+    """Return the distance of ``p`` from the solid, inside it minus its depth; metres, exact."""
+    x, y, z = p
+    if isinstance(solid, Cylinder):
+        across = dist((x, y), solid.centre) - solid.radius
+    else:
+        across = min(dist((x, y), closest_on_segment(a, b, (x, y))) for a, b in edges(solid.points))
+        across = -across if inside_polygon(solid.points, (x, y)) else across
+    upright = max(solid.bottom - z, z - solid.top)
+    if across <= 0 and upright <= 0:
+        return max(across, upright)
+    return hypot(max(across, 0.0), max(upright, 0.0))
+
+
 def distance(solid: Solid, p: Vec3) -> float:
     """Return how far ``p`` is from the solid, 0 inside, metres."""
-    return min(
-        hypot(*(a - b for a, b in zip(p, part.closest(p), strict=True))) for part in convex_parts(solid)
-    )
+    return max(0.0, signed_distance(solid, p))
 
 
 def depth(solid: Solid, p: Vec3) -> float:
     """Return how deep ``p`` lies inside the solid: distance to its surface, 0 outside, metres."""
-    x, y, z = p
-    vertical = min(z - solid.bottom, solid.top - z)
-    if isinstance(solid, Cylinder):
-        across = solid.radius - hypot(x - solid.centre[0], y - solid.centre[1])
-    else:
-        nearest = min(
-            hypot(x - q[0], y - q[1])
-            for q in (closest_on_segment(a, b, (x, y)) for a, b in edges(solid.points))
-        )
-        across = nearest if inside_polygon(solid.points, (x, y)) else -nearest
-    return max(0.0, min(vertical, across))
+    return max(0.0, -signed_distance(solid, p))
 
 
 def convex_parts(solid: Solid) -> tuple[Solid, ...]:
@@ -145,7 +146,7 @@ def is_simple(points: tuple[Vec2, ...]) -> bool:
     sides = edges(points)
     n = len(sides)
     return not any(
-        _segments_cross(*sides[i], *sides[j])
+        segments_cross(*sides[i], *sides[j])
         for i in range(n)
         for j in range(i + 2, n)
         if not (i == 0 and j == n - 1)
@@ -169,6 +170,15 @@ def closest_on_segment(a: Vec2, b: Vec2, p: Vec2) -> Vec2:
         return a
     t = _clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0)
     return (a[0] + t * dx, a[1] + t * dy)
+
+
+def segments_cross(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool:
+    """Tell whether two segments, a-b and c-d, cross or touch."""
+    # So do their lines, and their boxes overlap: the second tells collinear segments apart.
+    boxes = all(
+        max(min(a[k], b[k]), min(c[k], d[k])) <= min(max(a[k], b[k]), max(c[k], d[k])) for k in (0, 1)
+    )
+    return boxes and _cross(a, b, c) * _cross(a, b, d) <= 0 and _cross(c, d, a) * _cross(c, d, b) <= 0
 
 
 def convex_hull(points: tuple[Vec2, ...]) -> tuple[Vec2, ...]:
@@ -206,14 +216,6 @@ def _is_ear(ring: list[Vec2], i: int) -> bool:
         return False
     others = (p for p in ring if p not in (a, b, c))
     return not any(min(_cross(a, b, p), _cross(b, c, p), _cross(c, a, p)) >= 0 for p in others)
-
-
-def _segments_cross(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool:
-    # Lines that cross or touch, and boxes that overlap: the second tells collinear segments apart.
-    boxes = all(
-        max(min(a[k], b[k]), min(c[k], d[k])) <= min(max(a[k], b[k]), max(c[k], d[k])) for k in (0, 1)
-    )
-    return boxes and _cross(a, b, c) * _cross(a, b, d) <= 0 and _cross(c, d, a) * _cross(c, d, b) <= 0
 
 
 def _cross(a: Vec2, b: Vec2, c: Vec2) -> float:

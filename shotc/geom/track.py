@@ -6,7 +6,7 @@ from itertools import pairwise
 from math import atan2, hypot, inf, pi
 from typing import NamedTuple, Self
 
-Vec3 = tuple[float, float, float]
+from shotc.geom.vec import Vec3
 
 AROUND = 1.0  # seconds before and after, over which a heading is taken from the motion
 STILL = 1e-6  # metres or m/s that are rounding

@@ -11,7 +11,8 @@ from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
 from operator import mul
 from typing import NamedTuple
 
-from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
+from shotc.geom.vec import Vec2, Vec3, minus
 
 Pose = tuple[float, float, float, float, float]
 Residuals = list[float]
@@ -182,7 +183,7 @@ def stand(wanted: Wanted, lens: Lens, room: Room, azimuth: float, size: float) -
 def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Seen | None:
     """Return how a subject appears from a pose; None where it reaches behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
-    offset = _minus(wanted.centre, (pose[0], pose[1], pose[2]))
+    offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
     if nearest_depth(camera, offset, wanted.radius, wanted.height) <= 0:
         return None
     left, right, low, high = silhouette_bounds(camera, offset, wanted.radius, wanted.height)
@@ -195,7 +196,7 @@ def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Seen | None:
 
 def whole(pose: Pose, lens: Lens, wanted: Wanted) -> bool:
     """Tell whether all of a subject is in the frame."""
-    offset = _minus(wanted.centre, (pose[0], pose[1], pose[2]))
+    offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     return bool(min(frustum_margins(camera, offset, wanted.radius, wanted.height)) >= 0.0)
 
@@ -209,12 +210,12 @@ def middle_of(subjects: Sequence[Wanted]) -> Vec3:
 def first_pose(subjects: Sequence[Wanted], lens: Lens, room: Room, azimuth: float) -> Pose:
     """Return a pose from which all subjects are in front of the camera, at a bearing from their middle."""
     middle = middle_of(subjects)
-    spread = max(hypot(*_minus(s.centre, middle)) + s.radius + s.height / 2 for s in subjects)
+    spread = max(hypot(*minus(s.centre, middle)) + s.radius + s.height / 2 for s in subjects)
     half = min(tan(lens.hfov / 2), tan(lens.hfov / 2) / lens.aspect)
     away = spread * (1.0 + 1.0 / half) + room.near
     level = direction(azimuth, 0.0)
     eye = (middle[0] + away * level[0], middle[1] + away * level[1], max(middle[2], room.floor))
-    x, y, z = _minus(middle, eye)
+    x, y, z = minus(middle, eye)
     return (*eye, atan2(y, x), atan2(z, hypot(x, y)))
 
 
@@ -225,7 +226,7 @@ def viewpoint(
 
     since : what it comes from, or None; what is free stays as it is then, and nothing is farther than its way
     """
-    reach = max(hypot(*_minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
+    reach = max(hypot(*minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
     scale = (reach, reach, reach, 1.0, 1.0)
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
@@ -285,7 +286,7 @@ def _residuals(
     found: Residuals = []
     sized = any(s.size is not None for s in subjects)
     for s in subjects:
-        offset = _minus(s.centre, eye)
+        offset = minus(s.centre, eye)
         if nearest_depth(camera, offset, s.radius, s.height) <= 1e-3:
             return None
         u, v, _ = camera.project(offset)
@@ -308,7 +309,7 @@ def _residuals(
         found.append(STEEP * max(0.0, near - gap(s, offset)))
     if since is not None:
         found += [FAINT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
-        found.append(STEEP * max(0.0, hypot(*_minus(eye, since.eye)) - since.way))
+        found.append(STEEP * max(0.0, hypot(*minus(eye, since.eye)) - since.way))
     return found
 
 
@@ -359,10 +360,6 @@ def _moved(pose: Pose, i: int, step: float) -> Pose:
 
 def _dot(a: Residuals, b: Residuals) -> float:
     return float(sum(map(mul, a, b)))
-
-
-def _minus(a: Vec3, b: Vec3) -> Vec3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def _times(a: Vec3, factor: float) -> Vec3:

@@ -16,9 +16,10 @@ from itertools import permutations
 from math import atan2, ceil, cos, dist, hypot, inf, pi, sin
 from typing import NamedTuple
 
-from shotc.geom.camera import Vec2, Vec3, aim_at
+from shotc.geom.camera import aim_at
 from shotc.geom.line_of_sight import crosses
 from shotc.geom.solids import Cylinder, depth, distance
+from shotc.geom.vec import Vec2, Vec3, minus, plus
 from shotc.geom.viewpoint import (
     LONG,
     Lens,
@@ -217,7 +218,7 @@ def _alone(scene: _Scene) -> Course:
         subjects=(_at_place(subject, uv),),
     )
     poses = tuple(_aimed(target.at(t), offset, uv, scene.lens) for t in scene.times)
-    blocked, hidden = scene.shares([(t, _plus(target.at(t), offset)) for t in scene.looks])
+    blocked, hidden = scene.shares([(t, plus(target.at(t), offset)) for t in scene.looks])
     return Course(shot, scene.times, poses, blocked, hidden)
 
 
@@ -229,7 +230,7 @@ def _clear_bearing(scene: _Scene, target: Target, offset: Vec3) -> Vec3:
         azimuth = first + TURN * ((k + 1) // 2) * (1 if k % 2 else -1)
         away = hypot(offset[0], offset[1])
         turned = (away * sin(azimuth), away * cos(azimuth), offset[2])
-        found = scene.shares([(t, _plus(target.at(t), turned)) for t in scene.looks])
+        found = scene.shares([(t, plus(target.at(t), turned)) for t in scene.looks])
         if found < least:
             best, least = turned, found
         if least == (0.0, 0.0):
@@ -246,7 +247,7 @@ def _several(scene: _Scene) -> Course:
     lead = scene.mission.target(subjects[0].target)
     pieces = len(scene.times) - 1
     points = tuple(
-        (i / pieces, _minus((p[0], p[1], p[2]), lead.at(t)))
+        (i / pieces, minus((p[0], p[1], p[2]), lead.at(t)))
         for i, (t, p) in enumerate(zip(scene.times, poses, strict=True))
     )
     blocked, hidden = scene.shares([(t, (p[0], p[1], p[2])) for t, p in zip(scene.times, poses, strict=True)])
@@ -310,12 +311,12 @@ def _follow(
     for t in times[1:]:
         wanted = scene.wanted(subjects, t)
         later, last = middle_of(wanted), poses[-1]
-        eye, along = (last[0], last[1], last[2]), _minus(later, middle)
+        eye, along = (last[0], last[1], last[2]), minus(later, middle)
         way = max(BRISK * scene.drone.limits.speed * (t - before), hypot(*along))
-        since = Since(eye, _plus(eye, along), way)
+        since = Since(eye, plus(eye, along), way)
         pose, cost = viewpoint(wanted, scene.lens, scene.room, (*since.kept, last[3], last[4]), since)
         if cost == inf:
-            x, y, _ = _minus(since.kept, later)
+            x, y, _ = minus(since.kept, later)
             guess = first_pose(wanted, scene.lens, scene.room, atan2(x, y))
             pose, _ = viewpoint(wanted, scene.lens, scene.room, guess, since)
         poses.append(pose)
@@ -365,12 +366,4 @@ def _at_place(subject: Subject, place: Vec2 | None) -> Subject:
 def _aimed(centre: Vec3, offset: Vec3, uv: Vec2, lens: Lens) -> Pose:
     back = (-offset[0], -offset[1], -offset[2])
     aim = aim_at(back, uv, lens.hfov, lens.aspect, pi / 2) or (0.0, 0.0)
-    return (*_plus(centre, offset), *aim)
-
-
-def _plus(a: Vec3, b: Vec3) -> Vec3:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def _minus(a: Vec3, b: Vec3) -> Vec3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+    return (*plus(centre, offset), *aim)

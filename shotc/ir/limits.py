@@ -2,9 +2,14 @@
 
 from typing import NamedTuple
 
-Vec2 = tuple[float, float]
-Vec3 = tuple[float, float, float]
+from shotc.geom.vec import Vec2, Vec3
+
+__all__ = ["TILT", "Limits", "Range", "Timing", "Vec2", "Vec3", "reaches"]
+
 Range = tuple[float, float]
+
+TILT = 1e-6
+"""Radians past a gimbal's stop that are rounding."""
 
 
 class Limits(NamedTuple):
@@ -24,6 +29,11 @@ class Limits(NamedTuple):
     jerk: float
     yaw_rate: float
     yaw_acceleration: float
+
+
+def reaches(pitch: Range, angle: float) -> bool:
+    """Tell whether a camera that pitches within a range comes to an angle, rad."""
+    return pitch[0] - TILT <= angle <= pitch[1] + TILT
 
 
 class Timing(NamedTuple):

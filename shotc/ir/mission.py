@@ -7,7 +7,7 @@ the mission file (see ``OriginMap``).
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
-from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3
+from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
@@ -66,6 +66,10 @@ class Gimbal(NamedTuple):
     yaw: Range
     rate: float
     acceleration: float
+
+    def reaches(self, pitch: float) -> bool:
+        """Tell whether the camera comes to a pitch, rad."""
+        return reaches(self.pitch, pitch)
 
 
 class Drone(NamedTuple):

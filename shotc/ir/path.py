@@ -16,6 +16,9 @@ from shotc.ir.origin import KeyPath
 
 PhaseName = Literal["takeoff", "transit", "shot", "return", "land"]
 
+UPRIGHT: tuple[PhaseName, PhaseName] = ("takeoff", "land")
+"""Phases straight over a pad: no clearances apply there, nor the floors of keep-in zones."""
+
 CHANNELS = ("x", "y", "z", "cam_yaw", "cam_pitch", "body_yaw", "hfov")
 X, Y, Z, CAM_YAW, CAM_PITCH, BODY_YAW, HFOV = range(7)
 

@@ -1,6 +1,6 @@
 """Top-down: the camera looks straight down on the target, at rest or drifting."""
 
-from math import atan2, floor, hypot, pi
+from math import atan2, hypot, pi
 from typing import Literal
 
 from pydantic import Field
@@ -8,6 +8,7 @@ from pydantic import Field
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Composition, Target
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
+from shotc.rounding import at_most
 from shotc.spec.fields import Length, Name, Velocity
 from shotc.spec.shot import ShotBase
 
@@ -71,7 +72,7 @@ def _too_fast(shot: TopDownShot, scene: Scene, duration: float) -> Diagnostic | 
             return scene.fault(
                 "K012",
                 f"drone `{shot.drone}` cannot drift {drift:.2f} m/s {way}",
-                f"drift less than {floor(most * 100) / 100:.2f} m/s, or raise the drone's limits",
+                f"drift less than {at_most(most)} m/s, or raise the drone's limits",
                 "drift",
                 notes=(
                     f"from rest to rest in {duration:.1f} s, at up to {speed:.2f} m/s and "

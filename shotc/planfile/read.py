@@ -20,6 +20,7 @@ from shotc.planfile.write import FORMAT, VERSION, seal
 from shotc.source.file import WHOLE_FILE, Span
 
 SIZE_CAP = 256 * 2**20
+LONGEST = 1000  # digits of a number
 """Bytes of the largest plan that is read."""
 
 REPORTED = 20
@@ -88,7 +89,7 @@ def _parse(data: bytes) -> Any:
         raise _NotJsonError(f"it has {len(data)} bytes, more than {SIZE_CAP} are not read")
     try:
         text = data.decode("utf-8")
-        return json.loads(text, parse_constant=_constant, object_pairs_hook=_object)
+        return json.loads(text, parse_int=_integer, parse_constant=_constant, object_pairs_hook=_object)
     except UnicodeDecodeError as fault:
         raise _NotJsonError(f"byte {fault.start} is not UTF-8") from None
     except json.JSONDecodeError as fault:
@@ -98,6 +99,12 @@ def _parse(data: bytes) -> Any:
         raise _NotJsonError("its values are nested too deeply") from None
     except ValueError as fault:
         raise _NotJsonError(str(fault)) from None
+
+
+def _integer(text: str) -> int:
+    if len(text) > LONGEST:
+        raise ValueError(f"a number has {len(text)} digits")
+    return int(text)
 
 
 def _constant(text: str) -> float:
@@ -132,9 +139,10 @@ def _foreign(document: Any, name: str) -> Diagnostic | None:
             help="give the plan.json of `shotc plan`",
         )
     if document.get("version") is not VERSION:
+        version = f"version {show(document['version'])}" if "version" in document else "no version"
         return Diagnostic(
             "E002",
-            f"plans of version {show(document.get('version'))} are not read by this shotc",
+            f"plans of {version} are not read by this shotc",
             label,
             notes=(f"this shotc reads version {VERSION}",),
             help="plan the mission again with this shotc, or install the one that wrote the plan",

@@ -5,7 +5,7 @@ compile every annotation again.
 """
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, NamedTuple, Self, get_args
+from typing import Any, ClassVar, NamedTuple, Self, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, ValidationError, model_validator
 from pydantic.fields import FieldInfo
@@ -244,7 +244,10 @@ def _key_help(
 def _place(key: str, known: Mapping[str, FieldInfo]) -> str:
     """Return where else a key belongs; empty if nowhere."""
     below = [name for name, field in known.items() if key in _keys_below(field)]
-    return f"`{key}` belongs under `{below[0]}`" if below else elsewhere(key, known)
+    if not below:
+        return elsewhere(key, known)
+    named = "a name in " if get_origin(known[below[0]].annotation) is dict else ""
+    return f"`{key}` belongs under {named}`{below[0]}`"
 
 
 def _instead(key: str, lack: Lack, known: Mapping[str, FieldInfo]) -> InitErrorDetails:

@@ -1,5 +1,6 @@
 """What is said of a shot as a whole: when it is filmed, what it promises, how it is refined."""
 
+from math import inf
 from typing import Annotated, Any
 
 from pydantic import Field, GetJsonSchemaHandler
@@ -37,12 +38,12 @@ class TimingSpec(Model):
         if data == "auto":
             return {}
         if isinstance(data, str | int | float) and not isinstance(data, bool):
-            number = isinstance(data, int | float) or data[:1].isdigit()
+            seconds = data[:1].isdigit() if isinstance(data, str) else 0 < data < inf
             raise fault(
                 "wrong-type",
                 f"expected a timing, got {describe(data)}",
                 f"write `auto`, or `{{duration: {clip(str(data))}}}`"
-                if number
+                if seconds
                 else "write `auto`, or a mapping with start, after, duration",
             )
         return data

@@ -15,7 +15,8 @@ import numpy as np
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
-from shotc.geom.camera import Vec2, Vec3, aim_at, heading_of, vertical_fov
+from shotc.geom.camera import aim_at, heading_of, vertical_fov
+from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import PathIR

@@ -73,6 +73,7 @@ def test_quantities_people_write(value, dimension, expected):
         (45, "angle", "bare-angle", "an angle needs a unit write `45 deg`"),
         (1.5, "angle", "bare-angle", "`1.5 deg`, or `1.5 rad` if radians are meant"),
         (0, "angle", "bare-angle", "`0 deg`"),
+        (-inf, "angle", "bare-angle", "write an angle such as `45 deg`"),
         ("45", "angle", "bare-angle", "`45 deg`"),
         (60, "angular rate", "bare-angle", "deg/s"),
         ("8", "length", "missing-unit", "`8 m`"),

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink.clearance import Obstacle, shortfall
 from shotc.emit.mavlink.refly import STAY_PACE, Flown
-from shotc.emit.mavlink.thin import wrapped
 from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
+from shotc.geom.angles import wrapped
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
@@ -72,7 +73,7 @@ def _parts(flight: DroneTrajectory) -> list[tuple[int, tuple[str | None, float, 
     parts: list[tuple[int, tuple[str | None, float, float]]] = []
     number, shot = 0, None
     for phase in flight.phases:
-        if phase.name in ("takeoff", "land"):
+        if phase.name in UPRIGHT:
             continue
         if phase.shot != shot:
             number += 1 if shot is None or phase.shot is None else 2

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
+from shotc.geom.angles import wrapped
 from shotc.geom.camera import heading_of
 
 WAYPOINT, LAND, TAKEOFF = 16, 21, 22
@@ -67,4 +68,4 @@ def compass_deg(yaw: float) -> float:
 
 def signed_deg(angle: float) -> float:
     """Return an angle wrapped into [-180, 180) degrees."""
-    return degrees_of((angle + pi) % (2 * pi) - pi)
+    return degrees_of(wrapped(angle))

@@ -21,6 +21,7 @@ from shotc.emit.mavlink.geo import Geo
 from shotc.emit.mavlink.items import Item, Place
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.mavlink.style import facing, follow, turns_body
+from shotc.geom.angles import wrapped
 from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Drone
 
@@ -144,7 +145,7 @@ def _log(pilot: _Pilot, position: Array, time: Array, way: Array) -> None:
 def _slew(now: float, goal: float, rate: float, time: Array) -> Array:
     if np.isnan(now):
         return np.full(len(time), goal)
-    turn = (goal - now + np.pi) % (2 * np.pi) - np.pi
+    turn = wrapped(goal - now)
     return np.asarray(now + np.clip(turn, -rate * time, rate * time))
 
 

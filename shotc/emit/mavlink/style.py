@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink.track import Poses, Track, project
+from shotc.geom.angles import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import Phase
@@ -107,7 +108,7 @@ def follow(drone: Drone, position: Array, body_yaw: Array, target: Vec3 | Array)
     """Return camera yaw and pitch, each (n,), of a gimbal that follows a point within its range of angles."""
     offset = np.asarray(target) - position
     bearing = np.arctan2(offset[:, 1], offset[:, 0])
-    pan = (bearing - body_yaw + np.pi) % (2 * np.pi) - np.pi
+    pan = wrapped(bearing - body_yaw)
     pitch = np.arctan2(offset[:, 2], np.hypot(offset[:, 0], offset[:, 1]))
     return body_yaw + np.clip(pan, *drone.gimbal.yaw), np.clip(pitch, *drone.gimbal.pitch)
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from shotc.emit.mavlink.clearance import Obstacle, shortfall
 from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, select, turns_body
 from shotc.emit.mavlink.track import SAMPLE_STEP, Poses, Stretch, Track, project
+from shotc.geom.angles import wrapped
 from shotc.ir.mission import Drone
 
 Array = NDArray[np.float64]
@@ -156,11 +157,6 @@ def thinner_of(track: Track, drone: Drone, style: Style, obstacles: tuple[Obstac
     """Return the thinner of one drone's track."""
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
     return Thinner(track, drone, style, obstacles, planned)
-
-
-def wrapped(angle: Array) -> Array:
-    """Return angles in [-pi, pi)."""
-    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
 def along(points: Array, time: Array, *, rest: bool) -> Array:

@@ -17,7 +17,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import View
 from shotc.ir.bodies import moved
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
@@ -120,7 +120,7 @@ def _spans(flight: DroneTrajectory) -> list[tuple[float, float, str | None, bool
     rests = _rests(flight.curve)
     spans: list[tuple[float, float, str | None, bool]] = []
     for phase in flight.phases:
-        if phase.name in ("takeoff", "land"):
+        if phase.name in UPRIGHT:
             continue
         inside = [(max(a, phase.start), min(b, phase.end)) for a, b in rests]
         inside = [(a, b) for a, b in inside if b - a >= REST_LEAST]

@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solids_array import signed_distance
 from shotc.ir.bodies import cylinder, moved
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z
+from shotc.ir.path import BODY_YAW, CAM_PITCH, UPRIGHT, X, Y, Z
 from shotc.ir.trajectory import DroneTrajectory
 
 RATE, MOST = 25.0, 6000
@@ -81,7 +81,7 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
     p = flight.curve.channels(X, Y, Z)(t)
     free = np.ones(len(t), dtype=np.bool_)
     for phase in flight.phases:
-        if phase.name in {"takeoff", "land"}:
+        if phase.name in UPRIGHT:
             free &= ~((t >= phase.start) & (t <= phase.end))
     bound = np.where(free, 0.0, np.nan)
     radius, rules = drone.radius, mission.rules

@@ -14,7 +14,8 @@ from shotc.emit.storyboard.canvas import Box, Canvas
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
-from shotc.geom.solids import Vec3, convex_parts
+from shotc.geom.solids import convex_parts
+from shotc.geom.vec import Vec3
 from shotc.ir.bodies import cylinder
 from shotc.ir.mission import MissionIR, Target, Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV

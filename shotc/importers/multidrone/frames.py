@@ -11,6 +11,7 @@ from shotc.geom.geodetic import to_world
 from shotc.importers.multidrone.kml import drawn
 from shotc.importers.multidrone.read import Action, Point, Sequence
 from shotc.importers.notes import Notes
+from shotc.rounding import plain
 
 Place = tuple[float, float]
 
@@ -140,4 +141,4 @@ def _world(place: Place, origin: Place) -> Place:
 
 
 def _degrees(angle: float) -> str:
-    return f"{angle:.7f}".rstrip("0").rstrip(".")
+    return plain(angle, 7)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import cos, sin
 from typing import NamedTuple
 
+from shotc.geom.vec import Vec3
 from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Action, Role
 from shotc.importers.multidrone.targets import Course
@@ -14,7 +15,6 @@ NEAREST = 3.0  # metres beside a target that a shot keeps where nothing is said
 LOWEST = 2.0  # metres over the ground
 
 Said = tuple[str, ...]
-Vec3 = tuple[float, float, float]
 Path = tuple[Vec3, Vec3, Vec3]
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from math import dist
 
+from shotc.geom.vec import Vec3
 from shotc.importers.multidrone.films import Film
 from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Role
 from shotc.importers.multidrone.shots import shot_of
 from shotc.importers.multidrone.targets import OVERLAP
-from shotc.importers.multidrone.task import Task, Vec3
+from shotc.importers.multidrone.task import Task
 from shotc.importers.notes import Notes
 
 SETTLE, PACE = 9.0, 3.0  # seconds to leave one shot and enter the next, and m/s between them

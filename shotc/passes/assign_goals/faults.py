@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import ceil
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display, Fleet, Picture, drone_names
+from shotc.rounding import at_least, plain
 from shotc.solvers.fleet_move import Move
 
 UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3"}
@@ -18,7 +18,7 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Move, wa
     """Return D080: a transition is asked to be shorter than the limits allow; way : of whom it binds, m."""
     origins, name = mission.origins, drone_names(fleet)[least.drone]
     limit = getattr(fleet.limits, least.limit)
-    shortest = up(least.duration)
+    shortest = at_least(least.duration)
     return Diagnostic(
         "D080",
         f"the transition is given {plain(picture.transition or 0.0)} s, but {shortest} s is the shortest "
@@ -38,13 +38,13 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Move, wa
 
 def too_early(mission: MissionIR, display: Display, earliest: float) -> Diagnostic:
     """Return D081: the fleet does not yet stand in its first picture at the display's start."""
-    asked = display.timing.start or 0.0
+    asked, possible = display.timing.start or 0.0, at_least(earliest)
     return Diagnostic(
         "D081",
-        f"display `{display.id}` starts at {plain(asked)} s, but {up(earliest)} s is the earliest possible",
+        f"display `{display.id}` starts at {plain(asked)} s, but {possible} s is the earliest possible",
         (mission.origins.value((*display.path, "timing", "start")),),
         ("before it come take-off and the way to the first picture, or the display before it",),
-        f"give it `start: {up(earliest)} s` or later",
+        f"give it `start: {possible} s` or later",
     )
 
 
@@ -53,6 +53,7 @@ def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: 
     total = phases[-1].end - waited
     labels = [mission.origins.value((*fleet.path, "endurance"), "the endurance")]
     longest = sorted((p for p in phases if p.shot is not None), key=lambda p: p.start - p.end)
+    shown = sum(p.end - p.start for p in longest)
     labels += [
         mission.origins.key(d.path, "the longest display")
         for d in mission.displays
@@ -60,10 +61,11 @@ def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: 
     ]
     return Diagnostic(
         "D082",
-        f"the flight of `{fleet.name}` takes {up(total)} s, and its endurance is {plain(fleet.endurance)} s",
+        f"the flight of `{fleet.name}` takes {at_least(total)} s, and its endurance is "
+        f"{plain(fleet.endurance)} s",
         tuple(labels),
-        (f"from lift-off to touch-down, of which {up(sum(p.end - p.start for p in longest))} s are shown",),
-        f"shorten the show by {up(total - fleet.endurance)} s, or give its parts to several fleets",
+        (f"from lift-off to touch-down, of which {at_least(shown)} s are shown",),
+        f"shorten the show by {at_least(total - fleet.endurance)} s, or give its parts to several fleets",
     )
 
 
@@ -76,13 +78,3 @@ def no_time(mission: MissionIR, display: Display) -> Diagnostic:
         ("it has one picture, which is not held",),
         "give the picture a `hold`, such as `hold: 5`",
     )
-
-
-def up(seconds: float) -> str:
-    """Write seconds rounded up to a hundredth, so that the number given is enough."""
-    return f"{ceil(seconds * 100 - 1e-7) / 100:.2f}"
-
-
-def plain(seconds: float) -> str:
-    """Write seconds as short as they were likely asked."""
-    return f"{seconds:.3f}".rstrip("0").rstrip(".")

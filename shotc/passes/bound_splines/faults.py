@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from math import ceil
-
 from shotc.diag.model import Diagnostic
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Fleet, drone_names
+from shotc.rounding import at_least
 
 
 def too_quick(
@@ -24,7 +23,7 @@ def too_quick(
     period : with which everybody gets there, seconds
     """
     path = picture_at(mission, *at)
-    enough = f"{ceil(period * 100) / 100:.2f}"
+    enough = at_least(period)
     return Diagnostic(
         "D084",
         f"the animation is too quick for its drones: a period of {enough} s is enough",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, floor
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
@@ -16,6 +15,7 @@ from shotc.ir.show import Fleet, drone_names
 from shotc.passes.keep_apart.longer import Stretch
 from shotc.passes.keep_apart.off_goals import Off
 from shotc.passes.resolve.show.pads import wider
+from shotc.rounding import at_least, at_most
 
 
 class Tried(NamedTuple):
@@ -37,8 +37,8 @@ def standing_too_near(
     shown = _shown(flight, found.time)
     where = "on or over its pads" if shown is None else f"in display `{shown.display}`"
     path = fleet.path if shown is None else _path(mission, shown)
-    share = ceil(fleet.apart.across / max(found.attained, 1e-3) * 100.0) / 100.0
-    larger = f"make the picture {share:.2f} times as large, or use fewer drones"
+    share = at_least(fleet.apart.across / max(found.attained, 1e-3))
+    larger = f"make the picture {share} times as large, or use fewer drones"
     change = wider(mission, fleet, fleet.apart.across) if shown is None else larger
     return Diagnostic(
         "D085",
@@ -61,7 +61,7 @@ def too_near(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -
         (mission.origins.key(path), *_rule(mission, fleet)),
         (
             _who(fleet, found),
-            f"the best flight found within their limits keeps {floor(tried.best * 100) / 100:.2f} m",
+            f"the best flight found within their limits keeps {at_most(tried.best)} m",
         ),
         "; or ".join(_remedies(mission, fleet, stretch, tried)),
     )

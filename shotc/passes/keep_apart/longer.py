@@ -7,7 +7,7 @@ with that time written into it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, sqrt
+from math import sqrt
 from typing import Literal
 
 import numpy as np
@@ -18,6 +18,7 @@ from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.show import Fleet
 from shotc.passes.base import PassContext
 from shotc.passes.keep_apart.pushed import DIGITS, ROUNDS, kept, pushed
+from shotc.rounding import up
 from shotc.solvers.fleet_qcqp import Bounds, bounded, short
 
 FACTORS = (1.5, 2.5, 4.0)
@@ -77,22 +78,18 @@ def longer(stretch: Stretch, fleet: Fleet, ctx: PassContext) -> float | None:
     now = float(stretch.breaks[stretch.pieces] - stretch.breaks[0])
     trial, low = _Trial(stretch, fleet, ctx), now
     for factor in FACTORS:
-        high = _up(now * factor)
+        high = up(now * factor)
         if trial.enough(high):
             break
         low = high
     else:
         return None
     for _ in range(HALVINGS):
-        middle = _up(sqrt(low * high))
+        middle = up(sqrt(low * high))
         if middle >= high or trial.left <= 0:
             break
         low, high = (low, middle) if trial.enough(middle) else (middle, high)
     return high
-
-
-def _up(seconds: float) -> float:
-    return ceil(seconds * 100.0 - 1e-7) / 100.0
 
 
 class _Trial:

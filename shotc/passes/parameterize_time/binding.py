@@ -16,6 +16,7 @@ from shotc.ir.path import Leg, Mark
 from shotc.passes.parameterize_time.flown import usages
 from shotc.passes.parameterize_time.limits import Ceiling, ceiling_of
 from shotc.passes.parameterize_time.move import Move, axes_of
+from shotc.rounding import up
 from shotc.source.file import Span
 
 # A limit holds a piece back where at least this share of it is used.
@@ -185,5 +186,5 @@ def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0)
     value = degrees(value) if shown.angular else value
     value += mission.wind if name == "speed" else 0.0
     if factor != 1.0:
-        value = np.ceil(ROOM * value * 100) / 100
+        value = up(ROOM * value)
     return f"{value:.2f} {shown.unit}"

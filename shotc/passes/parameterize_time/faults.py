@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, MissionIR
@@ -20,6 +19,7 @@ from shotc.passes.parameterize_time.binding import (
 )
 from shotc.passes.parameterize_time.limits import Ceiling
 from shotc.passes.parameterize_time.marks import TooFast
+from shotc.rounding import at_least, plain
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,7 +39,7 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
     notes = binding_notes(mission, drone, remedies.holdup)
     raised = raises(mission, drone, remedies.holdup.names[:2], remedies.enough)
     if fault.mark is None:
-        least = up(fault.shortest or 0.0)
+        least = at_least(fault.shortest or 0.0)
         return Diagnostic(
             "T001",
             f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
@@ -52,9 +52,9 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
     )
     remedy = "give this keyframe or those next to it other times"
     if fault.shortest is not None:
-        earliest = up(fault.shortest)
+        earliest = at_least(fault.shortest)
         notes = (f"{earliest} s is the earliest possible at full limits", *notes)
-        more = up(float(earliest) - fault.asked)
+        more = at_least(float(earliest) - fault.asked)
         rest = f", and all later times {more} s more" if fault.shifts_rest else ""
         remedy = f"give it `time: {earliest} s`{rest}"
     return Diagnostic(
@@ -75,10 +75,10 @@ def start_too_early(
     """
     return Diagnostic(
         "T003",
-        f"shot `{leg.shot}` starts at {plain(asked)} s, but {up(earliest)} s is the earliest possible",
+        f"shot `{leg.shot}` starts at {plain(asked)} s, but {at_least(earliest)} s is the earliest possible",
         (timing_label(mission, leg.path, "start"),),
         (f"before it come {listed(phases)}",),
-        f"give it `start: {up(earliest)} s` or later, or shorten what comes before",
+        f"give it `start: {at_least(earliest)} s` or later, or shorten what comes before",
     )
 
 
@@ -92,10 +92,11 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
         labels.append(mission.origins.key(shot.path, "the longest shot"))
     return Diagnostic(
         "T004",
-        f"the flight of `{drone.name}` takes {up(total)} s, and its endurance is {plain(drone.endurance)} s",
+        f"the flight of `{drone.name}` takes {at_least(total)} s, and its endurance is "
+        f"{plain(drone.endurance)} s",
         tuple(labels),
         (f"longest first: {listed(tuple(longest))}",),
-        f"shorten the mission by {up(total - drone.endurance)} s, or cut it in two",
+        f"shorten the mission by {at_least(total - drone.endurance)} s, or cut it in two",
     )
 
 
@@ -125,16 +126,6 @@ def roughly_timed(mission: MissionIR, drone: Drone, leg: Leg, held: str) -> Diag
 def timing_label(mission: MissionIR, path: KeyPath, key: str) -> Label:
     """Return a label on a key of a shot's timing."""
     return mission.origins.value((*path, "timing", key))
-
-
-def up(seconds: float) -> str:
-    """Write seconds rounded up to a hundredth, so that the number given is enough."""
-    return f"{ceil(seconds * 100 - 1e-7) / 100:.2f}"
-
-
-def plain(seconds: float) -> str:
-    """Write seconds as short as they were likely asked."""
-    return f"{seconds:.3f}".rstrip("0").rstrip(".")
 
 
 def _either(remedies: list[str]) -> str:

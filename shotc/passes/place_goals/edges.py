@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array
 
 TURN = np.radians(40.0)
@@ -80,7 +81,7 @@ def _parts(line: Array, least: float, metric: Array) -> list[_Part]:
     """Cut a line at its corners; of those nearer to each other than ``least`` at the sharper one."""
     way = np.diff(line, axis=0)
     angle = np.arctan2(way[:, 1], way[:, 0])
-    turn = np.abs((np.roll(angle, -1) - angle + np.pi) % (2.0 * np.pi) - np.pi)  # at the end of each edge
+    turn = np.abs(wrapped(np.roll(angle, -1) - angle))  # at the end of each edge
     closed = _closed(line)
     if not closed:
         turn[-1] = 0.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import ceil
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from shotc.passes.place_goals.body import SourceFault
 from shotc.passes.place_goals.remedies import Remedies
 from shotc.passes.place_goals.room import Room, lack_of, least_shift
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle
+from shotc.rounding import at_least, at_most
 
 KEYS = {
     Sphere: "sphere",
@@ -112,10 +112,10 @@ def _ways(fleet: Fleet, ways: Remedies, otherwise: str) -> str:
     if ways.number is not None:
         found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'}")
     if ways.size is not None:
-        found.append(f"make it {_up(ways.size[1], 2)} times as large (`{ways.size[0]}`)")
+        found.append(f"make it {at_least(ways.size[1])} times as large (`{ways.size[0]}`)")
     if ways.share is not None:
         full = (fleet.apart.across, fleet.apart.upright)
-        level, upright = (_down(ways.share * distance - fleet.apart.margin) for distance in full)
+        level, upright = (at_most(ways.share * distance - fleet.apart.margin) for distance in full)
         found.append(f"keep a `separation` of {level} m, {upright} m vertically")
     return ", or ".join(found) or otherwise
 
@@ -184,11 +184,3 @@ def _moved(picture: Picture, shift: Array) -> str:
         return f"shift it by [{words}]"
     to = ", ".join(f"{c + d + 0.0:.2f}" for c, d in zip(centre, shift, strict=True))
     return f"shift it by [{words}], to `center: [{to}]`"
-
-
-def _up(value: float, digits: int = 1) -> str:
-    return f"{ceil(value * 10**digits - 1e-6) / 10**digits:.{digits}f}"
-
-
-def _down(value: float) -> str:
-    return f"{np.floor(value * 100.0 + 1e-6) / 100.0:.2f}"

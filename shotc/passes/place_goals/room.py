@@ -10,7 +10,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solids_array import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, outward
 
 FAR = 1000.0
 """Metres beyond which no shift is looked for."""
@@ -60,7 +60,8 @@ def least_shift(goals: Array, room: Room) -> Array | None:
         most = FAR if best is None else float(np.linalg.norm(best))
         length = _along(goals, room, way, most)
         if length is not None and length < most:
-            shift = np.sign(way) * np.ceil(np.abs(way * length) * 100.0 - 1e-6) / 100.0
+            x, y, z = way * length
+            shift = np.array(outward((0.0, 0.0, 0.0), (x, y, z)))
             if (room.lack(goals + shift) <= ROUNDING).all():
                 best = shift
     return best

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.camera import Vec2, Vec3, aim_at
+from shotc.geom.angles import direction
+from shotc.geom.camera import aim_at
+from shotc.geom.vec import Vec2, Vec3, minus
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.base import Outcome, PassContext
@@ -125,7 +127,7 @@ def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: flo
     if isinstance(keyframe.aim, tuple) and len(keyframe.aim) == 2:
         course = keyframe.aim[0]
     return Setting(
-        offset=_minus(target.centre, keyframe.at),
+        offset=minus(target.centre, keyframe.at),
         radius=target.radius,
         height=target.height,
         hfov=keyframe.hfov,
@@ -147,7 +149,7 @@ def explicit_aim(at: Vec3, aim: Vec2 | Vec3, course: float) -> Vec2:
     if len(aim) == 2:
         return aim
     # The middle of the screen can always be turned to a point, whatever the field of view.
-    return aim_at(_minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
+    return aim_at(minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
 
 
 def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
@@ -157,7 +159,7 @@ def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
 def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 | None) -> PlacedKeyframe:
     return PlacedKeyframe(
         at=keyframe.at,
-        yaw=_wrapped(aim[0]),
+        yaw=_direction(aim[0]),
         pitch=aim[1],
         hfov=keyframe.hfov,
         target=keyframe.target,
@@ -180,12 +182,6 @@ def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> fl
     return otherwise
 
 
-def _minus(a: Vec3, b: Vec3) -> Vec3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _wrapped(angle: float) -> float:
-    if -pi < angle <= pi:
-        return angle  # not by way of the remainder, which would change its last bits
-    wrapped = (angle + pi) % (2 * pi) - pi
-    return pi if wrapped == -pi else wrapped
+def _direction(angle: float) -> float:
+    # Not by way of the remainder where it need not be, which would change its last bits.
+    return angle if -pi < angle <= pi else direction(angle)

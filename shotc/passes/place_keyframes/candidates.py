@@ -9,11 +9,11 @@ from collections.abc import Iterable
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
-from shotc.geom.camera import Vec2, Vec3, aim_at, frustum_margins, view
+from shotc.geom.camera import aim_at, frustum_margins, view
+from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import Range
 from shotc.ir.mission import Composition
 
-TILT = 1e-6  # rad past the gimbal's stop that are rounding
 TOUCH = 1e-6  # metres out of the frame, or past the gimbal's stop at the target, that are rounding
 TIE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first
 STEPS = 32  # samples of a line where its nearest point is no candidate

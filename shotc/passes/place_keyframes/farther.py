@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import ceil, hypot
+from math import hypot
 
 from shotc.diag.model import Label
-from shotc.geom.camera import Vec3
+from shotc.geom.vec import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
 from shotc.passes.place_keyframes.candidates import Setting
+from shotc.rounding import at_least, up
 
 FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
 LEVEL = 0.1  # metres off the target's axis, below which a camera is above it
@@ -35,7 +36,7 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting
     if offset is None:
         return ""
     metres, origin = hypot(*offset[: 2 if level else 3]), "axis" if level else "centre"
-    far = f"{ceil(metres * 10) / 10:.1f} m from its {origin}"
+    far = f"{at_least(metres, 1)} m from its {origin}"
     if not keyframe.placed:
         return f"{'keep' if level else 'move to'} {far}"
     written = ", ".join(f"{round(c, 2) + 0.0:.2f}" for c in _place(keyframe, setting, offset))
@@ -98,7 +99,7 @@ def _by_parameter(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: S
             if needed is None:
                 return ""
             enough = needed
-    enough = ceil(enough * 10) / 10
+    enough = up(enough, 1)
     first, last = (distance_of(centre, shot.keyframes[i]) for i in (0, -1))
     if max(first, last) < enough:  # both ends are too near: keep what is between them
         near = min(first, last)

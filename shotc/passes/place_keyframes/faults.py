@@ -5,15 +5,15 @@ Keyframes that share a line of the mission, as generated ones do, are reported o
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from math import ceil, degrees, floor, hypot, pi, radians
+from math import degrees, hypot, pi, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.camera import Vec2
+from shotc.geom.vec import Vec2
+from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes.candidates import (
-    TILT,
     TOUCH,
     Setting,
     has_candidate,
@@ -22,6 +22,7 @@ from shotc.passes.place_keyframes.candidates import (
     roomiest,
 )
 from shotc.passes.place_keyframes.farther import Fits, farther, least, parameter_label
+from shotc.rounding import at_least, at_most
 
 WIDEST = radians(150)
 _WARNINGS = ("G011", "G012")
@@ -70,7 +71,7 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
 
 def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
     """Tell of a kept framing that the gimbal does not reach, or warn that it crops its target."""
-    if not setting.pitch[0] - TILT <= aim[1] <= setting.pitch[1] + TILT:
+    if not reaches(setting.pitch, aim[1]):
         return _beyond_gimbal(keyframe, setting, aim)
     over = -setting.margin(aim)
     if over <= TOUCH:
@@ -130,11 +131,10 @@ def _reach(setting: Setting, pitch: float) -> str:
 
 def _within_reach(setting: Setting, pitch: float) -> str:
     """Say how to bring a pitch into the gimbal's range; the number is rounded away from the horizon."""
-    up = pitch > setting.pitch[1]
-    tenths = degrees(pitch) * 10
-    enough = (ceil(tenths - 1e-6) if up else floor(tenths + 1e-6)) / 10
-    level = "higher" if up else "lower"
-    return f"let the gimbal pitch to {enough:.1f} deg, or fly {level} or farther away"
+    above = pitch > setting.pitch[1]
+    enough = (at_least if above else at_most)(degrees(pitch), 1)
+    level = "higher" if above else "lower"
+    return f"let the gimbal pitch to {enough} deg, or fly {level} or farther away"
 
 
 def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: Shot) -> str:
@@ -157,7 +157,7 @@ def _options(distance: str, setting: Setting, fits: Fits) -> str:
         wide = least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, WIDEST)
     options = [distance]
     if wide is not None:
-        options.append(f"widen `hfov` to {ceil(degrees(wide) * 10) / 10:.1f} deg")
+        options.append(f"widen `hfov` to {at_least(degrees(wide), 1)} deg")
     return ", or ".join(option for option in options if option)
 
 

@@ -7,7 +7,8 @@ from math import degrees, hypot
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import Vec2, Vec3, aim_at, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import aim_at, nearest_depth, silhouette_bounds, view
+from shotc.geom.vec import Vec2, Vec3
 from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
 from shotc.ir.framed import first_start, lens_of
 from shotc.ir.ideal import ideal_place

@@ -9,11 +9,11 @@ from __future__ import annotations
 from math import degrees, pi
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.angles import TURN, wrapped
 from shotc.geom.camera import heading_of
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Keyframe, MissionIR
 
-TURN = 2 * pi
 ROUNDING = 1e-9
 
 
@@ -51,11 +51,6 @@ def while_following(
         if abs(after.turn - follows) > pi:
             found.append(_lost(mission, keyframes[i], after, follows))
     return found
-
-
-def wrapped(angle: float) -> float:
-    """Return an angle in [-pi, pi)."""
-    return (angle + pi) % TURN - pi
 
 
 def _lost(mission: MissionIR, keyframe: Keyframe, placed: PlacedKeyframe, follows: float) -> Diagnostic:

@@ -10,12 +10,10 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.path import FramingSpan, Leg, PathIR, TimedLeg
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.form import broken, jumps
+from shotc.passes.verify.shape import AT_REST
 
 EQUAL = 1e-9
 """Seconds, metres or radians, m/s and so on: the legs around a shot stay, so it joins them to rounding."""
-
-REST = 1e-6
-"""Rates and accelerations at a leg's ends that still count as rest, as in verification."""
 
 
 def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
@@ -66,7 +64,7 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
             yield f"it {name} {away:.3g} from where the guide does (m or rad)"
     ends = np.array([now.start, now.end])
     moving = max(float(np.abs(now.derivative(order)(ends)).max()) for order in (1, 2))
-    if moving > REST:
+    if moving > AT_REST:
         yield f"it does not begin and end at rest: {moving:.3g} (m/s, rad/s, m/s^2 or rad/s^2)"
 
 

@@ -9,9 +9,10 @@ from math import isfinite
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.ir.path import CHANNELS, DronePath, FramingSpan, Leg, PathIR, TimedLeg
+from shotc.ir.path import CHANNELS, UPRIGHT, DronePath, FramingSpan, Leg, PathIR, TimedLeg
 from shotc.passes.refine_path.faults import place
 from shotc.passes.refine_path.finding import Finding
+from shotc.passes.verify.reference import OFF
 from shotc.passes.verify.shape import ORDERS, largest_jump
 
 SAME = 1e-6
@@ -20,10 +21,6 @@ SAME = 1e-6
 SMOOTH = 1e-6
 """Jump of value, first or second derivative, relative to the scale of its channel."""
 
-OFF = 0.01
-"""Screen units that a reference may leave the line that it had, as in verification."""
-
-UPRIGHT = ("takeoff", "land")
 UNFILMED = ("transit", "return")
 DEGREE = 5
 _DENSE = 257

@@ -17,17 +17,14 @@ from shotc.geom.corridor import Room, breaches, shortfall
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, sup_channel
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, UPRIGHT, Leg, PathIR, TimedLeg
 from shotc.passes.corridor.room import flight_room, named, owner_path
 from shotc.passes.refine_path.faults import leg_of, place
 from shotc.passes.refine_path.finding import Finding
-from shotc.passes.refine_path.form import UPRIGHT
+from shotc.passes.verify.shots import ON_PLACE
 
 TOLERANCE = 2e-6
 """Metres and radians beyond a limit that still keep it, as where the convex path is made."""
-
-ON_PLACE = 1e-3
-"""Metres within which a keyframe that the user placed is passed, as in verification."""
 
 HALVINGS = 16
 ENOUGH = 1e-4

@@ -149,14 +149,11 @@ def _judged(ir: LoadedMission, mission: MissionIR, world: _World, *, order: bool
 
 
 def _rules(spec: RulesSpec) -> Rules:
+    rules = Rules(spec.separation, spec.ground_clearance, spec.target_clearance)
     visibility = spec.mutual_visibility
-    return Rules(
-        spec.separation,
-        spec.ground_clearance,
-        spec.target_clearance,
-        "prefer" if visibility is None else visibility.strength,
-        None if visibility is None else visibility.half_angle,
-    )
+    if visibility is None:
+        return rules
+    return rules._replace(visibility=visibility.strength, half_angle=visibility.half_angle)
 
 
 def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Diagnostic]:

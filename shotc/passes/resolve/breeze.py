@@ -1,12 +1,10 @@
 """The wind as the cause of a time that is too short: how much less of it would do."""
 
-from math import ceil, floor
-
 from shotc.ir.limits import Limits
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.resolve.motion import least_shot
+from shotc.rounding import at_least, down
 
-STEP = 0.1  # m/s; speeds are proposed in tenths
 FASTEST = 100.0  # m/s, beyond which speed is not what is lacking
 
 
@@ -22,8 +20,8 @@ def less_wind(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> l
     needed = _needed(shot, limits, seconds)
     if needed is None:
         return []
-    faster = f"take a drone that flies more than {ceil((needed + wind) / STEP - 1e-6) * STEP:.1f} m/s"
-    calm = floor((speed - needed) / STEP + 1e-6) * STEP
+    faster = f"take a drone that flies more than {at_least(needed + wind, 1)} m/s"
+    calm = down(speed - needed, 1)
     return [f"wait for wind below {calm:.1f} m/s", faster] if calm > 0 else [faster]
 
 

@@ -6,11 +6,12 @@ from collections.abc import Collection
 from math import acos, degrees, dist, hypot, pi
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import Vec2, frustum_margins, heading_of, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import frustum_margins, heading_of, nearest_depth, silhouette_bounds, view
+from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes import explicit_aim, setting_of
-from shotc.passes.place_keyframes.candidates import TILT, Setting
+from shotc.passes.place_keyframes.candidates import Setting
 
 SAME = 1e-3  # metres within which a camera looks at its own place
 
@@ -40,11 +41,9 @@ def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | N
         return Diagnostic("G014", "the camera looks at its own place", (label,), help="look at another point")
     aim = explicit_aim(keyframe.at, keyframe.aim, pi / 2)
     drone = mission.drone(shot.drone)
-    if len(keyframe.aim) == 2 or keyframe.target is None:
-        low, high = drone.gimbal.pitch
-        if not low - TILT <= aim[1] <= high + TILT:
-            key = "pitch" if len(keyframe.aim) == 2 else "look_at"
-            return beyond_gimbal(mission, drone, (*keyframe.path, key), aim[1])
+    if (len(keyframe.aim) == 2 or keyframe.target is None) and not drone.gimbal.reaches(aim[1]):
+        key = "pitch" if len(keyframe.aim) == 2 else "look_at"
+        return beyond_gimbal(mission, drone, (*keyframe.path, key), aim[1])
     return None if keyframe.target is None else _unseen(mission, drone, keyframe, aim)
 
 

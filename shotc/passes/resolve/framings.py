@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import asin, ceil, degrees, floor, isnan
+from math import asin, degrees, isnan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
@@ -18,8 +18,8 @@ from shotc.ir.framed import (
 )
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath
-from shotc.passes.place_keyframes.candidates import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
+from shotc.rounding import at_least, down
 
 OFF_PLACE = 0.05  # half frames
 OFF_SIZE = 0.1  # share of the size asked
@@ -91,7 +91,7 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject) -> Diagnostic |
             f"{drone.radius:.2f} m keep the camera {least:.2f} m from its middle; from there its size is "
             f"{_share(largest)}",
         ),
-        f"ask for {_share(floor(largest * 1000) / 1000)} or less, or take a longer lens",
+        f"ask for {_share(down(largest, 3))} or less, or take a longer lens",
     )
 
 
@@ -122,9 +122,8 @@ def _too_low(mission: MissionIR, course: Course) -> Diagnostic | None:
 
 def _beyond_reach(mission: MissionIR, course: Course) -> Diagnostic | None:
     shot, drone = course.shot, mission.drone(course.shot.drone)
-    low, high = drone.gimbal.pitch
     pitches = [pose[4] for pose in course.poses]
-    beyond = [p for p in (min(pitches), max(pitches)) if not low - TILT <= p <= high + TILT]
+    beyond = [p for p in (min(pitches), max(pitches)) if not drone.gimbal.reaches(p)]
     if not beyond:
         return None
     path = (*shot.subjects[0].path[:-1], "view", "elevation")
@@ -164,7 +163,7 @@ def _enough(course: Course, need: float) -> str:
     rise = (z + need - min(p[2] for p in course.poses)) / max(away, 1e-9)
     if rise >= 1.0:
         return ""
-    return f" to {ceil(degrees(asin(rise)))} deg"
+    return f" to {at_least(degrees(asin(rise)), 0)} deg"
 
 
 def _view_label(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> Label:

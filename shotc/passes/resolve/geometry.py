@@ -16,6 +16,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move, obstacles_of
+from shotc.rounding import at_least
 
 if TYPE_CHECKING:
     from shotc.passes.resolve.clear_path import Change
@@ -68,7 +69,8 @@ def _too_low(
         label = mission.origins.value((*shot.path, "altitude"))
     message = f"{_what(shot, lowest)} is too low: {where}"
     notes = (note, *_over_ground(mission, lowest, floor))
-    yield Diagnostic("G001", message, (label,), notes, f"raise it by {_up(floor - z)} m, to z = {_up(floor)}")
+    help_ = f"raise it by {at_least(floor - z)} m, to z = {at_least(floor)}"
+    yield Diagnostic("G001", message, (label,), notes, help_)
 
 
 def _over_ground(mission: MissionIR, keyframe: Keyframe, floor: float) -> tuple[str, ...]:
@@ -146,8 +148,3 @@ def _what(shot: Shot, keyframe: Keyframe) -> str:
 
 def _label(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Label:
     return mission.origins.value((*keyframe.path, "at"))
-
-
-def _up(metres: float) -> str:
-    """Write metres rounded up to a centimetre, so that the number given is enough."""
-    return f"{-(-metres * 100 // 1) / 100 if metres * 100 % 1 > 1e-6 else metres:.2f}"

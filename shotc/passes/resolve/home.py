@@ -7,9 +7,10 @@ from itertools import combinations
 from math import dist, inf
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, move, obstacles_of, outward, signed_distance
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, move, obstacles_of, outward
 
 
 def check_homes(mission: MissionIR) -> list[Diagnostic]:

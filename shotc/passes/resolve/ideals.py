@@ -6,16 +6,16 @@ The ideal is where the camera would be; a plan may leave it, but not for the who
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, floor, inf
+from math import inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.place_keyframes.candidates import TILT
 from shotc.passes.resolve.framing import beyond_gimbal
 from shotc.passes.resolve.keeping_up import check_speed
 from shotc.passes.resolve.obstacles import ROUNDING
 from shotc.passes.resolve.timing import timing_label
+from shotc.rounding import at_least, down, up
 
 
 def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
@@ -58,14 +58,14 @@ def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 def _within(track: Track, duration: float) -> str:
     """Say when a shot of a track can be filmed."""
-    first = max(0.0, ceil(track.since * 100) / 100)
+    first = max(0.0, up(track.since))
     if track.until == inf:
         return f"start it at {first:.2f} s or later, or let the track begin earlier"
-    last = floor((track.until - duration) * 100) / 100
+    last = down(track.until - duration)
     if last >= first:
         times = f"between {first:.2f} s and {last:.2f} s" if last > first else f"at {first:.2f} s"
         return f"start it {times}, or give the track more rows"
-    left = floor((track.until - first) * 100) / 100
+    left = down(track.until - first)
     if left > 0:
         return f"shorten it to {left:.2f} s or less, or give the track more rows"
     return "give the track rows after the start of the mission, which is time 0"
@@ -86,7 +86,7 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` is too low: {lowest:.2f} m over the ground",
         (mission.origins.value((*shot.path, key)),),
         (f"the ground clearance and the body radius need {need:.2f} m",),
-        f"raise it to z = {ceil(need * 100) / 100:.2f}",
+        f"raise it to z = {at_least(need)}",
     )
 
 
@@ -95,6 +95,6 @@ def _tilted(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     if shot.ideal is None or shot.ideal.aim is None:
         return
     drone, pitch = mission.drone(shot.drone), shot.ideal.aim[1]
-    if not drone.gimbal.pitch[0] - TILT <= pitch <= drone.gimbal.pitch[1] + TILT:
+    if not drone.gimbal.reaches(pitch):
         key = "pitch" if (*shot.path, "pitch") in mission.origins.values else "look_at"
         yield beyond_gimbal(mission, drone, (*shot.path, key), pitch)

@@ -6,12 +6,13 @@ A remedy is tried before it is told: the place is looked at again with the numbe
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import ceil, floor, hypot, inf
+from math import hypot, inf
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.track import Vec3
+from shotc.geom.vec import Vec3
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.rounding import down, up
 
 WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good
 STEPS = 200  # places at which an ideal is looked at
@@ -32,7 +33,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         return
     wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     window = min(WINDOW, shot.timing.duration or 0.0)
-    faster = ceil(worst * 10) / 10 + mission.wind
+    faster = up(worst + mission.wind, 1)
     remedies = [
         *_nearer(mission, shot, drone),
         *_other_side(mission, shot, limit),
@@ -78,22 +79,27 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
     key = next((key for key in LEVEL if (*shot.path, key) in mission.origins.values), None)
     if key is None or ideal is None or ideal.target is None:
         return
-    first = ideal.points[0][1]
+    first, last = ideal.points[0][1], ideal.points[-1][1]
     asked = abs(first[1]) if key == "offset" else hypot(first[0], first[1])
+    end = hypot(last[0], last[1]) / asked if (*shot.path, key, 0) in mission.origins.values else 1.0
     least = mission.target(ideal.target).radius + mission.rules.target_clearance + drone.radius
+    least /= min(1.0, end)
 
     def at(metres: float) -> Shot:
         share = metres / asked
         return _moved(shot, lambda p: (p[0] * (1.0 if key == "offset" else share), p[1] * share, p[2]))
 
-    low, high = ceil(10 * least) / 10, asked
+    low, high = up(least, 1), asked
     if low >= high or not _keeps_up(mission, at(low), limit):
         return
     for _ in range(HALVES):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if _keeps_up(mission, at(middle), limit) else (low, middle)
-    told = max(ceil(10 * least) / 10, floor(10 * low) / 10)
+    told = max(up(least, 1), down(low, 1))
     if _keeps_up(mission, at(told), limit):
+        if end != 1.0:  # from one to another
+            yield f"give it `{key}: [{told:.1f} m, {up(told * end, 1):.1f} m]` or nearer"
+            return
         # An offset to the right is written as a negative number.
         yield f"give it `{key}: {-told if key == 'offset' and first[1] < 0 else told:.1f} m` or nearer"
 
@@ -115,7 +121,7 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
     tracks = (mission.target(s.target).track for s in shot.subjects)
     until = min((track.until for track in tracks if track is not None), default=inf)
     for more in MORE:
-        lasts = ceil(duration * share * more * 10) / 10
+        lasts = up(duration * share * more, 1)
         longer = shot._replace(timing=shot.timing._replace(duration=lasts))
         if start + lasts <= until and _keeps_up(mission, longer, mission.drone(shot.drone).limits.speed):
             yield f"give it `duration: {lasts:.1f} s`"

@@ -1,7 +1,7 @@
 """Zones and targets as obstacles to one drone: how much room a place lacks, and the shortest way out."""
 
 from collections.abc import Iterator
-from math import atan2, ceil, degrees, dist, floor, hypot, isfinite, pi
+from math import atan2, degrees, dist, hypot, isfinite, pi
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from shotc.geom.solids import (
@@ -11,10 +11,12 @@ from shotc.geom.solids import (
     closest_on_segment,
     edges,
     inside_polygon,
+    signed_distance,
 )
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
+from shotc.rounding import at_least, at_most, down, up
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Fleet
@@ -72,13 +74,14 @@ class Obstacle(NamedTuple):
         """Say where a whole path would be free of it."""
         low, high = self.solid.bottom + self.room, self.solid.top - self.room
         if self.role == "in":
-            return f"stay {self.room:.2f} m inside of it, from z = {_up(low)} to {_down(high)}"
-        above = f"fly at z = {_up(self.solid.top + self.room)} or higher" if isfinite(self.solid.top) else ""
+            return f"stay {self.room:.2f} m inside of it, from z = {at_least(low)} to {at_most(high)}"
+        top = self.solid.top + self.room
+        above = f", or fly at z = {at_least(top)} or higher" if isfinite(top) else ""
         if isinstance(self.solid, Cylinder):
-            aside = f"stay {_up(self.solid.radius + self.room)} m or more from its axis"
+            aside = f"stay {at_least(self.solid.radius + self.room)} m or more from its axis"
         else:
-            aside = f"stay {_up(self.room)} m or more from its sides"
-        return f"{aside}, or {above}" if above else aside
+            aside = f"stay {at_least(self.room)} m or more from its sides"
+        return aside + above
 
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:
         """Yield places near ``p`` that may have the room: up, down and sideways."""
@@ -97,20 +100,6 @@ class Obstacle(NamedTuple):
             yield (p[0], p[1], self.solid.bottom - room)
         for x, y in _sideways(self.solid, (p[0], p[1]), room):
             yield (x, y, p[2])
-
-
-def signed_distance(solid: Solid, p: Vec3) -> float:
-    """Return the distance of ``p`` from the solid, inside it minus its depth; metres, exact."""
-    x, y, z = p
-    if isinstance(solid, Cylinder):
-        across = hypot(x - solid.centre[0], y - solid.centre[1]) - solid.radius
-    else:
-        across = min(dist((x, y), closest_on_segment(a, b, (x, y))) for a, b in edges(solid.points))
-        across = -across if inside_polygon(solid.points, (x, y)) else across
-    upright = max(solid.bottom - z, z - solid.top)
-    if across <= 0 and upright <= 0:
-        return max(across, upright)
-    return hypot(max(across, 0.0), max(upright, 0.0))
 
 
 def obstacles_of(mission: MissionIR, drone: "Drone | Fleet") -> list[Obstacle]:
@@ -153,17 +142,8 @@ def move(p: Vec3, q: Vec3) -> str:
 def outward(p: Vec3, q: Vec3) -> Vec3:
     """Round ``q`` to centimetres away from ``p``, so that the numbers given are enough."""
     return tuple(  # type: ignore[return-value]
-        (ceil(b * 100 - 1e-6) if b > a else floor(b * 100 + 1e-6)) / 100 if abs(b - a) > 1e-9 else b
-        for a, b in zip(p, q, strict=True)
+        (up(b) if b > a else down(b)) if abs(b - a) > 1e-9 else b for a, b in zip(p, q, strict=True)
     )
-
-
-def _up(metres: float) -> str:
-    return f"{ceil(metres * 100 - 1e-6) / 100:.2f}"
-
-
-def _down(metres: float) -> str:
-    return f"{floor(metres * 100 + 1e-6) / 100:.2f}"
 
 
 def _sideways(solid: Solid, p: Vec2, room: float) -> Iterator[Vec2]:

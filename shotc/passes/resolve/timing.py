@@ -5,7 +5,6 @@ Straight lines at full limits say what no drone can do, not what one can: that n
 
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
-from math import ceil
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
@@ -14,6 +13,7 @@ from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.place_keyframes.flown_order import flown_order
 from shotc.passes.resolve.breeze import less_wind
 from shotc.passes.resolve.motion import least_shot, least_travel, length
+from shotc.rounding import at_least
 
 _LESS = ("shorten the shot", "cut it in two for two flights")
 SLACK = 1e-6  # seconds of rounding
@@ -54,9 +54,9 @@ def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
     least = holds + least_travel([k.at for k in stretch], mission.drone(shot.drone).limits, rests=False)
     if end - start >= least - SLACK:
         return None
-    note = f"the {length(stretch):.1f} m between them need at least {_up(least)} s"
+    note = f"the {length(stretch):.1f} m between them need at least {at_least(least, 1)} s"
     message = f"nobody gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
-    help_ = f"set it later than {_up(start + least)} s; {EARLIEST}"
+    help_ = f"set it later than {at_least(start + least, 1)} s; {EARLIEST}"
     return Diagnostic("K004", message, (label,), (note,), help_)
 
 
@@ -70,7 +70,8 @@ def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         following = shot.keyframes[i:]
         end = keyframe.time + sum(k.hold for k in following)
         rest = least_travel([k.at for k in following], limits, rests=False)
-        more = f"more than {_up(end + rest)} s; {SHORTEST}" if rest > 0 else f"{_up(end)} s or more"
+        least = at_least(end + rest, 1)
+        more = f"more than {least} s; {SHORTEST}" if rest > 0 else f"{least} s or more"
         held = f" and is held for {keyframe.hold:.1f} s" if keyframe.hold else ""
         yield Diagnostic(
             "K002",
@@ -117,7 +118,7 @@ def _in_time(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
 
 
 def _more(least: float) -> tuple[str, str]:
-    return f"give it more than {_up(least)} s", "write `timing: auto`"
+    return f"give it more than {at_least(least, 1)} s", "write `timing: auto`"
 
 
 def _either(*ways: str) -> str:
@@ -134,7 +135,7 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
     held = f", {holds:.1f} s of holds included" if holds else ""
     wind = f" ({limits.speed + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     return (
-        f"at least {_up(least)} s at {limits.speed:.1f} m/s across{wind}, {limits.climb:.1f} m/s up, "
+        f"at least {at_least(least, 1)} s at {limits.speed:.1f} m/s across{wind}, {limits.climb:.1f} m/s up, "
         f"{limits.descent:.1f} m/s down and {limits.acceleration:.1f} m/s^2{held}"
     )
 
@@ -142,9 +143,7 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
 def _too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diagnostic:
     """Say that a shot lasts longer than the endurance: as it is written, or as it has to."""
     asked, calmer = shot.timing.duration, list[str]()
-    lasts = (
-        f"the shot lasts {asked:.1f} s" if asked is not None else f"the shot takes at least {_up(least)} s"
-    )
+    lasts = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
     notes = [f"the shot {lasts}, the endurance is {drone.endurance:.1f} s"]
     if asked is None:
         calmer = less_wind(mission, shot, drone, drone.endurance)
@@ -200,7 +199,7 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
     if start is None or start >= max(there, waits) - SLACK:
         return []
     label = timing_label(mission, shot)
-    remedy = f"start it later than {_up(max(there, waits))} s; {EARLIEST}"
+    remedy = f"start it later than {at_least(max(there, waits), 1)} s; {EARLIEST}"
     if start < waits - SLACK:
         note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
         message = f"shot `{shot.id}` starts at {start:.1f} s, before the shot it waits for has ended"
@@ -211,7 +210,7 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
         labels = (label, timing_label(mission, before.shot, "the other shot"))
         return [Diagnostic("K006", message, labels, (note,), remedy)]
     origin = "its home" if before.shot is None else f"the end of `{before.shot.id}`"
-    note = f"from {origin} it takes at least {_up(there - before.time)} s to its first keyframe"
+    note = f"from {origin} it takes at least {at_least(there - before.time, 1)} s to its first keyframe"
     message = f"drone `{shot.drone}` cannot be in place for shot `{shot.id}` at {start:.1f} s"
     return [Diagnostic("K008", message, (label,), (note,), remedy)]
 
@@ -222,7 +221,7 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
     if last.shot is None or flight <= drone.endurance:
         return []
     message = f"the shots of drone `{drone.name}` take longer than it can stay in the air"
-    note = f"all its shots with the ways between take at least {_up(flight)} s"
+    note = f"all its shots with the ways between take at least {at_least(flight, 1)} s"
     speed = drone.limits.speed + mission.wind
     taken = (f"the wind takes {mission.wind:.1f} of its {speed:.1f} m/s",) if mission.wind > speed / 2 else ()
     return [
@@ -251,8 +250,3 @@ def timing_label(mission: MissionIR, shot: Shot, text: str = "") -> Label:
     if path in mission.origins.keys:
         return mission.origins.key(path, text)
     return mission.origins.value((*shot.path, "id"), text)
-
-
-def _up(seconds: float) -> str:
-    """Write seconds rounded up to a tenth, so that the number given is enough."""
-    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"

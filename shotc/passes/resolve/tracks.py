@@ -8,7 +8,8 @@ from math import dist, hypot, inf
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.track import Track, Vec3
+from shotc.geom.track import Track
+from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.passes.resolve.files import Ground
 from shotc.passes.resolve.leaps import Course, check_gap, check_jump, check_velocity

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
@@ -33,6 +33,9 @@ FINER = (1, 2, 4, 8)
 CLOSE = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
 STIFF = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
 FAINT = 1e-2  # weight of samples where nothing is framed against those where something is
+NEAR = (
+    1e-3  # of a piece: a keyframe that the path only passes by may be so near to a break that it is the same
+)
 NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
 
 
@@ -112,7 +115,8 @@ class _Samples:
 def camera_line(mission: MissionIR, drone: Drone, track: Track) -> CameraLine:
     """Return the camera's angles along a shot, on breaks that hold those of the position curve.
 
-    A fit that no grid makes possible gives way to the steady turn from keyframe to keyframe.
+    A fit that no grid makes possible, or that is the worse one, gives way to the steady turn from keyframe to
+    keyframe.
     """
     base = _grid(track)
     hfov = _hfov(track)
@@ -131,7 +135,7 @@ def camera_line(mission: MissionIR, drone: Drone, track: Track) -> CameraLine:
         fitted = _line(curve, samples, hfov, status)
         if fitted.error < CLOSE:
             break
-    return fitted or best
+    return best if fitted is None or best.error < fitted.error else fitted
 
 
 def _line(curve: Piecewise, samples: _Samples, hfov: Piecewise, status: Status) -> CameraLine:
@@ -199,9 +203,9 @@ def _watched(track: Track, i: int) -> list[FramingSpan]:
 def _grid(track: Track) -> Array:
     """Return breaks that hold the position's and the keyframes', several to a keyframe interval."""
     merged = [float(b) for b in track.position.breaks]
-    span = merged[-1] - merged[0]
+    near = NEAR * float(np.diff(merged).min())
     for s in track.s:
-        if min(abs(s - b) for b in merged) > 1e-9 * span:
+        if min(abs(s - b) for b in merged) > near:
             merged.append(float(s))
     breaks = np.array(sorted(merged))
     keys = np.unique(track.s)
@@ -307,7 +311,7 @@ def _inner(breaks: Array, start: float, end: float) -> Array:
     """Return sample parameters in a stretch, evenly on each of its pieces."""
     eps = 1e-9 * (breaks[-1] - breaks[0])
     inside = breaks[(breaks >= start - eps) & (breaks <= end + eps)]
-    return subdivide(inside, SAMPLES)[1:-1]
+    return subdivide(inside, SAMPLES)[1:-1] if len(inside) > 1 else np.empty(0)
 
 
 def _anchor(mission: MissionIR, drone: Drone, track: Track, i: int) -> tuple[float, float] | None:
@@ -361,4 +365,4 @@ def _worse(old: Cut | None, new: Cut) -> Cut:
 
 
 def _near(angle: float, to: float) -> float:
-    return to + (angle - to + pi) % (2 * pi) - pi
+    return to + wrapped(angle - to)

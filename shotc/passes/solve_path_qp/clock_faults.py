@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from math import ceil, floor
-
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.corridor.room import named, owner_path
-from shotc.passes.parameterize_time.faults import listed, plain, timing_label, up
+from shotc.passes.parameterize_time.faults import listed, timing_label
 from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate
+from shotc.rounding import at_least, down, plain, up
 
 ALONE = "or have the drone start nearer"
 
@@ -42,12 +41,14 @@ def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
     asked, short = shot.timing.start, found.outside
     label = mission.origins.key(shot.path) if asked is None else timing_label(mission, shot.path, "start")
     labels, told = [label], f"shot `{shot.id}`" + ("" if asked is None else f" starts at {plain(asked)} s")
-    sum_up = f"{up(found.before[-1].end)} s, the last {found.run_up:.1f} s to come up to speed"
+    sum_up = f"{at_least(found.before[-1].end)} s, the last {found.run_up:.1f} s to come up to speed"
     notes = [f"before it come {listed(found.before)}: {sum_up}"]
     remedies = []
     if found.earliest is not None:
-        message = f"{told}, but {up(found.earliest)} s is the earliest possible"
-        remedies.append(f"give it `start: {up(found.earliest)} s`" + (" or later" if short is None else ""))
+        message = f"{told}, but {at_least(found.earliest)} s is the earliest possible"
+        remedies.append(
+            f"give it `start: {at_least(found.earliest)} s`" + (" or later" if short is None else "")
+        )
     elif short is not None:
         message = f"{told}, and the track of `{short.target}` ends before its drone is there"
     else:
@@ -57,7 +58,7 @@ def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
         labels.append(mission.origins.value((*path, "track"), f"{short.left:.1f} s are left of it then"))
         remedies = [f"{remedy} and {_shortened(short)}" for remedy in remedies]
     if asked is not None:
-        remedies += _begun_later(mission, shot, asked, float(up(found.late)))
+        remedies += _begun_later(mission, shot, asked, up(found.late))
     remedies.append(f"shorten what comes before, {ALONE}")
     return Diagnostic("T003", message, tuple(labels), tuple(notes), ", or ".join(remedies))
 
@@ -71,14 +72,14 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -
         if shot is None
         else mission.origins.key(shot.path, "on the way to this shot")
     )
-    remedies = [f"start the shot at {up(found.start)} s"] if found.start is not None else []
+    remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
     remedies.append(f"put `home` where {named(met.owner)} is not between it and the shots")
     return Diagnostic(
         "M011",
         f"`{drone.name}` comes too near to {named(met.owner)} {lead}",
         (where, mission.origins.key(owner_path(mission, met.owner), "is in the way")),
         (
-            f"on the best of them its body is {ceil(met.lack * 100) / 100:.2f} m nearer than "
+            f"on the best of them its body is {at_least(met.lack)} m nearer than "
             f"`target_clearance` allows, at t = {met.time:.1f} s",
             "straight, round and over what is in the way were tried, and setting out at other times",
         ),
@@ -87,7 +88,7 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -
 
 
 def _shortened(found: OutsideTrack) -> str:
-    left = floor(found.left * 10) / 10
+    left = down(found.left, 1)
     return f"`duration: {left:.1f} s` or less" if left > 0 else ""
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
-from math import floor
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from shotc.geom.corridor import MARGIN, Obstacle, Room, Wall
 from shotc.geom.route import find_route
 from shotc.ir.mission import Drone, MissionIR
 from shotc.passes.corridor.room import GROUND, flight_room, named
+from shotc.rounding import down
 
 HALVINGS = 7
 MOST = 0.8  # of the body's radius that a smaller drone may lack
@@ -46,7 +46,7 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if opens(middle) else (low, middle)
-    return floor(low * 100) / 100
+    return down(low)
 
 
 def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -> Gap | None:

@@ -11,6 +11,7 @@ from math import pi
 
 import numpy as np
 
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import FAR, support
 from shotc.geom.corridor import MARGIN, Breach, Room, blocked, bounds_slack, breaches
@@ -131,7 +132,7 @@ def _joined(
 
 
 def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:
-    turn = abs((b.yaw - a.yaw + pi) % (2 * pi) - pi if b.turn is None else b.turn)
+    turn = abs(wrapped(b.yaw - a.yaw) if b.turn is None else b.turn)
     length = TURN_LENGTH * max(turn, abs(b.pitch - a.pitch), abs(b.hfov - a.hfov))
     return length if length >= SAME_PLACE else 0.0
 

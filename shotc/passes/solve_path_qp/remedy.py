@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import ceil
 
 from shotc.geom.corridor import Room
 from shotc.ir.keyframes import PlacedShot
@@ -13,6 +12,7 @@ from shotc.passes.corridor.room import GROUND, named
 from shotc.passes.solve_path_qp.legs import smooth
 from shotc.passes.solve_path_qp.lines import Line, straight_line
 from shotc.passes.solve_path_qp.shots import ShotCurve, Stuck, shot_curve
+from shotc.rounding import up
 
 LEAST = 5e-3  # metres of give-way that count as part of a conflict: less is printed as nothing
 FACTORS = (1, 2, 4)  # of the least give-way: with more room the way leads along other corners
@@ -49,7 +49,7 @@ def remedy(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None
     owners = conflict(what).owners
     for factor in FACTORS:
         for some in (owners[:1], owners) if len(owners) > 1 else (owners,):
-            gives = {name: ceil(100 * factor * lack + 1) / 100 for name, lack in some}
+            gives = {name: up(factor * lack + 0.01) for name, lack in some}
             wider = _giving(mission, room, gives)
             if gives and wider is not None and _fits(mission, drone, wider, shot, what):
                 return " and ".join(_asked(mission, name, metres) for name, metres in gives.items())

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, floor
 
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
@@ -17,6 +16,7 @@ from shotc.ir.phases import Phase
 from shotc.passes.solve_path_qp.departure import Meeting, Way
 from shotc.passes.solve_path_qp.shots import Failure
 from shotc.passes.timed_route.shot import NoMotion, TimedShot
+from shotc.rounding import down, up
 
 TRIES = 10
 CLOSE = 0.5  # seconds between starts that are late and in time, the second of which is taken
@@ -115,7 +115,7 @@ def put_off(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float) 
         first = there.shot.leg.start
         if behind is None or first - behind[0] < CLOSE:
             break
-        start = ceil(50 * (behind[0] + first)) / 100
+        start = up(0.5 * (behind[0] + first))
     return there or reached
 
 
@@ -129,11 +129,11 @@ def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float)
 
 def later(start: float, seconds: float) -> float:
     """Return a start so much later that the drone has time to spare, in whole hundredths of a second."""
-    return ceil(100 * (start + seconds + SPARE)) / 100
+    return up(start + seconds + SPARE)
 
 
 def lasting(placed: PlacedShot, seconds: float) -> PlacedShot:
     """Return a shot that is to last so long, less what is lost to rounding."""
     shot = placed.shot
-    timing = shot.timing._replace(duration=floor(100 * seconds) / 100)
+    timing = shot.timing._replace(duration=down(seconds))
     return placed._replace(shot=shot._replace(timing=timing))

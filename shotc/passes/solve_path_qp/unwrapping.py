@@ -14,6 +14,7 @@ from math import pi
 
 import numpy as np
 
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import Drone
 from shotc.solvers.headings import DEFAULT
@@ -96,7 +97,7 @@ def _fixed(a: Known, b: Known) -> float | None:
     if b.turn is None:
         return None
     # Yaws on the path are those of the keyframes but for what bending the path took.
-    return b.turn + (b.yaw - a.yaw - b.turn + pi) % (2 * pi) - pi
+    return b.turn + wrapped(b.yaw - a.yaw - b.turn)
 
 
 def _shortest(turn: Array, how: Turning) -> Array:

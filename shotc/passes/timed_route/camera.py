@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
-from shotc.geom.camera import Vec2
+from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone
 from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.passes.timed_route.clock import Clock

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from math import ceil
-
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import Deviation
 from shotc.passes.corridor.room import GROUND, named, owner_path
 from shotc.passes.timed_route.shot import NoMotion
+from shotc.rounding import at_least
 
 
 def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
@@ -38,8 +37,7 @@ def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagn
     most = max(trouble.lacks, key=lambda pair: pair[1])
     labels = (label, mission.origins.key(owner_path(mission, most[0]), "what is most in the way"))
     notes = tuple(
-        f"{named(owner)} would have to give way by {ceil(lack * 100) / 100:.2f} m"
-        for owner, lack in trouble.lacks
+        f"{named(owner)} would have to give way by {at_least(lack)} m" for owner, lack in trouble.lacks
     )
     return Diagnostic(
         "M009",

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, isfinite
+from math import isfinite
 
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.numbers import DIGITS, away, enough, measure
+from shotc.passes.verify.numbers import DIGITS, enough, measure
+from shotc.rounding import at_least, away
 
 REPLAN = "plan the mission again"
 
@@ -38,10 +39,11 @@ def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) ->
     setting = _setting(mission, claim)
     if rule.power and claim.limit > 0 and phase is not None and phase.shot is not None:
         stretch = max(1.0, claim.worst / claim.limit) ** rule.power
-        longer = ceil(10 * (phase.end - phase.start) * stretch) / 10
-        time = f"give shot `{phase.shot}` {longer:.1f} s or more"
+        longer = at_least((phase.end - phase.start) * stretch, 1)
+        time = f"give shot `{phase.shot}` {longer} s or more"
         if claim.drones:
-            time = f"give the moves of shot `{phase.shot}` {away(stretch, upper=True):.4g} times their time"
+            times = away(stretch, upper=True, digits=DIGITS)
+            time = f"give the moves of shot `{phase.shot}` {times:.4g} times their time"
         return f"{time}, or {setting}; then plan again" if setting else f"{time}; then plan again"
     return f"{setting}, or {REPLAN}" if setting else REPLAN
 
@@ -67,7 +69,7 @@ def _setting(mission: MissionIR, claim: Claim) -> str:
     verb = "raise" if claim.upper else "lower"
     worst, remark = enough(claim), ""
     if _is_in_wind(mission, claim):
-        total = away(claim.worst + mission.wind, upper=True)
+        total = away(claim.worst + mission.wind, upper=True, digits=DIGITS)
         worst = f"{total:.{DIGITS}g} {claim.unit}"
         remark = f" ({measure(mission.wind, claim.unit)} of wind are taken off)"
     return f"{verb} {which}`{'.'.join(keys)}` to {worst}{remark}"

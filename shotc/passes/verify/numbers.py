@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from math import ceil, degrees, floor, isfinite, log10
+from math import degrees, isfinite
 
 from shotc.ir.trajectory import Claim
+from shotc.rounding import away
 
 DIGITS = 4
 """Digits that a value is shown with where nothing needs more."""
@@ -35,15 +36,7 @@ def told_apart(first: float, second: float, unit: str) -> tuple[str, str]:
 def enough(claim: Claim) -> str:
     """Return the worst value as a limit that it keeps, rounded away from it to four digits."""
     number, unit = _as_read(claim.worst, claim.unit)
-    return f"{away(number, upper=claim.upper):.{DIGITS}g} {unit}".strip()
-
-
-def away(number: float, *, upper: bool, digits: int = DIGITS) -> float:
-    """Return a number rounded to some digits, upwards if it is to be an upper limit, else downwards."""
-    if number == 0:
-        return 0.0
-    step = 10.0 ** (floor(log10(abs(number))) - digits + 1)
-    return float((ceil if upper else floor)(number / step) * step)
+    return f"{away(number, upper=claim.upper, digits=DIGITS):.{DIGITS}g} {unit}".strip()
 
 
 def _as_read(value: float, unit: str) -> tuple[float, str]:

@@ -7,7 +7,8 @@ from math import isfinite
 
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.numbers import away, enough, told_apart
+from shotc.passes.verify.numbers import enough, told_apart
+from shotc.rounding import away
 
 PROMISES = frozenset({"V019", "V020", "V021"})
 """Codes of broken promises."""

@@ -16,14 +16,13 @@ from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_convex,
 from shotc.geom.solids import Solid, distance
 from shotc.ir.bodies import cylinder
 from shotc.ir.mission import Target, Zone
+from shotc.ir.path import UPRIGHT
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
 DRIFT = 1e-6
 """Metres that take-off and landing may leave the vertical."""
-
-UPRIGHT = ("takeoff", "land")
 
 
 def space(flight: Flight) -> Iterator[Claim]:

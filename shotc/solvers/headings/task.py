@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, pi
+from math import inf
 
 import numpy as np
 
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.solvers.conic import Status
 
@@ -51,7 +52,7 @@ class HeadingTask:
         if len(stated) != len(at) - 1:
             raise ValueError(f"{len(stated)} stated turns for {len(at) - 1} intervals")
         for turn, least in zip(stated, nearest_turns(yaw), strict=True):
-            if turn is not None and abs(_wrapped(turn - float(least))) > WHOLE:
+            if turn is not None and abs(wrapped(turn - float(least))) > WHOLE:
                 raise ValueError("a stated turn does not lead to its keyframe's yaw")
         at.setflags(write=False)
         yaw.setflags(write=False)
@@ -88,20 +89,15 @@ def nearest_turns(yaw: Array) -> Array:
     """Return the shorter turn from each yaw to the next, shape (K - 1,), in (-pi, pi]; half a turn is +pi."""
     step = np.diff(yaw)
     # Half a turn is as far either way: rounding must not choose.
-    return np.asarray(pi - (pi - step + EDGE) % (2 * pi) + EDGE)
+    return np.asarray(EDGE - wrapped(EDGE - step))
 
 
 def raw_turns(yaw: Array) -> Array:
     """Return the turns between yaws wrapped to (-pi, pi], shape (K - 1,)."""
-    wrapped = pi - (pi - yaw) % (2 * pi)
-    return np.asarray(np.diff(wrapped))
+    return np.asarray(np.diff(-wrapped(-yaw)))
 
 
 def turned(task: HeadingTask, turns: Array) -> Array:
     """Return the keyframes' angles for turns, where stated ones bind; shape (K,)."""
     bound = [t if s is None else s for t, s in zip(turns, task.stated, strict=True)]
     return np.asarray(task.yaw[0] + np.concatenate([[0.0], np.cumsum(bound)]))
-
-
-def _wrapped(angle: float) -> float:
-    return (angle + pi) % (2 * pi) - pi

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.geom.bspline import IntArray, subdivide
 from shotc.geom.pieces import Pieces
@@ -186,7 +187,7 @@ def _real(task: HeadingTask, angles: Array, near: Piecewise, point: Piecewise) -
         if square.min() < 1e-6:
             return None
         psi = near(ends)[:, 0]
-        psi = psi + _wrapped(np.arctan2(s[:, 1], s[:, 0]) - psi)
+        psi = psi + wrapped(np.arctan2(s[:, 1], s[:, 0]) - psi)
         rate = _cross(s, ds) / square
         acceleration = _cross(s, dds) / square - 2 * rate * (s * ds).sum(axis=1) / square
         ctrl.append(quintic_hermite(ends, psi[:, None], rate[:, None], acceleration[:, None]).ctrl[0])
@@ -211,7 +212,3 @@ def _keeps(task: HeadingTask, curve: Piecewise) -> bool:
 
 def _cross(a: Array, b: Array) -> Array:
     return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
-def _wrapped(angle: Array) -> Array:
-    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)

@@ -28,3 +28,10 @@ def test_it_agrees_with_the_one_on_arrays(a, b, which) -> None:
     ]
     assume(all(grown) or not any(grown))  # not at the very edge
     assert crosses(solid, a, b) == bool(blocks(solid, np.array([a]), np.array(b))[0])
+
+
+def test_a_line_along_a_wall_is_met_where_the_wall_is_and_not_on_its_way_beyond() -> None:
+    room = Prism(((0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (0.0, 2.0)), 0.0, 3.0)
+    assert crosses(room, (-3.0, 0.0, 1.0), (1.0, 0.0, 1.0))
+    assert not crosses(room, (-3.0, 0.0, 1.0), (-1.0, 0.0, 1.0))
+    assert not crosses(room, (-3.0, 0.0, 1.0), (-3.0, 0.0, 2.0))  # upright, in the wall's line

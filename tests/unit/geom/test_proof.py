@@ -23,6 +23,7 @@ from shotc.geom.solids import (
     edges,
     inside_polygon,
 )
+from shotc.geom.solids import signed_distance as exact_distance
 from shotc.geom.solids_array import blocks, signed_distance
 
 coordinates = st.floats(-50, 50, allow_nan=False, width=32)
@@ -198,7 +199,9 @@ def test_keep_in_margins_of_hull_pockets_floor_and_ceiling() -> None:
 @given(st.sampled_from(SOLIDS), st.tuples(coordinates, coordinates, coordinates))
 def test_array_distances_are_the_scalar_ones(solid: Solid, p: tuple[float, float, float]) -> None:
     measured = float(signed_distance(solid, np.array([p]))[0])
+    assert measured == pytest.approx(exact_distance(solid, p), abs=1e-9)
     assert max(measured, 0.0) == pytest.approx(distance(solid, p), abs=1e-9)
+    assert max(-measured, 0.0) == pytest.approx(depth(solid, p), abs=1e-9)
 
 
 def inside(solid: Solid, p: np.ndarray) -> bool:

@@ -19,7 +19,8 @@ from shotc.geom.silhouette import (
     solid_edges,
     solid_outlines,
 )
-from shotc.geom.solids import Cylinder, Prism, Solid, Vec3, box
+from shotc.geom.solids import Cylinder, Prism, Solid, box
+from shotc.geom.vec import Vec3
 
 ASPECT = 16 / 9
 angle = st.floats(-pi, pi)

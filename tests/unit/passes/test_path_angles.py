@@ -7,6 +7,7 @@ from math import hypot, pi, radians
 import numpy as np
 import pytest
 
+from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import view
 from shotc.ir.mission import Gimbal, Target
@@ -176,3 +177,30 @@ def test_a_body_does_not_point_along_half_a_millimetre() -> None:
     status, body = body_line(drone, task)
     assert status is Status.SOLVED
     assert np.abs(body.ctrl - 0.7).max() < 1e-3
+
+
+PUSHED = """\
+shotc: 1
+mission: pushed
+world:
+  zones:
+    church: {keep: out, box: {center: [-75, -5, 17], size: [95, 45, 34]}}
+    court: {keep: in, polygon: {points: [[-150, -130], [150, -130], [150, 130]], height: [2, 110]}}
+targets: {tower: {at: [0, 0, 27.93], radius: 11.642, height: 55.86}}
+drones: {cam: {model: x500, home: [90, 70, 0], camera: {hfov: 84 deg}}}
+rules: {composition: center, target_clearance: 5}
+shots:
+  - {id: climb, kind: spiral, drone: cam, target: tower, radius: [85, 70], altitude: [12, 62],
+     start_azimuth: 60 deg, sweep: 130 deg}
+"""
+
+
+def test_keyframes_that_a_wall_pushes_together_do_not_spin_the_camera():
+    """Half of the spiral lies behind a wall, where all its keyframes are nearest to the path's end."""
+    options = PlanOptions(refiner="none", stop_after="solve-path-qp")
+    done = compile_source(PUSHED.encode(), "pushed.yaml", None, options)
+    (path,) = (report.output for report in done.reports if report.name == "solve-path-qp")
+    (leg,) = legs(path, "shot")
+    turns = np.diff(leg.curve(np.linspace(0, leg.curve.end, 2000))[:, [CAM_YAW, CAM_PITCH]], axis=0)
+    assert np.abs(turns).sum(axis=0) == pytest.approx([pi, 0.5 * pi], abs=0.5 * pi)
+    assert np.abs(turns).max() < 0.02

@@ -108,6 +108,7 @@ def test_a_duration_too_short_is_told_before_an_endurance_too_short() -> None:
 def test_an_endurance_that_the_wind_makes_too_short_names_the_wind() -> None:
     d = only(windy("").replace("radius: 0.6,", "radius: 0.6, endurance: 60,"))
     assert (d.code, "of wind" in d.notes[1]) == ("K005", True)
+    assert d.notes[0] == "the shot takes at least 66.8 s, the endurance is 60.0 s"
     assert d.help == "wait for wind below 7.6 m/s, or take a drone that flies more than 8.1 m/s"
 
 

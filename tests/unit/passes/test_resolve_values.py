@@ -10,11 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.geom.solids import Cylinder, Prism, depth, distance
+from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.mission import MissionIR, Promise
 from shotc.passes.resolve.motion import least_shot, least_travel
-from shotc.passes.resolve.obstacles import signed_distance
 from shotc.spec.presets import PRESETS
 from tests import resolve_missions
 from tests.front import resolved
@@ -145,16 +144,6 @@ def test_holds_cut_a_shot_into_rests(mission: MissionIR) -> None:
     assert least_shot(three, LIMITS) == pytest.approx(2 * (10 + 8 / 3) + 2)
     assert least_shot([replace(k, hold=0.0) for k in three], LIMITS) == pytest.approx(20 + 8 / 3)
     assert least_shot(three[1:2], LIMITS) == 2
-
-
-L_SHAPE = Prism(((0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (4.0, 4.0), (4.0, 10.0), (0.0, 10.0)), 0.0, 6.0)
-
-
-@given(st.sampled_from([L_SHAPE, Cylinder((3.0, 4.0), 2.5, 1.0, 7.0)]), st.tuples(*[st.floats(-15, 15)] * 3))
-def test_the_signed_distance_agrees_with_distance_and_depth(solid: Prism | Cylinder, p: Vec3) -> None:
-    signed = signed_distance(solid, p)
-    assert max(0.0, signed) == pytest.approx(distance(solid, p), abs=1e-9)
-    assert max(0.0, -signed) == pytest.approx(depth(solid, p), abs=1e-9)
 
 
 def test_the_front_loads_neither_numpy_nor_a_solver() -> None:

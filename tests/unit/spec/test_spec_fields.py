@@ -203,6 +203,10 @@ def test_timing_is_auto_or_any_of_three():
     assert TimingSpec.model_validate("auto") == TimingSpec()
     assert TimingSpec.model_validate({"after": "side", "duration": 10}).after == "side"
     assert slugs(TimingSpec, "manual") == [("wrong-type", ())]
+    for seconds, said in ((5, "{duration: 5}"), (float("inf"), "a mapping"), (-1, "a mapping")):
+        with pytest.raises(ValidationError) as error:
+            TimingSpec.model_validate(seconds)
+        assert said in error.value.errors()[0]["ctx"]["help"]
     assert slugs(TimingSpec, {"start": -1}) == [("out-of-range", ("start",))]
 
 

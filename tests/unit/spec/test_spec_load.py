@@ -181,6 +181,12 @@ def test_a_key_one_level_too_high_is_told_where_it_belongs(loads):
     assert [(d.code, d.help) for d in found] == [(CODE_OF["unknown-field"], "`hfov` belongs under `camera`")]
 
 
+def test_a_key_of_what_has_names_belongs_under_a_name(loads):
+    found = loads(f"endurance: 10 min\n{BASE}").diagnostics
+    help_ = "`endurance` belongs under a name in `drones`"
+    assert [(d.code, d.help) for d in found] == [(CODE_OF["unknown-field"], help_)]
+
+
 def test_conflicting_keys_are_both_shown(loads):
     (found,) = loads(BASE.replace("radius: 4", "radius: 4, track: {file: a.csv}")).diagnostics
     assert [label.span.column for label in found.labels] == [38, 11]

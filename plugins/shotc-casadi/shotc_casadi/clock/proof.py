@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import CAM_PITCH, CAM_YAW, Drone, Surroundings, TimedLeg, aim_at
+from shotc.refiner_api import CAM_PITCH, CAM_YAW, Drone, Surroundings, TimedLeg, aim_at, wrapped
 from shotc_casadi.clock.wishes import ClockSubject
 
 PROVED = 1e-6  # metres
@@ -62,6 +62,6 @@ def astray(subject: ClockSubject, leg: TimedLeg) -> float:
         ray = np.array(target.at(float(t))) - q[:3]
         aim = aim_at((ray[0], ray[1], ray[2]), uv, drone.hfov, drone.aspect, q[CAM_YAW])
         if aim is not None:
-            turned = np.remainder(q[CAM_YAW] - aim[0] + np.pi, 2 * np.pi) - np.pi
+            turned = wrapped(q[CAM_YAW] - aim[0])
             worst = max(worst, float(np.hypot(np.cos(aim[1]) * turned, q[CAM_PITCH] - aim[1])))
     return worst

@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from math import pi
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.vec import minus
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.place_keyframes.candidates import Setting
 from shotc.passes.resolve.framing import shows
 from shotc.passes.resolve.grammar.places import framing
-from shotc.passes.resolve.grammar.sight import begins, minus
+from shotc.passes.resolve.grammar.sight import begins
 
 EMPTY = 0.5  # seconds without its subject that a shot may have
 STEPS = 200  # places at which a shot is looked at

@@ -11,12 +11,16 @@ from math import acos, ceil, cos, hypot, pi, tan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.geom.angles import TURN, wrapped
+from shotc.geom.vec import minus
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.place_keyframes import explicit_aim
-from shotc.passes.place_keyframes.turns import ROUNDING, TURN, wrapped
+from shotc.passes.place_keyframes.turns import ROUNDING
 from shotc.passes.resolve.grammar.places import lasting
-from shotc.passes.resolve.grammar.sight import begins, minus, sight
+from shotc.passes.resolve.grammar.sight import begins, sight
+from shotc.passes.resolve.timing import SLACK
+from shotc.rounding import at_least
 
 FREE = 7.0  # seconds a frame width takes at least where nobody is followed
 FOLLOWING = 3.0  # and where the camera follows a subject
@@ -50,7 +54,7 @@ class Pan(NamedTuple):
 def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield the worst of the pans of a shot that are too fast; those whose time is not known are not told."""
     pans = list(_on_clock(mission, shot) if shot.ideal is not None else _between_keyframes(mission, shot))
-    fast = [pan for pan in pans if pan.lasts > 0 and pan.lasts < pan.least * (1 - 1e-9)]
+    fast = [pan for pan in pans if pan.lasts > 0 and pan.lasts < pan.least - SLACK]
     if not fast:
         return
     worst = max(fast, key=lambda pan: pan.least / pan.lasts)
@@ -76,12 +80,12 @@ def _slower(mission: MissionIR, shot: Shot, pan: Pan) -> tuple[Label, str]:
     """Return the time or duration that ends a pan between keyframes, and what to write there."""
     last, end = shot.keyframes[pan.until], pan.since + pan.held + pan.least
     if last.time is None:
-        return lasting(mission, shot), f"write `duration: {_up(end + last.hold)} s` or more"
+        return lasting(mission, shot), f"write `duration: {at_least(end + last.hold, 1)} s` or more"
     later = shot.timing.duration is not None or any(
         k.time is not None for k in shot.keyframes[pan.until + 1 :]
     )
     with_it = ", and move what follows by as much" if later else ""
-    return mission.origins.value((*last.path, "time")), f"write `time: {_up(end)} s` or more{with_it}"
+    return mission.origins.value((*last.path, "time")), f"write `time: {at_least(end, 1)} s` or more{with_it}"
 
 
 def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
@@ -155,7 +159,3 @@ def _angle(a: Vec3, b: Vec3) -> float:
     chord = hypot(*minus((0.0, 0.0, 0.0), a))
     product = sum(p * q for p, q in zip(a, b, strict=True)) / (chord * hypot(*b))
     return acos(max(-1.0, min(1.0, product)))
-
-
-def _up(seconds: float) -> str:
-    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"

@@ -3,6 +3,7 @@
 from math import hypot, tan
 from typing import NamedTuple
 
+from shotc.geom.vec import minus
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
 
@@ -68,11 +69,6 @@ def begins(mission: MissionIR, shot: Shot) -> float | None:
     if len(tracks) == 1 and tracks[0] is not None and tracks[0].straight:
         return tracks[0].underway
     return None
-
-
-def minus(a: Vec3, b: Vec3) -> Vec3:
-    """Return the vector from b to a."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sight | None:

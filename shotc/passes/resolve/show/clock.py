@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from math import ceil, hypot
+from math import hypot
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -15,6 +15,7 @@ from shotc.passes.resolve.motion import least_travel
 from shotc.passes.resolve.show.places import key_of, word_of
 from shotc.passes.resolve.show.shape import bounds
 from shotc.passes.resolve.timing import EARLIEST, SHORTEST
+from shotc.rounding import at_least
 
 SLACK = 1e-6  # seconds of rounding
 
@@ -44,16 +45,16 @@ def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator
             mission.origins.value((*after.path, "transition")),
             mission.origins.key(key_of(before), "the picture before"),
         )
-        limits = fleet.limits
+        limits, shortest = fleet.limits, at_least(least, 1)
         note = (
-            f"every drone has {_gap(before, after):.1f} m to fly at least, which takes {_up(least)} s at "
+            f"every drone has {_gap(before, after):.1f} m to fly at least, which takes {shortest} s at "
             f"{limits.speed:.1f} m/s across, {limits.climb:.1f} m/s up, {limits.descent:.1f} m/s down and "
             f"{limits.acceleration:.1f} m/s^2"
         )
         message = (
             f"no drone gets from this {word_of(before)} to the {word_of(after)} in {after.transition:.1f} s"
         )
-        yield Diagnostic("D019", message, labels, (note,), f"give it more than {_up(least)} s; {SHORTEST}")
+        yield Diagnostic("D019", message, labels, (note,), f"give it more than {shortest} s; {SHORTEST}")
 
 
 def _way(before: Picture, after: Picture) -> Vec3:
@@ -165,15 +166,14 @@ def _rise_time(fleet: Fleet) -> float:
 def _early(mission: MissionIR, display: Display, last: _Free, there: float, waits: float) -> Diagnostic:
     label = mission.origins.value((*display.path, "timing", "start"))
     start = display.timing.start or 0.0
-    why = f"its drones rise for {_up(there)} s at least"
+    why = f"its drones rise for {at_least(there, 1)} s at least"
     if last.picture is not None:
-        why = f"its fleet shows something else and changes over until {_up(there)} s at least"
+        why = f"its fleet shows something else and changes over until {at_least(there, 1)} s at least"
     if waits > there:
-        why = f"`{display.timing.after}`, for which it waits, ends at {_up(waits)} s at the earliest"
+        why = f"`{display.timing.after}`, for which it waits, ends at {at_least(waits, 1)} s at the earliest"
     message = f"display `{display.id}` cannot stand at {start:.1f} s"
-    return Diagnostic(
-        "D020", message, (label,), (why,), f"start it later than {_up(max(there, waits))} s; {EARLIEST}"
-    )
+    help_ = f"start it later than {at_least(max(there, waits), 1)} s; {EARLIEST}"
+    return Diagnostic("D020", message, (label,), (why,), help_)
 
 
 def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
@@ -198,15 +198,10 @@ def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
         mission.origins.key((*shown[-1].path, "frames"), "its last pictures"),
     )
     note = (
-        f"its pictures with the ways between take at least {_up(flight)} s, its endurance is "
+        f"its pictures with the ways between take at least {at_least(flight, 1)} s, its endurance is "
         f"{fleet.endurance:.1f} s"
     )
     message = f"the displays of fleet `{fleet.name}` take longer than it can stay in the air"
     yield Diagnostic(
         "D021", message, labels, (note,), "shorten holds and transitions, or cut the show in two"
     )
-
-
-def _up(seconds: float) -> str:
-    """Write seconds rounded up to a tenth, so that the number given is enough."""
-    return f"{ceil(seconds * 10 - 1e-9) / 10:.1f}"

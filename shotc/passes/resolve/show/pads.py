@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations, product
-from math import ceil, dist, floor, hypot, pi, sin
+from math import dist, floor, hypot, pi, sin
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
@@ -15,6 +15,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet
 from shotc.passes.resolve.home import take_off_room
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
+from shotc.rounding import at_least
 
 _AROUND = tuple(product((-1, 0, 1), repeat=3))
 UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
@@ -116,10 +117,11 @@ def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:
     """Say how the layout has its pads so far apart, metres."""
     path = (*fleet.path, "layout")
     if (*path, "grid") in mission.origins.keys:
-        return f"give the grid a spacing of {_up(least)} m or more"
+        return f"give the grid a spacing of {at_least(least)} m or more"
     if (*path, "circle") in mission.origins.keys:
-        return f"give the circle a radius of {_up(least / (2 * sin(pi / len(fleet.pads))))} m or more"
-    return f"put the pads {_up(least)} m or more apart"
+        radius = least / (2 * sin(pi / len(fleet.pads)))
+        return f"give the circle a radius of {at_least(radius)} m or more"
+    return f"put the pads {at_least(least)} m or more apart"
 
 
 def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
@@ -164,7 +166,7 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     if z < -UNEVEN:
         note = f"pad {low + 1} is {-z:.2f} m under z = 0, the ground"
         message = f"fleet `{fleet.name}` stands underground"
-        yield Diagnostic("D006", message, (label,), (note,), f"raise the layout by {_up(-z)} m")
+        yield Diagnostic("D006", message, (label,), (note,), f"raise the layout by {at_least(-z)} m")
         return
     obstacles = obstacles_of(mission, fleet)
     blocked = [found for obstacle in obstacles if (found := _blocked(mission, fleet, obstacle)) is not None]
@@ -223,9 +225,6 @@ def _low_rise(
     )
     labels = (label, mission.origins.key(path, what)) if path in mission.origins.keys else (label,)
     message = f"fleet `{fleet.name}` does not rise high enough to fly"
-    yield Diagnostic("D007", message, labels, (note,), f"write `rise: {_up(fleet.rise + lacks)} m` or more")
-
-
-def _up(metres: float) -> str:
-    """Write metres rounded up to a centimetre, so that the number given is enough."""
-    return f"{ceil(metres * 100 - 1e-6) / 100:.2f}"
+    yield Diagnostic(
+        "D007", message, labels, (note,), f"write `rise: {at_least(fleet.rise + lacks)} m` or more"
+    )

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, floor, inf
+from math import floor, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.apart import spacing
+from shotc.geom.solids import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of, signed_distance
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
 from shotc.passes.resolve.show.fit import growth, most_drones
 from shotc.passes.resolve.show.places import centre_label, key_of, word_of
 from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
 from shotc.passes.resolve.show.sizes import enlarged, size_words
+from shotc.rounding import at_least
 
 
 def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
@@ -65,7 +67,7 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
         mission.origins.value((*fleet.path, "count"), "the fleet"),
     )
     help_ = (
-        f"make it at least {ceil(10 * factor) / 10:.1f} times as large "
+        f"make it at least {at_least(factor, 1)} times as large "
         f"(`{size_words(picture.source, larger.source)}`; `plan` may ask for more), take {floor(most)} "
         "drones or fewer, or a smaller separation"
     )
@@ -86,7 +88,7 @@ def _too_low(
     )
     message = f"this {word_of(picture)} reaches too low: down to {where}"
     label = (centre_label(mission, picture),)
-    yield Diagnostic("D014", message, label, (note,), f"raise its centre by {_up(floor_ - low)} m")
+    yield Diagnostic("D014", message, label, (note,), f"raise its centre by {at_least(floor_ - low)} m")
 
 
 def _against(
@@ -152,10 +154,7 @@ def _inside(
 def _fitted(low: float, high: float, bottom: float, top: float) -> str:
     """Say how a shape comes between two heights."""
     if high - low > top - bottom:
-        return f"make it {_up(high - low - (top - bottom))} m lower, or the zone higher"
-    return f"raise it by {_up(bottom - low)} m" if low < bottom else f"lower it by {_up(high - top)} m"
-
-
-def _up(metres: float) -> str:
-    """Write metres rounded up to a centimetre, so that the number given is enough."""
-    return f"{ceil(metres * 100 - 1e-6) / 100:.2f}"
+        return f"make it {at_least(high - low - (top - bottom))} m lower, or the zone higher"
+    return (
+        f"raise it by {at_least(bottom - low)} m" if low < bottom else f"lower it by {at_least(high - top)} m"
+    )

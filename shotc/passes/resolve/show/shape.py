@@ -7,10 +7,9 @@ from itertools import product
 from math import cos, dist, hypot, pi, sin
 from typing import NamedTuple
 
-from shotc.geom.solids import box
+from shotc.geom.solids import box, signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus
-from shotc.passes.resolve.obstacles import signed_distance
 
 NARROW = 0.3  # share of a capital's height that a letter is wide at least
 SMALL = 0.5  # share of it that small letters are high at least

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import ceil
 
 from shotc.ir.show import Box, Model, Picture, Source, Sphere, Torus
 from shotc.passes.resolve.show.shape import balls, lowest
+from shotc.rounding import up
 
 
 def resized(source: Source, change: Callable[[float], float]) -> Source:
@@ -28,7 +28,7 @@ def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
     """
     if isinstance(source, Model) and source.height is None:
         source = source._replace(height=tall)
-    return resized(source, lambda metres: _up(metres * factor))
+    return resized(source, lambda metres: up(metres * factor, 1))
 
 
 def raised(source: Source, floor: float) -> Source:
@@ -37,7 +37,7 @@ def raised(source: Source, floor: float) -> Source:
     if lack <= 1e-6 or source.centre is None:
         return source
     x, y, z = source.centre
-    return source._replace(centre=(x, y, _up(z + lack)))
+    return source._replace(centre=(x, y, up(z + lack, 1)))
 
 
 def size_words(before: Source, after: Source) -> str:
@@ -61,7 +61,3 @@ def _sizes(source: Source) -> str:
     if isinstance(source, Box):
         return f"size: {source.size[0]:.1f}"
     return f"height: {source.height:.1f}"
-
-
-def _up(metres: float) -> float:
-    return ceil(metres * 10 - 1e-6) / 10

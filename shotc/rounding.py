@@ -1,0 +1,50 @@
+"""Numbers rounded to one side, so that one that is told is enough when it is written into a mission."""
+
+from math import ceil, floor, log10
+
+EXACT = 2e-8
+"""Share of the last digit that is rounding error: a number so little over a decimal is that decimal.
+
+It stays below what checks forgive, a micrometre or microsecond, so that the number told still passes them.
+"""
+
+
+def up(value: float, digits: int = 2) -> float:
+    """Return the least number of so many decimals that is no less than a value."""
+    return _decimal(ceil(_steps(value, digits) - EXACT), digits)
+
+
+def down(value: float, digits: int = 2) -> float:
+    """Return the greatest number of so many decimals that is no more than a value."""
+    return _decimal(floor(_steps(value, digits) + EXACT), digits)
+
+
+def at_least(value: float, digits: int = 2) -> str:
+    """Write a value rounded up, with all its decimals."""
+    return f"{up(value, digits):.{max(digits, 0)}f}"
+
+
+def at_most(value: float, digits: int = 2) -> str:
+    """Write a value rounded down, with all its decimals."""
+    return f"{down(value, digits):.{max(digits, 0)}f}"
+
+
+def away(value: float, *, upper: bool, digits: int) -> float:
+    """Return a value rounded to so many significant digits, up if it is to be an upper limit, else down."""
+    if value == 0:
+        return 0.0
+    decimals = digits - 1 - floor(log10(abs(value)))
+    return up(value, decimals) if upper else down(value, decimals)
+
+
+def plain(value: float, digits: int = 3) -> str:
+    """Write a value as short as it was likely asked, with no more than so many decimals."""
+    return f"{value:.{digits}f}".rstrip("0").rstrip(".")
+
+
+def _steps(value: float, digits: int) -> float:
+    return float(value * 10**digits)
+
+
+def _decimal(steps: int, digits: int) -> float:
+    return steps / 10**digits if digits >= 0 else float(steps * 10**-digits)
