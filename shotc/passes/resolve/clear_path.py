@@ -10,8 +10,9 @@ from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
 from shotc.passes.place_keyframes import place_shot
 from shotc.passes.resolve.obstacles import ROUNDING, obstacles_of
 
-STEP = 0.5  # metres between the values that are tried
-MOST = 60.0  # metres by which a value is changed at most
+STEP = 1.0  # metres between the values that are tried
+MOST = 40.0  # metres by which a value is changed at most
+PAIRS = 1000  # of places and obstacles, above which the search takes longer than a check may
 
 Moved = Callable[[Keyframe, float], Keyframe]
 
@@ -59,19 +60,29 @@ def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator
     around, floor = obstacles_of(mission, drone), mission.rules.ground_clearance + drone.radius
 
     def blocked(k: Keyframe) -> bool:
-        return k.at[2] < floor - ROUNDING or any(o.lack(k.at) > ROUNDING for o in around)
+        if k.at[2] < floor - ROUNDING:
+            return True
+        met = next((i for i, o in enumerate(around) if o.lack(k.at) > ROUNDING), None)
+        if met is not None:
+            around.insert(0, around.pop(met))
+        return met is not None
 
-    # Those that are blocked now are the first to be blocked after a small change.
-    order = sorted(shot.keyframes, key=blocked, reverse=True)
+    # What was blocked last is likely to be so after a small change; a ring comes by its places again.
+    order = list({tuple(round(c, 6) for c in k.at): k for k in shot.keyframes}.values())
+    if len(order) * len(around) > PAIRS:
+        return
     for sign in (1.0, -1.0):
         for step in range(1, int(MOST / STEP) + 1):
             by = sign * step * STEP
             if by < least:
                 break
-            if not any(blocked(move(k, by)) for k in order):
-                if _shown(mission, shot, [move(k, by) for k in shot.keyframes]):
-                    yield by
-                break
+            met = next((i for i, k in enumerate(order) if blocked(move(k, by))), None)
+            if met is not None:
+                order.insert(0, order.pop(met))
+                continue
+            if _shown(mission, shot, [move(k, by) for k in order]):
+                yield by
+            break
 
 
 def _shown(mission: MissionIR, shot: Shot, keyframes: Sequence[Keyframe]) -> bool:
