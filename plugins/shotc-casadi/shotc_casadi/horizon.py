@@ -41,5 +41,7 @@ def built(d: Derived, stages: int, solver: Solver, tolerance: float) -> Any:
     quiet: dict[str, Any] = {
         "ipopt": {"print_level": 0, "sb": "yes", "tol": tolerance, "max_iter": ITERATIONS}
     }
-    options: dict[str, Any] = {"print_time": False, "cache": laid_out(d, solver, stages, x, p)}
+    # What is no number is told by the solution's status; prices of the parameters are not asked for.
+    silent = {"print_time": False, "show_eval_warnings": False, "calc_lam_p": False}
+    options: dict[str, Any] = {**silent, "cache": laid_out(d, solver, stages, x, p)}
     return ca.nlpsol("framing", solver, nlp, options | (layout if solver == "fatrop" else quiet))
