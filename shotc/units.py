@@ -117,6 +117,8 @@ _COMPASS = {
     for name in (wind, wind.replace("-", ""), "".join(part[0] for part in wind.split("-")))
 }
 
+_TURNS = ("turn", "turns", "rev", "revs", "revolution", "revolutions", "rotation", "rotations")
+
 # Spellings that are near to nothing in the table by letters, or near to the wrong thing.
 _MEANT = {
     "meter": "m",
@@ -228,7 +230,8 @@ def _parse_text(text: str, dimension: Dimension) -> float:
             f"expected {a(dimension)}, got {a(other)}",
             f"`{clip(text)}` is {a(other)}; {_such_as(dimension)}",
         )
-    raise QuantityError("unknown-unit", f"unknown unit `{clip(unit)}`", _nearest(unit, dimension))
+    help_ = _whole_turns(number, unit, dimension) or _nearest(unit, dimension)
+    raise QuantityError("unknown-unit", f"unknown unit `{clip(unit)}`", help_)
 
 
 def _meant_by(text: str, dimension: Dimension) -> str:
@@ -240,6 +243,13 @@ def _meant_by(text: str, dimension: Dimension) -> str:
     if text.count(",") == 1 and len(point) <= _LONGEST_TEXT and _QUANTITY.fullmatch(point):
         return f"decimals have a point: `{point}`"
     return _such_as(dimension)
+
+
+def _whole_turns(number: float, unit: str, dimension: Dimension) -> str:
+    """Return the help for an angle in turns; empty for any other."""
+    if dimension != "angle" or unit.lower() not in _TURNS:
+        return ""
+    return f"a turn is 360 deg: write `{_short(360 * number)} deg`"
 
 
 def _with_unit(value: float, dimension: Dimension) -> str:

@@ -5,7 +5,7 @@ from East, pitch is positive up. Screen (u, v) lies in [-1, 1]^2, u right, v up.
 plain arithmetic only, so they take floats and numpy arrays alike (``S`` below is either).
 """
 
-from math import atan, atan2, cos, hypot, pi, sin, sqrt, tan
+from math import atan2, cos, hypot, pi, sin, sqrt, tan
 from typing import Any, NamedTuple
 
 from shotc.geom.angles import direction
@@ -164,11 +164,6 @@ def aim_at(offset: Vec3, uv: Vec2, hfov: float, aspect: float, yaw_if_vertical: 
     if horizontal < 1e-9 * length:
         return (yaw_if_vertical, pitch)
     return (direction(atan2(offset[1], offset[0]) + atan2(right, along)), pitch)
-
-
-def vertical_fov(hfov: float, aspect: float) -> float:
-    """Return the vertical field of view, rad."""
-    return 2 * atan(tan(hfov / 2) / aspect)
 
 
 def heading_of(yaw: float) -> float:

@@ -27,6 +27,21 @@ def to_world(place: Vec3, origin: Vec3) -> Vec3:
     )
 
 
+def above_ground(place: Vec3, origin: Vec3) -> Vec3:
+    """Return a place given by its height over the ground, the plane z = 0, as a point of W: z is the height.
+
+    place : (latitude, longitude, height) in degrees and metres; origin : as ``to_world`` takes it.
+    East and North are those of the point at that height on the vertical of the place, so the way back gives
+    the same latitude and longitude. The plane is the tangent at the origin, and the sea curves away below it:
+    the altitude on the way back is d^2 / 2R more than the origin's and the height, 7 mm at d = 300 m, 8 cm at
+    1 km, 8 m at 10 km. An elevation above sea level goes through ``to_world``.
+    """
+    lat, lon, height = place
+    _, _, z = to_world((lat, lon, origin[2] + height), origin)
+    x, y, _ = to_world((lat, lon, origin[2] + 2 * height - z), origin)  # the vertical is all but upright
+    return (x, y, height)
+
+
 def _earth_centred(place: Vec3) -> Vec3:
     lat, lon, alt = radians(place[0]), radians(place[1]), place[2]
     normal = SEMI_MAJOR / sqrt(1 - _E2 * sin(lat) ** 2)

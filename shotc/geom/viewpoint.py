@@ -6,7 +6,7 @@ hold enters as a steep hinge (the target whole in the frame, its clearance, the 
 (the floor, the pitch).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
 from operator import mul
 from typing import NamedTuple
@@ -24,6 +24,7 @@ FAINT = 0.01  # weight of what is free: that it stays as it is, and is level
 EDGE = 0.97  # of half a frame, within which a whole target is kept
 NUDGE = 1e-6
 ROUNDS = 100
+DAMPINGS = 12
 SETTLED = 1e-6  # share of the cost by which a round has to lower it
 STEEPEST = 1.5  # rad of elevation that a free view is raised to
 
@@ -219,6 +220,24 @@ def first_pose(subjects: Sequence[Wanted], lens: Lens, room: Room, azimuth: floa
     return (*eye, atan2(y, x), atan2(z, hypot(x, y)))
 
 
+class _Search(NamedTuple):
+    """What is minimised, and within which bounds; scale : what the steps of a pose's parts are shares of."""
+
+    cost: Callable[[Pose], tuple[Residuals | None, float]]
+    low: Sequence[float]
+    high: Sequence[float]
+    scale: Sequence[float]
+
+
+class _Found(NamedTuple):
+    """A pose with its residuals and their cost; damping : of the step from it."""
+
+    pose: Pose
+    residuals: Residuals | None
+    cost: float
+    damping: float
+
+
 def viewpoint(
     subjects: Sequence[Wanted], lens: Lens, room: Room, start: Pose, since: Since | None = None
 ) -> tuple[Pose, float]:
@@ -227,7 +246,6 @@ def viewpoint(
     since : what it comes from, or None; what is free stays as it is then, and nothing is farther than its way
     """
     reach = max(hypot(*minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
-    scale = (reach, reach, reach, 1.0, 1.0)
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
         found = _residuals(pose, subjects, lens, room.near, (since, reach))
@@ -235,40 +253,55 @@ def viewpoint(
 
     low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
     high = (inf, inf, inf, inf, lens.pitch[1])
-    pose, damping = _within(start, low, high), 1e-3
-    here, least = cost(pose)
+    search = _Search(cost, low, high, (reach, reach, reach, 1.0, 1.0))
+    pose = _within(start, low, high)
+    best = _Found(pose, *cost(pose), damping=1e-3)
     for _ in range(ROUNDS):
-        if here is None:
+        columns = _jacobian(search, best)
+        if columns is None:
             break
-        columns = []
-        for i in range(5):
-            # Away from a bound, so that what lies beyond it is not looked at.
-            nudge = NUDGE if pose[i] < high[i] else -NUDGE
-            there, _ = cost(_moved(pose, i, nudge * scale[i]))
-            if there is None:
-                return pose, least
-            columns.append([(b - a) / nudge for a, b in zip(here, there, strict=True)])
-        gradient = [_dot(c, here) for c in columns]
-        # A step goes against the gradient; where that leads over a bound, it stays on it.
-        stopped = [
-            (p <= a and g > 0) or (p >= b and g < 0)
-            for p, a, b, g in zip(pose, low, high, gradient, strict=True)
-        ]
-        free = [i for i in range(5) if not stopped[i]]
-        normal = [[_dot(columns[i], columns[k]) for k in free] for i in free]
-        before = least
-        for _ in range(12):
-            step = dict(zip(free, _solved(normal, [gradient[i] for i in free], damping), strict=True))
-            moved = tuple(p - scale[i] * step.get(i, 0.0) for i, p in enumerate(pose))
-            later = _within(moved, low, high)
-            found, value = cost(later)
-            if value < least:
-                pose, here, least, damping = later, found, value, max(damping * 0.1, 1e-12)
-                break
-            damping *= 10.0
-        if before - least <= SETTLED * max(before, 1e-12):
+        before, best = best.cost, _lowered(search, best, columns)
+        if before - best.cost <= SETTLED * max(before, 1e-12):
             break
-    return pose, least
+    return best.pose, best.cost
+
+
+def _jacobian(search: _Search, at: _Found) -> list[Residuals] | None:
+    """Return the residuals' derivatives by the parts of a pose, by differences; None where there are none."""
+    if at.residuals is None:
+        return None
+    columns = []
+    for i in range(5):
+        # Away from a bound, so that what lies beyond it is not looked at.
+        nudge = NUDGE if at.pose[i] < search.high[i] else -NUDGE
+        there, _ = search.cost(_moved(at.pose, i, nudge * search.scale[i]))
+        if there is None:
+            return None
+        columns.append([(b - a) / nudge for a, b in zip(at.residuals, there, strict=True)])
+    return columns
+
+
+def _lowered(search: _Search, at: _Found, columns: list[Residuals]) -> _Found:
+    """Return a pose of lower cost, by steps that are damped more and more; the same one if none is lower."""
+    assert at.residuals is not None
+    gradient = [_dot(c, at.residuals) for c in columns]
+    # A step goes against the gradient; where that leads over a bound, it stays on it.
+    stopped = [
+        (p <= a and g > 0) or (p >= b and g < 0)
+        for p, a, b, g in zip(at.pose, search.low, search.high, gradient, strict=True)
+    ]
+    free = [i for i in range(5) if not stopped[i]]
+    normal = [[_dot(columns[i], columns[k]) for k in free] for i in free]
+    damping = at.damping
+    for _ in range(DAMPINGS):
+        step = dict(zip(free, _solved(normal, [gradient[i] for i in free], damping), strict=True))
+        moved = tuple(p - search.scale[i] * step.get(i, 0.0) for i, p in enumerate(at.pose))
+        later = _within(moved, search.low, search.high)
+        found, value = search.cost(later)
+        if value < at.cost:
+            return _Found(later, found, value, max(damping * 0.1, 1e-12))
+        damping *= 10.0
+    return at._replace(damping=damping)
 
 
 def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) -> Pose:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
-from shotc.geom.geodetic import to_world
+from shotc.geom.geodetic import above_ground
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Rules, Subject, Target
 from shotc.ir.origin import KeyPath, OriginMap
@@ -164,6 +164,15 @@ class Scene(NamedTuple):
         """Return a diagnostic on the value at ``path`` below the shot."""
         return Diagnostic(code, message, (self.origins.value((*self.path, *path)),), notes, help)
 
+    def lasting(self, code: str, message: str, *path: str | int) -> Diagnostic:
+        """Return the diagnostic of a shot that has to say how long it lasts, told on its timing if any."""
+        timing = (*self.path, "timing")
+        if timing not in self.origins.values:
+            return self.fault(code, message, "add `timing: {duration: ...}`", *path)
+        others = any((*timing, key) in self.origins.values for key in ("start", "after"))
+        help_ = "add `duration: ...` to `timing`" if others else "write `timing: {duration: ...}`"
+        return self.fault(code, message, help_, "timing")
+
     def bad_file(self, name: str, wrong: "FileFault", *path: str | int) -> Diagnostic:
         """Return the diagnostic of a file, named at ``path`` below the shot, that cannot be used."""
         return bad_file(self.origins, (*self.path, *path), name, wrong)
@@ -186,12 +195,12 @@ class Kind(NamedTuple):
 
 
 def placed(origin: GeoOrigin | None, position: Place) -> Vec3:
-    """Return a position as a point of W; its height counts from the origin's altitude."""
+    """Return a position as a point of W; its height is z, over the ground."""
     if not isinstance(position, Geodetic):
         return position
     assert origin is not None
     base = (origin.lat_deg, origin.lon_deg, origin.alt)
-    return to_world((position.lat, position.lon, origin.alt + position.height), base)
+    return above_ground((position.lat, position.lon, position.height), base)
 
 
 def unknown_target(origins: OriginMap, path: KeyPath, name: str, known: Mapping[str, object]) -> Diagnostic:

@@ -47,7 +47,7 @@ def expand(shot: FramingShot, scene: Scene) -> Expansion:
     against += _twice(shot, scene)
     if shot.timing.duration is None:
         message = f"how long does this {shot.kind} last? it is planned on the mission's own time"
-        against.append(scene.fault("M003", message, "add `timing: {duration: ...}`", "kind"))
+        against.append(scene.lasting("M003", message, "kind"))
     if against:
         return Expansion.of(against)
     subjects = tuple(

@@ -1,7 +1,7 @@
 """Rows of places that a file gives, put into the world: for routes and for tracks alike."""
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.geodetic import to_world
+from shotc.geom.geodetic import above_ground, to_world
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
@@ -14,7 +14,7 @@ def in_world(
 ) -> list[Vec3] | Diagnostic:
     """Return a table's places as points of W, or what keeps those on the earth from it.
 
-    A `height` counts from the origin's altitude, an `ele` from the sea.
+    A `height` is z, over the ground; an `ele` counts from the sea.
     name : of the file, which the mission names at ``path``
     """
     if "x" in table.columns:
@@ -40,5 +40,5 @@ def in_world(
             notes = (f"point {number} of {len(table.rows)} in `{name}`, line {line}", found.note)
             return Diagnostic("G017", found.message, label, notes, found.help)
     base = (origin.lat_deg, origin.lon_deg, origin.alt)
-    ground = 0.0 if above_sea else origin.alt
-    return [to_world((row[i], row[j], ground + row[k]), base) for row in table.rows]
+    put = to_world if above_sea else above_ground
+    return [put((row[i], row[j], row[k]), base) for row in table.rows]

@@ -38,8 +38,7 @@ def timed(
     """
     if shot.timing.duration is None and lasts is None:
         message = f"how long does this {shot.kind} last? its target moves, so its time is the mission's"
-        help_ = "add `timing: {duration: ...}`"
-        return Expansion.of([scene.fault("M003", message, help_, "kind")])
+        return Expansion.of([scene.lasting("M003", message, "kind")])
     if subjects is None:
         subjects = () if shot.target is None else (scene.framed(shot, shot.target),)
     return Expansion(ideal=ideal, subjects=subjects, lasts=lasts)

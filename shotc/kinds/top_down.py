@@ -47,9 +47,7 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     if hypot(east, north, up) == 0:
         return Expansion.of([scene.keyframe(above, shot.target, hold=duration or STILL, **fixed)])
     if duration is None:
-        return Expansion.of(
-            [scene.fault("K009", "a drift needs a duration", "add `timing: {duration: ...}`", "drift")]
-        )
+        return Expansion.of([scene.lasting("K009", "a drift needs a duration", "drift")])
     fault = _too_fast(shot, scene, duration)
     if fault is not None:
         return Expansion.of([fault])

@@ -6,6 +6,7 @@ The parser says what it expected; a rule looks at the text round that place and 
 from collections.abc import Callable
 from typing import NamedTuple
 
+from shotc.source.comments import value_in_comment
 from shotc.source.fault import Fault, shorten
 from shotc.source.file import SourceFile, Span
 
@@ -196,6 +197,9 @@ def _not_an_item(c: Complaint) -> Fault:
 def _unclosed_bracket(c: Complaint) -> Fault:
     opened = c.at if c.start is None else c.start
     bracket = c.text[opened : opened + 1]
+    hidden = value_in_comment(c.text, opened, c.line_rest)
+    if hidden is not None:
+        return _hidden(c.file, bracket, opened, hidden)
     close = "]" if bracket == "[" else "}"
     return Fault(
         "unclosed",
@@ -203,6 +207,18 @@ def _unclosed_bracket(c: Complaint) -> Fault:
         c.file.point(opened),
         related=((c.file.point(c.at), f"',' or '{close}' expected before this"),),
         help=f"add the '{close}', or the comma between the values",
+    )
+
+
+def _hidden(file: SourceFile, bracket: str, opened: int, hidden: tuple[int, int]) -> Fault:
+    """Blame a `#` that made a value, and what closes the bracket behind it, a comment."""
+    value = shorten(file.text[hidden[0] : hidden[1]])
+    return Fault(
+        "needs-quotes",
+        "'#' begins a comment, so the rest of this line is not read",
+        file.span(*hidden),
+        help=f'{_QUOTE}: "{value}"',
+        related=((file.point(opened), f"this '{bracket}' is not closed"),),
     )
 
 

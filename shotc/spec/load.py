@@ -64,7 +64,7 @@ def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[S
     if spec is None or not _is_whole(document.root, kinds):
         from shotc.spec.shape_faults import shape_faults
 
-        faults = shape_faults(document.root, error, kinds, origins)
+        faults = shape_faults(document.root, error, kinds, origins, document.file)
         assert faults, "a mission is not rejected without a word"
         return Loaded(None, faults, document.file, _title(document))
     return Loaded(

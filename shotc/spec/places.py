@@ -13,8 +13,8 @@ from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import describe
 
 _LENGTH = Quantity("Length", "length")
-_POINT3 = Tuple("Point3", (_LENGTH,) * 3, "[x, y, z]")
 _HINT = "write [x, y, z] in metres, or {lat: ..., lon: ..., height: ...}"
+_POINT3 = Tuple("Point3", (_LENGTH,) * 3, "[x, y, z]", _HINT)
 
 # Names become file names and table cells: nothing a shell, a file system or a spreadsheet stumbles on.
 NAME = Text(

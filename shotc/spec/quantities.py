@@ -63,8 +63,12 @@ class Quantity(FieldType):
             self.fault,
             f"`{clip(str(value))}` is {'below' if number < self.low else 'above'} "
             f"what {a(self.noun or self.dimension)} may be here",
-            f"give {self._bounds()}",
+            self._meant(value) or f"give {self._bounds()}",
         )
+
+    def _meant(self, value: Any) -> str:
+        """Return how a value out of bounds was most likely meant to be written, if that can be told."""
+        return ""
 
     def schema(self) -> JsonSchemaValue:
         """Return a number-or-text schema; text only for angles."""
@@ -102,14 +106,24 @@ class Percentage(Quantity):
         """Return a share as people write it."""
         return f"{100 * number:g} %"
 
+    def _meant(self, value: Any) -> str:
+        """Return the percentage that a bare number was meant to be."""
+        if isinstance(value, str) or not 1 < value <= 100:
+            return ""
+        return f"write `{value:g} %`, or a share up to 1"
+
 
 class Tuple(FieldType):
-    """A list of fixed length, kept as a tuple; ``shape`` is how it is written, such as ``[x, y, z]``."""
+    """A list of fixed length, kept as a tuple; ``shape`` is how it is written, such as ``[x, y, z]``.
 
-    def __init__(self, label: str, items: tuple[FieldType, ...], shape: str) -> None:
+    hint : help for a list of another length, where there is more to say than the shape
+    """
+
+    def __init__(self, label: str, items: tuple[FieldType, ...], shape: str, hint: str = "") -> None:
         self.label = label
         self.items = items
         self.shape = shape
+        self.hint = hint or f"write {shape}"
 
     def read(self, value: Any) -> tuple[Any, ...]:
         """Return the items, each read by its type."""
@@ -117,7 +131,7 @@ class Tuple(FieldType):
             raise fault("wrong-type", f"expected a list {self.shape}, got {describe(value)}", _apart(value))
         if len(value) != len(self.items):
             few = f"expected {len(self.items)} values {self.shape}, got {len(value)}"
-            raise fault("wrong-length", few, _apart(value[0]) if len(value) == 1 else "")
+            raise fault("wrong-length", few, (_apart(value[0]) if len(value) == 1 else "") or self.hint)
         pairs = zip(self.items, value, strict=True)
         return tuple(read_each(((i,), partial(item.read, v)) for i, (item, v) in enumerate(pairs)))
 

@@ -8,7 +8,8 @@ from pydantic import ValidationError
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import code_of
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.source.file import WHOLE_FILE
+from shotc.source.comments import value_in_comment
+from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.spec.mission import VERSION
 from shotc.spec.shot import ShotBase
 from shotc.spec.translate import Finding, findings
@@ -23,16 +24,29 @@ def shape_faults(
     error: ValidationError | None,
     kinds: Mapping[str, type[ShotBase]],
     origins: OriginMap,
+    file: SourceFile,
 ) -> tuple[Diagnostic, ...]:
     """Return what is wrong with the keys and values below ``root``; of an unknown language only that.
 
-    error : what the models say of it, its version apart
+    error : what the models say of it, its version apart; file : the text
     """
     found = _version_findings(root)
     if not any(f.slug == "unknown-version" for f in found):
         said = findings(error) if error is not None else []
         found += [f for f in said if f.path != ("shotc",)] + _shot_findings(root, kinds)
-    return _diagnostics(found, origins)
+    return _diagnostics([_uncovered(f, origins, file) for f in found], origins)
+
+
+def _uncovered(finding: Finding, origins: OriginMap, file: SourceFile) -> Finding:
+    """Say of a key without a value that its line has one behind a `#`, if so."""
+    if finding.slug != "empty-value":
+        return finding
+    line = file.line(origins.key(finding.path).span.line)
+    hidden = value_in_comment(line, origins.key(finding.path).span.end_column - 1, len(line))
+    if hidden is None:
+        return finding
+    value = clip(line[slice(*hidden)])
+    return finding._replace(help=f'`#` begins a comment; put the value in quotes: "{value}"')
 
 
 def plan_given(name: str) -> Diagnostic:

@@ -245,7 +245,7 @@ CASES = {
         "[0, -18, 12]",
         (r"cropped, seen from 18\.0 m and 70\.0 deg wide",),
         (
-            put("[0, -18, 12]", r"move to (\S+) m", "[0, -%s, 12]"),
+            put("[0, -18, 12]", r"move to (\[.+?\])", "%s"),
             put("hold: 1 s", r"`hfov` to (\S+ deg)", "hold: 1 s, hfov: %s"),
         ),
     ),

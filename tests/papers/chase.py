@@ -15,7 +15,8 @@ import casadi as ca
 import numpy as np
 from shotc_casadi.clock.angles import rates
 from shotc_casadi.derivatives import differentiated
-from shotc_casadi.program import built
+from shotc_casadi.horizon import built
+from shotc_casadi.program import TOLERANCE
 from shotc_casadi.symbols import Stage
 
 from shotc.geom.bernstein import Array
@@ -89,7 +90,7 @@ def _stage() -> Stage:
 @cache
 def programme(steps: int, solver: str) -> Any:
     """Return the solver of all problems with so many steps."""
-    return built(differentiated(_stage()), steps, solver)  # type: ignore[arg-type]
+    return built(differentiated(_stage()), steps, solver, TOLERANCE)  # type: ignore[arg-type]
 
 
 def solve(task: Chase, solver: str = "fatrop") -> Flight:

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.centroids import centroids, coverage, view_plane, viewpoint_centroids
+from shotc.geom.centroids import centroids, view_plane, viewpoint_centroids
+from tests.goal_costs import coverage
 from tests.papers import bodies
 from tests.papers.report import Table
 

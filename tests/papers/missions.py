@@ -15,7 +15,7 @@ import numpy as np
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
-from shotc.geom.camera import aim_at, heading_of, vertical_fov
+from shotc.geom.camera import aim_at, heading_of
 from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
@@ -62,7 +62,7 @@ class _Cylinder:
     @property
     def fits_at(self) -> float:
         """Distance from which a level camera at half its height shows all of it, metres."""
-        tall = self.radius + self.height / 2 / tan(vertical_fov(HFOV, ASPECT) / 2)
+        tall = self.radius + self.height / 2 / (tan(HFOV / 2) / ASPECT)
         return max(tall, self.radius / sin(HFOV / 2))
 
 

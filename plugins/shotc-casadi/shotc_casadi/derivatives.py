@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -21,7 +21,7 @@ from shotc_casadi.symbols import Stage, stage
 Index = NDArray[np.int64]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Derived:
     """Functions of one stage and of the last node, with their derivatives laid out as the solvers ask.
 
@@ -49,57 +49,74 @@ class Derived:
         return self.states + self.inputs
 
 
+class _Horizon(NamedTuple):
+    """The symbols of a programme cut into its stages: unknowns and parameters by column, those of the end."""
+
+    z: Any
+    end: Any
+    given: Any
+    last: Any
+
+
 def laid_out(d: Derived, solver: str, stages: int, x: Any, p: Any) -> dict[str, Any]:
     """Return the derivatives of the programme, under the names by which CasADi's solvers ask for them."""
-    states, wide = d.states, d.width
+    wide = d.width
     z, end = ca.reshape(x[: stages * wide], wide, stages), x[stages * wide :]
     given = ca.reshape(p, p.numel() // (stages + 1), stages + 1)
-    inner, last = given[:, :stages], given[:, stages]
-    lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", stages * (states + d.bound) + d.last_bound)
-    lam = ca.reshape(lam_g[: stages * (states + d.bound)], states + d.bound, stages)
-    costate = lam[:states, :]
+    over = _Horizon(z, end, given[:, :stages], given[:, stages])
+    lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", stages * (d.states + d.bound) + d.last_bound)
 
-    slope, blocks = d.hessian.map(stages)(z, inner, ca.repmat(lam_f, 1, stages), costate, lam[states:, :])
-    end_slope, end_block = d.last_hessian(end, last, lam_f, lam_g[stages * (states + d.bound) :])
-    curvature = ca.MX(_block_diagonal(d, stages), ca.vertcat(blocks.nz[:], end_block.nz[:]))
-    before = ca.vertcat(ca.horzcat(ca.MX(states, 1), costate[:, :-1]), ca.MX(d.inputs, stages))
-    slopes = ca.vertcat(ca.vec(slope + before), end_slope + costate[:, -1])
-
-    gap0, bound0, first = d.first_jacobian(z[:, 0], inner[:, 0])
-    gaps, bounds, rest = d.jacobian.map(stages - 1)(z[:, 1:], inner[:, 1:])
-    end_bound, end_rows = d.last_jacobian(end, last)
-    jacobian = ca.MX(_staircase(d, stages), ca.vertcat(first.nz[:], rest.nz[:], end_rows.nz[:]))
-    following = ca.horzcat(z[:states, 1:], end)
-    rows = ca.vertcat(ca.horzcat(gap0, gaps), ca.horzcat(bound0, bounds))
-    rows = ca.vertcat(following - rows[:states, :], rows[states:, :])
-    g = ca.vertcat(ca.vec(rows), end_bound)
-
-    value, gradient = d.gradient.map(stages)(z, inner)
-    end_value, end_gradient = d.last_gradient(end, last)
-    total, whole = ca.sum2(value) + end_value, ca.vertcat(ca.vec(gradient), end_gradient)
+    slopes, curvature = _lagrangian(d, stages, over, lam_f, lam_g)
+    g, jacobian = _constraints(d, stages, over)
+    total, gradient = _costs(d, stages, over)
     made = [ca.Function("nlp_jac_g", [x, p], [g, jacobian], ["x", "p"], ["g", "jac_g_x"])]
-    multipliers = ["x", "p", "lam_f", "lam_g"]
+    names, multiplied = ["x", "p", "lam_f", "lam_g"], [x, p, lam_f, lam_g]
     if solver == "fatrop":
+        twice, outputs = [slopes, curvature], ["grad_gamma_x", "hess_gamma_x_x"]
         made += [
-            ca.Function("nlp_grad_f", [x, p], [whole], ["x", "p"], ["grad_f_x"]),
-            ca.Function(
-                "nlp_hess_l",
-                [x, p, lam_f, lam_g],
-                [slopes, curvature],
-                multipliers,
-                ["grad_gamma_x", "hess_gamma_x_x"],
-            ),
+            ca.Function("nlp_grad_f", [x, p], [gradient], ["x", "p"], ["grad_f_x"]),
+            ca.Function("nlp_hess_l", multiplied, twice, names, outputs),
         ]
     else:
-        upper = ca.triu(curvature)
         made += [
-            ca.Function("nlp_grad_f", [x, p], [total, whole], ["x", "p"], ["f", "grad_f_x"]),
-            ca.Function("nlp_hess_l", [x, p, lam_f, lam_g], [upper], multipliers, ["triu_hess_gamma_x_x"]),
+            ca.Function("nlp_grad_f", [x, p], [total, gradient], ["x", "p"], ["f", "grad_f_x"]),
+            ca.Function("nlp_hess_l", multiplied, [ca.triu(curvature)], names, ["triu_hess_gamma_x_x"]),
         ]
     return {f.name(): f for f in made}
 
 
-@lru_cache(maxsize=8)
+def _lagrangian(d: Derived, stages: int, over: _Horizon, lam_f: Any, lam_g: Any) -> tuple[Any, Any]:
+    """Return the gradient of the Lagrangian and its Hessian."""
+    states, high = d.states, d.states + d.bound
+    lam = ca.reshape(lam_g[: stages * high], high, stages)
+    costate, weights = lam[:states, :], ca.repmat(lam_f, 1, stages)
+    slope, blocks = d.hessian.map(stages)(over.z, over.given, weights, costate, lam[states:, :])
+    end_slope, end_block = d.last_hessian(over.end, over.last, lam_f, lam_g[stages * high :])
+    curvature = ca.MX(_block_diagonal(d, stages), ca.vertcat(blocks.nz[:], end_block.nz[:]))
+    before = ca.vertcat(ca.horzcat(ca.MX(states, 1), costate[:, :-1]), ca.MX(d.inputs, stages))
+    return ca.vertcat(ca.vec(slope + before), end_slope + costate[:, -1]), curvature
+
+
+def _constraints(d: Derived, stages: int, over: _Horizon) -> tuple[Any, Any]:
+    """Return all constraints and their Jacobian."""
+    z, states = over.z, d.states
+    gap0, bound0, first = d.first_jacobian(z[:, 0], over.given[:, 0])
+    gaps, bounds, rest = d.jacobian.map(stages - 1)(z[:, 1:], over.given[:, 1:])
+    end_bound, end_rows = d.last_jacobian(over.end, over.last)
+    jacobian = ca.MX(_staircase(d, stages), ca.vertcat(first.nz[:], rest.nz[:], end_rows.nz[:]))
+    following = ca.horzcat(z[:states, 1:], over.end)
+    rows = ca.vertcat(following - ca.horzcat(gap0, gaps), ca.horzcat(bound0, bounds))
+    return ca.vertcat(ca.vec(rows), end_bound), jacobian
+
+
+def _costs(d: Derived, stages: int, over: _Horizon) -> tuple[Any, Any]:
+    """Return the cost and its gradient."""
+    value, gradient = d.gradient.map(stages)(over.z, over.given)
+    end_value, end_gradient = d.last_gradient(over.end, over.last)
+    return ca.sum2(value) + end_value, ca.vertcat(ca.vec(gradient), end_gradient)
+
+
+@lru_cache(maxsize=16)
 def derived(visibility: Visibility, planes: int) -> Derived:
     """Return the functions of one stage with that many half-spaces."""
     return differentiated(stage(visibility, planes))

@@ -120,20 +120,12 @@ def _guess(subject: Subject, stages: Stages, wanted: Wishes, condition: Conditio
 def _parameters(
     subject: Subject, stages: Stages, wanted: Wishes, walls: Array, margins: Margins, guess: Array
 ) -> Array:
-    n = len(stages.s) - 1
-    total = float(stages.t[-1])
-    drone = subject.drone
+    n, total, drone = len(stages.s) - 1, float(stages.t[-1]), subject.drone
     assert subject.leg.curve is not None
-    reference = subject.leg.curve(stages.s)[:, :3]
-    distance = np.maximum(np.linalg.norm(wanted.centre - reference, axis=1), 1.0)
-    if not wanted.framed.any():
-        distance = np.full(n + 1, max(1.0, 0.2 * float(stages.s[-1] - stages.s[0])))
     wide, tall = fields_of_view(subject, stages.s)
     rate = subject.leg.curve.derivative()(stages.s)[:, :3]
     spacing = np.maximum(np.gradient(stages.s), 1e-6)
-    pinned, weight = _pinned(subject, stages, guess, distance)
-    pinned[:, POSITION] = reference
-    weight[:, POSITION] *= margins.hold
+    pinned, weight = _pinned(subject, stages, wanted, margins, guess)
     swing = max(drone.gimbal.acceleration, drone.limits.yaw_acceleration)
     each = 1.0 / n
     values = {
@@ -159,16 +151,33 @@ def _parameters(
         "nominal": 1.0 / np.append(np.diff(stages.t), 1.0),
     }
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
-    planes = walls.copy()
-    planes[:, :, 3] += margins.room * np.linalg.norm(walls[:, :, :3], axis=2)
-    whole = np.column_stack([*table, planes.reshape(n + 1, -1)])
+    whole = np.column_stack([*table, _planes(walls, margins)])
     assert whole.shape[1] == size(walls.shape[1])
     return whole
 
 
-def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> tuple[Array, Array]:
+def _distance(wanted: Wishes, reference: Array, stages: Stages) -> Array:
+    """Return the distance to the target by which errors are measured, metres, shape (N + 1,)."""
+    if not wanted.framed.any():
+        return np.full(len(stages.s), max(1.0, 0.2 * float(stages.s[-1] - stages.s[0])))
+    return np.asarray(np.maximum(np.linalg.norm(wanted.centre - reference, axis=1), 1.0))
+
+
+def _planes(walls: Array, margins: Margins) -> Array:
+    """Return half-spaces as parameters, with the room that is kept from them."""
+    planes = walls.copy()
+    planes[:, :, 3] += margins.room * np.linalg.norm(walls[:, :, :3], axis=2)
+    return planes.reshape(len(walls), -1)
+
+
+def _pinned(
+    subject: Subject, stages: Stages, wanted: Wishes, margins: Margins, guess: Array
+) -> tuple[Array, Array]:
     """Return wanted states and their weights: positions near the path, keyframes, rest, ends, times."""
+    assert subject.leg.curve is not None
     value = guess.copy()
+    value[:, POSITION] = subject.leg.curve(stages.s)[:, :3]
+    distance = _distance(wanted, value[:, POSITION], stages)
     weight = np.zeros_like(value)
     weight[:, POSITION] = (POSITION_ERROR / distance**2)[:, None]
     leg, s = subject.leg, stages.s
@@ -186,6 +195,7 @@ def _pinned(subject: Subject, stages: Stages, guess: Array, distance: Array) -> 
             value[k, TIME], weight[k, TIME] = times[s[k]], PIN
     for k in (pins[0], pins[-1]):
         weight[k, [YAW, PITCH]] = 100 * PIN
+    weight[:, POSITION] *= margins.hold
     return value, weight
 
 

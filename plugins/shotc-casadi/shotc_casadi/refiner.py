@@ -15,23 +15,19 @@ from shotc.plugin_api import (
     PathIR,
     Piecewise,
     SolverState,
-    fallback,
     impossible,
-    solver_nan,
-    stopped_early,
 )
 from shotc.refiner_api import Deviation, NoTransit, flight_room, leg_of, rejoined
 from shotc_casadi import conditions
 from shotc_casadi.clock.refiner import refine_clocks
 from shotc_casadi.conditions import Condition
-from shotc_casadi.patience import PATIENCE
-from shotc_casadi.program import Solution
 from shotc_casadi.rounds import Gap, Refined, refine_shot
+from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME
+from shotc_casadi.telling import UNITS, fallen_back, given_up, stats
 from shotc_casadi.wishes import Subject
 
 NOTICE = 0.1  # metres off the convex path that are worth telling
-UNITS = {"speed": "m^2/s^2", "acceleration": "m^2/s^4", "jerk": "m^2/s^6", "clearance": "m"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,12 +58,12 @@ class Refiner:
         done = self.shots(path, ctx)
         refined, unreached = self._joined(path, done)
         diagnostics = [*unreached, *(d for r in done if (d := self._report(path, r)) is not None)]
-        stats = [entry for r in done for entry in _stats(r)]
+        entries = [entry for r in done for entry in stats(r.shot, r.rounds, r.solution)]
         deviations = [d for r in done if r.camera is not None for d in _deviation(path, r)]
         return Outcome(
             replace(
                 refined,
-                stats=(*path.stats, *stats),
+                stats=(*path.stats, *entries),
                 deviations=(*path.deviations, *deviations),
             ),
             tuple(diagnostics),
@@ -105,18 +101,10 @@ class Refiner:
         """Return what has to be said of one shot's solver."""
         solution = refined.solution
         if refined.camera is not None:
-            if refined.first is None:
-                return None
-            why = _word(refined.first)
-            return fallback(path, refined.shot, (refined.first.solver, solution.solver), why)
+            return fallen_back(path, refined.shot, refined.first, solution)
         if refined.gap is not None:
-            return impossible(path, self._between(refined, refined.gap))
-        state = self._state(refined, solution.constraint or "the motion from stage to stage")
-        if solution.status == "nan":
-            return solver_nan(path, state)
-        if solution.status == "infeasible":
-            return impossible(path, state)
-        return stopped_early(path, state, _word(solution))
+            return given_up(path, self._between(refined, refined.gap), solution)
+        return given_up(path, self._state(refined, solution.constraint or MOTION), solution)
 
     def _between(self, refined: Refined, gap: Gap) -> SolverState:
         """Return the state of a problem whose solution does not hold between its nodes."""
@@ -157,25 +145,6 @@ def subjects(path: PathIR) -> list[Subject]:
             if leg.shot is not None and leg.curve is not None
         ]
     return found
-
-
-def _word(solution: Solution) -> str:
-    if solution.status == "nan":
-        return "numbers that are none"
-    if solution.iterations == 0:
-        return f"{PATIENCE:.0f} s without an end"
-    return f"{solution.iterations} iterations"
-
-
-def _stats(refined: Refined) -> list[tuple[str, float | str]]:
-    solution = refined.solution
-    return [
-        (f"{refined.shot}.refine_stages", float(len(solution.inputs))),
-        (f"{refined.shot}.refine_rounds", float(refined.rounds)),
-        (f"{refined.shot}.refine_iterations", float(solution.iterations)),
-        (f"{refined.shot}.refine_solver", solution.solver),
-        (f"{refined.shot}.refine_status", solution.status),
-    ]
 
 
 def _deviation(path: PathIR, refined: Refined) -> list[Deviation]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf, nan
 from typing import NamedTuple
 
@@ -11,15 +12,16 @@ from shotc.refiner_api import Array, NoTransit, shortfall
 from shotc_casadi.camera import NoFit, camera
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due, unhurried
+from shotc_casadi.horizon import Solver
 from shotc_casadi.problem import Margins, problem
-from shotc_casadi.program import Problem, Solution, Solver, solve
+from shotc_casadi.program import Problem, solve
 from shotc_casadi.proof import Check, checked, hopeless, tighter
+from shotc_casadi.solving import SOLVERS, Attempt, Solution, by_one_of
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, YAW
 from shotc_casadi.walls import half_spaces
 from shotc_casadi.wishes import Subject, wishes
 
-SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
 ROUNDS = 6
 HOLD_AFTER = 3  # rounds, after which the convex path is all but held: it is known to be clear
 
@@ -87,7 +89,8 @@ def _refine(
     ends = following.states[[0, -1]][:, [YAW, PITCH]]
     done: list[_Tried] = []
     for rounds in range(1, ROUNDS + 1):
-        tried = _tried(subject, condition, nodes, following, _solved(following, solvers), ends)
+        attempt = by_one_of(solvers, partial(solve, following))
+        tried = _tried(subject, condition, nodes, following, attempt, ends)
         helped = not done or tried.check.helped(min(t.check for t in done))
         done.append(tried)
         best = min(done, key=lambda t: t.check)
@@ -96,18 +99,17 @@ def _refine(
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
         walls = half_spaces(subject.room, leg.curve, nodes, margins.comfort)
         tightened = problem(subject, condition, nodes, wanted, walls, margins)
-        following = replace(tightened, states=tried.solution.states, inputs=tried.solution.inputs)
+        following = replace(tightened, states=attempt.solution.states, inputs=attempt.solution.inputs)
     return _result(subject, nodes, done, best), best.check
 
 
 class _Tried(NamedTuple):
-    """One round: the camera, None where there is none; what is open; failed : a solver before this one."""
+    """One round: the camera, None where there is none; what is open; what came of its problem."""
 
     camera: Piecewise | None
     check: Check
     problem: Problem
-    solution: Solution
-    failed: Solution | None
+    attempt: Attempt
 
 
 def _tried(
@@ -115,14 +117,14 @@ def _tried(
     condition: Condition,
     nodes: Stages,
     task: Problem,
-    solved: tuple[Solution, Solution | None],
+    attempt: Attempt,
     ends: Array,
 ) -> _Tried:
-    nothing = _Tried(None, Check(inf, inf, inf), task, *solved)
-    if solved[0].status != "solved":
+    nothing = _Tried(None, Check(inf, inf, inf), task, attempt)
+    if attempt.solution.status != "solved":
         return nothing
     try:
-        found = camera(subject.drone, subject.leg, nodes, solved[0].states, ends)
+        found = camera(subject.drone, subject.leg, nodes, attempt.solution.states, ends)
         return nothing._replace(camera=found, check=checked(subject, condition, found))
     except (NoFit, NoTransit):
         return nothing
@@ -133,24 +135,15 @@ def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -
     leg = subject.leg
     assert leg.shot is not None
     kept = best if best.check.lack <= 0 else done[-1]._replace(camera=None)
-    seconds = sum(t.solution.seconds + (t.failed.seconds if t.failed else 0.0) for t in done)
+    solution, failed = kept.attempt
+    seconds = sum(t.attempt.seconds for t in done)
     gap = None
-    if kept.camera is None and kept.solution.status == "solved":
+    if kept.camera is None and solution.status == "solved":
         gap = Gap(float(nodes.s[0]), nan) if best.camera is None else _widest(subject, best.camera)
-    return Refined(
-        leg.shot, kept.camera, nodes, len(done), kept.problem, kept.solution, seconds, kept.failed, gap
-    )
+    return Refined(leg.shot, kept.camera, nodes, len(done), kept.problem, solution, seconds, failed, gap)
 
 
 def _widest(subject: Subject, found: Piecewise) -> Gap:
     lack = shortfall(subject.room, found.ctrl[:, :, :3])
     k = int(lack.argmax())
     return Gap(float(found.breaks[k]), float(lack[k]))
-
-
-def _solved(task: Problem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solution | None]:
-    """Solve by the first of the solvers, or else by the second; the second value is the first's failure."""
-    solution = solve(task, solvers[0])
-    if solution.status == "solved" or len(solvers) == 1:
-        return solution, None
-    return solve(task, solvers[1]), solution

@@ -8,6 +8,7 @@ from functools import cache
 import casadi as ca
 import numpy as np
 import pytest
+from shotc_casadi import solving
 from shotc_casadi.clock import program
 from shotc_casadi.clock.angles import turning
 from shotc_casadi.clock.problem import STAGES, breaks_of, guess, problem
@@ -16,6 +17,7 @@ from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, refine_clock
 from shotc_casadi.clock.wishes import ClockSubject, motion, steepest, wishes
 from shotc_casadi.patience import Endless
+from shotc_casadi.solving import Solution
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
@@ -210,7 +212,7 @@ def test_the_control_points_of_every_stage_keep_what_is_asked() -> None:
 def test_ipopt_is_the_fallback_and_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     of = subject(compiled(FLYBY))
 
-    def given_up(made: program.ClockProblem, solver: str) -> program.Solution:
+    def given_up(made: program.ClockProblem, solver: str) -> Solution:
         found = true(made, solver)
         return replace(found, status="stopped") if solver == "fatrop" else found
 
@@ -228,7 +230,7 @@ def test_a_solver_that_never_ends_is_left_behind_and_its_shot_named(monkeypatch:
     def late(_seconds: float, _call: object) -> None:
         raise Endless
 
-    monkeypatch.setattr(program, "within", late)
+    monkeypatch.setattr(solving, "within", late)
     path, told = refine_clocks(of.path, PassContext(), "ours")
     assert [d.code for d in told] == ["R011"]
     assert "30 s without an end" in told[0].message
@@ -241,7 +243,7 @@ def test_where_the_shot_allows_it_the_guide_is_flown_instead(monkeypatch: pytest
     def late(_seconds: float, _call: object) -> None:
         raise Endless
 
-    monkeypatch.setattr(program, "within", late)
+    monkeypatch.setattr(solving, "within", late)
     compiled.cache_clear()
     refused, allowed = compiled(FLYBY), compiled(FLYBY + ", refine: {optional: true}")
     compiled.cache_clear()

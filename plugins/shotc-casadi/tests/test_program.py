@@ -11,10 +11,12 @@ from functools import cache, lru_cache
 import casadi as ca
 import numpy as np
 import pytest
-from shotc_casadi import program
+from shotc_casadi import solving
 from shotc_casadi.conditions import LOOK_AT, OURS, OURS_4PT
+from shotc_casadi.derivatives import derived
+from shotc_casadi.horizon import built
 from shotc_casadi.patience import Endless, within
-from shotc_casadi.program import FEASIBLE, TOLERANCE, solve
+from shotc_casadi.program import FEASIBLE, NARROW, TOLERANCE, instance, solve
 from shotc_casadi.symbols import INPUTS, LENGTH, PITCH, PITCH_RATE, STATES, TIME, size, stage
 
 from tests.refiner_scenes import task, walled
@@ -60,7 +62,7 @@ def plain(made):
 def test_the_solution_meets_the_kkt_conditions(solver, monkeypatch):
     made, seen = task(walled()), {}
     assert made.planes > 0
-    nlp = program._programme(made.stages, made.planes, made.visibility, solver)
+    nlp = built(derived(made.visibility, made.planes), made.stages, solver, TOLERANCE)
 
     class Spy:
         stats = nlp.stats
@@ -69,7 +71,7 @@ def test_the_solution_meets_the_kkt_conditions(solver, monkeypatch):
             seen["given"], seen["out"] = given, nlp(**given)
             return seen["out"]
 
-    monkeypatch.setattr(program, "_programme", lambda *_: Spy())
+    monkeypatch.setattr(solving, "built", lambda *_: Spy())
     assert solve(made, solver).status == "solved"
     x, on_x, on_g = (np.array(seen["out"][name]).ravel() for name in ("x", "lam_x", "lam_g"))
     cost, g, slope, jacobian = plain(made)(x)
@@ -151,7 +153,7 @@ def test_a_state_that_may_not_move_is_held(solver, width, which, middle):
     low[:, which], high[:, which] = middle - width / 2, middle + width / 2
     solution = solve(replace(made, state_bounds=(low, high)), solver)
     assert solution.status == "solved"
-    assert np.abs(solution.states[:, which] - middle).max() < program.NARROW
+    assert np.abs(solution.states[:, which] - middle).max() < NARROW
 
 
 def test_more_stages_do_not_take_many_more_iterations():
@@ -176,7 +178,9 @@ def test_more_stages_do_not_take_many_more_iterations():
     ],
 )
 def test_a_row_is_called_by_what_it_bounds(row, name):
-    assert program._constraint_name(row, 7, 2) == name
+    made = contradictory(task(walled(), count=7))
+    assert (made.stages, made.planes) == (7, 2)
+    assert solving._name(row, instance(made)) == name
 
 
 def test_a_call_may_return_raise_or_be_left_behind():
@@ -189,8 +193,8 @@ def test_a_call_may_return_raise_or_be_left_behind():
 
 def test_a_solver_that_does_not_end_is_left_behind(monkeypatch):
     slow = lru_cache(lambda *_: lambda **_: time.sleep(0.5))
-    monkeypatch.setattr(program, "PATIENCE", 0.05)
-    monkeypatch.setattr(program, "_programme", slow)
+    monkeypatch.setattr(solving, "PATIENCE", 0.05)
+    monkeypatch.setattr(solving, "built", slow)
     solution = solve(task(walled()), "fatrop")
     assert (solution.status, solution.iterations) == ("stopped", 0)
     assert np.isnan(solution.residual)
@@ -199,11 +203,12 @@ def test_a_solver_that_does_not_end_is_left_behind(monkeypatch):
 
 ENDLESS = """
 from dataclasses import replace
-from shotc_casadi import program
+from shotc_casadi import solving
+from shotc_casadi.program import solve
 from tests.refiner_scenes import arc, task
-program.PATIENCE = 1.0
+solving.PATIENCE = 1.0
 short = task(arc()._replace(leg=replace(arc().leg, duration=0.5)))
-print(program.solve(short, "fatrop").status, program.solve(task(arc()), "fatrop").status)
+print(solve(short, "fatrop").status, solve(task(arc()), "fatrop").status)
 """
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._slips import slip
+from shotc.diag.model import Severity
 
 _PASSING = """\
 shotc: 1
@@ -165,4 +166,14 @@ CODES: tuple[CodeInfo, ...] = (
             "     timing: {start: 50, duration: 10}}",
         ),
     )._replace(phase="plan"),
+    _code(
+        15,
+        "limit-above-model",
+        "a limit is far above what the drone's model is planned with",
+        "`limits` override what the `model` says, and are taken at their word. The figures of a model stay at "
+        "half of what its maker publishes, or more; a speed or an acceleration of more than twice as much is "
+        "most likely a slip: a number in km/h without its unit, or a digit too many. Mend it, or leave it "
+        "where the drone does fly so. Without `model` nothing is said, for the drone is your own.",
+        ("speed: 9 m/s", "speed: 50 m/s"),
+    )._replace(severity=Severity.WARNING),
 )

@@ -153,8 +153,8 @@ CODES: tuple[CodeInfo, ...] = (
         "needs-quotes",
         (
             "a value that YAML reads as something else without quotes",
-            "Values that begin with @, %, a backtick, * or &, or that hold ': ', mean something to YAML. Put them in "
-            "quotes. In double quotes a backslash begins an escape sequence: write it twice, or use single quotes.",
+            "Values that begin with @, %, a backtick, * or &, or that hold ': ', mean something to YAML, and a # makes "
+            "the rest of its line a comment, as it would a colour's digits. Put them in quotes. In double quotes a backslash begins an escape sequence: write it twice, or use single quotes.",
         ),
         _mutant("mission: look", "mission: @look"),
     ),

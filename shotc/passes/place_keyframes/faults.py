@@ -9,7 +9,7 @@ from math import degrees, hypot, pi, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.vec import Vec2, Vec3
+from shotc.geom.vec import Vec2
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
@@ -21,18 +21,17 @@ from shotc.passes.place_keyframes.candidates import (
     nearest_on_verticals,
     roomiest,
 )
+from shotc.passes.place_keyframes.farther import Fits, farther, least, parameter_label
 from shotc.rounding import at_least, at_most
 
-FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
 WIDEST = radians(150)
-LEVEL = 0.1  # metres off the target's axis, below which a camera is above it
 _WARNINGS = ("G011", "G012")
 
 
 class Miss(NamedTuple):
     """One keyframe that misses its composition; of several the heaviest is reported.
 
-    help : or what finds it, where that takes a search
+    help : or what finds it in the mission and the shot, where that takes a search
     """
 
     code: str
@@ -40,7 +39,7 @@ class Miss(NamedTuple):
     weight: float
     message: str
     notes: tuple[str, ...] = ()
-    help: Callable[[], str] | str = ""
+    help: Callable[[MissionIR, Shot], str] | str = ""
 
 
 def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Vec2) -> Miss:
@@ -64,7 +63,9 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
         abs(place[1]),
         f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
         (instead,),
-        lambda: f"{_what_fits(keyframe, setting)}, or set `composition: keep` to allow cropping",
+        lambda mission, shot: (
+            f"{_what_fits(keyframe, setting, mission, shot)}, or set `composition: keep` to allow cropping"
+        ),
     )
 
 
@@ -136,53 +137,28 @@ def _within_reach(setting: Setting, pitch: float) -> str:
     return f"let the gimbal pitch to {enough} deg, or fly {level} or farther away"
 
 
-def _what_fits(keyframe: Keyframe, setting: Setting) -> str:
+def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: Shot) -> str:
     """Name the least distance and field of view that show the target whole on the set, or beside it."""
     composition = keyframe.composition
+
+    def options(fits: Fits) -> str:
+        return _options(farther(mission, shot, keyframe, setting, fits), setting, fits)
+
     return (
-        _options(keyframe, setting, lambda s: has_candidate(s, composition))
-        or _options(keyframe, setting, lambda s: roomiest(s, composition) >= -TOUCH)
+        options(lambda s: has_candidate(s, composition))
+        or options(lambda s: roomiest(s, composition) >= -TOUCH)
         or "point the camera from lower or farther away, or make the target smaller"
     )
 
 
-def _options(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], bool]) -> str:
+def _options(distance: str, setting: Setting, fits: Fits) -> str:
     wide = None
     if setting.hfov < WIDEST:
-        wide = _least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, WIDEST)
-    options = [_farther(keyframe, setting, fits)]
+        wide = least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, WIDEST)
+    options = [distance]
     if wide is not None:
         options.append(f"widen `hfov` to {at_least(degrees(wide), 1)} deg")
     return ", or ".join(option for option in options if option)
-
-
-def _farther(keyframe: Keyframe, setting: Setting, fits: Callable[[Setting], bool]) -> str:
-    """Propose a distance: straight back for a camera of the user's, level for one on a generated path."""
-    x, y, z = setting.offset
-    across = hypot(x, y)
-    level = not keyframe.placed and across > LEVEL
-
-    def back(k: float) -> Vec3:
-        return (x * k, y * k, z if level else z * k)
-
-    k = _least(lambda k: fits(setting._replace(offset=back(k))), 1.0, FARTHEST)
-    if k is None:
-        return ""
-    far = at_least(k * (across if level else hypot(x, y, z)), 1)
-    return f"keep {far} m from its axis" if level else f"move to {far} m from its centre"
-
-
-def _least(fits: Callable[[float], bool], low: float, high: float) -> float | None:
-    """Bisect for the least value that fits; None where even the highest does not."""
-    if not fits(high):
-        return None
-    while high - low > 1e-3 * low:
-        middle = (low + high) / 2
-        if fits(middle):
-            high = middle
-        else:
-            low = middle
-    return high
 
 
 def _range(setting: Setting) -> str:
@@ -211,8 +187,9 @@ def _diagnostic(mission: MissionIR, shot: Shot, group: list[Miss]) -> Diagnostic
         place = ", ".join(f"{c:.1f}" for c in worst.keyframe.at)
         count = f"at {len(group)} of the {len(shot.keyframes)} keyframes of this {shot.kind}"
         notes = (*notes, f"{count}, this one at [{place}]")
-    help_ = worst.help if isinstance(worst.help, str) else worst.help()
-    return Diagnostic(worst.code, worst.message, (framing_label(mission, worst.keyframe),), notes, help_)
+    help_ = worst.help if isinstance(worst.help, str) else worst.help(mission, shot)
+    label = parameter_label(mission, shot, worst.keyframe) or framing_label(mission, worst.keyframe)
+    return Diagnostic(worst.code, worst.message, (label,), notes, help_)
 
 
 def framing_label(mission: MissionIR, keyframe: Keyframe) -> Label:

@@ -49,7 +49,7 @@ def solver_nan(path: PathIR, state: SolverState) -> Diagnostic:
         f"{_who(state)} reached values that are not numbers in shot `{state.shot}`",
         _labels(path, state),
         _notes(path, state),
-        f"bring no keyframe straight above or below a target; or {NO_HELP}",
+        _help(path, state, "bring no keyframe straight above or below a target"),
     )
 
 
@@ -60,7 +60,7 @@ def stopped_early(path: PathIR, state: SolverState, after: str) -> Diagnostic:
         f"{_who(state)} stopped after {after} in shot `{state.shot}`, before it had a path",
         _labels(path, state),
         _notes(path, state),
-        f"loosen {state.constraint}, or add a keyframe there; or {NO_HELP}",
+        _help(path, state, "add a keyframe there", loosen=True),
     )
 
 
@@ -71,7 +71,7 @@ def impossible(path: PathIR, state: SolverState) -> Diagnostic:
         f"{_who(state)} finds no path for shot `{state.shot}` that keeps {state.constraint}",
         _labels(path, state),
         _notes(path, state),
-        f"loosen {state.constraint}, or move the keyframes next to it; or {NO_HELP}",
+        _help(path, state, "move the keyframes next to it", loosen=True),
     )
 
 
@@ -128,6 +128,15 @@ def filmed(path: PathIR, shot: str) -> Leg | TimedLeg:
             if leg.shot == shot:
                 return leg
     return leg_of(path, shot)
+
+
+def _help(path: PathIR, state: SolverState, keyframes: str, *, loosen: bool = False) -> str:
+    """Return what to change; keyframes : of a shot that has any."""
+    clocked = isinstance(filmed(path, state.shot), TimedLeg)
+    remedies = ["give the shot more time" if clocked else keyframes]
+    if loosen and not state.excess <= 0.0:
+        remedies.insert(0, f"loosen {state.constraint}")
+    return f"{', or '.join(remedies)}; or {NO_HELP}"
 
 
 def _who(state: SolverState) -> str:

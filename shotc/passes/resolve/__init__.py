@@ -114,7 +114,7 @@ def _world(ir: LoadedMission) -> _World:
         _rules(spec.rules),
         (*astray, *zone_faults, *drone_faults, *buried, *track_faults),
         astray=bool(astray),
-        sound=not drone_faults,
+        sound=not has_errors(drone_faults),
     )
 
 

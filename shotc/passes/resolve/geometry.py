@@ -8,7 +8,9 @@ is the user's number, so the ground binds it too.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache, partial
+from typing import TYPE_CHECKING
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
@@ -16,18 +18,22 @@ from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move, obstacles_of
 from shotc.rounding import at_least
 
+if TYPE_CHECKING:
+    from shotc.passes.resolve.clear_path import Change
+
 _CODES = {"out": "G002", "in": "G003", "target": "G004"}
 
 
 def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
     """Yield the faults of a shot's keyframes, one for each keyframe line and obstacle, with that line."""
     drone = mission.drone(shot.drone)
+    clear = cache(partial(_changes, mission, shot))
     for path, keyframes in _by_line(shot).items():
         for fault in _too_low(mission, shot, drone, path, keyframes):
             yield path, fault
         raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
         for obstacle in obstacles_of(mission, drone):
-            for fault in _blocked(mission, shot, drone, raised, obstacle):
+            for fault in _blocked(mission, shot, raised, obstacle, clear):
                 yield path, fault
 
 
@@ -95,30 +101,43 @@ def _altitude(mission: MissionIR) -> float:
 
 
 def _blocked(
-    mission: MissionIR, shot: Shot, drone: Drone, keyframes: list[Keyframe], obstacle: Obstacle
+    mission: MissionIR,
+    shot: Shot,
+    keyframes: list[Keyframe],
+    obstacle: Obstacle,
+    clear: Callable[[], list[Change]],
 ) -> Iterator[Diagnostic]:
+    """Yield the fault of a line whose keyframes an obstacle blocks; ``clear`` finds what frees a path."""
+    drone = mission.drone(shot.drone)
     lacking = [k for k in keyframes if obstacle.lack(k.at) > ROUNDING]
     if not lacking:
         return
     worst = max(lacking, key=lambda k: obstacle.lack(k.at))
     ideal = not worst.placed
-    labels = (_label(mission, shot, worst), mission.origins.key(obstacle.path, "the obstacle"))
+    changes = clear() if ideal else []
+    label = mission.origins.value((*shot.path, changes[0].key)) if changes else _label(mission, shot, worst)
+    labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
+    free = " or ".join(f"{change}" for change in changes)
+    free = f"write {free}" if changes else obstacle.free_of()
     place = ", ".join(f"{c:.1f}" for c in worst.at)
     notes: tuple[str, ...] = (obstacle.measure(worst.at, drone.radius),)
     if len(keyframes) > 1:
         notes = (*notes, f"{len(lacking)} of {len(keyframes)} points are so; the worst is [{place}]")
     if ideal and len(lacking) < len(keyframes):
         message = f"the ideal path of this {shot.kind} {obstacle.relation(worst.at)}"
-        help_ = f"the plan will leave the ideal here; to keep it, {obstacle.free_of()}"
+        help_ = f"the plan will leave the ideal here; to keep it, {free}"
         yield Diagnostic("G016", message, labels, notes, help_)
         return
     notes = (*notes, *_from_sea(mission, worst.at[2], obstacle))
-    if ideal:
-        help_ = obstacle.free_of()
-    else:
-        help_ = free_move(mission, drone, worst.at, obstacle) or "move it to a free place"
+    help_ = free if ideal else free_move(mission, drone, worst.at, obstacle) or "move it to a free place"
     message = f"{_what(shot, worst)} {obstacle.relation(worst.at)}"
     yield Diagnostic(_CODES[obstacle.role], message, labels, notes, help_)
+
+
+def _changes(mission: MissionIR, shot: Shot) -> list[Change]:
+    from shotc.passes.resolve.clear_path import clear_path
+
+    return clear_path(mission, shot)
 
 
 def _what(shot: Shot, keyframe: Keyframe) -> str:

@@ -39,7 +39,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     early = f"; the shot begins at {begins[0]:.1f} s at the earliest" if open_ else ""
     wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     window = min(WINDOW, shot.timing.duration or 0.0)
-    faster = up(worst, 1) + mission.wind
+    faster = up(worst + mission.wind, 1)
     remedies = [
         *_nearer(mission, shot, drone),
         *_other_side(mission, shot, limit),
@@ -104,9 +104,11 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
     key = next((key for key in LEVEL if (*shot.path, key) in mission.origins.values), None)
     if key is None or ideal is None or ideal.target is None:
         return
-    first = ideal.points[0][1]
+    first, last = ideal.points[0][1], ideal.points[-1][1]
     asked = abs(first[1]) if key == "offset" else hypot(first[0], first[1])
+    end = hypot(last[0], last[1]) / asked if (*shot.path, key, 0) in mission.origins.values else 1.0
     least = mission.target(ideal.target).radius + mission.rules.target_clearance + drone.radius
+    least /= min(1.0, end)
 
     def at(metres: float) -> Shot:
         share = metres / asked
@@ -120,6 +122,9 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
         low, high = (middle, high) if _keeps_up(mission, at(middle), limit) else (low, middle)
     told = max(up(least, 1), down(low, 1))
     if _keeps_up(mission, at(told), limit):
+        if end != 1.0:  # from one to another
+            yield f"give it `{key}: [{told:.1f} m, {up(told * end, 1):.1f} m]` or nearer"
+            return
         # An offset to the right is written as a negative number.
         yield f"give it `{key}: {-told if key == 'offset' and first[1] < 0 else told:.1f} m` or nearer"
 

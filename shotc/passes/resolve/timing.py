@@ -11,9 +11,11 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.flown_order import flown_order
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.passes.resolve.breeze import less_wind
 from shotc.passes.resolve.motion import least_shot, least_travel, length
 from shotc.rounding import at_least
 
+_LESS = ("shorten the shot", "cut it in two for two flights")
 SLACK = 1e-6  # seconds of rounding
 SHORTEST = "`shotc plan` finds the shortest possible"
 EARLIEST = "`shotc plan` finds the earliest possible"
@@ -81,26 +83,50 @@ def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 
 def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
-    """Check a given duration against holds, straight-line flight and endurance."""
+    """Check a given duration against holds, straight-line flight and endurance.
+
+    A duration that is too short is told before the endurance, which is seldom what was got wrong then.
+    """
     drone = mission.drone(shot.drone)
     least = least_shot(shot.keyframes, drone.limits)
     asked = shot.timing.duration
-    if max(least, asked or 0.0) > drone.endurance:
-        return [_too_long(mission, shot, drone, least, asked or 0.0)]
+    if (least if asked is None else asked) > drone.endurance:
+        return [_too_long(mission, shot, drone, least)]
     if asked is None or asked >= least - SLACK:
         return []
     label = _duration_label(mission, shot)
     holds = sum(k.hold for k in shot.keyframes)
-    remedy = f"give it more than {at_least(least, 1)} s, or write `timing: auto`; {SHORTEST}"
     if holds > asked + SLACK:
         held = [k for k in shot.keyframes if k.hold > 0]
         labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
         note = f"its holds alone last {holds:.1f} s; the shot is given {asked:.1f} s"
-        return [Diagnostic("K003", f"shot `{shot.id}` holds longer than it lasts", labels, (note,), remedy)]
-    way = f"the {length(shot.keyframes):.1f} m of its way"
-    note = f"{way} need {_pace(mission, shot, drone, least)}"
+        message = f"shot `{shot.id}` holds longer than it lasts"
+        return [Diagnostic("K003", message, labels, (note,), f"{_either(*_more(least))}; {SHORTEST}")]
+    notes = [f"{_way(shot)} need {_pace(mission, shot, drone, least)}"]
+    if least > drone.endurance:
+        notes.append(f"that is longer than the endurance of {drone.endurance:.1f} s, too")
     message = f"shot `{shot.id}` cannot be flown in {asked:.1f} s"
-    return [Diagnostic("K004", message, (label,), (note,), remedy)]
+    return [Diagnostic("K004", message, (label,), tuple(notes), _in_time(mission, shot, drone, least))]
+
+
+def _in_time(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
+    """Propose what lets a shot be flown in the time that it is given: less wind, or more time."""
+    calmer = less_wind(mission, shot, drone, shot.timing.duration or 0.0)
+    if least <= drone.endurance:
+        return _either(*calmer, *_more(least)) + ("" if calmer else f"; {SHORTEST}")
+    return _either(*(calmer or _LESS))
+
+
+def _more(least: float) -> tuple[str, str]:
+    return f"give it more than {at_least(least, 1)} s", "write `timing: auto`"
+
+
+def _either(*ways: str) -> str:
+    return ", or ".join(filter(None, (", ".join(ways[:-1]), ways[-1])))
+
+
+def _way(shot: Shot) -> str:
+    return f"the {length(shot.keyframes):.1f} m of its way"
 
 
 def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
@@ -114,14 +140,21 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
     )
 
 
-def _too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float, asked: float) -> Diagnostic:
-    lasts = f"lasts {asked:.1f} s" if asked >= least else f"takes at least {at_least(least, 1)} s"
+def _too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diagnostic:
+    """Say that a shot lasts longer than the endurance: as it is written, or as it has to."""
+    asked, calmer = shot.timing.duration, list[str]()
+    lasts = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
+    notes = [f"the shot {lasts}, the endurance is {drone.endurance:.1f} s"]
+    if asked is None:
+        calmer = less_wind(mission, shot, drone, drone.endurance)
+        if calmer:
+            notes.append(f"{_way(shot)} need {_pace(mission, shot, drone, least)}")
     return Diagnostic(
         "K005",
         f"shot `{shot.id}` is longer than drone `{drone.name}` can stay in the air",
         (timing_label(mission, shot), mission.origins.value((*drone.path, "endurance"), "the endurance")),
-        (f"the shot {lasts}, the endurance is {drone.endurance:.1f} s",),
-        "shorten the shot, or cut it in two for two flights",
+        tuple(notes),
+        _either(*(calmer or _LESS)),
     )
 
 
@@ -189,6 +222,8 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
         return []
     message = f"the shots of drone `{drone.name}` take longer than it can stay in the air"
     note = f"all its shots with the ways between take at least {at_least(flight, 1)} s"
+    speed = drone.limits.speed + mission.wind
+    taken = (f"the wind takes {mission.wind:.1f} of its {speed:.1f} m/s",) if mission.wind > speed / 2 else ()
     return [
         Diagnostic(
             "K005",
@@ -197,7 +232,7 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
                 mission.origins.value((*drone.path, "endurance")),
                 timing_label(mission, last.shot, "its last shot"),
             ),
-            (f"{note}, its endurance is {drone.endurance:.1f} s",),
+            (f"{note}, its endurance is {drone.endurance:.1f} s", *taken),
             "drop or shorten shots, or cut the mission in two",
         )
     ]

@@ -12,7 +12,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
-from shotc.ir.origin import OriginMap
+from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic
 from shotc.spec.mission import MissionSpec
@@ -22,10 +22,13 @@ from shotc.spec.world import ZoneSpec
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
     from shotc.ir.show import Fleet
+    from shotc.spec.fleets import FleetSpec
 
 Put = Callable[[Vec3 | Geodetic], Vec3]
 LEAST_AREA = 1e-4  # m^2
 BURIED = 0.25  # share of a target's height under the ground that is no rounding of its place
+BEYOND = 2.0  # times a preset's figure; presets stay at half of what makers publish, or more
+_PUBLISHED = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2"}
 LEAST_SPEED = 0.1  # m/s that the wind has to leave
 
 
@@ -109,6 +112,7 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
     for name, drone in spec.drones.items():
         resolved = resolve_drone(name, drone, put, wind)
         faults += becalmed("drone", resolved, wind, origins)
+        faults += beyond_model("drone", drone, resolved.path, origins)
         found[name] = resolved
     return found, faults
 
@@ -147,6 +151,32 @@ def _over(preset: Limits | Gimbal, spec: BaseModel) -> dict[str, Any]:
     return {key: getattr(preset, key) if given[key] is None else given[key] for key in given}
 
 
+def beyond_model(
+    what: str, spec: DroneSpec | FleetSpec, path: KeyPath, origins: OriginMap
+) -> list[Diagnostic]:
+    """Warn of limits that no drone of the model that the mission names is likely to have.
+
+    Limits are taken at their word, and a preset is no bound: it is for planning, and below what its drone
+    can do. Where no model is named, they are of a drone of the user's own, which nothing is known of.
+    """
+    model = (*path, "model")
+    if model not in origins.values:
+        return []
+    preset = PRESETS[spec.model].limits
+    given = {key: (getattr(spec.limits, key), getattr(preset, key)) for key in _PUBLISHED}
+    return [
+        Diagnostic(
+            "K015",
+            f"the `{key}` of {what} `{path[-1]}` is far above its model's",
+            (origins.value((*path, "limits", key)), origins.value(model, "the model")),
+            (f"{limit:g} {_PUBLISHED[key]} are {limit / usual:.1f} times the {usual:g} of `{spec.model}`",),
+            f"mend it if it was not meant (a bare number is in {_PUBLISHED[key]}); it is taken at its word",
+        )
+        for key, (limit, usual) in given.items()
+        if limit is not None and limit > BEYOND * usual * (1 + 1e-9)
+    ]
+
+
 def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -> list[Diagnostic]:
     """Return the fault of a drone, or of a fleet's drones, to which the wind leaves no speed."""
     if drone.limits.speed >= LEAST_SPEED:
@@ -156,11 +186,13 @@ def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -
         origins.value(("world", "wind")),
         origins.value((*drone.path, "limits", "speed"), f"{what} `{drone.name}`"),
     )
+    none, half = max(0.0, speed - LEAST_SPEED), speed / 2
     found = Diagnostic(
         "K011",
         f"the wind leaves {what} `{drone.name}` no speed",
         labels,
         (f"it flies {speed:.1f} m/s at most, and the wind takes {wind:.1f} m/s of that",),
-        f"wait for wind below {max(0.0, speed - LEAST_SPEED):.1f} m/s, or take a faster drone",
+        f"wait for wind below {min(none, half):.1f} m/s, which leaves it half its speed "
+        f"({none:.1f} m/s leave it next to none), or take a faster drone",
     )
     return [found]

@@ -8,11 +8,13 @@ keyframes that the user placed are passed exactly.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
+from shotc.geom.corridor import Room
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
@@ -29,14 +31,14 @@ from shotc.passes.solve_path_qp.faults import (
     swings,
 )
 from shotc.passes.solve_path_qp.legs import Flight, drone_legs
-from shotc.passes.solve_path_qp.on_clock import Flown
+from shotc.passes.solve_path_qp.on_clock import Itinerary
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
 from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate, Trouble
 from shotc.passes.timed_route.faults import left_place, stopped_on_clock
 from shotc.passes.timed_route.moving import moving_targets
 from shotc.passes.timed_route.others import other_drones
-from shotc.passes.timed_route.shot import Around, NoMotion
+from shotc.passes.timed_route.shot import NoMotion, Traffic
 from shotc.passes.timed_route.sights import sights_of
 from shotc.solvers.headings import DEFAULT
 
@@ -71,11 +73,11 @@ class SolvePathQp:
             diagnostics += planned.diagnostics
             deviations += planned.deviations
             stats += planned.stats
-            standing = [leg for leg in planned.legs if isinstance(leg, Leg)]
             if planned.legs and on_clock(ir):
                 timed.append(TimedPath(drone.name, planned.legs))
             elif planned.legs:
-                paths.append(DronePath(drone.name, tuple(standing)))
+                legs = tuple(leg for leg in planned.legs if isinstance(leg, Leg))
+                paths.append(DronePath(drone.name, legs))
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
         path = PathIR(ir, tuple(paths), tuple(deviations), tuple(stats), tuple(timed))
@@ -124,8 +126,30 @@ def _plan(
         return _stopped(follow_camera_impossible(mission, drone))
     room = flight_room(mission, drone)
     top = transit_point(room, pad_room(mission, drone), drone)
-    faults = [pad_blocked(mission, drone, top)] if isinstance(top, PadBlocked) else []
+    shots, faults = _curves(mission, drone, room, mine, ctx)
+    if isinstance(top, PadBlocked):
+        return _stopped(pad_blocked(mission, drone, top), *faults)
+    if faults:
+        return _stopped(*faults)
+    ctx.progress(f"way of {drone.name}")
+    flight, warnings = Flight(drone, room, top), _warnings(mission, drone, shots)
+    if not on_clock(ir):
+        return _in_a_row(mission, flight, shots, warnings)
+    moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, flights))
+    itinerary = Itinerary(mission, flight, Traffic(moving, sights_of(mission, drone, flights)), ends)
+    curves = {s.shot.shot.id: s for s in shots}
+    planned = _on_clock(itinerary, [curves.get(p.shot.id, p) for p in mine], warnings, ctx)
+    if planned.legs:
+        flights[drone.name] = itinerary.track()
+    return planned
+
+
+def _curves(
+    mission: MissionIR, drone: Drone, room: Room, mine: Sequence[PlacedShot], ctx: PassContext
+) -> tuple[list[ShotCurve], list[Diagnostic]]:
+    """Return the shots of a drone that are flown on a path, and why others cannot be."""
     shots: list[ShotCurve] = []
+    faults: list[Diagnostic] = []
     for placed in mine:
         if placed.shot.ideal is not None:
             continue
@@ -135,54 +159,53 @@ def _plan(
             shots.append(result)
         else:
             faults.append(failure(mission, drone, room, placed, result))
-    if faults or isinstance(top, PadBlocked):
-        return _stopped(*faults)
-    warnings = [
+    return shots, faults
+
+
+def _warnings(mission: MissionIR, drone: Drone, shots: Sequence[ShotCurve]) -> tuple[Diagnostic, ...]:
+    return (
         *(moved(mission, s.shot, d) for s in shots for d in s.deviations),
         *(cut_framing(mission, drone, s.shot, s.cuts) for s in shots if s.cuts),
         *(swings(mission, s.shot, s.swing) for s in shots if s.swing is not None),
-    ]
-    ctx.progress(f"way of {drone.name}")
-    if on_clock(ir):
-        curves = {s.shot.shot.id: s for s in shots}
-        moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, flights))
-        around = Around(moving, sights_of(mission, drone, flights))
-        flown = Flown(mission, Flight(drone, room, top), around, ends)
-        planned = _on_clock(flown, [curves.get(p.shot.id, p) for p in mine], tuple(warnings), ctx)
-        if planned.legs:
-            flights[drone.name] = flown.track()
-        return planned
-    joined = drone_legs(Flight(drone, room, top), shots)
+    )
+
+
+def _in_a_row(
+    mission: MissionIR, flight: Flight, shots: list[ShotCurve], warnings: tuple[Diagnostic, ...]
+) -> _Planned:
+    """Plan the legs of a drone that nobody waits for: its shots one after another."""
+    joined = drone_legs(flight, shots)
     if not isinstance(joined[0], Leg):
         what, before = joined
-        return _stopped(*warnings, failure(mission, drone, room, before.shot if before else None, what))
+        shot = before.shot if before else None
+        return _stopped(*warnings, failure(mission, flight.drone, flight.room, shot, what))
     deviations = tuple(d for s in shots for d in s.deviations)
-    return _Planned(joined, deviations, tuple(x for s in shots for x in s.stats), tuple(warnings))
+    return _Planned(joined, deviations, tuple(x for s in shots for x in s.stats), warnings)
 
 
 def _on_clock(
-    flown: Flown, shots: list[ShotCurve | PlacedShot], warnings: tuple[Diagnostic, ...], ctx: PassContext
+    itinerary: Itinerary,
+    shots: list[ShotCurve | PlacedShot],
+    warnings: tuple[Diagnostic, ...],
+    ctx: PassContext,
 ) -> _Planned:
     """Plan the legs of a drone in a mission where something is filmed on its own clock."""
-    mission, flight = flown.mission, flown.flight
+    mission, flight = itinerary.mission, itinerary.flight
     for shot in shots:
         placed = shot.shot if isinstance(shot, ShotCurve) else shot
         ctx.progress(f"way to and through shot {placed.shot.id}")
-        trouble = flown.film(shot)
+        trouble = itinerary.film(shot)
         if trouble is not None:
             return _stopped(*warnings, _told(mission, flight, placed, trouble))
-    trouble = flown.home()
+    trouble = itinerary.home()
     if trouble is not None:
         return _stopped(*warnings, _told(mission, flight, None, trouble))
-    away = (
-        d
-        for d in flown.deviations
-        if d.shot not in {s.shot.shot.id for s in shots if isinstance(s, ShotCurve)}
-    )
-    left = tuple(left_place(mission, d) for d in away)
-    deviations = (*(d for s in shots if isinstance(s, ShotCurve) for d in s.deviations), *flown.deviations)
-    stats = (*(x for s in shots if isinstance(s, ShotCurve) for x in s.stats), *flown.stats)
-    return _Planned(tuple(flown.legs), deviations, stats, (*warnings, *left))
+    curved = [s for s in shots if isinstance(s, ShotCurve)]
+    on_paths = {s.shot.shot.id for s in curved}
+    left = tuple(left_place(mission, d) for d in itinerary.deviations if d.shot not in on_paths)
+    deviations = (*(d for s in curved for d in s.deviations), *itinerary.deviations)
+    stats = (*(x for s in curved for x in s.stats), *itinerary.stats)
+    return _Planned(tuple(itinerary.legs), deviations, stats, (*warnings, *left))
 
 
 def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble: Trouble) -> Diagnostic:

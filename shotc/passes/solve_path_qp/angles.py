@@ -40,7 +40,7 @@ NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Track:
+class KeyedPath:
     """The keyframes of one shot on its path, in order, one entry a keyframe.
 
     s      : shape (K,), path parameter, not decreasing
@@ -112,15 +112,15 @@ class _Samples:
         return Piecewise(self.anchor_s, np.concatenate([yaw, pitch], axis=2))
 
 
-def camera_line(mission: MissionIR, drone: Drone, track: Track) -> CameraLine:
+def camera_line(mission: MissionIR, drone: Drone, keyed: KeyedPath) -> CameraLine:
     """Return the camera's angles along a shot, on breaks that hold those of the position curve.
 
     A fit that no grid makes possible, or that is the worse one, gives way to the steady turn from keyframe to
     keyframe.
     """
-    base = _grid(track)
-    hfov = _hfov(track)
-    samples = _sample(mission, drone, track, base, hfov)
+    base = _grid(keyed)
+    hfov = _hfov(keyed)
+    samples = _sample(mission, drone, keyed, base, hfov)
     turn = samples.steady(drone.gimbal.pitch)
     best = _line(restrict(turn, base), samples, hfov, Status.SOLVED)
     if not len(samples.s):
@@ -128,7 +128,7 @@ def camera_line(mission: MissionIR, drone: Drone, track: Track) -> CameraLine:
     fitted: CameraLine | None = None
     for finer in FINER:
         breaks = subdivide(base, finer)
-        samples = _sample(mission, drone, track, breaks, hfov)
+        samples = _sample(mission, drone, keyed, breaks, hfov)
         status, curve = _fitted(drone, samples, breaks, turn)
         if status not in {Status.SOLVED, Status.INACCURATE}:
             continue
@@ -153,24 +153,24 @@ def _across(pitch: Array) -> Array:
     return np.asarray(np.maximum(np.cos(pitch), 0.03))
 
 
-def framing_spans(track: Track) -> tuple[FramingSpan, ...]:
+def framing_spans(keyed: KeyedPath) -> tuple[FramingSpan, ...]:
     """Return the stretches with one target each; a hand-over is cut in the middle."""
     spans: list[FramingSpan] = []
     run: list[int] = []
-    last = len(track.keyframes) - 1
+    last = len(keyed.keyframes) - 1
     for i in range(last):
-        a, b = track.keyframes[i], track.keyframes[i + 1]
-        if track.s[i + 1] <= track.s[i]:
+        a, b = keyed.keyframes[i], keyed.keyframes[i + 1]
+        if keyed.s[i + 1] <= keyed.s[i]:
             continue
         same = a.target is not None and a.target == b.target
         composed = a.reference is not None and b.reference is not None
         if same and composed:
             run.append(i)
             continue
-        spans += _composed(track, run)
+        spans += _composed(keyed, run)
         run = []
-        spans += _watched(track, i)
-    return (*spans, *_composed(track, run))
+        spans += _watched(keyed, i)
+    return (*spans, *_composed(keyed, run))
 
 
 def smoother(x: Array) -> Array:
@@ -178,20 +178,20 @@ def smoother(x: Array) -> Array:
     return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
 
 
-def _composed(track: Track, run: list[int]) -> list[FramingSpan]:
+def _composed(keyed: KeyedPath, run: list[int]) -> list[FramingSpan]:
     if not run:
         return []
-    ends = [(track.keyframes[i], track.keyframes[i + 1]) for i in run]
-    breaks = np.array([track.s[i] for i in run] + [track.s[run[-1] + 1]])
+    ends = [(keyed.keyframes[i], keyed.keyframes[i + 1]) for i in run]
+    breaks = np.array([keyed.s[i] for i in run] + [keyed.s[run[-1] + 1]])
     ctrl = np.array([[a.reference] * 3 + [b.reference] * 3 for a, b in ends], dtype=np.float64)
     target = ends[0][0].target
     assert target is not None
     return [FramingSpan(target, float(breaks[0]), float(breaks[-1]), Piecewise(breaks, ctrl))]
 
 
-def _watched(track: Track, i: int) -> list[FramingSpan]:
-    a, b = track.keyframes[i].target, track.keyframes[i + 1].target
-    start, end = float(track.s[i]), float(track.s[i + 1])
+def _watched(keyed: KeyedPath, i: int) -> list[FramingSpan]:
+    a, b = keyed.keyframes[i].target, keyed.keyframes[i + 1].target
+    start, end = float(keyed.s[i]), float(keyed.s[i + 1])
     middle = 0.5 * (start + end)
     if a is not None and a == b:
         return [FramingSpan(a, start, end, None)]
@@ -200,26 +200,26 @@ def _watched(track: Track, i: int) -> list[FramingSpan]:
     return first + second
 
 
-def _grid(track: Track) -> Array:
+def _grid(keyed: KeyedPath) -> Array:
     """Return breaks that hold the position's and the keyframes', several to a keyframe interval."""
-    merged = [float(b) for b in track.position.breaks]
+    merged = [float(b) for b in keyed.position.breaks]
     near = NEAR * float(np.diff(merged).min())
-    for s in track.s:
+    for s in keyed.s:
         if min(abs(s - b) for b in merged) > near:
             merged.append(float(s))
     breaks = np.array(sorted(merged))
-    keys = np.unique(track.s)
+    keys = np.unique(keyed.s)
     inside = np.histogram(0.5 * (breaks[:-1] + breaks[1:]), keys)[0] if len(keys) > 1 else np.array([1])
     parts = int(np.ceil(PIECES / max(1, int(inside[inside > 0].min()))))
     return subdivide(breaks, parts) if parts > 1 else breaks
 
 
-def _hfov(track: Track) -> Piecewise:
+def _hfov(keyed: KeyedPath) -> Piecewise:
     """Return the field of view over s: monotone between keyframes, at rest at each of them."""
-    keys = [i for i in range(len(track.s)) if i == 0 or track.s[i] > track.s[i - 1]]
-    wide = [track.keyframes[i].hfov for i in keys]
+    keys = [i for i in range(len(keyed.s)) if i == 0 or keyed.s[i] > keyed.s[i - 1]]
+    wide = [keyed.keyframes[i].hfov for i in keys]
     ctrl = np.array([[[a]] * 3 + [[b]] * 3 for a, b in pairwise(wide)])
-    return Piecewise(track.s[keys], ctrl)
+    return Piecewise(keyed.s[keys], ctrl)
 
 
 def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> tuple[Status, Piecewise]:
@@ -252,17 +252,17 @@ def _untracked(tracked: Array, breaks: Array) -> Array:
     return np.asarray((every + half)[silent].ravel())
 
 
-def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov: Piecewise) -> _Samples:
+def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, hfov: Piecewise) -> _Samples:
     """Return the wanted angles inside tracked stretches and the binding ones, yaw unwrapped."""
     samples: list[_Known] = []
     anchors: list[_Known] = []
     cuts: list[Cut] = []
-    last_yaw, group = track.keyframes[0].yaw, 0
-    for i, keyframe in enumerate(track.keyframes):
-        free = i > 0 and track.s[i] > track.s[i - 1] and (keyframe.placed or track.keyframes[i - 1].placed)
-        if i > 0 and track.s[i] > track.s[i - 1]:
-            at = _inner(breaks, float(track.s[i - 1]), float(track.s[i]))
-            aims, cut = _aims(mission, drone, track, i - 1, at, hfov)
+    last_yaw, group = keyed.keyframes[0].yaw, 0
+    for i, keyframe in enumerate(keyed.keyframes):
+        free = i > 0 and keyed.s[i] > keyed.s[i - 1] and (keyframe.placed or keyed.keyframes[i - 1].placed)
+        if i > 0 and keyed.s[i] > keyed.s[i - 1]:
+            at = _inner(breaks, float(keyed.s[i - 1]), float(keyed.s[i]))
+            aims, cut = _aims(mission, drone, keyed, i - 1, at, hfov)
             if cut is not None:
                 cuts.append(cut)
             for s, aim in zip(at, aims, strict=True):
@@ -270,12 +270,12 @@ def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
                     last_yaw, free = _near(aim[0], last_yaw), False
                     samples.append(_Known(float(s), last_yaw, aim[1], group))
         group += free
-        anchor = _anchor(mission, drone, track, i)
-        if anchor is not None and not (anchors and track.s[i] <= anchors[-1].s):
+        anchor = _anchor(mission, drone, keyed, i)
+        if anchor is not None and not (anchors and keyed.s[i] <= anchors[-1].s):
             last_yaw = _near(anchor[0], last_yaw)
-            anchors.append(_Known(float(track.s[i]), last_yaw, anchor[1], group, i))
+            anchors.append(_Known(float(keyed.s[i]), last_yaw, anchor[1], group, i))
     if group:
-        shift = shifts(_places(track, samples, anchors), turning(drone, track.pace, track.headings))
+        shift = shifts(_places(keyed, samples, anchors), turning(drone, keyed.pace, keyed.headings))
         samples, anchors = (
             [k._replace(yaw=k.yaw + shift[k.group]) for k in part] for part in (samples, anchors)
         )
@@ -285,7 +285,7 @@ def _sample(mission: MissionIR, drone: Drone, track: Track, breaks: Array, hfov:
     )
 
 
-def _places(track: Track, samples: list[_Known], anchors: list[_Known]) -> list[Known]:
+def _places(keyed: KeyedPath, samples: list[_Known], anchors: list[_Known]) -> list[Known]:
     """Return what fixes the turns: the keyframes, and of what is followed the first and the last picture."""
     ends: dict[int, list[_Known]] = {}
     for k in samples:
@@ -293,18 +293,18 @@ def _places(track: Track, samples: list[_Known], anchors: list[_Known]) -> list[
     at = {k.s: k for k in (*(k for pair in ends.values() for k in pair), *anchors)}
     places = []
     for k in sorted(at.values()):
-        turn = track.keyframes[k.keyframe].turn if k.keyframe >= 0 else None
-        places.append(Known(k.s, k.yaw, k.group, turn, k.keyframe >= 0 and _rests(track, k.keyframe)))
+        turn = keyed.keyframes[k.keyframe].turn if k.keyframe >= 0 else None
+        places.append(Known(k.s, k.yaw, k.group, turn, k.keyframe >= 0 and _rests(keyed, k.keyframe)))
     return places
 
 
-def _rests(track: Track, i: int) -> bool:
+def _rests(keyed: KeyedPath, i: int) -> bool:
     """Tell whether the camera stands still at a keyframe: it holds there, or turns on the spot."""
-    near = [j for j in (i - 1, i + 1) if 0 <= j < len(track.s)]
+    near = [j for j in (i - 1, i + 1) if 0 <= j < len(keyed.s)]
     ways = [
-        np.linalg.norm(track.position(float(track.s[j])) - track.position(float(track.s[i]))) for j in near
+        np.linalg.norm(keyed.position(float(keyed.s[j])) - keyed.position(float(keyed.s[i]))) for j in near
     ]
-    return track.keyframes[i].hold > 0 or any(way < SAME_PLACE for way in ways)
+    return keyed.keyframes[i].hold > 0 or any(way < SAME_PLACE for way in ways)
 
 
 def _inner(breaks: Array, start: float, end: float) -> Array:
@@ -314,14 +314,14 @@ def _inner(breaks: Array, start: float, end: float) -> Array:
     return subdivide(inside, SAMPLES)[1:-1] if len(inside) > 1 else np.empty(0)
 
 
-def _anchor(mission: MissionIR, drone: Drone, track: Track, i: int) -> tuple[float, float] | None:
-    keyframe = track.keyframes[i]
-    if track.exact[i] or keyframe.target is None or keyframe.reference is None:
+def _anchor(mission: MissionIR, drone: Drone, keyed: KeyedPath, i: int) -> tuple[float, float] | None:
+    keyframe = keyed.keyframes[i]
+    if keyed.exact[i] or keyframe.target is None or keyframe.reference is None:
         return keyframe.yaw, keyframe.pitch
-    if i not in {0, len(track.keyframes) - 1}:
+    if i not in {0, len(keyed.keyframes) - 1}:
         return None
     target = mission.target(keyframe.target)
-    p = track.position(float(track.s[i]))
+    p = keyed.position(float(keyed.s[i]))
     d = (target.centre[0] - p[0], target.centre[1] - p[1], target.centre[2] - p[2])
     aim = aim_at(d, keyframe.reference, keyframe.hfov, drone.aspect, keyframe.yaw)
     low, high = drone.gimbal.pitch
@@ -329,15 +329,15 @@ def _anchor(mission: MissionIR, drone: Drone, track: Track, i: int) -> tuple[flo
 
 
 def _aims(
-    mission: MissionIR, drone: Drone, track: Track, i: int, at: Array, hfov: Piecewise
+    mission: MissionIR, drone: Drone, keyed: KeyedPath, i: int, at: Array, hfov: Piecewise
 ) -> tuple[list[tuple[float, float] | None], Cut | None]:
-    a, b = track.keyframes[i], track.keyframes[i + 1]
+    a, b = keyed.keyframes[i], keyed.keyframes[i + 1]
     if a.target is None or b.target is None or a.reference is None or b.reference is None:
         return [None] * len(at), None
-    x = smoother((at - track.s[i]) / (track.s[i + 1] - track.s[i]))[:, None]
+    x = smoother((at - keyed.s[i]) / (keyed.s[i + 1] - keyed.s[i]))[:, None]
     uv = (1 - x) * np.array(a.reference) + x * np.array(b.reference)
     ends = np.array([mission.target(a.target).centre, mission.target(b.target).centre])
-    offset = (1 - x) * ends[0] + x * ends[1] - track.position(at)
+    offset = (1 - x) * ends[0] + x * ends[1] - keyed.position(at)
     wide = hfov(at)[:, 0]
     low, high = drone.gimbal.pitch
     aims: list[tuple[float, float] | None] = []

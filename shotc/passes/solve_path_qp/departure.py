@@ -21,7 +21,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Leg
 from shotc.passes.parameterize_time.estimate import leg_motion
 from shotc.passes.timed_route.moving import Moving
-from shotc.passes.timed_route.shot import Around
+from shotc.passes.timed_route.shot import Traffic
 from shotc.passes.timed_route.sights import seen_on
 
 STEP = 0.05  # seconds between the places that are compared
@@ -77,7 +77,7 @@ class Then:
 def choose(
     mission: MissionIR,
     drone: Drone,
-    around: Around,
+    traffic: Traffic,
     ways: Iterable[list[Leg]],
     span: tuple[float, float | None],
     then: Then | None = None,
@@ -92,12 +92,12 @@ def choose(
     """
     tried: list[Way] = []
     for legs in ways:
-        for way in _tries(mission, drone, around, legs, span, then):
+        for way in _tries(mission, drone, traffic, legs, span, then):
             in_time = span[1] is None or way.end <= span[1]
             if way.clear and way.unseen >= 0.0 and (in_time or not tried):
                 return way
             tried.append(way)
-        if not around.moving:
+        if not traffic.moving:
             break
     due = inf if span[1] is None else span[1]
 
@@ -110,7 +110,7 @@ def choose(
 def _tries(
     mission: MissionIR,
     drone: Drone,
-    around: Around,
+    traffic: Traffic,
     legs: list[Leg],
     span: tuple[float, float | None],
     then: Then | None,
@@ -125,16 +125,16 @@ def _tries(
     for delay in delays:
         leaves = begin + delay
         started = [replace(leg, start=leaves) if i == 0 else leg for i, leg in enumerate(legs)]
-        if not around.moving:
+        if not traffic.moving:
             yield Way(tuple(started), leaves + lasts)
             return
         until = max(leaves + lasts, due or 0.0, 0.0 if then is None else then.ready)
         course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, until)
         times = np.arange(begin, until + (0.0 if film is None else float(film.end)) + STEP, STEP)
         places, upright = course.at(times), course.upright(times)
-        room = min(_room(what, times, places, upright) for what in around.moving)
-        unseen = seen_on(drone, around.sights, times, places)
-        met = _met(around.moving, course, times[times <= until])
+        room = min(_room(what, times, places, upright) for what in traffic.moving)
+        unseen = seen_on(drone, traffic.sights, times, places)
+        met = _met(traffic.moving, course, times[times <= until])
         yield Way(tuple(started), leaves + lasts, room, unseen, met)
 
 

@@ -44,7 +44,7 @@ from shotc.passes.solve_path_qp.sweeps import with_sweeps
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import lead_in
 from shotc.passes.timed_route.flights import flight
-from shotc.passes.timed_route.shot import Around, NoMotion, timed_shot
+from shotc.passes.timed_route.shot import NoMotion, Traffic, timed_shot
 
 LATER = (2.0, 5.0, 10.0)  # seconds that such a shot may begin later where something is met on the way to it
 LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
@@ -53,7 +53,7 @@ AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits f
 
 
 @dataclass(slots=True)
-class Flown:
+class Itinerary:
     """The legs of one drone while they grow, and the clock at their end.
 
     ends : of the shots of drones planned before, by id; this drone's are added
@@ -61,7 +61,7 @@ class Flown:
 
     mission: MissionIR
     flight: Flight
-    around: Around
+    traffic: Traffic
     ends: dict[str, float]
     legs: list[Leg | TimedLeg] = field(default_factory=list)
     clock: float = 0.0
@@ -84,7 +84,7 @@ class Flown:
         if not isinstance(back, list):
             return back
         ways = self._ways_home(pose, back)
-        way = choose(self.mission, self.drone, self.around, ways, (self.clock, None))
+        way = choose(self.mission, self.drone, self.traffic, ways, (self.clock, None))
         assert way is not None
         if way.met is not None:
             return Meets(way.met)
@@ -117,7 +117,7 @@ class Flown:
         if until is None:
             until = self.clock + AMPLE * sum(leg_time(self.mission, self.drone, leg) for leg in direct)
         span = (self.clock, max(self.clock, until))
-        return replace(self.flight, room=with_sweeps(self.flight.room, self.around.moving, span))
+        return replace(self.flight, room=with_sweeps(self.flight.room, self.traffic.moving, span))
 
     def _through(self, stops: list[Pose], path: KeyPath) -> list[Leg] | None:
         """Return the legs from each of some poses to the next."""
@@ -178,7 +178,7 @@ class Flown:
                 if found is not None:
                     yield [*lift, *found]
 
-        found = choose(self.mission, self.drone, self.around, ways(), (self.clock, due), then)
+        found = choose(self.mission, self.drone, self.traffic, ways(), (self.clock, due), then)
         assert found is not None
         return found
 
@@ -255,7 +255,7 @@ class Flown:
         if short is not None:
             return short
         looker = Looker(self.mission, self.drone, placed.subjects)
-        made = timed_shot(looker, self.flight.room, self.around, placed, start)
+        made = timed_shot(looker, self.flight.room, self.traffic, placed, start)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)

@@ -13,7 +13,7 @@ from shotc.geom.runs import worst_of_runs
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, Mark, Stop
-from shotc.passes.solve_path_qp.angles import CameraLine, Cut, Track, camera_line, framing_spans
+from shotc.passes.solve_path_qp.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.passes.solve_path_qp.body import BodyTask, body_line
 from shotc.passes.solve_path_qp.lines import SAME_PLACE, Line, NoWay, TooNear, shot_line
 from shotc.passes.solve_path_qp.position import Solved, Stretch, solve_stretch
@@ -77,8 +77,8 @@ def shot_curve(
     if isinstance(position, Stuck):
         return position
     curve, solved = position
-    track = replace(_track(placed, line, curve), pace=placed.shot.pace, headings=headings)
-    camera = camera_line(mission, drone, track)
+    keyed = replace(_keyed(placed, line, curve), pace=placed.shot.pace, headings=headings)
+    camera = camera_line(mission, drone, keyed)
     if camera.status not in {Status.SOLVED, Status.INACCURATE}:
         return AngleFailure("camera", camera.status)
     refined = restrict(curve, camera.angles.breaks)
@@ -92,12 +92,12 @@ def shot_curve(
         shot=placed,
         curve=whole,
         pose=tuple(map(float, whole.ctrl[0, 0])),
-        stops=_stops(placed.keyframes, track, line),
-        marks=_marks(placed, track),
-        framing=framing_spans(track),
-        deviations=_deviations(room, placed, track),
+        stops=_stops(placed.keyframes, keyed, line),
+        marks=_marks(placed, keyed),
+        framing=framing_spans(keyed),
+        deviations=_deviations(room, placed, keyed),
         cuts=camera.cuts,
-        swing=worst_swing(mission, track, camera),
+        swing=worst_swing(mission, keyed, camera),
         stats=_stats(placed, solved, camera, whole),
     )
 
@@ -181,7 +181,7 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
     )
 
 
-def _track(placed: PlacedShot, line: Line, curve: Piecewise) -> Track:
+def _keyed(placed: PlacedShot, line: Line, curve: Piecewise) -> KeyedPath:
     """Say where on the curve every keyframe is; dropped ones where the curve comes nearest."""
     keyframes = placed.keyframes
     s = np.full(len(keyframes), np.nan)
@@ -198,7 +198,7 @@ def _track(placed: PlacedShot, line: Line, curve: Piecewise) -> Track:
             exact[k] = False if k not in {0, last} else not line.moved[int(k == last)]
     for k in (0, last):
         exact[k] = exact[k] and not line.moved[int(k == last)]
-    return Track(keyframes, s, tuple(exact), curve)
+    return KeyedPath(keyframes, s, tuple(exact), curve)
 
 
 def _nearest(curve: Piecewise, keyframe: PlacedKeyframe, low: float, high: float) -> float:
@@ -208,31 +208,31 @@ def _nearest(curve: Piecewise, keyframe: PlacedKeyframe, low: float, high: float
     return float(at[int(away.argmin())])
 
 
-def _stops(keyframes: tuple[PlacedKeyframe, ...], track: Track, line: Line) -> tuple[Stop, ...]:
+def _stops(keyframes: tuple[PlacedKeyframe, ...], keyed: KeyedPath, line: Line) -> tuple[Stop, ...]:
     holds = {float(line.s[0]): 0.0, float(line.s[-1]): 0.0}
     for first, last in _sections(line):
         if np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE and last == first + 1:
             holds.setdefault(float(line.s[first]), 0.0)
             holds.setdefault(float(line.s[last]), 0.0)
-    for keyframe, s in zip(keyframes, track.s, strict=True):
+    for keyframe, s in zip(keyframes, keyed.s, strict=True):
         if keyframe.hold > 0:
             holds[float(s)] = holds.get(float(s), 0.0) + keyframe.hold
     return tuple(Stop(s, holds[s]) for s in sorted(holds))
 
 
-def _marks(placed: PlacedShot, track: Track) -> tuple[Mark, ...]:
+def _marks(placed: PlacedShot, keyed: KeyedPath) -> tuple[Mark, ...]:
     return tuple(
         Mark(float(s), k.time, i, k.path)
-        for i, (s, k) in enumerate(zip(track.s, placed.keyframes, strict=True))
+        for i, (s, k) in enumerate(zip(keyed.s, placed.keyframes, strict=True))
     )
 
 
-def _deviations(room: Room, placed: PlacedShot, track: Track) -> tuple[Deviation, ...]:
+def _deviations(room: Room, placed: PlacedShot, keyed: KeyedPath) -> tuple[Deviation, ...]:
     """Return, for each run of keyframes that the path leaves, the worst of it."""
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
-    away = np.linalg.norm(track.position(track.s) - points, axis=1)
+    away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
     return tuple(
-        Deviation(placed.shot.id, float(away[i]), float(track.s[i]), _cause(room, points[i]))
+        Deviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(room, points[i]))
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import subdivide
 from shotc.ir.mission import MissionIR
-from shotc.passes.solve_path_qp.angles import NOTICE, CameraLine, Track
+from shotc.passes.solve_path_qp.angles import NOTICE, CameraLine, KeyedPath
 
 SAMPLES = 6  # per piece
 STEEP = radians(75)  # beyond this pitch a turn of the camera is a turn of the picture
@@ -37,38 +37,38 @@ class Swing:
     miss: float
 
 
-def worst_swing(mission: MissionIR, track: Track, camera: CameraLine) -> Swing | None:
+def worst_swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine) -> Swing | None:
     """Return the worst place of a shot, None where the camera turns as a viewer would expect.
 
     Turning along with the course is expected: a narrow orbit far above its target turns all the time.
     """
     at = subdivide(camera.angles.breaks, SAMPLES)
     yaw, pitch, _ = camera.angles(at).T
-    turned = yaw - _course(track.position, at)
+    turned = yaw - _course(keyed.position, at)
     found = []
-    for run in _runs((np.abs(pitch) > STEEP) & _followed(track, at)):
+    for run in _runs((np.abs(pitch) > STEEP) & _followed(keyed, at)):
         turn = min(float(np.ptp(yaw[run])), float(np.ptp(turned[run])))
         if turn > ROUND:
             steepest = run.start + int(np.abs(pitch[run]).argmax())
-            found.append(_swing(mission, track, camera, float(at[steepest]), turn))
+            found.append(_swing(mission, keyed, camera, float(at[steepest]), turn))
     if not found and camera.error > NOTICE and not camera.cuts:
-        return _swing(mission, track, camera, camera.worst, 0.0)
+        return _swing(mission, keyed, camera, camera.worst, 0.0)
     return max(found, key=lambda swing: swing.turn, default=None)
 
 
-def _swing(mission: MissionIR, track: Track, camera: CameraLine, s: float, turn: float) -> Swing:
-    index = int(np.clip(np.searchsorted(track.s, s, side="right") - 1, 0, len(track.s) - 2))
-    name = track.keyframes[index].target
+def _swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine, s: float, turn: float) -> Swing:
+    index = int(np.clip(np.searchsorted(keyed.s, s, side="right") - 1, 0, len(keyed.s) - 2))
+    name = keyed.keyframes[index].target
     assert name is not None
-    height = abs(mission.target(name).centre[2] - float(track.position(s)[2]))
+    height = abs(mission.target(name).centre[2] - float(keyed.position(s)[2]))
     pitch = float(camera.angles(s)[1])
     return Swing(index, s, name, turn, pitch, height / tan(STEEP), camera.error)
 
 
-def _followed(track: Track, at: Array) -> np.ndarray:
+def _followed(keyed: KeyedPath, at: Array) -> np.ndarray:
     """Tell at which parameters both neighbouring keyframes have a target in its place."""
-    composed = [k.target is not None and k.reference is not None for k in track.keyframes]
-    after = np.clip(np.searchsorted(track.s, at, side="right"), 1, len(composed) - 1)
+    composed = [k.target is not None and k.reference is not None for k in keyed.keyframes]
+    after = np.clip(np.searchsorted(keyed.s, at, side="right"), 1, len(composed) - 1)
     return np.asarray(np.array(composed)[after] & np.array(composed)[after - 1])
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
@@ -125,51 +126,85 @@ def _kept(task: Task, course: Piecewise) -> Kept:
     return keep_free(task.looker, task.sights, span, task.clock.breaks, course)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Round:
+    """What the next programme is set up about, and what came of those before it.
+
+    hulls, reach, share : as of ``corridor.rows.Around``
+    relaxation : of the last one that had no solution; lacked : metres that it lacked, all together
+    """
+
+    hulls: Array
+    reach: float = REACH
+    share: float = SHARES[0]
+    rounds: int = 0
+    status: Status = Status.INFEASIBLE
+    best: SplineSolution | None = None
+    relaxation: Relaxation | None = None
+    lacked: float = inf
+    ended: bool = False
+
+
 def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
     """Return the position curve under half-spaces that keep pictures free."""
-    breaks = task.clock.breaks
-    base = _base(task)
+    breaks, base = task.clock.breaks, _base(task)
     ideal = _ideal(task, breaks)
     chords = np.stack([ideal[:-1], ideal[1:]], axis=1)
-    hulls, share = chords, SHARES[0]
-    best: SplineSolution | None = None
-    problem = base
-    reach = REACH
-    status, relaxation, lacked = Status.INFEASIBLE, None, np.inf
-    for rounds in range(1, ROUNDS + 1):
-        problem = _walled(task, base, hulls, reach, share)
+    now = _Round(chords)
+    while not now.ended and now.rounds < ROUNDS:
+        problem = _walled(task, base, now.hulls, now.reach, now.share)
         problem = replace(problem, floors=(*problem.floors, *free))
         solution = minimise(problem)
-        status = solution.status
+        now = replace(now, rounds=now.rounds + 1, status=solution.status)
         if solution.coef is None:
-            # Planes about a course that runs through something may contradict each other; about the
-            # curve that breaks them least there are better ones.
-            relaxation = relax(problem, len(task.owners)) if status is Status.INFEASIBLE else None
-            if best is not None or relaxation is None or relaxation.coef is None:
-                break
-            before, lacked = lacked, float(relaxation.floor_lack.sum())
-            if free and lacked > HOPE * before:
-                break
-            hulls, share = control_rows(breaks).apply(relaxation.coef).reshape(-1, 6, 3), SHARES[0]
+            now = _relaxed(task, problem, now, HOPE if free else inf)
             continue
-        points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
-        lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
-        if (
-            max(lacking.max(), *(shortfalls(m, place).max() for m, place, _ in _stands(task, points)))
-            > PROVED
-        ):
-            reach *= 2.0
-            hulls, share = points if rounds % 2 else chords, SHARES[0]
-            continue
-        done = best is not None and solution.objective > (1 - GAIN) * best.objective
-        best = solution if best is None or not done else best
-        if done or not problem.floors:
-            break
-        hulls, share = points, SHARES[1]
-    if best is None:
-        return Flown(None, status, float("nan"), rounds, relaxation)
-    assert best.coef is not None
-    return Flown(spline(breaks, best.coef), best.status, best.objective, rounds)
+        points = _points(breaks, solution.coef)
+        if _lack(task, points) > PROVED:
+            hulls = points if now.rounds % 2 else chords
+            now = replace(now, hulls=hulls, reach=2.0 * now.reach, share=SHARES[0])
+        else:
+            now = _improved(now, solution, points, done=not problem.floors)
+    if now.best is None:
+        return Flown(None, now.status, float("nan"), now.rounds, now.relaxation)
+    assert now.best.coef is not None
+    return Flown(spline(breaks, now.best.coef), now.best.status, now.best.objective, now.rounds)
+
+
+def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _Round:
+    """Return what follows a programme without a solution.
+
+    hope : how much of what lacked before may lack now for it to be worth going on
+    Planes about a course that runs through something may contradict each other; about the curve that breaks
+    them least there are better ones.
+    """
+    found = relax(problem, len(task.owners)) if now.status is Status.INFEASIBLE else None
+    after = replace(now, relaxation=found)
+    if now.best is not None or found is None or found.coef is None:
+        return replace(after, ended=True)
+    lacked = float(found.floor_lack.sum())
+    hulls = _points(task.clock.breaks, found.coef)
+    return replace(after, hulls=hulls, share=SHARES[0], lacked=lacked, ended=lacked > hope * now.lacked)
+
+
+def _improved(now: _Round, solution: SplineSolution, points: Array, *, done: bool) -> _Round:
+    """Return what follows a motion that holds; done : there is nothing that it could be put beside anew."""
+    best = now.best
+    if best is not None and solution.objective > (1 - GAIN) * best.objective:
+        return replace(now, ended=True)
+    return replace(now, hulls=points, share=SHARES[1], best=solution, ended=done)
+
+
+def _points(breaks: Array, coef: Array) -> Array:
+    """Return the control points of every piece of a spline, shape (P, 6, 3)."""
+    return control_rows(breaks).apply(coef).reshape(-1, 6, 3)
+
+
+def _lack(task: Task, points: Array) -> float:
+    """Return the most metres by which the hulls of a motion do not prove that it is clear."""
+    lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
+    standing = (shortfalls(motions, place).max() for motions, place, _ in _stands(task, points))
+    return float(max(lacking.max(), *standing))
 
 
 def _ideal(task: Task, times: Array) -> Array:

@@ -30,7 +30,7 @@ PICTURES = "the pictures of other drones"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Around:
+class Traffic:
     """What goes on around a shot: what moves, and whose pictures count."""
 
     moving: tuple[Moving, ...]
@@ -56,7 +56,7 @@ class NoMotion:
 
 
 def timed_shot(
-    looker: Looker, room: Room, around: Around, placed: PlacedShot, start: float
+    looker: Looker, room: Room, traffic: Traffic, placed: PlacedShot, start: float
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``.
 
@@ -66,10 +66,10 @@ def timed_shot(
     mission, drone = looker.mission, looker.drone
     shot = at_start(mission, placed.shot, start)
     clock = clock_of(mission, drone, shot, start)
-    near = (*standing(room), *around.moving)
+    near = (*standing(room), *traffic.moving)
     motions = tuple(evened(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks)
-    task = Task(looker, shot, clock, room, motions, passing, around.sights)
+    task = Task(looker, shot, clock, room, motions, passing, traffic.sights)
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))

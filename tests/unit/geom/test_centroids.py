@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 from shotc.geom.centroids import centroids, halved, view_plane, viewpoint_centroids
+from tests.goal_costs import coverage
 
 EYE = np.array([80.0, 0.0, 0.0])
 
@@ -33,15 +34,6 @@ def never_rises(costs: tuple[float, ...]) -> bool:
 
 def flat(points: Array, centre: Array) -> Array:
     return (points - centre) @ view_plane(centre, EYE)[0].T
-
-
-def coverage(points: Array, goals: Array) -> float:
-    """Return the sum of the squared distances of points (M, D) from their nearest goals (n, D).
-
-    Source: *display* Eq. 16. For the projected cost give both ``(x - centre) @ view_plane(...)[0].T``.
-    """
-    near = cKDTree(goals).query(points)[0]
-    return float(near @ near)
 
 
 def test_a_single_goal_is_the_mean_and_costs_the_variance() -> None:

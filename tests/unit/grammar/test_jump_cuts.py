@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from math import cos, radians, sin
 
 import pytest
 
+from shotc.diag.model import Diagnostic
 from tests.grammar_missions import codes, grammar, mission
 
 
@@ -42,7 +44,53 @@ def test_the_numbers_are_told() -> None:
     text = mission(still("a", 0, 20), still("b", 20, 16)).replace("rules: {", "rules: {ground_clearance: 0, ")
     (said,) = grammar(text)
     assert "20 deg to the side, 1.2 times as large" in said.notes[0] or "1.3 times" in said.notes[0]
-    assert "10 deg more to the side" in said.help
+    assert said.help.startswith("begin `b` at [8.")
+
+
+ROUNDS = (
+    "kind: orbit, radius: 30, altitude: HIGH, start_azimuth: AZIMUTH",
+    "kind: elevator, distance: 30, azimuth: AZIMUTH, altitude: [HIGH, 30]",
+    "kind: dolly, distance: [30, 50], altitude: HIGH, azimuth: AZIMUTH",
+)
+
+
+@pytest.mark.parametrize("kind", ROUNDS)
+@pytest.mark.parametrize(("azimuth", "high"), [(170, 5), (181, 14), (190, 20), (-175, 6), (520, 9)])
+def test_the_azimuth_that_the_help_gives_clears_the_cut(kind: str, azimuth: int, high: int) -> None:
+    """It counts the elevations, for which the angle between the views is less than that of their azimuths."""
+
+    def cut(written: str) -> list[Diagnostic]:
+        shot = kind.replace("HIGH", str(high)).replace("AZIMUTH", written)
+        first = "id: a, kind: static, at: [0, 12, 16], look_at: statue, timing: {duration: 4}"
+        return grammar(mission(first, f"id: b, target: statue, {shot}"))
+
+    (said,) = cut(f"{azimuth} deg")
+    assert said.code == "F002"
+    remedy = re.match(r"write `(?:start_)?azimuth: (\d+ deg)`", said.help)
+    assert remedy is not None
+    assert cut(remedy[1]) == []
+    given = int(remedy[1].split()[0])
+    back = given + 2 if given < 180 else given - 2
+    assert [d.code for d in cut(f"{back} deg")] == ["F002"]
+
+
+@pytest.mark.parametrize(("azimuth", "distance"), [(-20, 3), (5, 20), (28, 24)])
+def test_the_place_that_the_help_gives_clears_the_cut(azimuth: float, distance: float) -> None:
+    def cut(second: str) -> list[Diagnostic]:
+        low = mission(still("a", 0, 20 if distance > 9 else 4), second)
+        return grammar(low.replace("rules: {", "rules: {ground_clearance: 0, "))
+
+    b = still("b", azimuth, distance)
+    (said,) = cut(b)
+    place = re.match(r"begin `b` at (\[.*?\])", said.help)
+    assert place is not None
+    assert cut(re.sub(r"at: \[.*?\]", f"at: {place[1]}", b)) == []
+
+
+def test_from_high_above_no_side_is_proposed() -> None:
+    above = "kind: static, look_at: statue, timing: {duration: 4}"
+    (said,) = grammar(mission(f"id: a, at: [0, 36, 30], {above}", f"id: b, at: [0, 45, 33], {above}"))
+    assert said.help.startswith("begin `b` much nearer or much farther away, or write")
 
 
 def test_a_lens_changes_the_size_too() -> None:

@@ -47,7 +47,8 @@ def test_a_pan_is_told_on_its_duration_with_what_it_needs() -> None:
     line, column = at(found)
     assert text.splitlines()[line - 1][column - 1 :].startswith("5}")
     assert "in 4.0 s" in found.notes[0]
-    assert "8.0 s or more" in found.help
+    assert found.help.startswith("write `duration: 8.0 s` or more")
+    assert codes(sweep(WIDTH, "{duration: 8.0}", hold=1)) == []
 
 
 def test_turns_are_counted_as_they_are_written() -> None:
@@ -69,6 +70,31 @@ def test_a_time_between_tells_the_stretch_before_it() -> None:
 
     assert codes(timed(6.9)) == ["F005"]
     assert codes(timed(7.1)) == []
+    text = mission(timed(3))
+    (found,) = grammar(text)
+    line, column = at(found)
+    assert text.splitlines()[line - 1][column - 8 :].startswith(" time: 3}")
+    assert found.help.startswith("write `time: 7.0 s` or more, or write")
+    assert codes(timed(7.0)) == []
+
+
+@pytest.mark.parametrize("hold", [0, 2])
+def test_what_ends_a_pan_counts_all_that_was_before_it(hold: float) -> None:
+    def film(time: float, duration: float) -> str:
+        return (
+            f"id: a, kind: keyframes, timing: {{duration: {duration}}}, keyframes: ["
+            f"{{at: [0, 0, 9], heading: 0 deg, pitch: 0 deg, hold: {hold}}}, "
+            f"{{at: [1, 0, 9], heading: {WIDTH} deg, pitch: 0 deg, hold: {hold}, time: {time}}}, "
+            f"{{at: [2, 0, 9], heading: 0 deg, pitch: 0 deg, hold: {hold}}}]"
+        )
+
+    (first,) = grammar(mission(film(hold + 4, 60)))
+    assert f"`time: {hold + 7}.0 s` or more, and move what follows by as much" in first.help
+    assert codes(film(hold + 7, 60)) == []
+    (second,) = grammar(mission(film(20, 20 + hold + 4 + hold)))
+    end = 20 + hold + 7 + hold
+    assert f"`duration: {end}.0 s` or more" in second.help
+    assert codes(film(20, end)) == []
 
 
 @pytest.mark.parametrize(("share", "told"), [(0.95, ["F005"]), (1.05, [])])

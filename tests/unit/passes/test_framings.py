@@ -260,7 +260,14 @@ def test_what_depends_on_a_start_that_is_not_known_is_no_error_yet() -> None:
 
 def test_a_framing_says_how_long_it_lasts() -> None:
     mission = text("target: tower").replace(", duration: 8", "")
-    assert only(mission, "M003").message.startswith("how long does this framing last")
+    found = only(mission, "M003")
+    assert found.message.startswith("how long does this framing last")
+    assert found.help == "add `duration: ...` to `timing`"
+    assert underlined(mission, found) == "{start: 15}"
+    assert told(mission.replace("{start: 15}", "{start: 15, duration: 8}")) == []
+    automatic = only(mission.replace("{start: 15}", "auto"), "M003")
+    assert automatic.help == "write `timing: {duration: ...}`"
+    assert only(mission.replace("timing: {start: 15}, ", ""), "M003").help == "add `timing: {duration: ...}`"
 
 
 def test_a_view_into_a_zone_is_told_and_a_free_one_goes_beside_it() -> None:

@@ -30,8 +30,11 @@ BEND = f"points: [{TURN}], speed: 6 m/s"  # to the left, by a quarter turn of 20
 LATERAL = "kind: lateral, side: right, distance: 8, altitude: 4"
 
 
-def told(shot: str, limit: str = "7 m/s", track: str = BEND) -> tuple[Diagnostic, ...]:
+def told(
+    shot: str, limit: str = "7 m/s", track: str = BEND, before: str = "targets:"
+) -> tuple[Diagnostic, ...]:
     text = MISSION.replace("TRACK", track).replace("LIMIT", limit).replace("SHOT", shot)
+    text = text.replace("targets:", before, 1)
     return tuple(d for d in resolved(text)[1] if d.code == "M005")
 
 
@@ -65,10 +68,20 @@ def test_the_other_side_is_named_where_it_is_the_inside_of_the_bend() -> None:
     assert "side" not in help_of(LATERAL, track=both)
 
 
-def test_a_higher_limit_is_enough() -> None:
-    limit = re.search(r"`limits: \{speed: ([\d.]+ m/s)\}`", help_of(LATERAL))
+@pytest.mark.parametrize("wind", [0.0, 0.144, 1.46])
+def test_a_higher_limit_is_enough(wind: float) -> None:
+    windy = f"world: {{wind: {wind}}}\ntargets:"
+    (found,) = told(LATERAL, before=windy)
+    limit = re.search(r"`limits: \{speed: ([\d.]+ m/s)\}`", found.help)
     assert limit is not None
-    assert not told(LATERAL, limit[1])
+    assert not told(LATERAL, limit[1], before=windy)
+
+
+def test_a_radius_that_changes_is_proposed_from_one_to_another() -> None:
+    spiral = "kind: spiral, radius: [34, 17], altitude: [6, 9], start_azimuth: 0 deg, sweep: 360 deg"
+    proposed = re.search(r"`radius: (\[[\d.]+ m, [\d.]+ m\])` or nearer", help_of(spiral, "12 m/s"))
+    assert proposed is not None
+    assert not told(spiral.replace("[34, 17]", proposed[1]), "12 m/s")
 
 
 def test_where_the_target_itself_is_too_fast_no_place_beside_it_is_named() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from math import atan2, cos, hypot, pi, radians, sin
 from typing import Any
@@ -14,7 +15,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.camera import silhouette_bounds, view
 from shotc.ir.flown_order import flown_order
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
-from shotc.ir.limits import Timing
+from shotc.ir.limits import Timing, Vec3
 from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
@@ -149,10 +150,8 @@ def test_a_target_that_is_cropped_on_the_set_moves_along_its_vertical_with_a_war
     assert k.reference[0] == -1 / 3
     assert 0 <= k.reference[1] < 1 / 3
     assert max(map(abs, bounds(k))) == pytest.approx(1.0, abs=1e-4)  # as near to the point as it stays whole
-    distance = float(warning.help.split("move to ")[1].split(" m")[0])
-    assert (
-        run(keyframe(at=(0.0, -distance, 12.0), aim=aim, composition=FRAMES["upper-left"])).diagnostics == ()
-    )
+    place = proposed(warning)
+    assert run(keyframe(at=place, aim=aim, composition=FRAMES["upper-left"])).diagnostics == ()
     wide = radians(float(warning.help.split("`hfov` to ")[1].split(" deg")[0]))
     assert (
         run(keyframe(at=(0.0, -40.0, 12.0), aim=aim, composition=FRAMES["upper-left"], hfov=wide)).diagnostics
@@ -160,14 +159,30 @@ def test_a_target_that_is_cropped_on_the_set_moves_along_its_vertical_with_a_war
     )
 
 
+def proposed(d: Diagnostic) -> Vec3:
+    x, y, z = map(float, d.help.split("move to [")[1].split("]")[0].split(","))
+    return (x, y, z)
+
+
+@pytest.mark.parametrize("at", [(15.0, -15.0, 5.0), (-10.0, 10.0, 25.0), (0.0, 22.0, 2.6)])
+def test_the_place_where_a_target_fits_has_the_bearing_and_is_over_the_ground(at: Vec3) -> None:
+    (error,) = run(keyframe(at=at)).diagnostics
+    x, y, z = proposed(error)
+    assert run(keyframe(at=(x, y, z))).diagnostics == ()
+    assert atan2(y, x) == pytest.approx(atan2(at[1], at[0]), abs=1e-3)
+    straight = 12 + (at[2] - 12) * hypot(x, y) / hypot(*at[:2])
+    assert z == pytest.approx(straight if straight >= 2.6 else at[2], abs=0.02)
+
+
 def test_a_target_that_fits_nowhere_is_an_error_whose_help_works() -> None:
     outcome = run(keyframe(at=(0.0, -20.0, 12.0)))
     assert outcome.value is None
     (error,) = outcome.diagnostics
     assert error.code == "G010"
-    distance = float(error.help.split("move to ")[1].split(" m")[0])
-    assert run(keyframe(at=(0.0, -distance, 12.0))).diagnostics == ()
-    assert run(keyframe(at=(0.0, -distance + 0.3, 12.0))).value is None
+    x, y, z = proposed(error)
+    assert (x, z) == (0.0, 12.0)
+    assert run(keyframe(at=(x, y, z))).diagnostics == ()
+    assert run(keyframe(at=(x, y + 0.3, z))).value is None
     wide = float(error.help.split("`hfov` to ")[1].split(" deg")[0])
     assert run(keyframe(at=(0.0, -20.0, 12.0), hfov=radians(wide))).diagnostics == ()
     assert run(keyframe(at=(0.0, -20.0, 12.0), hfov=radians(wide - 0.5))).value is None
@@ -209,9 +224,35 @@ def test_a_generated_path_is_told_the_distance_to_keep_at_its_altitude() -> None
     shot = "  - {id: a, kind: orbit, drone: cam1, target: tower, radius: RR, altitude: 20}\n"
     (error,) = placed(head + shot.replace("RR", "20"))[1]
     assert error.code == "G010"
-    enough = float(error.help.split("keep ")[1].split(" m")[0])
+    enough = float(error.help.split("`radius: ")[1].split("`")[0])
+    line = shot.replace("RR", "20")
+    assert error.labels[0].span.column == line.index("20,") + 1
     assert placed(head + shot.replace("RR", f"{enough}"))[1] == []
     assert placed(head + shot.replace("RR", f"{enough - 0.2}"))[1] != []
+
+
+@pytest.mark.parametrize(
+    ("kind", "key"),
+    [
+        ("kind: spiral, radius: [20, 70], altitude: [10, 30]", "radius"),
+        ("kind: spiral, radius: [20, 22], altitude: [30, 10]", "radius"),
+        ("kind: elevator, azimuth: 20 deg, distance: 20, altitude: [5, 45]", "distance"),
+        ("kind: dolly, azimuth: 20 deg, distance: [25, 20], altitude: 20", "distance"),
+        ("kind: dolly, azimuth: 20 deg, distance: [20, 50], altitude: 8", "distance"),
+        ("kind: crane, azimuth: 70 deg, distance: [70, 25], altitude: [10, 30]", "distance"),
+    ],
+)
+def test_a_generated_path_is_told_the_parameter_and_the_value_that_works(kind: str, key: str) -> None:
+    head = "shotc: 1\nmission: far\ntargets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}\n"
+    head += "drones: {cam1: {home: [0, -90, 0]}}\nshots:\n"
+    text = f"{head}  - {{id: a, drone: cam1, target: tower, {kind}}}\n"
+    error = placed(text)[1][0]
+    remedy = re.search(rf"write `({key}: .+?)`", error.help)
+    assert remedy is not None
+    old = re.search(rf"{key}: (\[.*?\]|\d+)", text.splitlines()[-1])
+    assert old is not None
+    assert error.labels[0].span.column == text.splitlines()[-1].index(old[0]) + len(key) + 3
+    assert placed(text.replace(old[0], remedy[1]))[1] == []
 
 
 def test_a_line_with_an_error_has_no_warnings_beside_it() -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from shotc.diag.model import Diagnostic
 from tests.resolve_missions import FIRST, faults, mission, only
 
 
@@ -48,6 +49,25 @@ def test_an_origin_with_swapped_numbers_is_told() -> None:
     d = only(text.replace("lat: 47.3769, lon: 8.5417", "lat: 8.5417, lon: 47.3769"))
     assert d.code == "G017"
     assert "swapped" in d.help
+
+
+@pytest.mark.parametrize("height", ["", ", height: 0", ", height: 0 m"])
+@pytest.mark.parametrize("lat", ["47.3768", "47.3750", "47.4200"])
+def test_a_home_on_the_ground_is_not_under_it_wherever_it_is(lat: str, height: str) -> None:
+    home = f"home: {{lat: {lat}, lon: 8.5417{height}}}"
+    text = on_earth("id: a, kind: static, at: [0, -50, 15], look_at: tower")
+    found = faults(text.replace("home: [0, -60, 0]", home))
+    assert not [d for d in found if d.code == "G006"]
+
+
+def test_the_height_that_a_low_camera_is_told_is_enough() -> None:
+    def seen(height: str) -> list[Diagnostic]:
+        place = f"{{lat: 47.3763, lon: 8.5417, height: {height}}}"
+        return faults(on_earth(f"id: a, kind: static, at: {place}, heading: 0 deg, pitch: 0 deg"))
+
+    (low,) = seen("1")
+    assert low.code == "G001"
+    assert not seen(low.help.rpartition("z = ")[2])
 
 
 def gpx(lat: float, ele: float) -> str:

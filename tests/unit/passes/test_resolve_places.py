@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from tests.front import resolved
@@ -69,6 +71,41 @@ def test_a_generated_path_in_an_obstacle_is_a_warning_unless_all_of_it_is() -> N
         "    dome: {keep: out, cylinder: {center: [0, 0], radius: 58, height: [0, 30]}}\n    house:",
     )
     assert [d.code for d in faults(dome)] == ["G002"]
+
+
+HALF = "target: tower, start_azimuth: 270 deg, sweep: -180 deg"
+
+
+@pytest.mark.parametrize(
+    "shot",
+    [
+        f"kind: orbit, radius: 36, altitude: 8, {HALF}",
+        f"kind: orbit, radius: 40, altitude: 5, {HALF}",
+        f"kind: orbit, radius: 90, altitude: 40, {HALF}",
+        f"kind: spiral, radius: [36, 40], altitude: [5, 10], {HALF}",
+        "kind: elevator, target: tower, azimuth: 45 deg, distance: 42, altitude: [4, 20]",
+        "kind: dolly, target: tower, azimuth: 45 deg, distance: [42, 60], altitude: 6",
+        "kind: crane, target: tower, azimuth: 45 deg, distance: [42, 60], altitude: [6, 20]",
+    ],
+)
+def test_each_parameter_that_is_proposed_frees_a_generated_path(shot: str) -> None:
+    text = mission(f"id: a, {shot}")
+    blocked = [d for d in faults(text) if d.code == "G016"]
+    remedies = re.findall(r"`(\w+): (.+?)`", blocked[0].help)
+    assert remedies
+    column = text.splitlines()[FIRST - 1].index(f" {remedies[0][0]}: ") + len(remedies[0][0]) + 4
+    assert span(blocked[0])[:2] == (FIRST, column)
+    for key, value in remedies:
+        freed = re.sub(rf" {key}: (\[.*?\]|\d+)", f" {key}: {value}", f"id: a, {shot}")
+        assert freed != f"id: a, {shot}"
+        assert faults(mission(freed)) == []
+
+
+def test_a_path_that_is_all_blocked_is_told_its_parameter_too() -> None:
+    text = mission("id: a, kind: dolly, target: tower, azimuth: 45 deg, distance: [41, 43], altitude: 6")
+    d = only(text)
+    assert (d.code, d.labels[0].span.column) == ("G002", text.splitlines()[FIRST - 1].index("[41, 43]") + 1)
+    assert d.help.startswith("write `distance: [")
 
 
 def test_the_altitude_of_a_generated_path_binds() -> None:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import re
+
+import pytest
+
 from tests.resolve_missions import FIRST, at, faults, mission, only, span
 
 
@@ -70,3 +74,47 @@ def test_endurance_counts_the_whole_flight() -> None:
     assert (d.code, "take longer" in d.message) == ("K005", True)
     one = text.replace("duration: 50", "duration: 60")
     assert "is longer than drone" in only(one).message
+
+
+GALE = "id: a, kind: dolly, target: tower, azimuth: 180 deg, distance: [40, 60], altitude: 15"
+
+
+def windy(duration: str, wind: str = "7.7 m/s") -> str:
+    return mission(GALE + duration).replace("world:", f"world:\n  wind: {wind}")
+
+
+@pytest.mark.parametrize("seconds", [10, 30, 60])
+def test_a_duration_that_the_wind_makes_too_short_is_cured_by_less_wind(seconds: int) -> None:
+    given = f", timing: {{duration: {seconds}}}"
+    # 20 m at 0.3 m/s take more than a minute.
+    d = only(windy(given))
+    assert (d.code, "0.3 m/s across (8.0 less 7.7 of wind)" in d.notes[0]) == ("K004", True)
+    calm, fast = re.findall(r"([0-9.]+ m/s)", d.help)
+    assert faults(windy(given, calm)) == []
+    assert faults(windy(given).replace("speed: 8", f"speed: {fast}")) == []
+    assert d.help.endswith(", give it more than 66.8 s, or write `timing: auto`")
+
+
+def test_a_duration_too_short_is_told_before_an_endurance_too_short() -> None:
+    given = ", timing: {duration: 30}"
+    d = only(windy(given).replace("radius: 0.6,", "radius: 0.6, endurance: 60,"))
+    assert d.code == "K004"
+    assert "longer than the endurance of 60.0 s" in d.notes[1]
+    assert "give it" not in d.help
+    (calm, _) = re.findall(r"([0-9.]+ m/s)", d.help)
+    assert "K004" not in {f.code for f in faults(windy(given, calm))}
+
+
+def test_an_endurance_that_the_wind_makes_too_short_names_the_wind() -> None:
+    d = only(windy("").replace("radius: 0.6,", "radius: 0.6, endurance: 60,"))
+    assert (d.code, "of wind" in d.notes[1]) == ("K005", True)
+    assert d.notes[0] == "the shot takes at least 66.8 s, the endurance is 60.0 s"
+    assert d.help == "wait for wind below 7.6 m/s, or take a drone that flies more than 8.1 m/s"
+
+
+def test_a_drone_that_the_wind_stops_is_left_half_its_speed() -> None:
+    d = only(windy("", "9 m/s"))
+    assert (d.code, d.help.partition(" (")[0]) == (
+        "K011",
+        "wait for wind below 4.0 m/s, which leaves it half its speed",
+    )

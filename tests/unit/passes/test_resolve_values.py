@@ -15,8 +15,10 @@ from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.mission import MissionIR, Promise
 from shotc.passes.resolve.motion import least_shot, least_travel
 from shotc.spec.presets import PRESETS
+from tests import resolve_missions
 from tests.front import resolved
 from tests.records import replace
+from tests.resolve_missions import at, faults, span
 
 TEXT = """\
 shotc: 1
@@ -152,3 +154,44 @@ def test_the_front_loads_neither_numpy_nor_a_solver() -> None:
     )
     found = subprocess.run([sys.executable, "-c", code, TEXT], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize(
+    ("limits", "told"),
+    [
+        ("speed: 16", []),
+        ("speed: 16.1", ["speed"]),
+        ("speed: 50 km/h", []),
+        ("speed: 50", ["speed"]),
+        ("climb: 7, descent: 4, acceleration: 7", ["climb", "descent", "acceleration"]),
+        ("jerk: 90, yaw_rate: 300 deg/s", []),
+    ],
+)
+def test_a_limit_of_more_than_twice_the_named_models_is_told_and_taken(limits: str, told: list[str]) -> None:
+    text = resolve_missions.mission(at(0, -50, 15)).replace(
+        "limits: {speed: 8, climb: 4, descent: 3, acceleration: 3}", "LIMITS"
+    )
+    text = text.replace("LIMITS", f"limits: {{{limits}}}")
+    found = faults(text)
+    assert [(d.code, d.message.split("`")[1]) for d in found] == [("K015", key) for key in told]
+    for d, key in zip(found, told, strict=True):
+        line, column, _ = span(d)
+        assert text.splitlines()[line - 1][: column - 1].endswith(f"{key}: ")
+    assert faults(text.replace("model: x500, ", "")) == []
+    value, _ = resolved(text)
+    assert value is not None
+    if "speed: 50" in limits and told:
+        assert value.drones[0].limits.speed == 50
+
+
+def test_the_limits_of_a_fleet_are_told_too() -> None:
+    text = """\
+shotc: 1
+mission: show
+fleets:
+  swarm: {count: 4, layout: {grid: {spacing: 4}}, model: show-drone, limits: {speed: 11 m/s}}
+shots:
+  - {id: s, kind: display, fleet: swarm, frames: [{sphere: {center: [0, 0, 40], radius: 8}, hold: 4}]}
+"""
+    assert [d.code for d in resolved(text)[1]] == ["K015"]
+    assert resolved(text.replace("11 m/s", "10 m/s"))[1] == []

@@ -39,6 +39,11 @@ CASES = [
     ("after end", "a: 1\n...\nb: 2\n", "syntax", (3, 1, 3, 5)),
     ("directive", "%NO such\na: 1\n", "syntax", (1, 1, 1, 9)),
     ("yaml 3", "%YAML 3.0\n---\na: 1\n", "syntax", (1, 1, 1, 10)),
+    ("colour among keys", "a: {b: 1, c: #39f, d: 2}\n", "needs-quotes", (1, 14, 1, 18)),
+    ("colour on its line", "a: {b: 1,\n  c: #3399ff,\n  d: 2}\n", "needs-quotes", (2, 6, 2, 13)),
+    ("colours in a list", "a: [#f00, #0f0]\n", "needs-quotes", (1, 5, 1, 9)),
+    ("comment in open list", "a: [1, # 2\n  3, #then\n", "unclosed", (1, 4, 1, 5)),
+    ("sign in quotes", "a: {b: '#39f', c: \"d: #e\"\n", "unclosed", (1, 4, 1, 5)),
     ("at sign", "a: @b c\n", "needs-quotes", (1, 4, 1, 8)),
     ("backtick", "a: `b`\n", "needs-quotes", (1, 4, 1, 7)),
     ("percent", "a: %5\n", "needs-quotes", (1, 4, 1, 6)),
@@ -91,6 +96,18 @@ def test_one_fault_at_its_place(text: str, kind: str, place: tuple[int, int, int
     assert (span.line, span.column, span.end_line, span.end_column) == place
     assert faults[0].message[0] == faults[0].message[0].lower()
     assert not faults[0].message.endswith(".")
+
+
+@pytest.mark.parametrize("value", ["#3399ff", "#f80", "#1"])
+@pytest.mark.parametrize("hidden", ["a: {b: {c: 1, d: HERE}}\n", "a: {b: {d: HERE,\n  c: 2}}\n"])
+def test_a_sign_that_hides_a_value_is_cured_by_the_quotes_that_the_help_gives(
+    hidden: str, value: str
+) -> None:
+    (fault,) = parse(hidden.replace("HERE", value).encode(), "m").faults
+    assert fault.message.startswith("'#' begins a comment")
+    assert fault.related[0][1] == "this '{' is not closed"
+    _, _, quoted = fault.help.rpartition(": ")
+    assert not parse(hidden.replace("HERE", quoted).encode(), "m").faults
 
 
 def test_several_faults_in_one_run() -> None:

@@ -39,6 +39,11 @@ shots:
         ("timing: {duration: 30}", "timing: 30 s", "got the text `30 s`", "`{duration: 30 s}`"),
         ("timing: {duration: 30}", "timing: soon", "got the text `soon`", "write `auto`, or a mapping"),
         ("in_frame: 100 %", "in_frame: 120 %", "above what a share may be", "give 0 % to 100 %"),
+        ("in_frame: 100 %", "in_frame: 100", "above what a share may be", "write `100 %`"),
+        ("in_frame: 100 %", "in_frame: 101", "above what a share may be", "give 0 % to 100 %"),
+        ("at: [-40, -40, 10]", "at: [-40, -40]", "expected 3 values [x, y, z], got 2", "write [x, y, z]"),
+        ("sweep: 180 deg", "sweep: 2 turns", "unknown unit `turns`", "a turn is 360 deg: write `720 deg`"),
+        ("sweep: 180 deg", "sweep: -0.5 rev", "unknown unit `rev`", "write `-180 deg`"),
         ("frame: left-third", "frame: [640, 360]", "above what a place on screen may be", "give -1 to 1"),
         ("hfov: 70 deg, aspect: 1.6", "hfov: 70 deg, aspect: 16/9", "aspect `16/9`", 'such as "16:9"'),
         ("sweep: 180 deg", "sweep: south", "got the text `south`", "write `180 deg`"),
@@ -82,6 +87,14 @@ def test_the_help_names_what_was_meant(right, wrong, message, help_, loads):
 )
 def test_the_closest_word(word, known, meant):
     assert closest(word, known) == meant
+
+
+def test_a_value_behind_a_comment_sign_is_quoted_by_the_help(loads):
+    text = MISSION.replace("timing: {duration: 30}", "composition: HERE")
+    (found,) = (d for d in loads(text.replace("HERE", "#39f")).diagnostics if d.code == "S006")
+    assert found.help == '`#` begins a comment; put the value in quotes: "#39f"'
+    (other,) = (d for d in loads(text.replace("HERE", "# later")).diagnostics if d.code == "S006")
+    assert other.help == "write its value, or remove `composition`"
 
 
 def spiral(altitude):

@@ -24,7 +24,7 @@ from shotc.refiner_api import (
 from shotc_casadi.clock.problem import guess
 from shotc_casadi.clock.symbols import PLACED
 from shotc_casadi.clock.wishes import ClockSubject
-from shotc_casadi.program import Solution
+from shotc_casadi.solving import Solution
 
 
 def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecewise:

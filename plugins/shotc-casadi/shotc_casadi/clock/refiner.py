@@ -12,18 +12,14 @@ from shotc.plugin_api import (
     PassContext,
     PathIR,
     SolverState,
-    fallback,
-    impossible,
-    solver_nan,
-    stopped_early,
 )
 from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
-from shotc_casadi.clock.program import UNITS
+from shotc_casadi.clock.program import ROWS
+from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.shown import no_less, past_what_hides
 from shotc_casadi.clock.wishes import ClockSubject
-from shotc_casadi.patience import PATIENCE
-from shotc_casadi.program import Solution
+from shotc_casadi.telling import UNITS, fallen_back, given_up, stats
 
 NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
 STEP = 0.1  # seconds between the places that are compared with it
@@ -47,8 +43,8 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
         refined = refine_clock(subject)
         said = _report(path, subject, refined, name)
         told += [] if said is None else [said]
-        shared = subject.together and refined.leg is not None
-        if shared and refined.leg is not None and not no_less(subject, subject.leg, refined.leg):
+        new = refined.leg
+        if new is not None and subject.together and not no_less(subject, subject.leg, new):
             refined = replace(refined, leg=None)
         refined, moved = _taken(path, refined, past_what_hides(subject, refined))
         path = replace(moved, stats=(*moved.stats, *_stats(refined)))
@@ -117,39 +113,37 @@ def _cause(before: tuple[Deviation, ...], t: float, why: str) -> str:
 
 def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: str) -> Diagnostic | None:
     """Return what has to be said of one shot's solver."""
-    solution, gap = refined.solution, refined.gap
+    solution = refined.solution
     if refined.leg is not None:
-        first = refined.first
-        solvers = None if first is None else (first.solver, solution.solver)
-        return (
-            None if first is None or solvers is None else fallback(path, refined.shot, solvers, _word(first))
-        )
-    if gap is None and solution.status == "solved":
+        return fallen_back(path, refined.shot, refined.first, solution)
+    if refined.gap is None and solution.status == "solved":
         return None
-    time = float(refined.breaks[solution.stage]) if gap is None else gap.time
-    state = SolverState(
+    return given_up(path, _state(subject, refined, name), solution)
+
+
+def _state(subject: ClockSubject, refined: ClockRefined, name: str) -> SolverState:
+    """Return where the problem of a shot that is not refined stood; name : of the refiner."""
+    worst, breaks = refined.gap or _worst(refined), refined.breaks
+    return SolverState(
         shot=refined.shot,
         refiner=name,
-        solver=solution.solver,
-        stage=solution.stage if gap is None else int(np.searchsorted(refined.breaks, time)),
-        stages=len(refined.breaks) - 1,
-        s=time,
-        time=time - subject.leg.start,
-        constraint=solution.constraint if gap is None else gap.what,
-        excess=(solution.residual if solution.iterations else nan) if gap is None else gap.lack,
-        unit=UNITS.get(solution.constraint, "") if gap is None else gap.unit,
+        solver=refined.solution.solver,
+        stage=int(np.searchsorted(breaks, worst.time)),
+        stages=len(breaks) - 1,
+        s=worst.time,
+        time=worst.time - subject.leg.start,
+        constraint=worst.what,
+        excess=worst.lack,
+        unit=worst.unit,
     )
-    if solution.status == "nan":
-        return solver_nan(path, state)
-    if solution.status == "stopped":
-        return stopped_early(path, state, _word(solution))
-    return impossible(path, state)
 
 
-def _word(solution: Solution) -> str:
-    if solution.status == "nan":
-        return "numbers that are none"
-    return f"{solution.iterations} iterations" if solution.iterations else f"{PATIENCE:.0f} s without an end"
+def _worst(refined: ClockRefined) -> Gap:
+    """Return the constraint that the solver broke most."""
+    solution = refined.solution
+    what = solution.constraint or ROWS[0]
+    lack = solution.residual if solution.iterations else nan
+    return Gap(float(refined.breaks[solution.stage]), what, lack, UNITS.get(what, ""))
 
 
 def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:
@@ -158,9 +152,5 @@ def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:
     costs = () if refined.costs is None else refined.costs
     return (
         *((f"{shot}.{which}_cost", cost) for which, cost in zip(("refine", "guide"), costs, strict=False)),
-        (f"{shot}.refine_stages", float(len(refined.breaks) - 1)),
-        (f"{shot}.refine_rounds", float(refined.rounds)),
-        (f"{shot}.refine_iterations", float(solution.iterations)),
-        (f"{shot}.refine_solver", solution.solver),
-        (f"{shot}.refine_status", KEPT if kept else solution.status),
+        *stats(shot, refined.rounds, solution, KEPT if kept else None),
     )

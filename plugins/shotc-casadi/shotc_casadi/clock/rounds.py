@@ -4,30 +4,34 @@ anew, and solved again while that helps; then the camera.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
+from typing import NamedTuple
 
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import (
     Array,
     Looker,
+    Mask,
+    Planes,
+    Surroundings,
     TimedLeg,
     restrict,
     surroundings,
 )
 from shotc_casadi.clock.aside import led_past
-from shotc_casadi.clock.bodies import bodies_of, kept_from
+from shotc_casadi.clock.bodies import Body, bodies_of, kept_from
 from shotc_casadi.clock.curve import curve_of, filmed
 from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
 from shotc_casadi.clock.screens import Screen, looked_past
 from shotc_casadi.clock.several import turned
-from shotc_casadi.clock.side import held, led, passes
-from shotc_casadi.clock.wishes import ClockSubject, wishes
-from shotc_casadi.program import Solution, Solver
+from shotc_casadi.clock.side import Pass, held, led, passes
+from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, wishes
+from shotc_casadi.solving import SOLVERS, Solution, by_one_of
 
-SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
 ROUNDS = 6
 REACH = 8.0  # metres beyond its clearance within which a wall counts
 SHARE = 0.5  # of the room beside a wall that is kept
@@ -58,74 +62,167 @@ class ClockRefined:
     costs: tuple[float, float] | None = None
 
 
-def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> ClockRefined:
-    """Refine one shot; screens : what it is to look past."""
-    leg, breaks = subject.leg, breaks_of(subject)
-    around = surroundings(subject.path, subject.drone, breaks)
-    wanted = wishes(subject, breaks)
-    guide = restrict(leg.curve.channels(0, 1, 2), breaks)
-    over = [] if subject.together else passes(subject, breaks, wanted)
-    camera, bodies = leg.curve if subject.together else None, bodies_of(around, breaks)
-    shown = (breaks >= leg.start) & (breaks <= leg.end)
-    first_guess = led_past(led(guide, wanted, over), wanted, screens, shown)
-    course, start, share = first_guess if screens else guide, guess(first_guess, breaks, camera), NEARLY
-    aside = bool(over or screens)
-    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
-    best: tuple[Piecewise, Solution, ClockProblem] | None = None
+class _Best(NamedTuple):
+    """A round that holds: its motion, and the problem that it solves."""
+
+    position: Piecewise
+    solution: Solution
+    task: ClockProblem
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Shot:
+    """What stays from round to round.
+
+    screens, bodies : what to look past, and what to keep away from; shown : whether each node is in the film
+    """
+
+    subject: ClockSubject
+    screens: tuple[Screen, ...]
+    breaks: Array
+    around: Surroundings
+    bodies: tuple[Body, ...]
+    shown: Mask
+
+    @property
+    def guide(self) -> Piecewise:
+        """The position that the guide has, on the nodes."""
+        return restrict(self.subject.leg.curve.channels(0, 1, 2), self.breaks)
+
+    def guess(self, position: Piecewise) -> tuple[Array, Array]:
+        """Return a motion as a first guess, with the guide's camera where that is part of the problem."""
+        return guess(position, self.breaks, self.subject.leg.curve if self.subject.together else None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Round:
+    """Where a round begins, or the last one ended.
+
+    course : the motion that the surroundings are put beside; start : the first guess
+    over : ways over the target that are held to their side; aside : whether the guess is led aside
+    reach, share : of what stands near, metres; of each limit that is used
+    rounds, last, seconds : how often it was solved, what came of it last, and how long all of it took
+    first : the solver that failed before one that did not
+    """
+
+    wanted: ClockWishes
+    course: Piecewise
+    start: tuple[Array, Array]
+    over: tuple[Pass, ...]
+    aside: bool
+    reach: float = REACH
+    share: float = NEARLY
+    rounds: int = 0
+    seconds: float = 0.0
+    last: Solution | None = None
     first: Solution | None = None
     gap: Gap | None = None
-    seconds, reach = 0.0, REACH
-    rounds = 0
-    while rounds < ROUNDS:
-        rounds += 1
-        planes = held(around.half_spaces(course.ctrl, reach, SHARE), wanted, over)
-        planes = planes.and_also(around.free(looker, (leg.start, leg.end), course))
-        before, wanted = wanted, looked_past(screens, wanted, course(breaks), shown)
-        wanted = kept_from(bodies, wanted, course(breaks))
-        task = problem(subject, breaks, wanted, planes, share, start)
-        optional = best is not None or aside
-        solution, failed = _solved(task, SOLVERS[:1] if optional else SOLVERS)
-        seconds += solution.seconds + (failed.seconds if failed else 0.0)
-        if solution.status != "solved" and best is None and aside:
-            # The room may leave no place on that side; a camera that cannot follow then is not taken.
-            over, aside, course, start = [], False, guide, guess(guide, breaks, camera)
-            continue
-        if solution.status != "solved":
-            break
-        first = first or failed
-        found = curve_of(subject, breaks, solution)
-        gap = gap_in(subject.drone, around, found)
-        if gap is not None:
-            reach, share = (2 * reach, share) if gap.unit == "m" else (reach, share * NEARLY)
-            course = found
-            continue
-        # What is looked past anew has a price that the motion before did not pay.
-        anew = wanted.screened > before.screened
-        least = inf if best is None or anew else best[1].objective
-        gained = solution.objective < (1 - GAIN) * least
-        if solution.objective < least:
-            best = found, solution, task
-        if not gained:
-            break
-        course, start = found, (solution.states, solution.inputs)
+    best: _Best | None = None
+    ended: bool = False
+
+
+def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> ClockRefined:
+    """Refine one shot; screens : what it is to look past."""
+    breaks = breaks_of(subject)
+    around = surroundings(subject.path, subject.drone, breaks)
+    shown = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
+    shot = _Shot(subject, screens, breaks, around, bodies_of(around, breaks), shown)
+    now = _begun(shot)
+    while not now.ended and now.rounds < ROUNDS:
+        now = _next(shot, now)
+    return _refined(shot, now)
+
+
+def _begun(shot: _Shot) -> _Round:
+    """Return the first round: from the guide, led aside where it has to choose a side."""
+    subject, guide = shot.subject, shot.guide
+    wanted = wishes(subject, shot.breaks)
+    over = () if subject.together else passes(subject, shot.breaks, wanted)
+    first = led_past(led(guide, wanted, over), wanted, shot.screens, shot.shown)
+    course = first if shot.screens else guide
+    return _Round(wanted, course, shot.guess(first), over, aside=bool(over or shot.screens))
+
+
+def _next(shot: _Shot, now: _Round) -> _Round:
+    """Return the round after one: set up about its course, solved, and proved at every instant."""
+    wanted = looked_past(shot.screens, now.wanted, now.course(shot.breaks), shot.shown)
+    wanted = kept_from(shot.bodies, wanted, now.course(shot.breaks))
+    task = problem(shot.subject, shot.breaks, wanted, _planes(shot, now), now.share, now.start)
+    optional = now.best is not None or now.aside
+    solution, failed = attempt = by_one_of(SOLVERS[:1] if optional else SOLVERS, partial(solve, task))
+    seconds = now.seconds + attempt.seconds
+    after = replace(now, wanted=wanted, rounds=now.rounds + 1, seconds=seconds, last=solution)
+    if solution.status != "solved":
+        return _unsolved(shot, after)
+    found = curve_of(shot.subject, shot.breaks, solution)
+    gap = gap_in(shot.subject.drone, shot.around, found)
+    after = replace(after, first=now.first or failed, gap=gap, course=found)
+    if gap is not None:
+        return _tightened(after, gap)
+    # What is looked past anew has a price that the motion before did not pay.
+    anew = wanted.screened > now.wanted.screened
+    return _improved(after, _Best(found, solution, task), anew=anew)
+
+
+def _planes(shot: _Shot, now: _Round) -> Planes:
+    """Return the half-spaces about the course of a round."""
+    subject, leg = shot.subject, shot.subject.leg
+    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
+    planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, SHARE), now.wanted, now.over)
+    return planes.and_also(shot.around.free(looker, (leg.start, leg.end), now.course))
+
+
+def _unsolved(shot: _Shot, after: _Round) -> _Round:
+    """Return what follows a round without a solution: the guide as it is, if that was not tried yet."""
+    if after.best is not None or not after.aside:
+        return replace(after, ended=True)
+    # The room may leave no place on that side; a camera that cannot follow then is not taken.
+    return replace(after, over=(), aside=False, course=shot.guide, start=shot.guess(shot.guide))
+
+
+def _tightened(after: _Round, gap: Gap) -> _Round:
+    """Return what follows a round that does not hold, from the same first guess."""
+    if gap.unit == "m":
+        return replace(after, reach=2 * after.reach)
+    return replace(after, share=after.share * NEARLY)
+
+
+def _improved(after: _Round, found: _Best, *, anew: bool) -> _Round:
+    """Return what follows a round that holds; anew : its cost is not compared with those before."""
+    solution, best = found.solution, after.best
+    least = inf if best is None or anew else best.solution.objective
+    return replace(
+        after,
+        best=found if solution.objective < least else best,
+        start=(solution.states, solution.inputs),
+        ended=not solution.objective < (1 - GAIN) * least,
+    )
+
+
+def _refined(shot: _Shot, now: _Round) -> ClockRefined:
+    """Return what has come of all rounds."""
+    assert now.last is not None
+    name, best = shot.subject.leg.shot, now.best
     if best is None:
-        return ClockRefined(leg.shot, None, breaks, rounds, solution, seconds, first, gap)
-    whole, costs, gap = _weighed(subject, best)
-    return ClockRefined(leg.shot, whole, breaks, rounds, best[1], seconds, first, gap, costs)
+        return ClockRefined(name, None, shot.breaks, now.rounds, now.last, now.seconds, now.first, now.gap)
+    whole, costs, gap = _weighed(shot.subject, best)
+    return ClockRefined(
+        name, whole, shot.breaks, now.rounds, best.solution, now.seconds, now.first, gap, costs
+    )
 
 
 def _weighed(
-    subject: ClockSubject, best: tuple[Piecewise, Solution, ClockProblem]
+    subject: ClockSubject, best: _Best
 ) -> tuple[TimedLeg | None, tuple[float, float] | None, Gap | None]:
     """Return the leg of the best round where it is no worse than the guide, the costs, and what is amiss."""
-    leg, whole = subject.leg, _filmed(subject, *best[:2])
+    leg, whole = subject.leg, _filmed(subject, best.position, best.solution)
     if whole is None:
         return None, None, Gap(leg.start, "the camera's limits", float("nan"), "")
     if not subject.together:
         worse = astray(subject, whole) > max(ALLOWED, astray(subject, leg))
         return None if worse else whole, None, None
-    breaks = best[0].breaks
-    costs = flown_cost(best[2], breaks, whole), flown_cost(best[2], breaks, leg)
+    breaks = best.position.breaks
+    costs = flown_cost(best.task, breaks, whole), flown_cost(best.task, breaks, leg)
     return None if costs[0] > costs[1] else whole, costs, None
 
 
@@ -137,11 +234,3 @@ def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> T
 def flown_cost(task: ClockProblem, breaks: Array, leg: TimedLeg) -> float:
     """Return what a leg costs by a programme of several subjects, with the camera that it has."""
     return cost(task, *guess(leg.curve, breaks, leg.curve))
-
-
-def _solved(task: ClockProblem, solvers: tuple[Solver, ...]) -> tuple[Solution, Solution | None]:
-    """Solve by the first of the solvers, or else by the second; the second value is the first's failure."""
-    solution = solve(task, solvers[0])
-    if solution.status == "solved" or len(solvers) == 1:
-        return solution, None
-    return solve(task, solvers[1]), solution

@@ -6,6 +6,7 @@ The guide's camera has chosen one; the nodes near there are kept on it, and the 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -35,17 +36,17 @@ class Pass(NamedTuple):
     least: int
 
 
-def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> list[Pass]:
+def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> tuple[Pass, ...]:
     """Return the ways over the target, in their order."""
     leg = subject.leg
     if not wanted.watches:
-        return []
+        return ()
     relative = leg.curve(breaks)[:, :2] - wanted.target[:, :2]
     distance = np.linalg.norm(relative, axis=1)
     filmed = (breaks >= leg.start) & (breaks < leg.end)
     near = np.flatnonzero((distance < NEAR * wanted.usual) & filmed)
     if not len(near):
-        return []
+        return ()
     found = []
     for run in np.split(near, np.flatnonzero(np.diff(near) > 1) + 1):
         nearest = int(run[distance[run].argmin()])
@@ -54,7 +55,7 @@ def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> list[Pa
         sides = _across(np.gradient(relative, breaks, axis=0)[stages], -np.array([np.cos(yaw), np.sin(yaw)]))
         least = int(np.flatnonzero(stages == nearest)[0])
         found.append(Pass(stages, float(breaks[nearest]), np.column_stack([sides, 0 * sides[:, 0]]), least))
-    return found
+    return tuple(found)
 
 
 def _across(way: Array, away: Array) -> Array:
@@ -66,7 +67,7 @@ def _across(way: Array, away: Array) -> Array:
     return np.asarray(np.where((length > 1e-3) & ((across @ away)[:, None] > ALONG), across, away))
 
 
-def held(planes: Planes, wanted: ClockWishes, over: list[Pass]) -> Planes:
+def held(planes: Planes, wanted: ClockWishes, over: Sequence[Pass]) -> Planes:
     """Return half-spaces with those that keep the nodes near a target on their side."""
     for stages, _, sides, _ in over:
         target = wanted.target[:, :3]
@@ -75,7 +76,7 @@ def held(planes: Planes, wanted: ClockWishes, over: list[Pass]) -> Planes:
     return planes
 
 
-def led(curve: Piecewise, wanted: ClockWishes, over: list[Pass]) -> Piecewise:
+def led(curve: Piecewise, wanted: ClockWishes, over: Sequence[Pass]) -> Piecewise:
     """Return the guide led aside where it goes over its target, smoothly; its ends stay."""
     values = [curve(curve.breaks), *(curve.derivative(order)(curve.breaks) for order in (1, 2))]
     for one in over:

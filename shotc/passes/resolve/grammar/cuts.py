@@ -13,6 +13,7 @@ from math import acos, degrees, dist, hypot, radians
 from shotc.diag.model import Diagnostic
 from shotc.ir.flown_order import flown_order
 from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.grammar.aside import to_the_side
 from shotc.passes.resolve.grammar.line import check_line
 from shotc.passes.resolve.grammar.places import placing
 from shotc.passes.resolve.grammar.sight import Sight, sight
@@ -54,16 +55,17 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
     if angle >= APART or not 1 / ALIKE < ratio < ALIKE:
         return None
     change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
+    aside = to_the_side(mission, after, left, right, APART)
+    ways = [aside, "begin it"] if aside else [f"begin `{after.id}`"]
     return Diagnostic(
         "F002",
         f"the cut from `{before.id}` to `{after.id}` makes `{left.names[0]}` jump",
         (placing(mission, after, last=False), placing(mission, before, last=True, text="filmed from here")),
         (
-            f"it is seen from {degrees(angle):.0f} deg to the side, {change}; a cut wants 30 deg or more, or "
-            f"a size that changes {ALIKE:.1f} times",
+            f"it is seen from {int(degrees(angle))} deg to the side, {change}; a cut wants 30 deg or more, "
+            f"or a size that changes {ALIKE:.1f} times",
         ),
-        f"begin `{after.id}` {_farther(angle)} to the side, much nearer or much farther away, or write "
-        "`allow: [jump-cut]` in it",
+        f"{', '.join(ways)} much nearer or much farther away, or write `allow: [jump-cut]` in it",
     )
 
 
@@ -83,7 +85,3 @@ def carries_on(left: Sight, right: Sight) -> bool:
     if not left.moving:
         return True
     return left.t is not None and right.t is not None and abs(right.t - left.t) < SAME_TIME
-
-
-def _farther(angle: float) -> str:
-    return f"{max(1.0, degrees(APART - angle)):.0f} deg more"

@@ -10,7 +10,7 @@ from itertools import pairwise
 from math import acos, ceil, cos, hypot, pi, tan
 from typing import NamedTuple
 
-from shotc.diag.model import Diagnostic
+from shotc.diag.model import Diagnostic, Label
 from shotc.geom.angles import TURN, wrapped
 from shotc.geom.vec import minus
 from shotc.ir.limits import Vec2, Vec3
@@ -33,6 +33,8 @@ class Pan(NamedTuple):
 
     widths : frame widths that go through the picture; lasts : seconds it takes; held : of rest in it
     followed : the subject that the camera follows, or None
+    when : mission time at which it begins, of a shot on its own clock
+    since : seconds into the shot at which one between keyframes begins; until : the last of these keyframes
     """
 
     widths: float
@@ -40,6 +42,8 @@ class Pan(NamedTuple):
     followed: str | None
     held: float = 0.0
     when: float | None = None
+    since: float = 0.0
+    until: int = -1
 
     @property
     def least(self) -> float:
@@ -57,20 +61,31 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     who = "where nobody is followed" if worst.followed is None else f"behind `{worst.followed}`"
     least = FREE if worst.followed is None else FOLLOWING
     when = "" if worst.when is None else f" at t = {worst.when:.1f} s"
+    label, help_ = lasting(mission, shot), "film it from farther away, or with a wider field of view"
     if worst.when is None:
-        help_ = f"give this {at_least(worst.least + worst.held, 1)} s or more"
-    else:
-        help_ = "film it from farther away, or with a wider field of view"
+        label, help_ = _slower(mission, shot, worst)
     yield Diagnostic(
         "F005",
         f"shot `{shot.id}` pans too fast for the eye",
-        (lasting(mission, shot),),
+        (label,),
         (
             f"a frame width goes by in {worst.lasts / worst.widths:.1f} s{when}; {who} it takes {least:.0f} "
             "s or more, at 24 frames a second, not to judder",
         ),
         f"{help_}, or write `allow: [fast-pan]` in it",
     )
+
+
+def _slower(mission: MissionIR, shot: Shot, pan: Pan) -> tuple[Label, str]:
+    """Return the time or duration that ends a pan between keyframes, and what to write there."""
+    last, end = shot.keyframes[pan.until], pan.since + pan.held + pan.least
+    if last.time is None:
+        return lasting(mission, shot), f"write `duration: {at_least(end + last.hold, 1)} s` or more"
+    later = shot.timing.duration is not None or any(
+        k.time is not None for k in shot.keyframes[pan.until + 1 :]
+    )
+    with_it = ", and move what follows by as much" if later else ""
+    return mission.origins.value((*last.path, "time")), f"write `time: {at_least(end, 1)} s` or more{with_it}"
 
 
 def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
@@ -105,7 +120,7 @@ def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
         stretch = keyframes[i : j + 1]
         held = sum(k.hold for k in stretch[:-1])
         widths = sum(_turned(keyframes, looks, k) for k in range(i, j))
-        yield Pan(widths, times[j] - times[i] - held, _followed(stretch), held)
+        yield Pan(widths, times[j] - times[i] - held, _followed(stretch), held, since=times[i], until=j)
 
 
 def _looks(mission: MissionIR, keyframes: Sequence[Keyframe]) -> list[Vec2]:

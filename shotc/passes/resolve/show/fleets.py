@@ -13,7 +13,7 @@ from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.files import Ground
-from shotc.passes.resolve.world import Put, becalmed, limits_of
+from shotc.passes.resolve.world import Put, becalmed, beyond_model, limits_of
 from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import PRESETS
@@ -33,6 +33,7 @@ def fleets_of(spec: MissionSpec, put: Put, ground: Ground) -> tuple[tuple[Fleet,
             continue
         fleet = _fleet(name, written, spec, pads)
         wrong = [*becalmed("fleet", fleet, spec.world.wind, ground.origins), *_touching(fleet, ground)]
+        wrong += beyond_model("fleet", written, path, ground.origins)
         faults += wrong
         if not has_errors(wrong):
             found.append(fleet)

@@ -1,0 +1,47 @@
+"""One stage repeated over the horizon: a nonlinear programme, for fatrop or IPOPT.
+
+Programmes are built once a process for each kind of stage and number of stages; missions are parameters.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, Literal
+
+import casadi as ca
+
+from shotc_casadi.derivatives import Derived, laid_out
+
+Solver = Literal["fatrop", "ipopt"]
+ITERATIONS = 300
+
+
+@lru_cache(maxsize=32)
+def built(d: Derived, stages: int, solver: Solver, tolerance: float) -> Any:
+    """Return the solver of all problems of one kind of stage: unknowns x stage by stage, parameters p."""
+    states, wide = d.states, d.width
+    x = ca.MX.sym("x", stages * wide + states)
+    p = ca.MX.sym("p", (stages + 1) * d.size)
+    z, end = ca.reshape(x[: stages * wide], wide, stages), x[stages * wide :]
+    given = ca.reshape(p, d.size, stages + 1)
+    following = ca.horzcat(z[:states, 1:], end)
+    cost, gap, bound = d.cost.map(stages)(z, given[:, :stages])
+    end_cost, end_bound = d.last_cost(end, given[:, stages])
+    rows = ca.vertcat(ca.vec(ca.vertcat(following - gap, bound)), end_bound)
+    nlp = {"x": x, "p": p, "f": ca.sum2(cost) + end_cost, "g": rows}
+    layout: dict[str, Any] = {
+        "structure_detection": "manual",
+        "N": stages,
+        "nx": [states] * (stages + 1),
+        "nu": [d.inputs] * stages + [0],
+        "ng": [d.bound] * stages + [d.last_bound],
+        "equality": ([True] * states + [False] * d.bound) * stages + [False] * d.last_bound,
+        "fatrop": {"print_level": 0, "tol": tolerance, "max_iter": ITERATIONS, "max_soc": 0},
+    }
+    quiet: dict[str, Any] = {
+        "ipopt": {"print_level": 0, "sb": "yes", "tol": tolerance, "max_iter": ITERATIONS}
+    }
+    # What is no number is told by the solution's status; prices of the parameters are not asked for.
+    silent = {"print_time": False, "show_eval_warnings": False, "calc_lam_p": False}
+    options: dict[str, Any] = {**silent, "cache": laid_out(d, solver, stages, x, p)}
+    return ca.nlpsol("framing", solver, nlp, options | (layout if solver == "fatrop" else quiet))

@@ -1,0 +1,188 @@
+"""Calling the solver of a programme within the time allowed; what it says of itself is checked."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc_casadi.derivatives import Derived
+from shotc_casadi.horizon import Solver, built
+from shotc_casadi.patience import PATIENCE, Endless, within
+
+Array = NDArray[np.float64]
+Status = Literal["solved", "stopped", "infeasible", "nan"]
+SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
+MOTION = "the motion from stage to stage"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Instance:
+    """One instance of a programme: N stages, N + 1 nodes.
+
+    kind : of its stages
+    parameters : shape (N + 1, kind.size)
+    states, inputs : first guess, shapes (N + 1, kind.states) and (N, kind.inputs)
+    state_bounds, input_bounds : (lower, upper), shapes as states and inputs
+    held, driven : (lower, upper) of a stage's constraints
+    named : what people call a row of held and driven, by its number in them
+    tolerance : the solver's own; feasible : of a constraint's residual, each in its own unit
+    """
+
+    kind: Derived
+    parameters: Array
+    states: Array
+    inputs: Array
+    state_bounds: tuple[Array, Array]
+    input_bounds: tuple[Array, Array]
+    held: tuple[Array, Array]
+    driven: tuple[Array, Array]
+    named: Callable[[int], str]
+    tolerance: float
+    feasible: float
+
+    @property
+    def stages(self) -> int:
+        """N."""
+        return len(self.inputs)
+
+    @property
+    def high(self) -> int:
+        """How many rows of constraints a stage has: the motion, held and driven."""
+        return self.kind.states + self.kind.bound
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution:
+    """What a solver made of a problem.
+
+    status : "solved", "stopped" (at a limit of its own), "infeasible" or "nan"
+    residual : the worst violation of a constraint, in its own unit; stage, constraint : where, which
+    seconds : of the solver alone
+    """
+
+    status: Status
+    solver: Solver
+    states: Array
+    inputs: Array
+    objective: float
+    iterations: int
+    seconds: float
+    residual: float
+    stage: int
+    constraint: str
+
+
+class Attempt(NamedTuple):
+    """What came of a problem; failed : by the solver that was asked before, where one was."""
+
+    solution: Solution
+    failed: Solution | None = None
+
+    @property
+    def seconds(self) -> float:
+        """How long all solvers took."""
+        return self.solution.seconds + (self.failed.seconds if self.failed else 0.0)
+
+
+def by_one_of(solvers: tuple[Solver, ...], solve: Callable[[Solver], Solution]) -> Attempt:
+    """Solve by the first of the solvers, or else by the second."""
+    solution = solve(solvers[0])
+    if solution.status == "solved" or len(solvers) == 1:
+        return Attempt(solution)
+    return Attempt(solve(solvers[1]), solution)
+
+
+def solved(task: Instance, solver: Solver) -> Solution:
+    """Solve a programme from its first guess, which is what is returned where a solver gives up inside."""
+    start = _flat(task.states, task.inputs)
+    if not (np.isfinite(start).all() and np.isfinite(task.parameters).all()):
+        # fatrop does not end on numbers that are none.
+        return _nothing("nan", task, solver, 0.0)
+    programme = built(task.kind, task.stages, solver, task.tolerance)
+    lower, upper = _rows(task, 0), _rows(task, 1)
+    low, high = (_flat(task.state_bounds[side], task.input_bounds[side]) for side in (0, 1))
+    given = {
+        "x0": start,
+        "p": task.parameters.ravel(),
+        "lbx": low,
+        "ubx": high,
+        "lbg": lower,
+        "ubg": upper,
+    }
+    began = time.perf_counter()
+    try:
+        out = within(PATIENCE, lambda: programme(**given))
+    except RuntimeError:
+        # CasADi raises where a solver gives up inside; there is no iterate to look at then.
+        return _nothing("nan", task, solver, time.perf_counter() - began)
+    except Endless:
+        built.cache_clear()  # the one left behind is still at work on its memory
+        return _nothing("stopped", task, solver, time.perf_counter() - began)
+    return _judged(task, solver, out, programme.stats(), time.perf_counter() - began)
+
+
+def _nothing(status: Status, task: Instance, solver: Solver, seconds: float) -> Solution:
+    """Return the first guess, where there is no iterate of the solver's own."""
+    return Solution(status, solver, task.states, task.inputs, np.nan, 0, seconds, np.nan, 0, "")
+
+
+def _judged(
+    task: Instance, solver: Solver, out: Mapping[str, Any], stats: Mapping[str, Any], seconds: float
+) -> Solution:
+    """Return where a solver ended, by the residuals there."""
+    x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
+    states, inputs = _nodes(x, task)
+    iterations = int(stats["iter_count"])
+    if not (np.isfinite(x).all() and np.isfinite(g).all()):
+        return Solution("nan", solver, states, inputs, np.nan, iterations, seconds, np.nan, 0, "")
+    violation = np.maximum(np.maximum(_rows(task, 0) - g, g - _rows(task, 1)), 0.0)
+    worst = int(violation.argmax())
+    residual = float(violation[worst])
+    return Solution(
+        status=_status(stats, residual < task.feasible),
+        solver=solver,
+        states=states,
+        inputs=inputs,
+        objective=float(out["f"]),
+        iterations=iterations,
+        seconds=seconds,
+        residual=residual,
+        stage=min(worst // task.high, task.stages),
+        constraint=_name(worst, task),
+    )
+
+
+def _status(stats: Mapping[str, Any], feasible: bool) -> Status:
+    # A success flag alone is no evidence.
+    if stats["success"] and feasible:
+        return "solved"
+    said = str(stats.get("return_status", ""))
+    return "nan" if "Invalid_Number" in said else "infeasible" if "nfeasible" in said else "stopped"
+
+
+def _name(row: int, task: Instance) -> str:
+    """Return what people call a row of the constraints; the last node has held ones only."""
+    closed = task.kind.states
+    inner = row % task.high if row < task.stages * task.high else closed + row - task.stages * task.high
+    return MOTION if inner < closed else task.named(inner - closed)
+
+
+def _rows(task: Instance, side: int) -> Array:
+    """Return the lower or upper bounds of all constraints."""
+    stage = np.concatenate([np.zeros(task.kind.states), task.held[side], task.driven[side]])
+    return np.concatenate([np.tile(stage, task.stages), task.held[side]])
+
+
+def _flat(states: Array, inputs: Array) -> Array:
+    return np.concatenate([np.hstack([states[:-1], inputs]).ravel(), states[-1]])
+
+
+def _nodes(x: Array, task: Instance) -> tuple[Array, Array]:
+    wide = task.kind.states
+    inner = x[:-wide].reshape(task.stages, -1)
+    return np.vstack([inner[:, :wide], x[-wide:]]), inner[:, wide:]

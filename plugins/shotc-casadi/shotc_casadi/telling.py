@@ -1,0 +1,57 @@
+"""What has to be said of a shot's solver: words, diagnostics and statistics, whatever the problem was."""
+
+from __future__ import annotations
+
+from shotc.plugin_api import (
+    Diagnostic,
+    PathIR,
+    SolverState,
+    fallback,
+    impossible,
+    solver_nan,
+    stopped_early,
+)
+from shotc_casadi.patience import PATIENCE
+from shotc_casadi.solving import Solution
+
+UNITS = {
+    "speed": "m^2/s^2",
+    "acceleration": "m^2/s^4",
+    "jerk": "m^2/s^6",
+    "climb and descent": "m/s",
+    "clearance": "m",
+}
+
+
+def word(solution: Solution) -> str:
+    """Return why a solver ended without a solution."""
+    if solution.status == "nan":
+        return "numbers that are none"
+    return f"{solution.iterations} iterations" if solution.iterations else f"{PATIENCE:.0f} s without an end"
+
+
+def fallen_back(path: PathIR, shot: str, first: Solution | None, solution: Solution) -> Diagnostic | None:
+    """Return what is said of a shot that is refined, if another solver failed first."""
+    return None if first is None else fallback(path, shot, (first.solver, solution.solver), word(first))
+
+
+def given_up(path: PathIR, state: SolverState, solution: Solution) -> Diagnostic:
+    """Return the error of a shot that is not refined; a solution has something else against it then."""
+    if solution.status == "nan":
+        return solver_nan(path, state)
+    if solution.status == "stopped":
+        return stopped_early(path, state, word(solution))
+    return impossible(path, state)
+
+
+def stats(
+    shot: str, rounds: int, solution: Solution, status: str | None = None
+) -> tuple[tuple[str, float | str], ...]:
+    """Return the statistics of a shot; status : of its refinement, if that is not its solver's."""
+    return (
+        (f"{shot}.refine_stages", float(len(solution.inputs))),
+        (f"{shot}.refine_rounds", float(rounds)),
+        (f"{shot}.refine_iterations", float(solution.iterations)),
+        (f"{shot}.refine_solver", solution.solver),
+        (f"{shot}.refine_status", status or solution.status),
+    )

@@ -1,0 +1,108 @@
+"""From how far a target fits into the frame: the place of a keyframe, or the parameter of a path."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import hypot
+
+from shotc.diag.model import Label
+from shotc.geom.vec import Vec3
+from shotc.ir.mission import Keyframe, MissionIR, Shot
+from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
+from shotc.passes.place_keyframes.candidates import Setting
+from shotc.rounding import at_least, up
+
+FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
+LEVEL = 0.1  # metres off the target's axis, below which a camera is above it
+NUDGE = 0.01  # metres that a proposed place lies farther off than it must
+
+Fits = Callable[[Setting], bool]
+
+
+def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting, fits: Fits) -> str:
+    """Propose where the target fits; empty where it does not from ``FARTHEST`` times as far.
+
+    A camera of the user's goes straight back, or level where that would lead too close to the ground; a
+    path that a kind generates keeps its altitude.
+    """
+    if not keyframe.placed and shot.kind in DISTANCES:
+        return _by_parameter(mission, shot, keyframe, setting, fits)
+    aside = hypot(*setting.offset[:2]) > LEVEL
+    level = aside and not keyframe.placed
+    offset = _back(setting, fits, level=level)
+    floor = mission.rules.ground_clearance + mission.drone(shot.drone).radius
+    if aside and not level and (offset is None or _place(keyframe, setting, offset)[2] < floor):
+        level, offset = True, _back(setting, fits, level=True)
+    if offset is None:
+        return ""
+    metres, origin = hypot(*offset[: 2 if level else 3]), "axis" if level else "centre"
+    far = f"{at_least(metres, 1)} m from its {origin}"
+    if not keyframe.placed:
+        return f"{'keep' if level else 'move to'} {far}"
+    written = ", ".join(f"{round(c, 2) + 0.0:.2f}" for c in _place(keyframe, setting, offset))
+    return f"move to [{written}], {far}"
+
+
+def _place(keyframe: Keyframe, setting: Setting, offset: Vec3) -> Vec3:
+    """Return where a camera stands from which the target has another offset."""
+    x, y, z = (p + o - q for p, o, q in zip(keyframe.at, setting.offset, offset, strict=True))
+    return (x, y, z)
+
+
+def parameter_label(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Label | None:
+    """Return a label on what keeps a generated path its distance, if its kind has such a parameter."""
+    if keyframe.placed or shot.kind not in DISTANCES:
+        return None
+    return mission.origins.value((*shot.path, DISTANCES[shot.kind]))
+
+
+def least(fits: Callable[[float], bool], low: float, high: float) -> float | None:
+    """Bisect for the least value that fits; None where even the highest does not."""
+    if not fits(high):
+        return None
+    while high - low > 1e-3 * low:
+        middle = (low + high) / 2
+        if fits(middle):
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def _back(setting: Setting, fits: Fits, *, level: bool) -> Vec3 | None:
+    """Return the offset to the target from as far as it needs, along the line of sight or level."""
+    x, y, z = setting.offset
+
+    def scaled(k: float) -> Vec3:
+        return (x * k, y * k, z if level else z * k)
+
+    k = least(lambda k: fits(setting._replace(offset=scaled(k))), 1.0, FARTHEST)
+    if k is None:
+        return None
+    return scaled(k + NUDGE / (hypot(x, y) if level else hypot(x, y, z)))
+
+
+def _by_parameter(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting, fits: Fits) -> str:
+    """Propose the parameter with which the target fits at every keyframe, at the altitude of each."""
+    assert keyframe.target is not None
+    centre = mission.target(keyframe.target).centre
+
+    def whole(k: Keyframe, distance: float) -> bool:
+        x, y, z = at_distance(centre, k, distance).at
+        return fits(setting._replace(offset=(centre[0] - x, centre[1] - y, centre[2] - z)))
+
+    enough = 0.0
+    for k in (keyframe, *shot.keyframes):
+        now = max(enough, distance_of(centre, k))
+        if not whole(k, now):
+            needed = least(lambda d, k=k: whole(k, d), now, now * FARTHEST)  # type: ignore[misc]
+            if needed is None:
+                return ""
+            enough = needed
+    enough = up(enough, 1)
+    first, last = (distance_of(centre, shot.keyframes[i]) for i in (0, -1))
+    if max(first, last) < enough:  # both ends are too near: keep what is between them
+        near = min(first, last)
+        first, last = enough + first - near, enough + last - near
+    written = span(max(first, enough), max(last, enough))
+    return f"write `{DISTANCES[shot.kind]}: {written}`"

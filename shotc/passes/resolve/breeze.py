@@ -1,0 +1,40 @@
+"""The wind as the cause of a time that is too short: how much less of it would do."""
+
+from shotc.ir.limits import Limits
+from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.passes.resolve.motion import least_shot
+from shotc.rounding import at_least, down
+
+FASTEST = 100.0  # m/s, beyond which speed is not what is lacking
+
+
+def less_wind(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> list[str]:
+    """Propose less wind and more speed, with which a shot takes no longer than ``seconds``.
+
+    Empty where the wind takes no more than half of the drone's speed, or where no speed would do.
+    """
+    limits, wind = drone.limits, mission.wind
+    speed = limits.speed + wind
+    if wind <= speed / 2:
+        return []
+    needed = _needed(shot, limits, seconds)
+    if needed is None:
+        return []
+    faster = f"take a drone that flies more than {at_least(needed + wind, 1)} m/s"
+    calm = down(speed - needed, 1)
+    return [f"wait for wind below {calm:.1f} m/s", faster] if calm > 0 else [faster]
+
+
+def _needed(shot: Shot, limits: Limits, seconds: float) -> float | None:
+    """Bisect for the least speed across with which a shot may take ``seconds``, m/s."""
+
+    def takes(speed: float) -> float:
+        return least_shot(shot.keyframes, limits._replace(speed=speed))
+
+    low, high = limits.speed, FASTEST
+    if takes(high) > seconds:
+        return None
+    while high - low > 1e-4:
+        middle = (low + high) / 2
+        low, high = (low, middle) if takes(middle) <= seconds else (middle, high)
+    return high

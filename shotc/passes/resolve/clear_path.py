@@ -1,0 +1,90 @@
+"""The parameter of a generated path, and its value, with which no obstacle stands in the path."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+from shotc.ir.mission import Keyframe, MissionIR, Shot
+from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
+from shotc.passes.place_keyframes import place_shot
+from shotc.passes.resolve.obstacles import ROUNDING, obstacles_of
+
+STEP = 1.0  # metres between the values that are tried
+MOST = 40.0  # metres by which a value is changed at most
+PAIRS = 1000  # of places and obstacles, above which the search takes longer than a check may
+
+Moved = Callable[[Keyframe, float], Keyframe]
+
+
+class Change(NamedTuple):
+    """A parameter and what to write there."""
+
+    key: str
+    value: str
+
+    def __str__(self) -> str:
+        return f"`{self.key}: {self.value}`"
+
+
+def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
+    """Return the least changes of distance and of altitude, each by itself, that free a path of everything.
+
+    None for a kind without these parameters. A path is as free as its keyframes are, and still shows its
+    target whole; one farther away, or higher, is preferred.
+    """
+    if shot.kind not in DISTANCES or shot.subject is None or not shot.keyframes:
+        return []
+    centre = mission.target(shot.subject).centre
+
+    def aside(k: Keyframe, by: float) -> Keyframe:
+        return at_distance(centre, k, distance_of(centre, k) + by)
+
+    def above(k: Keyframe, by: float) -> Keyframe:
+        return k._replace(at=(k.at[0], k.at[1], k.at[2] + by))
+
+    nearest = min(distance_of(centre, k) for k in shot.keyframes)
+    ends = (shot.keyframes[0], shot.keyframes[-1])
+    found: list[Change] = []
+    for key, move, least in ((DISTANCES[shot.kind], aside, STEP - nearest), ("altitude", above, -MOST)):
+        by = next(_free(mission, shot, move, least), None)
+        if by is not None:
+            now = [distance_of(centre, k) if move is aside else k.at[2] for k in ends]
+            found.append(Change(key, span(now[0] + by, now[1] + by)))
+    return found
+
+
+def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator[float]:
+    """Yield the least change up, and the least one down to ``least``, that free a path, metres."""
+    drone = mission.drone(shot.drone)
+    around, floor = obstacles_of(mission, drone), mission.rules.ground_clearance + drone.radius
+
+    def blocked(k: Keyframe) -> bool:
+        if k.at[2] < floor - ROUNDING:
+            return True
+        met = next((i for i, o in enumerate(around) if o.lack(k.at) > ROUNDING), None)
+        if met is not None:
+            around.insert(0, around.pop(met))
+        return met is not None
+
+    # What was blocked last is likely to be so after a small change; a ring comes by its places again.
+    order = list({tuple(round(c, 6) for c in k.at): k for k in shot.keyframes}.values())
+    if len(order) * len(around) > PAIRS:
+        return
+    for sign in (1.0, -1.0):
+        for step in range(1, int(MOST / STEP) + 1):
+            by = sign * step * STEP
+            if by < least:
+                break
+            met = next((i for i, k in enumerate(order) if blocked(move(k, by))), None)
+            if met is not None:
+                order.insert(0, order.pop(met))
+                continue
+            if _shown(mission, shot, [move(k, by) for k in order]):
+                yield by
+            break
+
+
+def _shown(mission: MissionIR, shot: Shot, keyframes: Sequence[Keyframe]) -> bool:
+    """Tell whether the target is on its composition set in every keyframe."""
+    return not place_shot(mission, shot._replace(keyframes=tuple(keyframes)))[1]

@@ -1,0 +1,51 @@
+"""How far to the side a shot has to begin for the cut to it to look meant."""
+
+from __future__ import annotations
+
+from math import acos, atan2, ceil, cos, degrees, hypot, radians, sin
+
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.grammar.sight import Sight
+
+_KEYS = ("azimuth", "start_azimuth")
+
+
+def to_the_side(mission: MissionIR, after: Shot, left: Sight, right: Sight, apart: float) -> str:
+    """Propose where a shot begins at least ``apart`` rad from the view before, at its height and distance.
+
+    Empty where the heights leave no such place: from high above, all sides look alike.
+    """
+    found = _azimuth(left.offset, right.offset, apart)
+    if found is None:
+        return ""
+    azimuth = f"{found % 360} deg"
+    if after.keyframes and after.keyframes[0].placed:
+        return f"begin `{after.id}` at {_place(right, found)}"
+    key = next((key for key in _KEYS if (*after.path, key) in mission.origins.values), None)
+    if key is None or after.ideal is not None:
+        return f"begin `{after.id}` at an azimuth of {azimuth} from `{right.names[0]}`"
+    return f"write `{key}: {azimuth}`"
+
+
+def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
+    """Return the azimuth of the nearer of the two sides, in whole degrees a little beyond ``apart``.
+
+    Two views at elevations e and f, with azimuths d apart, are acos(cos e cos f cos d + sin e sin f) apart.
+    """
+    across = hypot(*left[:2]) * hypot(*right[:2])
+    if across < 1e-6:
+        return None
+    turn = (cos(apart) * hypot(*left) * hypot(*right) - left[2] * right[2]) / across
+    if not -1.0 <= turn <= 1.0:
+        return None
+    middle, now = (degrees(atan2(x, y)) for x, y, _ in (left, right))
+    aside = degrees(acos(turn)) + 0.5  # a place rounded to centimetres is still beyond it
+    ways = (ceil(middle + aside), -ceil(aside - middle))
+    return min(ways, key=lambda way: abs((way - now + 180) % 360 - 180))
+
+
+def _place(right: Sight, azimuth: int) -> str:
+    (x, y, _), (cx, cy, _) = right.offset, right.centres[0]
+    far, angle = hypot(x, y), radians(azimuth)
+    return f"[{cx + far * sin(angle):.2f}, {cy + far * cos(angle):.2f}, {right.eye[2]:.2f}]"

@@ -1,0 +1,25 @@
+"""Values that YAML never saw, because a `#` began a comment where the author meant a value."""
+
+import re
+
+_QUOTED = re.compile(r"""(?<![^\s\[{,])(?:"(?:\\.|[^"\\])*"|'(?:[^']|'')*')""")
+_COMMENT = re.compile(r"(?<![^\s\[{,])#")
+_WORD = re.compile(r"#[^\s,\[\]{}]+")
+_COLOUR = re.compile(r"#(?:[0-9A-Fa-f]{3}){1,2}(?![^\s,\[\]{}])")
+
+
+def value_in_comment(text: str, start: int, end: int) -> tuple[int, int] | None:
+    """Return the offsets of the first value from ``start`` to ``end`` that a `#` made a comment, or None.
+
+    It stands behind a colon with no blank after the sign, or is a colour among others in brackets.
+    """
+    for line in text[start:end].splitlines(keepends=True):
+        seen = _QUOTED.sub(lambda quoted: "'" * len(quoted[0]), line)
+        sign = _COMMENT.search(seen)
+        if sign is not None:
+            first = _WORD if seen[: sign.start()].rstrip().endswith(":") else _COLOUR
+            found = first.match(seen, sign.start())
+            if found is not None:
+                return (start + found.start(), start + found.end())
+        start += len(line)
+    return None
