@@ -11,15 +11,20 @@ KeyframeIR --place-goals--> GoalIR --assign-goals--> ShowIR --bound-splines--> S
 
 import time
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
-from shotc.passes.base import Pass, PassContext
+from shotc.passes.base import PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.passes.resolve import Resolve
 
-AnyPass = Pass[Any, Any]
+if TYPE_CHECKING:
+    from shotc.passes.base import Pass
+
+    AnyPass = Pass[Any, Any]
+else:
+    AnyPass = Any
 
 
 class PassReport(NamedTuple):

@@ -5,9 +5,8 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from enum import StrEnum
 from importlib import import_module
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -16,17 +15,7 @@ from shotc.cli.inputs import Gathered, gather
 from shotc.diag.model import Diagnostic
 from shotc.source.file import SourceFile
 
-
-class Format(StrEnum):
-    """How findings are printed."""
-
-    TEXT = "text"
-    CONCISE = "concise"
-    JSON = "json"
-    SARIF = "sarif"
-    GITHUB = "github"
-
-
+Format = Literal["text", "concise", "json", "sarif", "github"]
 Specs = Annotated[
     list[str],
     typer.Argument(metavar="SPEC", help="Mission files, folders of missions, or - for standard input."),
@@ -53,12 +42,12 @@ def check(specs: Specs, format: FormatOption = None, stdin_filename: StdinName =
 
     Example: `shotc check specs/ --format concise`
     """
-    chosen = format or (Format.GITHUB if os.environ.get("GITHUB_ACTIONS") else Format.TEXT)
+    chosen = format or ("github" if os.environ.get("GITHUB_ACTIONS") else "text")
     gathered = gather(specs, stdin_filename)
     diagnostics, sources = _check_all(gathered)
     _print(diagnostics, sources, chosen)
     code = console.exit_code(diagnostics)
-    if gathered.missions and (chosen is Format.TEXT or gathered.skipped):
+    if gathered.missions and (chosen == "text" or gathered.skipped):
         console.note(_conclusion(gathered, clean=code == console.EXIT_CLEAN))
     raise typer.Exit(code)
 
@@ -75,9 +64,9 @@ def _check_all(gathered: Gathered) -> tuple[list[Diagnostic], dict[str, SourceFi
     return diagnostics, sources
 
 
-def _print(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile], chosen: Format) -> None:
+def _print(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile], chosen: str) -> None:
     """Print findings to standard output; JSON and SARIF print their document without findings, too."""
-    if chosen is Format.TEXT:
+    if chosen == "text":
         console.report(diagnostics, sources, sys.stdout)
         return
     render: Callable[[Sequence[Diagnostic], Mapping[str, SourceFile]], str]

@@ -5,7 +5,7 @@ kinds by an entry point in the group ``shotc.kinds`` that names a ``Kind``; ours
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
@@ -18,30 +18,32 @@ from shotc.spec.shot import ShotBase
 from shotc.spec.words import nearest
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
+    from typing import Protocol
+
     from shotc.ir.show import Display
     from shotc.kinds.files import FileFault
+
+    class Aimed(Protocol):
+        """Anything that says by `look_at`, or by `heading` and `pitch`, where a camera looks."""
+
+        @property
+        def look_at(self) -> "str | Place | None":
+            """The name of a target, or a position."""
+
+        @property
+        def heading(self) -> float | None:
+            """Compass heading, rad."""
+
+        @property
+        def pitch(self) -> float | None:
+            """Elevation, rad."""
+
 
 API_VERSION = 1
 MOVING = "a moving target"
 STILL = 5.0  # seconds that a camera which stands still films where the timing gives no duration
 
 Place = Vec3 | Geodetic
-
-
-class Aimed(Protocol):
-    """Anything that says by `look_at`, or by `heading` and `pitch`, where a camera looks."""
-
-    @property
-    def look_at(self) -> str | Place | None:
-        """The name of a target, or a position."""
-
-    @property
-    def heading(self) -> float | None:
-        """Compass heading, rad."""
-
-    @property
-    def pitch(self) -> float | None:
-        """Elevation, rad."""
 
 
 Part = Keyframe | Diagnostic | Deferred
@@ -113,7 +115,7 @@ class Scene(NamedTuple):
             return Deferred(f"this kind of shot of {MOVING}", (*self.path, *path))
         return found
 
-    def aim(self, shot: ShotBase, aimed: Aimed, *path: str | int) -> Aim | Diagnostic | Deferred:
+    def aim(self, shot: ShotBase, aimed: "Aimed", *path: str | int) -> Aim | Diagnostic | Deferred:
         """Return (aim, target) of a camera that is aimed as ``aimed``, at ``path`` below the shot, says.
 
         A target named by `look_at` is framed. A point is looked at, or a heading and pitch are

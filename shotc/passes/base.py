@@ -1,12 +1,10 @@
 """What a pass is: a value with a name that turns one IR into the next, or says why it cannot."""
 
 from collections.abc import Callable
-from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from shotc.diag.model import Diagnostic
 
-In_contra = TypeVar("In_contra", contravariant=True)
-Out_co = TypeVar("Out_co", covariant=True)
 Value_co = TypeVar("Value_co", covariant=True)
 
 
@@ -34,11 +32,15 @@ class Outcome(NamedTuple, Generic[Value_co]):
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-class Pass(Protocol[In_contra, Out_co]):
-    """A lowering from one IR to the next. User faults are diagnostics; an exception is a bug."""
+if TYPE_CHECKING:
+    In_contra = TypeVar("In_contra", contravariant=True)
+    Out_co = TypeVar("Out_co", covariant=True)
 
-    name: ClassVar[str]
+    class Pass(Protocol[In_contra, Out_co]):
+        """A lowering from one IR to the next. User faults are diagnostics; an exception is a bug."""
 
-    def run(self, ir: In_contra, ctx: PassContext) -> Outcome[Out_co]:
-        """Lower ``ir``."""
-        ...
+        name: ClassVar[str]
+
+        def run(self, ir: In_contra, ctx: PassContext) -> Outcome[Out_co]:
+            """Lower ``ir``."""
+            ...

@@ -18,7 +18,7 @@ from shotc.source.nodes import Alias, Collection, Entry, Node, Scalar, height_of
 
 _LOADER: Any = getattr(yaml, "CLoader", yaml.Loader)
 _DIRECTIVE = re.compile(r"^%", re.MULTILINE)
-_TAG = re.compile(r"[^ \t\r\n,\]}]*")
+_TAG = r"[^ \t\r\n,\]}]*"
 
 
 class Composed(NamedTuple):
@@ -299,7 +299,7 @@ class _Composer:
         """Blame the tag that begins at or, behind an anchor, after ``start``."""
         text = self.file.text
         sign = text.find("!", start)
-        end = sign + len(_TAG.match(text, sign)[0])  # type: ignore[index]  # there is a '!' at sign
+        end = sign + len(re.match(_TAG, text[sign:])[0])  # type: ignore[index]  # there is a '!' at sign
         hint = "delete the tag; put the value in quotes if the '!' belongs to it"
         self.blame("tag", f"the tag '{shorten(text[sign:end])}' means nothing in a mission", sign, end, hint)
 

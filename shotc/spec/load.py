@@ -17,7 +17,7 @@ from shotc.spec.places import NAME
 from shotc.spec.shot import ShotBase
 
 # How a plan.json begins, which is YAML, too.
-_PLAN = re.compile(rb'\s*\{\s*"format"\s*:\s*"shotc-plan"')
+_PLAN = rb'\s*\{\s*"format"\s*:\s*"shotc-plan"'
 
 
 class LoadedMission(NamedTuple):
@@ -50,7 +50,7 @@ def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[S
 
     name : how to show the file; folder : where it is; kinds : the model of every kind of shot
     """
-    if _PLAN.match(data):
+    if data[:64].lstrip().startswith(b"{") and re.match(_PLAN, data):
         from shotc.spec.shape_faults import plan_given
 
         return Loaded(None, (plan_given(name),), SourceFile(name, ""))

@@ -22,6 +22,8 @@ def geo_origin(spec: MissionSpec) -> GeoOrigin | None:
 
 def check_earth(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
     """Return one fault for all geodetic positions that have no place in W, at the first of them."""
+    if not any(path[-1:] == ("lat",) and path[:2] != ("world", "origin") for path in origins.values):
+        return []
     places = sorted(_geodetic(spec, ()), key=lambda found: origins.value(found[0]).span)
     origin = geo_origin(spec)
     if origin is None:

@@ -14,7 +14,7 @@ from shotc.source.limits import MAX_TABLE_BYTES
 from shotc.spec.words import closest
 
 MOST_FILES = 5_000  # frames of an animation
-_WILD = re.compile(r"[*?]")
+_WILD = "*?"
 Read = Callable[[str, KeyPath], bytes | Diagnostic]
 NO_FOLDER = "a mission read from standard input has no folder; save it to a file"
 
@@ -76,10 +76,10 @@ def match_files(
     their size, so that frame-2 comes before frame-10. A name without either is itself, there or not.
     """
     where, slash, last = pattern.rpartition("/")
-    if not _WILD.search(pattern):
+    if not set(_WILD) & set(pattern):
         return (pattern,)
     label = (origins.value(path),)
-    if _WILD.search(where):
+    if set(_WILD) & set(where):
         help_ = "put `*` into the file's name, after the last `/`"
         return Diagnostic("N008", f"`{pattern}` is a pattern of folders", label, help=help_)
     if folder is None:
