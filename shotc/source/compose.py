@@ -8,15 +8,13 @@ import re
 from difflib import get_close_matches
 from typing import Any, NamedTuple
 
-import yaml
-
 from shotc.source.core_schema import CORE_TAG, resolve, resolve_tagged
 from shotc.source.fault import Fault, FaultKind, shorten
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_ALIAS_VALUES, MAX_DEPTH, MAX_DIRECTIVES, MAX_VALUES
 from shotc.source.nodes import Alias, Collection, Entry, Node, Scalar, height_of, size_of
+from shotc.source.parser import LOADER, yaml
 
-_LOADER: Any = getattr(yaml, "CLoader", yaml.Loader)
 _DIRECTIVE = re.compile(r"^%", re.MULTILINE)
 _TAG = r"[^ \t\r\n,\]}]*"
 
@@ -39,7 +37,7 @@ def compose(file: SourceFile) -> Composed:
     if fault := _too_many_directives(file):
         return Composed(None, [fault], False)
     try:
-        for event in yaml.parse(file.text, Loader=_LOADER):
+        for event in yaml.parse(file.text, Loader=LOADER):
             composer.take(event)
     except _StopReading:
         pass
