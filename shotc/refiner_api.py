@@ -26,6 +26,7 @@ from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
 from shotc.passes.parameterize_time.estimate import lateness, rough_times
+from shotc.passes.parameterize_time.marks import flying_times
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
@@ -78,6 +79,7 @@ __all__ = [
     "flight_room",
     "flights",
     "flying",
+    "flying_times",
     "frustum_margins",
     "ideal_place",
     "kept",

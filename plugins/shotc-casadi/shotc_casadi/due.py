@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Leg
-from shotc.refiner_api import Array
+from shotc.refiner_api import Array, flying_times
 
 
 class Due(NamedTuple):
@@ -38,16 +38,8 @@ class Due(NamedTuple):
 
 def due(leg: Leg) -> Due:
     """Return the places of a moving leg that have a time."""
-    assert leg.curve is not None
-    start, end = leg.curve.start, leg.curve.end
-    asked: dict[float, float] = {}
-    for mark in sorted(leg.marks, key=lambda m: (m.s, m.index)):
-        if mark.time is not None:
-            asked.setdefault(mark.s, mark.time - sum(stop.hold for stop in leg.stops if stop.s < mark.s))
-    waits = asked.pop(start, 0.0)
-    if leg.duration is not None:
-        asked[end] = leg.duration - sum(stop.hold for stop in leg.stops)
-    return Due(np.array([start, *asked]), np.array([0.0, *(t - waits for t in asked.values())]))
+    s, t = np.array(flying_times(leg)).T
+    return Due(s, t)
 
 
 def unhurried(leg: Leg) -> Leg:

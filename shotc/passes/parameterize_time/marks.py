@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 
 from shotc.ir.path import Leg, Mark
-from shotc.passes.parameterize_time.leg import Plan
+from shotc.passes.parameterize_time.leg import Plan, plan_of
 from shotc.passes.parameterize_time.limits import Ceiling
 from shotc.passes.parameterize_time.move import Move
 from shotc.passes.parameterize_time.profile import SAME
@@ -101,11 +101,12 @@ class DueLeg:
 
     def lateness(self) -> float:
         """Return by which share of the time between two anchors the fastest flight is late, at least 0."""
-        late = LITTLE if not self.possible() else 0.0
+        if self.possible():
+            return 0.0
+        late = LITTLE
         for a, b in pairwise(_anchors(self.leg, self.plan)):
             least = sum(seconds for _, _, seconds in _parts(self.plan, self.fast, a.s, b.s))
-            room = b.arrives - a.leaves - self.plan.holds_between(a.s, b.s)
-            late = max(late, least / max(room, SOON) - 1.0) if late else 0.0
+            late = max(late, least / max(_room(self.plan, a, b), SOON) - 1.0)
         return late
 
     def meet(self) -> Timed | TooFast:
@@ -127,6 +128,14 @@ class DueLeg:
 def has_times(leg: Leg) -> bool:
     """Tell whether a keyframe's time or the leg's length is given."""
     return leg.duration is not None or any(mark.time is not None for mark in leg.marks)
+
+
+def flying_times(leg: Leg) -> tuple[tuple[float, float], ...]:
+    """Return the places of a leg that have a time, its start first, each with the seconds of flight to it."""
+    plan = plan_of(leg)
+    anchors = _anchors(leg, plan)
+    flown = accumulate((_room(plan, a, b) for a, b in pairwise(anchors)), initial=0.0)
+    return tuple((anchor.s, t) for anchor, t in zip(anchors, flown, strict=True))
 
 
 def _anchors(leg: Leg, plan: Plan) -> list[_Anchor]:
@@ -153,13 +162,18 @@ def _anchors(leg: Leg, plan: Plan) -> list[_Anchor]:
     return anchors
 
 
+def _room(plan: Plan, a: _Anchor, b: _Anchor) -> float:
+    """Return the seconds that there are for flying from one anchor to the next."""
+    return b.arrives - a.leaves - plan.holds_between(a.s, b.s)
+
+
 def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
     parts: list[_Part] = []
     plan = timed.plan.leaving({a.s: a.leaves - a.arrives for a in anchors})
     for i, (a, b) in enumerate(pairwise(anchors)):
         found = _parts(plan, timed.fast, a.s, b.s)
         least = sum(seconds for _, _, seconds in found)
-        room = b.arrives - a.leaves - plan.holds_between(a.s, b.s)
+        room = _room(plan, a, b)
         lack = least - room
         if lack > ROUNDING * (1 + room) and (room <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))):
             return _Late(i + 1, lack)
