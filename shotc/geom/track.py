@@ -6,6 +6,7 @@ from itertools import pairwise
 from math import atan2, hypot, inf, pi
 from typing import NamedTuple, Self
 
+from shotc.geom.same import Same
 from shotc.geom.vec import Vec3
 
 AROUND = 1.0  # seconds before and after, over which a heading is taken from the motion
@@ -113,7 +114,7 @@ class Track(NamedTuple):
         """Return the direction of the last stretch on which it moved by a time, or of the first one ever."""
         i, _ = self._row(t)
         carried = hypot(self.after[0], self.after[1]) > STILL
-        moving = _moving(_Rows(self.points))
+        moving = _moving(Same(self.points))
         if carried and (i == len(self.times) - 1 or not moving):
             return atan2(self.after[1], self.after[0])
         if not moving:
@@ -123,25 +124,10 @@ class Track(NamedTuple):
         return atan2(self.points[b][1] - self.points[a][1], self.points[b][0] - self.points[a][0])
 
 
-class _Rows:
-    """The points of a track as a key: the same object, without a look at each of many thousand rows."""
-
-    __slots__ = ("points",)
-
-    def __init__(self, points: tuple[Vec3, ...]) -> None:
-        self.points = points
-
-    def __hash__(self) -> int:
-        return id(self.points)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Rows) and self.points is other.points
-
-
 @lru_cache(maxsize=64)
-def _moving(rows: _Rows) -> tuple[int, ...]:
+def _moving(rows: Same[tuple[Vec3, ...]]) -> tuple[int, ...]:
     """Return the rows at which a stretch begins that leads somewhere else on the map."""
-    legs = enumerate(pairwise(rows.points))
+    legs = enumerate(pairwise(rows.it))
     return tuple(i for i, (a, b) in legs if hypot(b[0] - a[0], b[1] - a[1]) > STILL)
 
 

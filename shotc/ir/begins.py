@@ -1,5 +1,8 @@
 """When a shot can begin, as far as the mission alone says so. Plain Python."""
 
+from functools import lru_cache
+
+from shotc.geom.same import Same
 from shotc.ir.flown_order import flown_order
 from shotc.ir.mission import MissionIR, Shot
 
@@ -12,18 +15,7 @@ def known_start(mission: MissionIR, shot: Shot) -> float | None:
     """
     if shot.timing.start is not None:
         return shot.timing.start
-    ends: dict[str, float | None] = {}
-    last: dict[str, str] = {}
-    for other in flown_order(mission.shots):
-        waits = (other.timing.after, last.get(other.drone))
-        begin = _latest([ends.get(name) for name in waits if name is not None])
-        begin = begin if other.timing.start is None else other.timing.start
-        if other.id == shot.id:
-            return begin
-        lasts = other.timing.duration
-        ends[other.id] = None if begin is None or lasts is None else begin + lasts
-        last[other.drone] = other.id
-    return None
+    return _starts(Same(mission.shots)).get(shot.id)
 
 
 def first_start(mission: MissionIR, shot: Shot) -> float:
@@ -33,6 +25,23 @@ def first_start(mission: MissionIR, shot: Shot) -> float:
     tracks = (mission.target(s.target).track for s in shot.subjects)
     known = [track.since for track in tracks if track is not None]
     return max([known_start(mission, shot) or 0.0, *known])
+
+
+@lru_cache(maxsize=8)
+def _starts(shots: Same[tuple[Shot, ...]]) -> dict[str, float | None]:
+    """Return when each shot can begin, by id; asked for many times in a mission, and the same each time."""
+    starts: dict[str, float | None] = {}
+    ends: dict[str, float | None] = {}
+    last: dict[str, str] = {}
+    for shot in flown_order(shots.it):
+        waits = (shot.timing.after, last.get(shot.drone))
+        begin = _latest([ends.get(name) for name in waits if name is not None])
+        begin = begin if shot.timing.start is None else shot.timing.start
+        lasts = shot.timing.duration
+        starts.setdefault(shot.id, begin)
+        ends[shot.id] = None if begin is None or lasts is None else begin + lasts
+        last[shot.drone] = shot.id
+    return starts
 
 
 def _latest(times: list[float | None]) -> float | None:
