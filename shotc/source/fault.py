@@ -1,8 +1,12 @@
 """A fault in the text of a mission: what the YAML reader reports instead of raising."""
 
-from typing import Literal, NamedTuple, get_args
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple, TypeVar, get_args
 
 from shotc.source.file import Span
+from shotc.source.limits import MAX_FAULTS
+
+_Told = TypeVar("_Told", bound=Any)  # a fault of the text, or what is said of one
 
 FaultKind = Literal[
     "not-utf8",
@@ -54,3 +58,16 @@ class Fault(NamedTuple):
 def shorten(text: str) -> str:
     """Return ``text`` cut to what fits into a message."""
     return text if len(text) <= 40 else text[:37] + "..."
+
+
+def capped(faults: Sequence[_Told], of: str) -> tuple[_Told, ...]:
+    """Return the first faults, the last of which says how many more there are.
+
+    faults : with ``notes``; of : what they are of
+    """
+    more = len(faults) - MAX_FAULTS
+    if more <= 0:
+        return tuple(faults)
+    last = faults[MAX_FAULTS - 1]
+    told = last._replace(notes=(*last.notes, f"{more} more faults of {of} are not shown"))
+    return (*faults[: MAX_FAULTS - 1], told)

@@ -6,9 +6,8 @@ from typing import Any, NamedTuple
 
 from shotc.source.compose import compose
 from shotc.source.decode import decode
-from shotc.source.fault import Fault
+from shotc.source.fault import Fault, capped
 from shotc.source.file import WHOLE_FILE, KeyPath, Offsets, SourceFile, Span, Spans
-from shotc.source.limits import MAX_FAULTS
 from shotc.source.nodes import Alias, Collection, Node, Scalar
 
 
@@ -71,14 +70,7 @@ def _root_faults(root: Node | None, file: SourceFile) -> list[Fault]:
 
 
 def _capped(faults: list[Fault]) -> tuple[Fault, ...]:
-    """Keep the first faults by position, and say how many are not shown."""
-    ordered = sorted(faults, key=lambda fault: fault.span)
-    more = len(ordered) - MAX_FAULTS
-    if more <= 0:
-        return tuple(ordered)
-    last = ordered[MAX_FAULTS - 1]
-    notes = (*last.notes, f"{more} more faults of the text are not shown")
-    return (*ordered[: MAX_FAULTS - 1], last._replace(notes=notes))
+    return capped(sorted(faults, key=lambda fault: fault.span), "the text")
 
 
 class _Flat:

@@ -12,7 +12,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.origin import OriginMap
 from shotc.source.file import SourceFile
 from shotc.source.yaml_tree import Document, parse
-from shotc.spec.mission import VERSION, MissionSpec
+from shotc.spec.mission import VERSION, MissionSpec, is_version
 from shotc.spec.places import NAME
 from shotc.spec.shot import ShotBase
 
@@ -90,6 +90,5 @@ def _validate(
 
 def _is_whole(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> bool:
     """Tell whether a mission that fits its models says its version, and has shots, all of known kinds."""
-    version, shots = root.get("shotc"), root.get("shots", [])
-    known = [shot["kind"] in kinds for shot in shots]
-    return version == VERSION and version is not True and bool(known) and all(known)
+    known = [shot["kind"] in kinds for shot in root.get("shots", [])]
+    return is_version(root.get("shotc")) and bool(known) and all(known)

@@ -19,6 +19,11 @@ from shotc.units import describe
 VERSION = 1
 
 
+def is_version(value: object) -> bool:
+    """Tell whether a value is the version of the language that this is."""
+    return value == VERSION and not isinstance(value, bool)
+
+
 def _read_shot(value: Any, info: ValidationInfo) -> ShotBase:
     """Validate a shot by the model of its kind; of an unknown kind, by what all shots share.
 

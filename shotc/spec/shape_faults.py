@@ -9,14 +9,13 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import code_of
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.source.comments import value_in_comment
+from shotc.source.fault import capped
 from shotc.source.file import WHOLE_FILE, SourceFile
-from shotc.spec.mission import VERSION
+from shotc.spec.mission import VERSION, is_version
 from shotc.spec.shot import ShotBase
 from shotc.spec.translate import Finding, findings
 from shotc.spec.words import nearest
 from shotc.units import clip
-
-MAX_DIAGNOSTICS = 100
 
 
 def shape_faults(
@@ -62,7 +61,7 @@ def _version_findings(root: Mapping[str, Any]) -> list[Finding]:
         message = "the mission does not say its language version"
         return [Finding((), "missing-version", message, help_, blame="key")]
     value = root["shotc"]
-    if value == VERSION and not isinstance(value, bool):
+    if is_version(value):
         return []
     message = "`shotc` is the version of the language, a number"
     if isinstance(value, int | float) and not isinstance(value, bool):
@@ -93,17 +92,12 @@ def _unknown_kind(path: KeyPath, kind: str, kinds: Mapping[str, type[ShotBase]])
 
 
 def _diagnostics(found: list[Finding], origins: OriginMap) -> tuple[Diagnostic, ...]:
-    """Return one diagnostic per faulty place, in the order of the file, at most ``MAX_DIAGNOSTICS``."""
+    """Return one diagnostic per faulty place, in the order of the file."""
     first: dict[tuple[KeyPath, str], Finding] = {}
     for finding in found:
         first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)
-    every = sorted((_diagnostic(f, origins) for f in first.values()), key=lambda d: d.sort_key)
-    more = len(every) - MAX_DIAGNOSTICS
-    if more <= 0:
-        return tuple(every)
-    last = every[MAX_DIAGNOSTICS - 1]
-    note = f"{more} more faults of this file are not shown"
-    return (*every[: MAX_DIAGNOSTICS - 1], last._replace(notes=(*last.notes, note)))
+    every = (_diagnostic(f, origins) for f in first.values())
+    return capped(sorted(every, key=lambda d: d.sort_key), "this file")
 
 
 def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:

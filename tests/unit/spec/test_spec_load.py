@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from shotc.diag.codes import schema, units
 from shotc.diag.registry import registry
+from shotc.source.limits import MAX_FAULTS
 from shotc.source.yaml_tree import parse
 from shotc.spec.load import load
-from shotc.spec.shape_faults import MAX_DIAGNOSTICS
 
 CODES = (*schema.CODES, *units.CODES)
 CODE_OF = {info.slug: info.code for info in CODES}
@@ -207,7 +207,7 @@ def test_faults_of_the_text_silence_the_rest(loads):
 def test_missions_have_a_cap_on_reports(loads):
     shots = "\n".join(f"  - {{id: s{i}, kind: nothing-like-it}}" for i in range(150))
     found = loads(BASE[: BASE.index("shots:")] + "shots:\n" + shots).diagnostics
-    assert len(found) == MAX_DIAGNOSTICS
+    assert len(found) == MAX_FAULTS
     assert found[-1].notes == ("200 more faults of this file are not shown",)
 
 
@@ -282,7 +282,7 @@ def test_a_mutated_mission_is_judged_without_an_exception(kinds, whole_language,
     text = json.dumps(tree)
     result = load(text.encode(), "m", None, kinds)
     assert (result.mission is None) == bool(result.diagnostics)
-    assert len(result.diagnostics) <= MAX_DIAGNOSTICS
+    assert len(result.diagnostics) <= MAX_FAULTS
     places = [(d.code, d.labels[0].span, d.message) for d in result.diagnostics]
     assert len(places) == len(set(places))
     for diagnostic in result.diagnostics:
@@ -327,5 +327,5 @@ def test_endless_words_give_short_messages(loads, right, wrong):
 def test_thousands_of_faults_in_one_mapping_are_judged_in_linear_time(loads):
     keys = "\n".join(f"oddity{i}: 1" for i in range(4000))
     found = loads(BASE + keys + "\n").diagnostics
-    assert len(found) == MAX_DIAGNOSTICS
+    assert len(found) == MAX_FAULTS
     assert found[-1].notes == ("3900 more faults of this file are not shown",)
