@@ -121,25 +121,27 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     loaded = load(data, name, folder, models_of(kinds.plugins))
     sources = {name: loaded.file}
     found = [*kinds.diagnostics, *loaded.diagnostics]
+    stopped = Compilation(None, (), tuple(found), sources, loaded.title)
     if loaded.mission is None or has_errors(found):
-        return Compilation(None, (), tuple(found), sources, loaded.title)
+        return stopped
     ctx = PassContext(options.seed, options.progress, options.headings)
     chosen = _with_drones(loaded.mission, kinds.plugins, ctx)
     found += chosen.diagnostics
     if chosen.value is None:
-        return Compilation(None, (), tuple(found), sources, loaded.title)
+        return stopped._replace(diagnostics=tuple(found))
     front = run(front_passes(kinds.plugins, plugins.names("emitters")), chosen.value, ctx, options.stop_after)
     found += front.diagnostics
+    stopped = stopped._replace(reports=front.reports, diagnostics=tuple(found))
     if front.value is None or not isinstance(front.value, KeyframeIR):
-        return Compilation(None, front.reports, tuple(found), sources, loaded.title)
+        return stopped
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
-        return Compilation(None, front.reports, (*found, *refusals), sources, loaded.title)
+        return stopped._replace(diagnostics=(*found, *refusals))
     back = _lower(front.value, kinds.plugins, options, ctx)
     found = [*without_answered(found, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
     plan = None if options.stop_after or has_errors(found) else back.value
-    return Compilation(plan, front.reports + back.reports, tuple(found), sources, loaded.title)
+    return stopped._replace(plan=plan, reports=front.reports + back.reports, diagnostics=tuple(found))
 
 
 def _lower(checked: KeyframeIR, kinds: Mapping[str, Any], options: PlanOptions, ctx: PassContext) -> Run:

@@ -67,13 +67,12 @@ def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tupl
         with _uninterrupted():
             _put_in_place(staged)
     except OSError as fault:
-        _forget(staged)
-        for made in missing:
-            with suppress(OSError):  # not empty: somebody else's
-                made.rmdir()
         return [], (_cannot_write(folder, fault),)
     finally:
         _forget(staged)
+        for made in missing:
+            with suppress(OSError):  # not empty: written, or somebody else's
+                made.rmdir()
     return [file.place for file in staged], ()
 
 

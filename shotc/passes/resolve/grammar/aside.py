@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import acos, atan2, ceil, cos, degrees, hypot, radians, sin
 
+from shotc.geom.angles import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.grammar.sight import Sight
@@ -42,7 +43,7 @@ def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
     middle, now = (degrees(atan2(x, y)) for x, y, _ in (left, right))
     aside = degrees(acos(turn)) + 0.5  # a place rounded to centimetres is still beyond it
     ways = (ceil(middle + aside), -ceil(aside - middle))
-    return min(ways, key=lambda way: abs((way - now + 180) % 360 - 180))
+    return min(ways, key=lambda way: abs(wrapped(radians(way - now))))
 
 
 def _place(right: Sight, azimuth: int) -> str:
