@@ -45,10 +45,10 @@ def test_every_limit_is_written_with_a_certificate(plan: Plan, path: Path) -> No
 def test_worst_speeds_are_those_of_the_table(plan: Plan, path: Path) -> None:
     planned = plan(path)
     for drone, motion in planned.flights.items():
-        worst_speeds(claims(planned, drone), motion, 1 / planned.mission.rate)
+        assert_worst_speeds(claims(planned, drone), motion, 1 / planned.mission.rate)
 
 
-def worst_speeds(found: dict[str, Claim], motion: Table, step: float) -> None:
+def assert_worst_speeds(found: dict[str, Claim], motion: Table, step: float) -> None:
     vx, vy, vz = motion.numbers("vx_m_s", "vy_m_s", "vz_m_s").T
     sampled = {
         "speed": np.hypot(vx, vy),
@@ -68,10 +68,10 @@ def worst_speeds(found: dict[str, Claim], motion: Table, step: float) -> None:
 def test_least_distances_are_those_of_the_table(plan: Plan, path: Path) -> None:
     planned = plan(path)
     for drone in planned.flights:
-        least_distances(planned, drone)
+        assert_least_distances(planned, drone)
 
 
-def least_distances(planned: Planned, drone: str) -> None:
+def assert_least_distances(planned: Planned, drone: str) -> None:
     found, motion = claims(planned, drone), planned.flights[drone]
     radius = planned.mission.drone(drone).radius
     motion = motion.rows(~np.isin(motion["phase"], ["takeoff", "land"]))

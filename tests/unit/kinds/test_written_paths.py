@@ -132,13 +132,17 @@ def _off(p: Vec3, a: Vec3, b: Vec3) -> float:
     return at((low + high) / 2) - dist(a, b) * (high - low)
 
 
-@given(
+NEAR_AN_ORIGIN = given(
     st.floats(-85, 85),
     st.floats(-180, 180),
     st.floats(-0.05, 0.05),
     st.floats(-0.05, 0.05),
     st.floats(0, 500),
 )
+"""Latitude and longitude of an origin, how far off a place is, degrees, and its height."""
+
+
+@NEAR_AN_ORIGIN
 def test_places_on_earth_agree_with_pymap3d(
     lat: float, lon: float, dlat: float, dlon: float, h: float
 ) -> None:
@@ -146,13 +150,7 @@ def test_places_on_earth_agree_with_pymap3d(
     assert to_world(place, origin) == pytest.approx(pymap3d.geodetic2enu(*place, *origin), abs=1e-6)
 
 
-@given(
-    st.floats(-85, 85),
-    st.floats(-180, 180),
-    st.floats(-0.05, 0.05),
-    st.floats(-0.05, 0.05),
-    st.floats(0, 500),
-)
+@NEAR_AN_ORIGIN
 def test_a_height_over_the_ground_is_z_and_the_way_back_differs_by_the_curve(
     lat: float, lon: float, dlat: float, dlon: float, height: float
 ) -> None:
