@@ -1,0 +1,37 @@
+"""The page on the output files names all that stands in them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import shotc
+from shotc.emit.csv_table import FRAMING, GEODETIC, LIGHT, TRAJECTORY
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.keyframes import PlacedKeyframe, PlacedSubject
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import Deviation
+from shotc.ir.records import field_names
+from shotc.ir.trajectory import Claim, DroneTrajectory, Reference
+from shotc.planfile.write import document
+from tests.samples import orbit_plan
+
+PAGE = (Path(shotc.__file__).parent / "docs" / "outputs.md").read_text(encoding="utf-8")
+NAMED = set(re.findall(r"`([^`]+)`", PAGE))
+RECORDS = (Claim, DroneTrajectory, Reference, Deviation, PlacedKeyframe, PlacedSubject, FleetTrajectory)
+
+
+def test_every_column_of_the_tables_is_explained():
+    columns = f"{TRAJECTORY}{GEODETIC}{LIGHT},{FRAMING}".split(",")
+    assert [column for column in columns if column not in NAMED] == []
+
+
+def test_every_part_of_a_plan_is_explained():
+    parts = [*document(orbit_plan()), *field_names(MissionIR)]
+    elsewhere = {"origins", "source_sha256", "files"}
+    assert [part for part in parts if part not in NAMED and part not in elsewhere] == []
+
+
+def test_every_field_of_what_a_plan_holds_is_explained():
+    fields = [name for record in RECORDS for name in field_names(record)]
+    assert [name for name in fields if name not in NAMED] == []
