@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from shotc import plugins
 from shotc.checking import models_of
 from shotc.diag.model import Diagnostic
+from shotc.diag.plugin_faults import plugin_failed
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
@@ -118,9 +119,9 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     options.refiner must be None or one of ``plugins.names("refiners")``
     """
     kinds = plugins.shot_kinds()
-    loaded = load(data, name, folder, models_of(kinds.plugins))
+    loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
     sources = {name: loaded.file}
-    found = [*kinds.diagnostics, *loaded.diagnostics]
+    found = [*loaded.diagnostics]
     stopped = Compilation(None, (), tuple(found), sources, loaded.title)
     if loaded.mission is None or has_errors(found):
         return stopped
@@ -227,12 +228,13 @@ def emit_plan(
     saved : whether the plan was read from a plan.json, which is not made again
     """
     from shotc.emission import ALONE
+    from shotc.emit.base import Emission
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
     known = plugins.discover("emitters")
     wanted = dict.fromkeys(plan.trajectory.keyframes.mission.emit if names is None else names)
     artifacts: list[Artifact] = []
-    diagnostics = list(known.diagnostics)
+    diagnostics = [known.faults[n] for n in wanted if n in known.faults]
     notes: list[str] = []
     code = "P005" if names is None else "P004"
     diagnostics += [
@@ -241,15 +243,23 @@ def emit_plan(
     emitters = tuple(known.plugins[n] for n in wanted if n in known.plugins)
     emitters = emitters if saved else (PLAN_JSON, *emitters)
     for emitter, made in zip(emitters, (crew or ALONE).emit(plan, emitters), strict=True):
-        if isinstance(made, ModuleNotFoundError):
-            if not plugins.is_optional(made):
-                raise made
-            diagnostics.append(plugins.not_installed(code, f"output `{emitter.name}`", [str(made.name)]))
+        if not isinstance(made, Emission):
+            diagnostics.append(_not_made(emitter.name, made, code))
             continue
         artifacts.extend(made.artifacts)
         diagnostics.extend(made.diagnostics)
         notes.extend(made.notes)
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
+
+
+def _not_made(name: str, fault: Exception | str, code: str) -> Diagnostic:
+    """Return why an emitter made nothing, where that is not our own bug; code : of a missing library."""
+    if isinstance(fault, ModuleNotFoundError) and plugins.is_optional(fault):
+        return plugins.not_installed(code, f"output `{name}`", [str(fault.name)])
+    package = plugins.package_of("emitters", name)
+    if isinstance(fault, Exception) and package == plugins.OURS:
+        raise fault
+    return plugin_failed(f"emitter `{name}`", package, fault)
 
 
 def verify_plan(data: bytes, name: str) -> PlanReport:

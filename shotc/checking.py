@@ -28,8 +28,8 @@ def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
     data : any bytes; name : how to show it; folder : where the files that it names are
     """
     kinds = plugins.shot_kinds()
-    loaded = load(data, name, folder, models_of(kinds.plugins))
-    found = [*kinds.diagnostics, *loaded.diagnostics]
+    loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
+    found = [*loaded.diagnostics]
     if loaded.mission is not None:
         passes = front_passes(kinds.plugins, plugins.names("emitters"))
         found += run(passes, loaded.mission, PassContext()).diagnostics

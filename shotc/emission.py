@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import re
 import signal
 import sys
 import threading
@@ -19,7 +20,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from shotc.emit.base import Emission, Emitter, Prepares
+from shotc.emit.base import Artifact, Emission, Emitter, Prepares
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import VerifiedIR
@@ -27,8 +28,12 @@ if TYPE_CHECKING:  # the base install has no numpy
 MOST = 4
 """Processes that are used where nothing is said; our own emitters have no work for more."""
 
+_PLAIN = re.compile(r"\w(?:[\w .-]{0,126}[\w-])?").fullmatch
+"""A file name that every system takes and that leads into no other folder."""
+
 Load = Callable[[str], Emitter | None]
-Outcome = Emission | ModuleNotFoundError
+Outcome = Emission | Exception | str
+"""What an emitter made, what it raised, or what is wrong with what it returned."""
 
 
 def usual_jobs() -> int:
@@ -84,10 +89,7 @@ class Crew:
                 worker.send(worker.names)
 
     def emit(self, plan: VerifiedIR, emitters: Sequence[Emitter]) -> list[Outcome]:
-        """Run emitters and return what they made, in their order; a library they miss is an outcome.
-
-        Any other exception of an emitter goes to the caller.
-        """
+        """Run emitters and return what came of each, in their order."""
         wanted = {emitter.name for emitter in emitters}
         busy = [worker for worker in self._workers if wanted.intersection(worker.names)]
         for worker in busy:
@@ -175,13 +177,29 @@ def _work(orders: BinaryIO, results: BinaryIO, load: Load) -> None:
     for emitter in emitters:
         if emitter.name in names:
             with suppress(Exception):
-                made[emitter.name] = emitter.emit(plan)
+                emission = emitter.emit(plan)
+                if not _wrong(emission):
+                    made[emitter.name] = emission
     pickle.dump(made, results, pickle.HIGHEST_PROTOCOL)
     results.flush()
 
 
 def _outcome(emitter: Emitter, plan: VerifiedIR) -> Outcome:
     try:
-        return emitter.emit(plan)
-    except ModuleNotFoundError as missing:
-        return missing
+        made: Any = emitter.emit(plan)
+    except Exception as fault:  # noqa: BLE001  a plugin may raise anything
+        return fault
+    return _wrong(made) or made
+
+
+def _wrong(made: Any) -> str:
+    """Return what is wrong with an emitter's answer, an empty text where nothing is."""
+    if not isinstance(made, Emission):
+        return f"returned a {type(made).__name__}, not an Emission"
+    artifacts: Any = made.artifacts
+    for artifact in artifacts:
+        if not isinstance(artifact, Artifact) or not isinstance(artifact.data, bytes):
+            return "returned something else than Artifacts of bytes"
+        if not _PLAIN(artifact.name):
+            return f"names a file {artifact.name!r}: letters, digits, spaces and . - _ only, in no folder"
+    return ""

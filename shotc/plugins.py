@@ -17,6 +17,7 @@ from shotc.diag.model import Diagnostic
 API_VERSION = 1
 OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi")
 """Libraries that the base install does without: a plugin that misses one is not broken."""
+OURS = "shotc"
 OUR_REFINER, NO_REFINER = "ours", "none"
 _ENTRIES = "entry_points.txt"
 GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}
@@ -25,12 +26,26 @@ GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "sho
 class Found(NamedTuple):
     """The plugins of one group that can be used, by name, and what is wrong with the others.
 
+    faults : why a plugin cannot be used, by its name; only what names it is concerned
     lacking : names of plugins whose optional library is not installed, and that library
     """
 
     plugins: Mapping[str, Any]
-    diagnostics: tuple[Diagnostic, ...]
+    faults: Mapping[str, Diagnostic]
     lacking: Mapping[str, str]
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """What is wrong with any of them."""
+        return tuple(self.faults.values())
+
+    @property
+    def unusable(self) -> Mapping[str, Diagnostic]:
+        """Why a name that is registered cannot be used, a missing library included."""
+        if not self.lacking:
+            return self.faults
+        missing = {n: not_installed("P004", f"plugin `{n}`", [lib]) for n, lib in self.lacking.items()}
+        return {**self.faults, **missing}
 
 
 class Source(NamedTuple):
@@ -86,6 +101,12 @@ def one(group: str, name: str) -> Source:
     return Source(found.plugins.get(name), owners, entries[0].value, found.diagnostics + missing)
 
 
+def package_of(group: str, name: str) -> str:
+    """Return the distribution that registers a plugin; ours where the name is not registered at all."""
+    entries = _by_name(group).get(name)
+    return _owner(entries[0]) if entries else OURS
+
+
 def usual_refiner() -> str:
     """Return the refiner that is used where none is asked for: ours where it is installed."""
     return OUR_REFINER if OUR_REFINER in names("refiners") else NO_REFINER
@@ -111,7 +132,7 @@ def shot_kinds() -> Found:
     others = _prove("kinds", {name: entries for name, entries in table.items() if name not in ours})
     known = sorted([*ours, *others.plugins])
     plugins = OnDemand(known, lambda name: ours[name].load() if name in ours else others.plugins[name])
-    return Found(plugins, others.diagnostics, others.lacking)
+    return Found(plugins, others.faults, others.lacking)
 
 
 def names(group: str) -> list[str]:
@@ -157,22 +178,22 @@ def forget() -> None:
 def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> Found:
     """Load every plugin of a table."""
     plugins: dict[str, Any] = {}
-    diagnostics: list[Diagnostic] = []
+    faults: dict[str, Diagnostic] = {}
     lacking: dict[str, str] = {}
     for name, entries in table.items():
         if len(entries) > 1:
-            diagnostics.append(_clash(group, name, entries))
+            faults[name] = _clash(group, name, entries)
             continue
         try:
-            loaded = _load(entries[0])
+            loaded = _load(entries[0], group)
         except ModuleNotFoundError as missing:
             lacking[name] = str(missing.name)
             continue
         if isinstance(loaded, Diagnostic):
-            diagnostics.append(loaded)
+            faults[name] = loaded
         else:
             plugins[name] = loaded
-    return Found(plugins, tuple(diagnostics), lacking)
+    return Found(plugins, faults, lacking)
 
 
 @cache
@@ -212,11 +233,16 @@ def _by_name(group: str) -> dict[str, list[EntryPoint]]:
     return dict(sorted(table.items()))
 
 
-def _load(entry: EntryPoint) -> Any:
-    """Return the plugin, or what is wrong with it; ModuleNotFoundError where it lacks an optional library."""
+def _load(entry: EntryPoint, group: str) -> Any:
+    """Return the plugin, or what is wrong with it; ModuleNotFoundError where it lacks an optional library.
+
+    A kind bears the name of its package, so that its faults can be told apart from ours.
+    """
     try:
         plugin = entry.load()
         name, api = plugin.name, plugin.api
+        if group == "kinds" and not _is_ours(entry):
+            plugin = plugin._replace(package=_owner(entry))
     except Exception as fault:
         if isinstance(fault, ModuleNotFoundError) and is_optional(fault):
             raise

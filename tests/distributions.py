@@ -16,6 +16,19 @@ class Made:
 PLUGIN = Made()
 """
 
+KIND = """
+from typing import Literal
+from shotc.plugin_api import Expansion, Kind, ShotBase
+
+class Shot(ShotBase):
+    kind: Literal["sample"]
+
+def expand(shot, scene):
+    {body}
+
+PLUGIN = Kind("sample", "made for a test", Shot, expand)
+"""
+
 
 def lay(folder: Path, distribution: str, entry: str, source: str, group: str = "emitters") -> None:
     """Lay a module, and a distribution that registers its PLUGIN under a name."""

@@ -34,7 +34,7 @@ def emit(plan: PlanPath, output: Output = None, emit: Emit = None) -> None:
     emitted = emit_plan(proved(plan), names, saved=True)
     diagnostics = emitted.diagnostics
     paths: list[Path] = []
-    if not console.exit_code(diagnostics) and emitted.artifacts:
+    if emitted.artifacts:
         paths, faults = write(emitted.artifacts, output or (plan if plan.is_dir() else plan.parent))
         diagnostics += faults
     console.report(diagnostics, {})

@@ -142,10 +142,8 @@ def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, 
 
     emitted = emit_plan(done.plan, emitters, hands)
     diagnostics = (*done.diagnostics, *emitted.diagnostics)
-    paths: list[Path] = []
-    if not console.exit_code(diagnostics):
-        paths, faults = write(emitted.artifacts, folder)
-        diagnostics += faults
+    paths, faults = write(emitted.artifacts, folder)
+    diagnostics += faults
     console.report(diagnostics, done.sources)
     if paths:
         console.out(summary(done.plan, paths, emitted.notes))

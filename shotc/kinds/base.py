@@ -40,6 +40,7 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 
 
 API_VERSION = 1
+OURS = "shotc"
 MOVING = "a moving target"
 STILL = 5.0  # seconds that a camera which stands still films where the timing gives no duration
 
@@ -187,6 +188,7 @@ class Kind(NamedTuple):
     model : of its parameters, with ``kind: Literal[name]``
     expand : takes a shot of that model and its scene
     api : version of this contract that the kind was written against
+    package : the distribution that registers it; filled in when the kind is loaded
     """
 
     name: str
@@ -194,6 +196,12 @@ class Kind(NamedTuple):
     model: type[ShotBase]
     expand: Callable[[Any, Scene], Expansion]
     api: int = API_VERSION
+    package: str = OURS
+
+    @property
+    def foreign(self) -> bool:
+        """Whether another package made it: then its faults are that package's, not ours."""
+        return self.package != OURS
 
 
 def placed(origin: GeoOrigin | None, position: Place) -> Vec3:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from pydantic import ValidationError
@@ -15,6 +16,8 @@ from shotc.source.yaml_tree import Document, parse
 from shotc.spec.mission import VERSION, MissionSpec, is_version
 from shotc.spec.places import NAME
 from shotc.spec.shot import ShotBase
+
+NOTHING: Mapping[str, Diagnostic] = MappingProxyType({})
 
 # How a plan.json begins, which is YAML, too.
 _PLAN = rb'\s*\{\s*"format"\s*:\s*"shotc-plan"'
@@ -45,10 +48,17 @@ class Loaded(NamedTuple):
     title: str | None = None
 
 
-def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[ShotBase]]) -> Loaded:
+def load(
+    data: bytes,
+    name: str,
+    folder: Path | None,
+    kinds: Mapping[str, type[ShotBase]],
+    unusable: Mapping[str, Diagnostic] = NOTHING,
+) -> Loaded:
     """Read a mission; never raises, whatever the bytes are.
 
     name : how to show the file; folder : where it is; kinds : the model of every kind of shot
+    unusable : kinds that are registered and cannot be used, and why
     """
     if data[:64].lstrip().startswith(b"{") and re.match(_PLAN, data):
         from shotc.spec.shape_faults import plan_given
@@ -64,7 +74,7 @@ def load(data: bytes, name: str, folder: Path | None, kinds: Mapping[str, type[S
     if spec is None or not _is_whole(document.root, kinds):
         from shotc.spec.shape_faults import shape_faults
 
-        faults = shape_faults(document.root, error, kinds, origins, document.file)
+        faults = shape_faults(document.root, error, (kinds, unusable), origins, document.file)
         assert faults, "a mission is not rejected without a word"
         return Loaded(None, faults, document.file, _title(document))
     return Loaded(

@@ -1,6 +1,6 @@
 """What is wrong with the shape of a mission, with its place in the text."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from pydantic import ValidationError
@@ -21,19 +21,33 @@ from shotc.units import clip
 def shape_faults(
     root: Mapping[str, Any],
     error: ValidationError | None,
-    kinds: Mapping[str, type[ShotBase]],
+    kinds: tuple[Mapping[str, type[ShotBase]], Mapping[str, Diagnostic]],
     origins: OriginMap,
     file: SourceFile,
 ) -> tuple[Diagnostic, ...]:
     """Return what is wrong with the keys and values below ``root``; of an unknown language only that.
 
     error : what the models say of it, its version apart; file : the text
+    kinds : those that can be used, and why others cannot that are registered
     """
+    usable, unusable = kinds
     found = _version_findings(root)
     if not any(f.slug == "unknown-version" for f in found):
         said = findings(error) if error is not None else []
-        found += [f for f in said if f.path != ("shotc",)] + _shot_findings(root, kinds)
-    return _diagnostics([_uncovered(f, origins, file) for f in found], origins)
+        found += [f for f in said if f.path != ("shotc",)] + _shot_findings(root, [*usable, *unusable])
+    broken = tuple(_broken_kinds(root, unusable, origins))
+    return _diagnostics([_uncovered(f, origins, file) for f in found], origins, broken)
+
+
+def _broken_kinds(
+    root: Mapping[str, Any], unusable: Mapping[str, Diagnostic], origins: OriginMap
+) -> Iterator[Diagnostic]:
+    """Yield why kinds cannot be used that shots name, on the line of the first such shot."""
+    shots = root.get("shots", [])
+    named = [shot.get("kind") for shot in shots if isinstance(shot, dict)] if isinstance(shots, list) else []
+    for kind in dict.fromkeys(kind for kind in named if isinstance(kind, str) and kind in unusable):
+        first = next(i for i, shot in enumerate(shots) if isinstance(shot, dict) and shot.get("kind") == kind)
+        yield unusable[kind]._replace(labels=(origins.value(("shots", first, "kind")),))
 
 
 def _uncovered(finding: Finding, origins: OriginMap, file: SourceFile) -> Finding:
@@ -70,7 +84,7 @@ def _version_findings(root: Mapping[str, Any]) -> list[Finding]:
     return [Finding(("shotc",), "unknown-version", message, help_, (note,))]
 
 
-def _shot_findings(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> list[Finding]:
+def _shot_findings(root: Mapping[str, Any], kinds: list[str]) -> list[Finding]:
     """Return unknown kinds, and a mission without shots."""
     shots = root.get("shots", [])
     if shots == []:
@@ -87,17 +101,19 @@ def _shot_findings(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]])
     ]
 
 
-def _unknown_kind(path: KeyPath, kind: str, kinds: Mapping[str, type[ShotBase]]) -> Finding:
+def _unknown_kind(path: KeyPath, kind: str, kinds: Iterable[str]) -> Finding:
     return Finding(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", nearest(kind, kinds))
 
 
-def _diagnostics(found: list[Finding], origins: OriginMap) -> tuple[Diagnostic, ...]:
-    """Return one diagnostic per faulty place, in the order of the file."""
+def _diagnostics(
+    found: list[Finding], origins: OriginMap, others: tuple[Diagnostic, ...]
+) -> tuple[Diagnostic, ...]:
+    """Return one diagnostic per faulty place and the others, in the order of the file."""
     first: dict[tuple[KeyPath, str], Finding] = {}
     for finding in found:
         first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)
-    every = (_diagnostic(f, origins) for f in first.values())
-    return capped(sorted(every, key=lambda d: d.sort_key), "this file")
+    every = [_diagnostic(f, origins) for f in first.values()]
+    return capped(sorted([*every, *others], key=lambda d: d.sort_key), "this file")
 
 
 def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:

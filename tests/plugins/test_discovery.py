@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from shotc import plugins
-from tests.distributions import lay
+from tests.distributions import KIND, lay
 
 MODULE = """
 class Sample:
@@ -83,11 +83,12 @@ def test_a_plugin_that_lacks_an_optional_library_is_not_broken(install):
     assert ("viewer", "needs rerun, which is not installed", "viewer-maker") in plugins.listing("emitters")
 
 
-def test_a_broken_kind_of_another_package_is_told_though_no_shot_uses_it(install):
+def test_a_broken_kind_of_another_package_is_known_as_unusable(install):
     install("broken-maker", "broken", "raise RuntimeError('no such camera')", group="kinds")
+    install("lacking-maker", "lacking", "raise ModuleNotFoundError('no scipy', name='scipy')", group="kinds")
     found = plugins.shot_kinds()
-    assert "broken" not in found.plugins
-    assert [d.code for d in found.diagnostics] == ["P002"]
+    assert not {"broken", "lacking"} & set(found.plugins)
+    assert {name: d.code for name, d in found.unusable.items()} == {"broken": "P002", "lacking": "P004"}
 
 
 def test_a_kind_may_not_take_the_name_of_ours(install):
@@ -99,7 +100,8 @@ def test_a_kind_may_not_take_the_name_of_ours(install):
 
 
 def test_both_ways_to_the_kinds_find_the_same(install):
-    install("kind-maker", "sample", MODULE.format(name="sample", api=1), group="kinds")
+    install("kind-maker", "sample", KIND.format(body="return Expansion()"), group="kinds")
+    assert plugins.shot_kinds().plugins["sample"].package == "kind-maker"
     assert dict(plugins.shot_kinds().plugins) == dict(plugins.discover("kinds").plugins)
 
 

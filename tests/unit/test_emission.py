@@ -10,6 +10,7 @@ import threading
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from traceback import extract_tb
 
 import pytest
 
@@ -39,6 +40,11 @@ class Heavy(Light):
 class Broken(Heavy):
     def emit(self, plan):
         raise ValueError(f"{self.name} cannot do {plan}")
+
+
+class Wordy(Heavy):
+    def emit(self, plan):
+        return f"{plan} is done"
 
 
 class Lacking(Heavy):
@@ -96,11 +102,19 @@ def test_big_plans_and_big_results_pass():
     assert maker(outcome) != HERE
 
 
-def test_a_failure_in_a_worker_is_raised_here():
-    with pytest.raises(ValueError, match="bad cannot do plan") as caught:
-        emitted([Heavy("good"), Broken("bad")], 2)
-    assert caught.traceback[-1].name == "emit"
+def test_a_failure_in_a_worker_is_an_outcome_with_its_trace():
+    good, bad = emitted([Heavy("good"), Broken("bad")], 2)
+    assert isinstance(good, Emission)
+    assert isinstance(bad, ValueError)
+    assert str(bad) == "bad cannot do plan"
+    assert extract_tb(bad.__traceback__)[-1].name == "emit"
     assert children() == []
+
+
+def test_an_answer_that_is_no_emission_is_an_outcome():
+    good, wordy = emitted([Heavy("good"), Wordy("wordy")], 2)
+    assert isinstance(good, Emission)
+    assert wordy == "returned a str, not an Emission"
 
 
 def test_a_missing_library_is_an_outcome():

@@ -29,7 +29,8 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.ERROR,
         "two packages register one plugin name",
         "Kinds, refiners and emitters are found by name. Where two installed packages claim the same name, shotc "
-        "uses neither, since the choice would be a guess. Remove or rename one of them.",
+        "uses neither, since the choice would be a guess; missions that do not name it are not concerned. Remove or "
+        "rename one of them.",
         "",
         "",
         "other",
@@ -39,8 +40,8 @@ CODES: tuple[CodeInfo, ...] = (
         "plugin-broken",
         Severity.ERROR,
         "a plugin cannot be imported",
-        "An installed package registers a plugin whose import raises. The mission may depend on it, so it is not "
-        "passed over in silence. Update the package, or uninstall it.",
+        "An installed package registers a plugin whose import raises. A mission that names the plugin cannot be planned "
+        "or written; others do not mind, and `shotc list` tells of it. Update the package, or uninstall it.",
         "",
         "",
         "other",
@@ -100,6 +101,18 @@ CODES: tuple[CodeInfo, ...] = (
         "and comes with the package shotc-casadi. It is not installed here, so the convex path is flown as it is: "
         "proved like any other, but with nobody to trade framing against smoothness. Install it, or say `--refiner "
         "none` to mean it.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "P008",
+        "plugin-failed",
+        Severity.ERROR,
+        "a plugin raised, or answered what its seat does not take",
+        "A shot kind or an emitter of another package failed. The note has its own words and the place in its code. A "
+        "mission whose kind fails is not planned; where an emitter fails, the files of the other emitters are written, and "
+        "the exit status is 1. Update the package, report the fault to its authors, or do without the plugin.",
         "",
         "",
         "other",

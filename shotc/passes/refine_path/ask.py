@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic, Severity
+from shotc.diag.plugin_faults import one_line
 from shotc.diag.registry import registry, severity_of
 from shotc.ir.path import PathIR
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.refine_path.child import Failed, TooSlow, refined_within, told
+from shotc.passes.refine_path.child import Failed, TooSlow, refined_within
 from shotc.passes.refine_path.finding import Fault, Finding, own, tell
 from shotc.passes.refine_path.seat import Seat
 
@@ -44,7 +45,7 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> A
     except Failed as failed:
         return fault("R001", "failed", str(failed))
     except (Exception, SystemExit) as raised:  # noqa: BLE001  a plugin may raise anything
-        return fault("R001", "failed", told(raised))
+        return fault("R001", "failed", one_line(raised))
     if not isinstance(outcome, Outcome):
         return fault("R002", "returned no path", f"it returned a {type(outcome).__name__}, not an Outcome")
     if not _are_diagnostics(outcome.diagnostics):

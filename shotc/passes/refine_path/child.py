@@ -14,6 +14,7 @@ import sys
 from importlib.metadata import EntryPoint
 from typing import Any, BinaryIO, NamedTuple
 
+from shotc.diag.plugin_faults import one_line
 from shotc.ir.path import Deviation, DronePath, PathIR, TimedPath
 from shotc.passes.base import Outcome, PassContext
 
@@ -84,12 +85,7 @@ def _answer(order: _Order) -> bytes:
         outcome = refiner.refine(order.path, PassContext(order.seed))
         return pickle.dumps((_bare(outcome, order.path), None))
     except BaseException as fault:  # noqa: BLE001  a plugin may raise anything, and this process ends anyway
-        return pickle.dumps((None, told(fault)))
-
-
-def told(fault: BaseException) -> str:
-    """Return an exception as one line."""
-    return f"{type(fault).__name__}: {fault}".replace("\n", " ")
+        return pickle.dumps((None, one_line(fault)))
 
 
 def _bare(outcome: Any, path: PathIR) -> Any:

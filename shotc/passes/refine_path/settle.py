@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from shotc.diag.model import Diagnostic
+from shotc.diag.plugin_faults import one_line
 from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg, TimedPath, X, Y, Z
 from shotc.passes.base import Outcome
 from shotc.passes.refine_path.ask import Answer
-from shotc.passes.refine_path.child import told
 from shotc.passes.refine_path.clocked import on_clock
 from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.finding import Fault, Finding, tell
@@ -64,7 +64,9 @@ def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
         found = list(structure(before, path)) or [*form(before, path), *on_clock(before, path), *limits(path)]
     except Exception as raised:  # noqa: BLE001  a plugin may hand back anything, and reading it may raise
         found = [
-            Finding("R002", "returned a path that cannot be flown", (f"to read it raises {told(raised)}",))
+            Finding(
+                "R002", "returned a path that cannot be flown", (f"to read it raises {one_line(raised)}",)
+            )
         ]
     return [tell(before.keyframes.mission, seat, finding) for finding in found]
 

@@ -8,6 +8,7 @@ from shotc.ir.limits import Timing
 from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
+from shotc.passes.resolve.foreign import expanded
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
 
@@ -76,7 +77,8 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
         pace=spec.rules.pace,
         fleets=tuple(spec.fleets),
     )
-    return cast.kinds[shot.kind].expand(shot, scene)
+    kind = cast.kinds[shot.kind]
+    return expanded(kind, shot, scene) if kind.foreign else kind.expand(shot, scene)
 
 
 def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath) -> Shot:
