@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from shotc import plugins
+from shotc.requirements import install_line
 from tests.distributions import KIND, lay
 
 MODULE = """
@@ -119,7 +120,7 @@ def test_missing_libraries_are_named_with_the_extra_that_brings_them(libraries, 
     fault = plugins.not_installed("P005", "this output", libraries)
     assert fault.code == "P005"
     assert fault.message == f"this output needs {', '.join(libraries)}, not installed here"
-    assert fault.help.startswith(f"run `pip install 'shotc[{extra}]'`")
+    assert fault.help.startswith(f"run `{install_line(extra)}`")
 
 
 def test_one_plugin_is_loaded_and_named_with_its_package(install):

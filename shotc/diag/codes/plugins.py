@@ -63,8 +63,8 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.ERROR,
         "what was asked for needs a library that is not installed",
         "The base install checks missions and explains codes. Planning needs numpy, cvxpy, Clarabel and toppra, "
-        "which weigh several hundred megabytes and come with `pip install 'shotc[plan]'`; the rerun recording comes "
-        "with `pip install 'shotc[view]'`, and `shotc[all]` is both.",
+        "which weigh several hundred megabytes and come with the extra `plan`; the rerun recording comes with the extra "
+        "`view`, and `all` is both. The help has the command that installs them from where shotc came from.",
         "",
         "",
         "other",
