@@ -19,17 +19,30 @@ def places(track: Track, t: Array) -> Array:
 def seen_from(curve: Piecewise, track: Track) -> Piecewise:
     """Return a curve of channels x, y, z less the motion, exactly, on breaks that hold the track's rows.
 
-    A target moves evenly between rows, so on each piece both are polynomials.
+    A target moves evenly between rows, so on each piece both are polynomials. Where a row is next to a break,
+    a piece may be too short to be derived from its control points: ``rate_seen_from`` does without.
     """
-    rows = np.array(track.times)
-    inside = rows[(rows > curve.start) & (rows < curve.end)]
-    near = np.searchsorted(curve.breaks, inside)
-    gap = np.minimum(
-        np.abs(curve.breaks[np.minimum(near, len(curve.breaks) - 1)] - inside),
-        inside - curve.breaks[near - 1],
-    )
-    breaks = np.union1d(curve.breaks, inside[gap > 1e-9 * (curve.end - curve.start)])
-    own = restrict(curve, breaks)
-    ends = places(track, breaks)
+    own = restrict(curve, _common(curve, track))
+    ends = places(track, own.breaks)
     share = np.linspace(0.0, 1.0, own.degree + 1)[:, None]
-    return Piecewise(breaks, own.ctrl - (ends[:-1, None] + share * (ends[1:] - ends[:-1])[:, None]))
+    return Piecewise(own.breaks, own.ctrl - (ends[:-1, None] + share * (ends[1:] - ends[:-1])[:, None]))
+
+
+def rate_seen_from(curve: Piecewise, track: Track) -> Piecewise:
+    """Return the derivative of a curve of channels x, y, z less the velocity of the motion, exactly."""
+    own = restrict(curve.derivative(), _common(curve, track))
+    middle = 0.5 * (own.breaks[:-1] + own.breaks[1:])
+    return Piecewise(own.breaks, own.ctrl - velocities(track, middle)[:, None])
+
+
+def velocities(track: Track, t: Array) -> Array:
+    """Return the velocity of the target at times of shape (M,), m/s, shape (M, 3); at a row, from it on."""
+    times, points = np.array(track.times), np.array(track.points)
+    slopes = np.diff(points, axis=0) / np.diff(times)[:, None]
+    stretches = np.concatenate([np.zeros((1, 3)), slopes, [track.after]])
+    return np.asarray(stretches[np.searchsorted(times, t, side="right")])
+
+
+def _common(curve: Piecewise, track: Track) -> Array:
+    rows = np.array(track.times)
+    return np.union1d(curve.breaks, rows[(rows > curve.start) & (rows < curve.end)])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, Frames, frames
 from shotc.geom.pieces import Mask
-from shotc.geom.track_array import seen_from
+from shotc.geom.track_array import rate_seen_from, seen_from
 from shotc.ir.bodies import cylinder, moved
 from shotc.ir.fleet import Colors, Lights
 from shotc.ir.mission import MissionIR, Target
@@ -109,6 +109,11 @@ def beside(curve: Piecewise, target: Target) -> Piecewise:
         return curve
     seen_by = seen_from(curve, target.track)
     return Piecewise(seen_by.breaks, seen_by.ctrl + np.array(target.centre))
+
+
+def rate_beside(curve: Piecewise, target: Target) -> Piecewise:
+    """Return the derivative of ``beside``, exactly: how fast the target sees the curve move."""
+    return curve.derivative() if target.track is None else rate_seen_from(curve, target.track)
 
 
 def cameras(mission: MissionIR, drone: DroneTrajectory, t: Array) -> Cameras:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import chain, pairwise
-from math import pi
+from math import dist, hypot, pi
 
 from shotc.geom.solids import Cylinder, Solid, is_simple, signed_area
 from shotc.geom.track import Track
@@ -12,12 +12,16 @@ from shotc.ir.mission import Drone, Ideal, MissionIR
 from shotc.ir.path import CHANNELS
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.planfile.fleet_sanity import fleet_faults
+from shotc.units import LARGEST
 
 SAMPLES = 20_000_000
 """Ticks of the output clock that a flight may have."""
 
 CORNERS = 1000
 """Corners that a zone may have."""
+
+FASTEST = (1 + 1e-6) * LARGEST["speed"]
+"""m/s of a target: the fastest that a mission can write, and what rounding of its rows adds."""
 
 Fault = tuple[str, str]
 
@@ -61,6 +65,10 @@ def _motion(track: Track) -> str:
         return "it does not have a heading for every time"
     if any(after <= before for before, after in pairwise(track.times)):
         return "its times do not rise"
+    rows = zip(pairwise(track.times), pairwise(track.points), strict=True)
+    fastest = max([hypot(*track.after), *(dist(p, q) / (t - s) for (s, t), (p, q) in rows)])
+    if fastest > FASTEST:
+        return f"it moves at up to {fastest:.4g} m/s, faster than {FASTEST:g} m/s"
     return ""
 
 

@@ -189,8 +189,10 @@ _FORM = (
         "motion-jumps",
         (
             "position, rate or acceleration jumps at a joint of the trajectory",
-            "A plan is a chain of polynomials that agree at their joints in value, first and second derivative, to "
-            "a millionth of the channel's scale. One that does not was edited or damaged. Plan the mission again.",
+            "A plan is a chain of polynomials that agree at their joints in value, first and second derivative. What "
+            "rounding leaves is added up over all joints of a flight, and is at most a micrometre, a micrometre a "
+            "second and a tenth of a millimetre a second squared (so many microradians for angles) in each channel. A "
+            "plan in which it is more was edited or damaged. Plan the mission again.",
         ),
     ),
     _code(
@@ -216,8 +218,9 @@ _FORM = (
         "flight-not-whole",
         (
             "the trajectory is not one flight",
-            "The phases of a flight follow one another without gaps from time 0 to its end, every shot phase names "
-            "a shot of the mission, and every flight a drone. A plan that does not was edited or damaged.",
+            "The phases of a flight follow one another from time 0 to its end, exactly, without a gap and without an "
+            "overlap, every shot phase names a shot of the mission, and every flight a drone. No piece of a curve is "
+            "shorter than 10 us. A plan where it is not so was edited or damaged.",
         ),
     ),
     _code(

@@ -12,8 +12,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.path import CHANNELS, UPRIGHT, DronePath, FramingSpan, Leg, PathIR, TimedLeg
 from shotc.passes.refine_path.faults import place
 from shotc.passes.refine_path.finding import Finding
+from shotc.passes.refine_path.joints import ORDERS, largest_jump
 from shotc.passes.verify.reference import OFF
-from shotc.passes.verify.shape import ORDERS, largest_jump
 
 SAME = 1e-6
 """Metres, radians or screen units that still count as the same place."""
@@ -166,9 +166,9 @@ def jumps(leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
         for i, j in pairwise(cuts) if order else whole:
             stretch = Piecewise(curve.breaks[i : j + 1], curve.ctrl[i:j])
             jump = largest_jump(stretch, order)
-            if jump.value > SMOOTH:
-                where = place(leg, float(jump.time or 0.0))
-                yield broken(f"its {name} jumps by {jump.value:.3g} of its scale, {where}", leg.shot)
+            if jump.size > SMOOTH:
+                text = f"its {name} jumps by {jump.size:.3g} of its scale, {place(leg, jump.at)}"
+                yield broken(text, leg.shot)
                 return
 
 

@@ -16,7 +16,7 @@ from shotc.geom.framing import margin_rate
 from shotc.geom.pieces import Mask, Pieces, cut
 from shotc.geom.proof import inf_channel, norm, sup_convex, sup_norm
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.sampling import beside, references, seen
+from shotc.ir.sampling import beside, rate_beside, references, seen
 from shotc.passes.verify.claims import Flight
 
 HALVINGS = 10
@@ -44,13 +44,14 @@ def rates(flight: Flight, target: str, start: float, end: float) -> Rates:
     pieces = cut(flight.track.curve, start, end)
     filmed = flight.mission.target(target)
     centre = np.array(filmed.centre)
-    near = cut(beside(flight.track.curve.channels(0, 1, 2), filmed), start, end)
+    place = flight.track.curve.channels(0, 1, 2)
+    near = cut(beside(place, filmed), start, end)
     far = sup_convex(near, lambda c: norm(c - centre), _roughly).proven
     rate = pieces.derivative()
     lens = pieces.channels(HFOV)
     return Rates(
         far=far,
-        speed=sup_norm(near.derivative(), _roughly).proven,
+        speed=sup_norm(cut(rate_beside(place, filmed), start, end), _roughly).proven,
         turn=_sup(rate, CAM_YAW) + _sup(rate, CAM_PITCH),
         zoom=_sup(rate, HFOV),
         narrow=float(np.tan(0.5 * inf_channel(lens, 0, _finely).proven)),
