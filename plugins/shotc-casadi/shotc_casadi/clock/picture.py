@@ -10,7 +10,8 @@ from typing import Any
 
 import casadi as ca
 
-from shotc.refiner_api import View, nearest_depth, silhouette_bounds, viewpoint
+from shotc.refiner_api import View, viewpoint
+from shotc_casadi.clock.outline import outline
 from shotc_casadi.symbols import cut
 
 FIELDS = {
@@ -34,8 +35,8 @@ placed, sized, whole, level : factors of what is off its place, of the logarithm
     of the frame, and of what is not level; viewed : of the chord, the level chord, and the elevation
 """
 SUBJECT = sum(FIELDS.values())
-DEEP = 0.01  # of its distance, by which a subject counts as before the camera at least
-TINY = 1e-12
+TINY = 1e-12  # m^2 added to a squared distance that is not to be none
+STEEP = 0.003  # of the distance that a subject is away over ground at least, for its bearing
 
 
 def picture(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
@@ -47,33 +48,22 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     """Return how far a subject is off what is asked, as a column.
 
     subject : SUBJECT numbers; eye : W, metres; aim : yaw and pitch, rad; lens : as in symbols.FIELDS
-    Smooth wherever the camera is out of the subject; one that reaches behind the camera is moved before it.
+    Smooth wherever the camera is: see ``outline``, which also moves what is behind the camera before it.
     """
     given = cut(subject, FIELDS)
     radius, height = given["solid"][0], given["solid"][1]
     camera = View(ca.cos(aim[0]), ca.sin(aim[0]), ca.cos(aim[1]), ca.sin(aim[1]), lens[0], lens[1])
     away = given["centre"] - eye
     far = ca.sqrt(ca.sumsqr(away) + TINY)
-    flat = ca.sqrt(ca.sumsqr(away[:2]) + TINY)
-    offset = _before(camera, away, far, (radius, height))
-    u, v, _ = camera.project(offset)
-    left, right, low, high = silhouette_bounds(camera, offset, radius, height)
-    edges = ca.vertcat(-left, right, -low, high) - viewpoint.EDGE
+    flat = ca.sqrt(ca.sumsqr(away[:2]) + (STEEP * far) ** 2)
+    seen = outline(camera, away, far, (radius, height))
+    edges = ca.vertcat(-seen.left, seen.right, -seen.low, seen.high) - viewpoint.EDGE
     return ca.vertcat(
-        given["placed"] * (ca.vertcat(u, v) - given["uv"]),
-        given["sized"] * ca.log(0.5 * (high - low) / given["size"]),
+        given["placed"] * (seen.place - given["uv"]),
+        given["sized"] * ca.log(0.5 * (seen.high - seen.low) / given["size"]),
         given["whole"] * ca.fmax(0.0, edges),
         given["viewed"][0] * (-away / far - given["toward"]),
         given["viewed"][1] * (-away[:2] / flat - given["toward"][:2]),
         given["viewed"][2] * (ca.atan2(-away[2], flat) - given["elevation"]),
         given["level"] * away[2] / far,
     )
-
-
-def _before(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> tuple[Any, Any, Any]:
-    """Return an offset moved along the camera's axis until all of a subject is before it, hardly else."""
-    depth = nearest_depth(camera, (away[0], away[1], away[2]), *solid)
-    push = 0.5 * (ca.sqrt(depth**2 + (DEEP * far) ** 2) - depth)
-    axis = (camera.cos_pitch * camera.cos_yaw, camera.cos_pitch * camera.sin_yaw, camera.sin_pitch)
-    x, y, z = (away[i] + push * axis[i] for i in range(3))
-    return x, y, z

@@ -1,0 +1,94 @@
+"""The outline of an upright cylinder in a picture, in CasADi symbols: smooth, and next to exact.
+
+``shotc.geom.camera.silhouette_bounds`` is exact, and has kinks: where the camera is as high as the cylinder's
+top or foot, where it looks level, and where one rim takes the other's place at an edge of the outline. Those
+are where people are filmed from. Here lengths and lesser values are rounded off by as little as nobody sees.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import casadi as ca
+
+from shotc.refiner_api import View
+
+DEEP = 0.01  # of its distance, by which a subject counts as before the camera at least
+LEVEL = 0.003  # of its distance: a rim that is less above or below the camera is rounded off
+UPRIGHT = 0.01  # of a sine or cosine of the pitch, the same
+EVEN = 0.001  # half frames: two rims that are less apart on screen are, too
+
+
+class Outline(NamedTuple):
+    """Where a cylinder is on screen, half frames: its centre (u, v), and the box about its outline."""
+
+    place: Any
+    left: Any
+    right: Any
+    low: Any
+    high: Any
+
+
+class _Rim(NamedTuple):
+    left: Any
+    right: Any
+    low: Any
+    high: Any
+
+
+def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Outline:
+    """Return the outline of a cylinder.
+
+    away : its centre less the camera, W, metres; far : the length of that, not zero
+    solid : radius and height. A cylinder that is not all before the camera is moved along the camera's axis
+    until it is.
+    """
+    radius, height = solid
+    centre = _before(camera, away, far, solid)
+    u, v, _ = camera.project((centre[0], centre[1], centre[2]))
+    low, high = (
+        _rim(camera, ca.vertcat(centre[:2], centre[2] + end * height / 2), radius, far) for end in (-1, 1)
+    )
+    return Outline(
+        ca.vertcat(u, v),
+        lesser(low.left, high.left, EVEN),
+        -lesser(-low.right, -high.right, EVEN),
+        lesser(low.low, high.low, EVEN),
+        -lesser(-low.high, -high.high, EVEN),
+    )
+
+
+def length(x: Any, least: Any) -> Any:
+    """Return |x|, rounded off where it is not well above ``least``."""
+    return ca.sqrt(x**2 + least**2)
+
+
+def lesser(a: Any, b: Any, apart: float) -> Any:
+    """Return the lesser of two, or up to ``apart / 2`` less where they are nearly the same."""
+    return 0.5 * (a + b - length(a - b, apart))
+
+
+def _before(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Any:
+    """Return an offset moved along the camera's axis until all of a subject is before it, hardly else."""
+    radius, height = solid
+    axis = ca.vertcat(camera.cos_pitch * camera.cos_yaw, camera.cos_pitch * camera.sin_yaw, camera.sin_pitch)
+    reach = height / 2 * length(camera.sin_pitch, UPRIGHT) + radius * length(camera.cos_pitch, UPRIGHT)
+    depth = ca.dot(axis, away) - reach
+    return away + 0.5 * (length(depth, DEEP * far) - depth) * axis
+
+
+def _rim(camera: View, centre: Any, radius: Any, far: Any) -> _Rim:
+    """Return the screen box of a level circle, all of it before the camera.
+
+    Its points in C are (x + r sin t, y + r sin(pitch) cos t, z + r cos(pitch) cos t). y / z has its extremes
+    where cos t is 1 or -1; the distance of the two is that of the rim from the camera's height. x / z
+    has them where (x - m z)^2 is r^2 (1 + m^2 cos(pitch)^2), a quadratic in m.
+    """
+    x, y, z = camera.to_camera((centre[0], centre[1], centre[2]))
+    lean_y, lean_z = radius * camera.sin_pitch, radius * camera.cos_pitch
+    square = z**2 - lean_z**2
+    aside = radius * ca.sqrt(square + (camera.cos_pitch * x) ** 2)
+    fall = radius * length(centre[2], LEVEL * far)
+    down = y * z - lean_y * lean_z
+    wide, tall = square * camera.half_width, square * camera.half_height
+    return _Rim((x * z - aside) / wide, (x * z + aside) / wide, -(down + fall) / tall, -(down - fall) / tall)
