@@ -37,7 +37,7 @@ from shotc.spec.load import LoadedMission, load
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.emission import Crew
-    from shotc.emit.base import Artifact, Emitter
+    from shotc.emit.base import Artifact, Emission, Emitter
     from shotc.ir.trajectory import Claim, VerifiedIR
     from shotc.passes.refine_path import Seat
 
@@ -249,7 +249,16 @@ def emit_plan(
         artifacts.extend(made.artifacts)
         diagnostics.extend(made.diagnostics)
         notes.extend(made.notes)
+        if saved and names is not None and not made.artifacts:
+            diagnostics.append(_nothing_made(emitter.name, made))
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
+
+
+def _nothing_made(name: str, made: Emission) -> Diagnostic:
+    """Return the error of an output that was asked for by name, and that has no file for this plan."""
+    reasons = (*(d.message for d in made.diagnostics), *made.notes)
+    help_ = next((d.help for d in made.diagnostics if d.help), "leave it out of `--emit`")
+    return Diagnostic("E114", f"output `{name}` has no file for this plan", notes=reasons, help=help_)
 
 
 def _not_made(name: str, fault: Exception | str, code: str) -> Diagnostic:

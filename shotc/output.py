@@ -9,10 +9,11 @@ Ctrl-C leave the files of an earlier run as they were.
 from __future__ import annotations
 
 import errno
+import json
 import os
 import re
 import signal
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from shutil import copyfile
@@ -23,6 +24,9 @@ from shotc.emit.base import Artifact
 
 FLOWN = ("plan.json", "trajectory.csv", "*.plan", "*.waypoints", "*.skyc")
 """What is flown from, or made into something that is."""
+
+SHOWN = ("framing.csv", "storyboard.png", "contact-sheet.png", "mission.rrd", "*.kml")
+"""What else is written beside it."""
 
 HEAD = 65536
 """Bytes of a plan.json in which its mission's name is looked for."""
@@ -48,8 +52,14 @@ def _mission_of(plan: Path) -> str | None:
             head = stream.read(HEAD).decode(errors="replace")
     except OSError:
         return None
-    found = re.search(r'^  "mission": \{\s*"name": "([\w.-]+)"', head, re.MULTILINE)
-    return None if found is None else found[1]
+    found = re.search(r'^  "mission": \{\s*"name": ("(?:[^"\\\n]|\\.)*")', head, re.MULTILINE)
+    return None if found is None else str(json.loads(found[1]))
+
+
+def left_over(folder: Path, written: Collection[str]) -> tuple[str, ...]:
+    """Return the outputs in a folder that are not among those just written, by name."""
+    found = {path.name for pattern in FLOWN + SHOWN for path in folder.glob(pattern) if path.is_file()}
+    return tuple(sorted(found.difference(written)))
 
 
 def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tuple[Diagnostic, ...]]:

@@ -17,6 +17,7 @@ from shotc.cli.names import known, listed
 from shotc.cli.plan import Deadline, Spec
 from shotc.cli.progress import Progress
 from shotc.cli.table import table
+from shotc.filenames import file_name
 from shotc.output import write
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def compare(
         from shotc.comparison.outputs import artifacts
 
         made = artifacts(found, progress)
-    paths, faults = write(made.artifacts, output or Path("out") / found.mission.name / "compare")
+    paths, faults = write(made.artifacts, output or Path("out") / file_name(found.mission.name) / "compare")
     console.report((*done.diagnostics, *made.diagnostics, *faults), done.sources)
     console.out(_printed(found, format, paths))
     raise typer.Exit(console.exit_code(faults))

@@ -40,7 +40,7 @@ def emit(plan: PlanPath, output: Output = None, emit: Emit = None) -> None:
     console.report(diagnostics, {})
     for path in paths:
         console.out(str(path))
-    if not emitted.artifacts:
+    if not emitted.artifacts and not names:
         console.note("nothing is written: no output was asked for; name some with --emit")
     for text in emitted.notes:
         console.note(text)

@@ -15,7 +15,8 @@ from shotc.cli.inputs import read_mission
 from shotc.cli.names import known, listed
 from shotc.cli.progress import Progress
 from shotc.cli.refiner import told
-from shotc.output import earlier, write
+from shotc.filenames import file_name
+from shotc.output import earlier, left_over, write
 from shotc.pipeline import PASS_NAMES
 from shotc.solvers.headings import DEFAULT, METHODS
 
@@ -133,7 +134,7 @@ def plan(
 
 def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, hands: Crew) -> int:
     """Emit and write a plan, report everything, and return the exit status."""
-    folder = output or Path("out") / (done.mission or "")
+    folder = output or Path("out") / (file_name(done.mission) if done.mission else "")
     if done.plan is None:
         console.report(done.diagnostics, done.sources)
         _warn_of_earlier(folder)
@@ -147,6 +148,7 @@ def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, 
     console.report(diagnostics, done.sources)
     if paths:
         console.out(summary(done.plan, paths, emitted.notes))
+        _tell_left_over(folder, {path.name for path in paths})
     else:
         _warn_of_earlier(folder)
     return console.exit_code(diagnostics)
@@ -162,6 +164,14 @@ def _warn_of_earlier(folder: Path) -> None:
         f"note: {folder}/ still holds the outputs of an earlier run{whose}, not of this one: "
         f"{', '.join(found.files)}"
     )
+
+
+def _tell_left_over(folder: Path, written: set[str]) -> None:
+    """Name the outputs of an earlier run that this one has not replaced: they are not of this plan."""
+    left = left_over(folder, written)
+    if left:
+        names = ", ".join(left)
+        console.complain(f"note: {folder}/ also holds outputs of an earlier run, not of this plan: {names}")
 
 
 def _dump(done: Compilation, name: str) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.fieldtypes import Flag, Integer, NamedOr, Text
-from shotc.spec.places import NAME, Geodetic, LookAt, Position
+from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
 from shotc.spec.sizes import SIZES
@@ -112,6 +112,7 @@ Count = Annotated[int, Integer("Count", 1, 5_000)]
 Priority = Annotated[int, Integer("Priority", 1, 1_000)]
 
 Name = Annotated[str, NAME]
+Title = Annotated[str, TITLE]
 # Relative, without a drive, a backslash, a control character or a part that is `..`.
 RelativePath = Annotated[
     str,

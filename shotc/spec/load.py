@@ -14,7 +14,7 @@ from shotc.ir.origin import OriginMap
 from shotc.source.file import SourceFile
 from shotc.source.yaml_tree import Document, parse
 from shotc.spec.mission import VERSION, MissionSpec, is_version
-from shotc.spec.places import NAME
+from shotc.spec.places import TITLE
 from shotc.spec.shot import ShotBase
 
 NOTHING: Mapping[str, Diagnostic] = MappingProxyType({})
@@ -84,7 +84,7 @@ def load(
 
 def _title(document: Document) -> str | None:
     written = document.root.get("mission")
-    return written if isinstance(written, str) and re.fullmatch(NAME.pattern, written) else None
+    return written if isinstance(written, str) and re.fullmatch(TITLE.pattern, written) else None
 
 
 def _validate(

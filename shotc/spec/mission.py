@@ -7,7 +7,7 @@ from pydantic import Field, PlainValidator, ValidationInfo
 
 from shotc.spec.drones import DroneSpec
 from shotc.spec.faults import fault
-from shotc.spec.fields import Name
+from shotc.spec.fields import Name, Title
 from shotc.spec.later import Fleet
 from shotc.spec.model import Model, section
 from shotc.spec.rules import OutputSpec, RulesSpec
@@ -51,7 +51,7 @@ class MissionSpec(Model):
     """A mission."""
 
     shotc: Literal[1] = Field(description="version of the language")
-    mission: Name = Field(description="name of the mission and of its output folder")
+    mission: Title = Field(description="name of the mission; its output folder is named after it")
     world: WorldSpec = section("the place and what stands in it")
     targets: dict[Name, TargetSpec] = Field(default={}, description="what is filmed")
     drones: dict[Name, DroneSpec] = Field(default={}, description="what films")

@@ -24,6 +24,17 @@ NAME = Text(
     "use letters, digits, `-`, `_` and `.`, at most 64, starting with a letter or digit",
 )
 
+# A title is for people; files are named after it by ``filenames``. No controls, no marks that turn or hide
+# text, nothing that reads as a path.
+_UNSEEN = r"\x00-\x1f\x7f-\xa0\u200b-\u200f\u2028-\u202f\u2060-\u206f\ufeff"
+_OF_PATHS = r"/\\<>:|?*" + '"'
+TITLE = Text(
+    "MissionName",
+    rf"^[^ .\-{_UNSEEN}{_OF_PATHS}]([^{_UNSEEN}{_OF_PATHS}]{{0,98}}[^ {_UNSEEN}{_OF_PATHS}])?$",
+    "unsafe-name",
+    'use letters of any script, digits, spaces and plain punctuation (no / \\ < > : " | ? *), at most 100',
+)
+
 
 class DegreesType(FieldType):
     """Latitude or longitude: a number of degrees, as maps give it; kept in degrees."""

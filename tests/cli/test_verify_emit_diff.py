@@ -164,6 +164,14 @@ def test_emit_does_not_write_the_plan_again(run: Run, plan: Path) -> None:
     assert not Path("empty").exists()
 
 
+def test_an_output_that_this_plan_cannot_have_is_an_error_with_its_reason(run: Run, plan: Path) -> None:
+    done = run("emit", str(plan), "--emit", "skyc,csv", "-o", "tables")
+    assert done.code == 1
+    assert "error[E114]: output `skyc` has no file for this plan" in done.err
+    assert "it holds the show of a fleet, here is none" in done.err
+    assert {path.name for path in Path("tables").iterdir()} == {"trajectory.csv", "framing.csv"}
+
+
 def test_emit_refuses_a_broken_plan_and_unknown_emitters(run: Run, plan: Path) -> None:
     broken = edited(plan, '"speed": 8.0', '"speed": 7.5')
     done = run("emit", str(broken), "--emit", "csv", "-o", "tables")

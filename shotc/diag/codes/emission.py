@@ -209,6 +209,18 @@ _FILE_CODES = (
 
 _VIEW_CODES = (
     CodeInfo(
+        "E114",
+        "output-empty",
+        Severity.ERROR,
+        "an output that was asked for has no file for this plan",
+        "`shotc emit --emit LIST` was asked for an output that cannot be made of this plan: a file of places on the globe "
+        "of a mission without an origin, say, or a show file of a mission without a fleet. The notes say why; the other "
+        "outputs are written. `shotc plan` leaves such an output out with a warning.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
         "E201",
         "no-viewer",
         Severity.ERROR,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
+from unicodedata import normalize
 from uuid import NAMESPACE_URL, uuid5
 
 import numpy as np
@@ -27,6 +28,11 @@ def record(plan: VerifiedIR) -> bytes:
     return recorded(plan.trajectory.keyframes.mission, "", lambda stream: _fill(stream, plan))
 
 
+def _plain(name: str) -> str:
+    """Return a name in the letters that an application id of the viewer has."""
+    return normalize("NFKD", name).encode("ascii", "ignore").decode()
+
+
 def recorded(mission: MissionIR, what: str, fill: Callable[[Any], None]) -> bytes:
     """Return a recording of a mission that ``fill`` logs into a stream; what : of the mission, if not all."""
     identity = uuid5(NAMESPACE_URL, f"shotc:{what}{mission.name}:{mission.source_sha256}")
@@ -35,7 +41,7 @@ def recorded(mission: MissionIR, what: str, fill: Callable[[Any], None]) -> byte
     try:
         # The viewer keeps one layout for every application id, so each mission has its own.
         stream = rr.RecordingStream(
-            f"shotc {what}{mission.name}", recording_id=identity, send_properties=False
+            f"shotc {what}{_plain(mission.name)}", recording_id=identity, send_properties=False
         )
         stream.set_log_time_enabled(False)
         stream.set_log_tick_enabled(False)

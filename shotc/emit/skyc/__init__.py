@@ -9,6 +9,7 @@ from shotc.emit.base import Artifact, Emission
 from shotc.emit.skyc.archive import archive
 from shotc.emit.skyc.report import left_out, no_origin, too_large
 from shotc.emit.skyc.show import MOST, show_of
+from shotc.filenames import file_name
 from shotc.ir.trajectory import VerifiedIR
 
 
@@ -32,7 +33,7 @@ class SkycEmitter:
         faults = [left_out(mission, zone) for zone in show.left_out]
         if mission.origin is None:
             faults.append(no_origin(mission))
-        file = Artifact(f"{mission.name}.skyc", archive(show.content))
+        file = Artifact(f"{file_name(mission.name)}.skyc", archive(show.content))
         note = f"{file.name}: no drone is more than {show.error * 1e3:.2f} mm from its place in the plan"
         return Emission((file,), tuple(faults), (note,))
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import Any
+from warnings import catch_warnings, filterwarnings
 
 import matplotlib as mpl
 import numpy as np
@@ -196,7 +197,8 @@ class Canvas:
         font = FontProperties(
             family="DejaVu Sans", size=style.size, weight="bold" if style.bold else "normal"
         )
-        width, height, _ = self._agg.get_renderer().get_text_width_height_descent(text, font, False)
+        with _without_glyph_warnings():
+            width, height, _ = self._agg.get_renderer().get_text_width_height_descent(text, font, False)
         return width / self._figure.dpi, height / self._figure.dpi
 
     def fitted(self, text: str, style: Type, room: float) -> Type:
@@ -206,7 +208,8 @@ class Canvas:
 
     def png(self) -> bytes:
         """Return the page as PNG bytes, the same for the same drawing."""
-        self._agg.draw()
+        with _without_glyph_warnings():
+            self._agg.draw()
         # matplotlib would write the page's transparency, of which there is none, and spend on
         # compression three times as long as this for a file of the same size.
         page = Image.fromarray(np.ascontiguousarray(np.asarray(self._agg.buffer_rgba())[..., :3]))
@@ -223,6 +226,14 @@ class Canvas:
 
     def _window(self, clip: Box) -> Any:
         return TransformedBbox(Bbox([[clip.x, clip.y], [clip.right, clip.top]]), self._inches)
+
+
+@contextmanager
+def _without_glyph_warnings() -> Iterator[None]:
+    """Draw a box for a letter that the font lacks, as in a title in Chinese, and say nothing of it."""
+    with catch_warnings():
+        filterwarnings("ignore", message=r"Glyph \d+ .*missing from font")
+        yield
 
 
 def chip(canvas: Canvas, at: tuple[float, float], text: str, face: Rgb, size: float = 7.5) -> Box:

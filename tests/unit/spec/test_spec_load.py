@@ -129,7 +129,7 @@ def test_every_code_has_a_place_test():
 
 def test_one_run_reports_every_fault(loads):
     text = """\
-mission: a b
+mission: a:b
 world:
   wind: 3 s
   zones:
