@@ -5,7 +5,6 @@ Everything here takes bytes and gives values; ``write`` alone touches the disk.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from importlib.util import find_spec
@@ -19,6 +18,7 @@ from shotc.diag.plugin_faults import plugin_failed
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
+from shotc.lowering import lower_kept, with_autopilot
 from shotc.passes.base import Outcome, PassContext, silent
 from shotc.passes.resolve.names import AUTO
 from shotc.pipeline import (
@@ -32,7 +32,6 @@ from shotc.pipeline import (
     show_passes,
 )
 from shotc.source.file import SourceFile
-from shotc.source.limits import MAX_BYTES
 from shotc.spec.load import LoadedMission, load
 
 if TYPE_CHECKING:  # the base install has no numpy
@@ -97,7 +96,7 @@ class PlanReport(NamedTuple):
 
     plan : None where it breaks a hard claim, differs from its own certificate, or is no plan
     certificate : every claim as proved now, broken ones included
-    sources : the mission that the diagnostics point into, where it still is what was planned
+    sources : the mission that the diagnostics point into, as the plan holds it
     """
 
     plan: VerifiedIR | None
@@ -147,7 +146,7 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
 
 def _lower(checked: KeyframeIR, kinds: Mapping[str, Any], options: PlanOptions, ctx: PassContext) -> Run:
     """Plan a mission that has passed the front passes: what fleets display, or what cameras film."""
-    keyframes = _with_autopilot(checked, options.autopilot)
+    keyframes = with_autopilot(checked, options.autopilot)
     if checked.mission.displays:
         options.on_mission(checked.mission)
         return _lower_show(keyframes, options, ctx)
@@ -278,30 +277,9 @@ def verify_plan(data: bytes, name: str) -> PlanReport:
         return PlanReport(None, (), missing, {})
     from shotc.passes.verify.file import verify_file
 
-    verdict = verify_file(data, name, PassContext())
-    sources = {} if verdict.mission is None else _unchanged(*verdict.mission)
+    verdict = verify_file(data, name, PassContext(), lower_kept)
+    sources = {} if verdict.mission is None else {verdict.mission.name: verdict.mission}
     return PlanReport(verdict.plan, verdict.certificate, verdict.diagnostics, sources)
-
-
-def _unchanged(name: str, sha256: str) -> dict[str, SourceFile]:
-    """Return the text of a mission that a plan was made from, where the file still holds those bytes."""
-    path = Path(name)
-    try:
-        if not path.is_file() or path.stat().st_size > MAX_BYTES:
-            return {}
-        data = path.read_bytes()
-    except (OSError, ValueError):
-        return {}
-    if hashlib.sha256(data).hexdigest() != sha256:
-        return {}
-    return {name: SourceFile(name, data.decode("utf-8-sig", "replace"))}
-
-
-def _with_autopilot(keyframes: KeyframeIR, autopilot: Literal["px4", "ardupilot"] | None) -> KeyframeIR:
-    if autopilot is None:
-        return keyframes
-    drones = tuple(drone._replace(autopilot=autopilot) for drone in keyframes.mission.drones)
-    return keyframes._replace(mission=keyframes.mission._replace(drones=drones))
 
 
 def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:

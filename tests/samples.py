@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from hashlib import sha256
 from math import atan2, pi, radians
 
 import numpy as np
 
+from shotc.geom.angles import direction
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
@@ -25,6 +27,7 @@ from shotc.ir.mission import (
 )
 from shotc.ir.origin import OriginMap
 from shotc.ir.phases import Phase
+from shotc.ir.source import MissionSource
 from shotc.ir.trajectory import Claim, DroneTrajectory, KeyframeTime, Reference, TrajectoryIR, VerifiedIR
 
 CENTER = Composition("center", points=((0.0, 0.0),))
@@ -64,8 +67,49 @@ SPEED = Claim(
 )
 
 
+def orbit_text(*, origin: bool = True) -> str:
+    """The text of `orbit_mission`."""
+    keyframes = "".join(
+        f"      - {{at: [{float(40 * np.cos(a))!r}, {float(40 * np.sin(a))!r}, 20], look_at: tower}}\n"
+        for a in AZIMUTHS
+    )
+    return f"""\
+shotc: 1
+mission: half-orbit
+world:
+{"  origin: {lat: 47.3769, lon: 8.5417, alt: 408}" if origin else ""}
+  zones:
+    tree: {{keep: out, cylinder: {{center: [-20, 10], radius: 3, height: [0, 12]}}}}
+    field: {{keep: in, polygon: {{points: [[-80, -80], [80, -80], [80, 80], [-80, 80]], height: [2, 60]}}}}
+targets:
+  tower: {{at: [0, 0, 12], radius: 4, height: 24}}
+drones:
+  cam1:
+    model: x500
+    home: [0, -60, 0]
+    limits: {{speed: 8, climb: 4, descent: 3, acceleration: 3, jerk: 8, yaw_rate: 60 deg/s,
+             yaw_acceleration: 90 deg/s^2}}
+    gimbal: {{pitch: [-90 deg, 30 deg], yaw: [-135 deg, 135 deg], rate: 45 deg/s, acceleration: 90 deg/s^2}}
+    camera: {{hfov: 70 deg, aspect: "16:9"}}
+    radius: 0.6
+    endurance: 20 min
+    body: follow-camera
+rules: {{composition: center, separation: 3, ground_clearance: 2, target_clearance: 1}}
+shots:
+  - id: half
+    kind: keyframes
+    drone: cam1
+    target: tower
+    timing: {{duration: 30}}
+    require: {{in_frame: 100 %, screen_error: 0.05}}
+    keyframes:
+{keyframes}output: {{emit: [csv, mavlink, rerun]}}
+"""
+
+
 def orbit_mission(*, origin: bool = True) -> MissionIR:
     """A half orbit round a tower, one tree and a field about it."""
+    text = orbit_text(origin=origin).encode()
     return MissionIR(
         name="half-orbit",
         origin=GeoOrigin(47.3769, 8.5417, 408.0) if origin else None,
@@ -77,9 +121,10 @@ def orbit_mission(*, origin: bool = True) -> MissionIR:
         shots=(_shot(),),
         rate=50.0,
         emit=("csv", "mavlink", "rerun"),
-        source_sha256="0" * 64,
+        source_sha256=sha256(text).hexdigest(),
         deferred=(),
         origins=OriginMap("half-orbit.yaml", {}, {}),
+        source=MissionSource(text),
     )
 
 
@@ -152,7 +197,7 @@ def _placed(shot: Shot) -> tuple[PlacedKeyframe, ...]:
     return tuple(
         PlacedKeyframe(
             at=keyframe.at,
-            yaw=pose[3],
+            yaw=direction(pose[3]),
             pitch=pose[4],
             hfov=keyframe.hfov,
             target="tower",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 from shotc.geom.solids import Solid
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.source import MissionSource
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
@@ -249,6 +250,7 @@ class MissionIR(NamedTuple):
     deferred : what only a later version can plan; planning refuses it, checking does not
     displays : the shots of fleets, in the order they are written
     files : (name, bytes) of the files that displays draw; no plan carries them
+    source : what the mission was lowered from
     """
 
     name: str
@@ -267,6 +269,7 @@ class MissionIR(NamedTuple):
     fleets: "tuple[Fleet, ...]" = ()
     displays: "tuple[Display, ...]" = ()
     files: tuple[tuple[str, bytes], ...] = ()
+    source: MissionSource = MissionSource()
 
     def drone(self, name: str) -> Drone:
         """Return the drone of that name; KeyError if there is none."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.fleet import FleetTrajectory
@@ -13,9 +13,11 @@ from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot, PlacedSub
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.path import Deviation
+from shotc.ir.source import Autopilot, Chosen, MissionSource
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.planfile.codec import Decoder, FieldFault, hints, show
 from shotc.planfile.sanity import inconsistencies
+from shotc.planfile.text import as_bytes
 from shotc.planfile.write import FORMAT, VERSION, seal
 from shotc.source.file import WHOLE_FILE, Span
 
@@ -158,6 +160,9 @@ def _report(faults: list[FieldFault], name: str) -> list[Diagnostic]:
     return shown
 
 
+_APART = frozenset({"origins", "source_sha256", "files", "source"})
+"""Fields of a mission that do not stand under `mission`."""
+
 _Spans = tuple[tuple[KeyPath, Span], ...]
 
 _DOCUMENT: dict[str, Any] = {
@@ -180,18 +185,62 @@ _DOCUMENT: dict[str, Any] = {
 def _decode(document: Any, decoder: Decoder) -> tuple[TrajectoryIR, tuple[Claim, ...]]:
     parts = decoder.fields(_DOCUMENT, document, "")
     decoder.fields({"name": str, "version": str}, parts.get("tool"), "tool")
-    source = decoder.fields({"file": str, "sha256": str}, parts.get("source"), "source")
+    source = _source(parts.get("source"), decoder)
     spans = decoder.fields({"keys": _Spans, "values": _Spans}, parts.get("origins"), "origins")
-    kinds = {k: v for k, v in hints(MissionIR).items() if k not in ("origins", "source_sha256", "files")}
+    kinds = {k: v for k, v in hints(MissionIR).items() if k not in _APART}
     fields = decoder.fields(kinds, parts.get("mission"), "mission")
-    if decoder.faults:
+    if decoder.faults or source is None:
         return None, ()  # type: ignore[return-value]
-    origins = OriginMap(source["file"], dict(spans["keys"]), dict(spans["values"]))
-    mission = MissionIR(**fields, source_sha256=source["sha256"], origins=origins)
+    origins = OriginMap(source.file, dict(spans["keys"]), dict(spans["values"]))
+    mission = MissionIR(**fields, source_sha256=source.sha256, origins=origins, source=source.source)
     keyframes = KeyframeIR(mission, _placed(parts["keyframes"], mission, decoder))
     known = (parts[name] for name in ("drones", "deviations", "statistics", "fleets"))
     trajectory = TrajectoryIR(keyframes, *known)
     return trajectory, parts["certificate"]
+
+
+class _Source(NamedTuple):
+    file: str
+    sha256: str
+    source: MissionSource
+
+
+def _source(value: Any, decoder: Decoder) -> _Source | None:
+    """Return what the mission was lowered from; plans of earlier versions hold no text of it."""
+    kinds: dict[str, Any] = {"file": str, "sha256": str}
+    if isinstance(value, dict) and not value.keys() <= kinds.keys():
+        kinds |= {"text": tuple[str, ...], "tables": object, "drawn": object, "chosen": object}
+    found = decoder.fields(kinds, value, "source")
+    if decoder.faults or "text" not in found:
+        return None if decoder.faults else _Source(found["file"], found["sha256"], MissionSource())
+    tables = _pairs(found["tables"], {"name": str, "text": tuple[str, ...]}, "source.tables", decoder)
+    drawn = _pairs(found["drawn"], {"name": str, "sha256": str}, "source.drawn", decoder)
+    choices = {"drones": object, "autopilot": Autopilot | None}
+    chosen = decoder.fields(choices, found["chosen"], "source.chosen")
+    drones = _pairs(chosen.get("drones"), {"shot": str, "drone": str}, "source.chosen.drones", decoder)
+    if decoder.faults:
+        return None
+    try:
+        text = as_bytes(found["text"])
+        read = tuple((name, as_bytes(table)) for name, table in tables)
+    except ValueError:
+        decoder.fault("source", "a text in it is that of no file")
+        return None
+    return _Source(
+        found["file"],
+        found["sha256"],
+        MissionSource(text, read, drawn, Chosen(drones, chosen["autopilot"])),
+    )
+
+
+def _pairs(value: Any, kinds: dict[str, Any], path: str, decoder: Decoder) -> tuple[tuple[Any, Any], ...]:
+    """Return pairs from a list of objects with two fields."""
+    if not isinstance(value, list):
+        decoder.fault(path, f"{show(value)} is not a list")
+        return ()
+    items = [decoder.fields(kinds, item, f"{path}[{i}]") for i, item in enumerate(value)]
+    first, second = kinds
+    return tuple((item[first], item[second]) for item in items if len(item) == len(kinds))
 
 
 def _placed(value: Any, mission: MissionIR, decoder: Decoder) -> tuple[PlacedShot, ...]:

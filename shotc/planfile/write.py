@@ -13,6 +13,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.planfile import layout
 from shotc.planfile.codec import encode
+from shotc.planfile.text import as_lines
 
 FORMAT = "shotc-plan"
 VERSION = 1
@@ -27,12 +28,12 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
     """Return the JSON value of a plan."""
     ir = plan.trajectory
     mission = ir.keyframes.mission
-    asked = {k: v for k, v in encode_mission(mission).items() if k not in ("origins", "source_sha256")}
+    asked = {k: v for k, v in encode_mission(mission).items() if k != "source_sha256"}
     return {
         "format": FORMAT,
         "version": VERSION,
         "tool": {"name": "shotc", "version": __version__},
-        "source": {"file": mission.origins.file, "sha256": mission.source_sha256},
+        "source": _source(mission),
         "mission": asked,
         "mission_sha256": seal(asked),
         "keyframes": [
@@ -62,9 +63,25 @@ def seal(mission: Any) -> str:
 
 
 def encode_mission(mission: MissionIR) -> dict[str, Any]:
-    """Return the fields of a mission, without the map of its origins and without its files."""
-    names = (name for name in MissionIR._fields if name not in ("origins", "files"))
+    """Return the fields of a mission, without the map of its origins, its files and its text."""
+    names = (name for name in MissionIR._fields if name not in ("origins", "files", "source"))
     return {name: encode(getattr(mission, name)) for name in names}
+
+
+def _source(mission: MissionIR) -> dict[str, Any]:
+    """Return what the mission was lowered from, so that verification can lower it again."""
+    source = mission.source
+    return {
+        "file": mission.origins.file,
+        "sha256": mission.source_sha256,
+        "text": as_lines(source.text),
+        "tables": [{"name": name, "text": as_lines(data)} for name, data in source.tables],
+        "drawn": [{"name": name, "sha256": digest} for name, digest in source.drawn],
+        "chosen": {
+            "drones": [{"shot": shot, "drone": drone} for shot, drone in source.chosen.drones],
+            "autopilot": source.chosen.autopilot,
+        },
+    }
 
 
 def _origins(mission: MissionIR, certificate: tuple[Claim, ...]) -> dict[str, Any]:

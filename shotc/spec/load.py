@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import OriginMap
+from shotc.ir.source import Chosen, KeptFiles
 from shotc.source.file import SourceFile
 from shotc.source.yaml_tree import Document, parse
 from shotc.spec.mission import VERSION, MissionSpec, is_version
@@ -26,14 +27,17 @@ _PLAN = rb'\s*\{\s*"format"\s*:\s*"shotc-plan"'
 class LoadedMission(NamedTuple):
     """A mission whose shape is right; names are not resolved yet.
 
-    folder : where the files that it names are, or None for text without a place
-    sha256 : of the mission's bytes, hexadecimal
+    folder : where the files that it names are, or the files themselves, or None for text without a place
+    sha256 : of the mission's bytes, hexadecimal; text : those bytes
+    chosen : what planning chose where the text leaves it open
     """
 
     spec: MissionSpec
     origins: OriginMap
-    folder: Path | None
+    folder: Path | KeptFiles | None
     sha256: str
+    text: bytes = b""
+    chosen: Chosen = Chosen()
 
 
 class Loaded(NamedTuple):
@@ -51,13 +55,13 @@ class Loaded(NamedTuple):
 def load(
     data: bytes,
     name: str,
-    folder: Path | None,
+    folder: Path | KeptFiles | None,
     kinds: Mapping[str, type[ShotBase]],
     unusable: Mapping[str, Diagnostic] = NOTHING,
 ) -> Loaded:
     """Read a mission; never raises, whatever the bytes are.
 
-    name : how to show the file; folder : where it is; kinds : the model of every kind of shot
+    name : how to show the file; folder : as in LoadedMission; kinds : the model of every kind of shot
     unusable : kinds that are registered and cannot be used, and why
     """
     if data[:64].lstrip().startswith(b"{") and re.match(_PLAN, data):
@@ -78,7 +82,10 @@ def load(
         assert faults, "a mission is not rejected without a word"
         return Loaded(None, faults, document.file, _title(document))
     return Loaded(
-        LoadedMission(spec, origins, folder, sha256(data).hexdigest()), (), document.file, spec.mission
+        LoadedMission(spec, origins, folder, sha256(data).hexdigest(), data),
+        (),
+        document.file,
+        spec.mission,
     )
 
 

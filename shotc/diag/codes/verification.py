@@ -373,6 +373,27 @@ _FILE = (
             "at once. The proof that counts is the new one; plan the mission again.",
         ),
     ),
+    _code(
+        41,
+        "plan-of-another-mission",
+        (
+            "the plan says another thing of its mission than the mission itself",
+            "A plan holds the text of its mission and the tables that it names. `shotc verify` lowers them again, as "
+            "`check` does, and holds the plan to all that comes of it: shots, keyframes, holds, times, places on screen, "
+            "targets, drones, limits, zones. Here what the plan says differs, so the file was edited, or another version "
+            "of shotc wrote it. Plan the mission again.",
+        ),
+    ),
+    _code(
+        42,
+        "plan-without-its-mission",
+        (
+            "the mission of a plan cannot be lowered again",
+            "What a plan is to do follows from its mission alone, so a plan without one proves nothing: one that an "
+            "earlier version of shotc wrote, one whose text or tables were cut out, one with a kind of shot that no "
+            "installed package has. Plan the mission again, or install the package.",
+        ),
+    ),
 )
 
 CODES: tuple[CodeInfo, ...] = tuple(

@@ -49,7 +49,9 @@ def _with(ir: LoadedMission, choice: Choice) -> LoadedMission:
         shot.model_copy(update={"drone": choice[i]}) if shot.drone == AUTO else shot
         for i, shot in enumerate(ir.spec.shots)
     )
-    return ir._replace(spec=ir.spec.model_copy(update={"shots": shots}))
+    drones = ((shot.id, choice[i]) for i, shot in enumerate(ir.spec.shots) if shot.drone == AUTO)
+    chosen = ir.chosen._replace(drones=tuple(drones))
+    return ir._replace(spec=ir.spec.model_copy(update={"shots": shots}), chosen=chosen)
 
 
 def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:

@@ -12,11 +12,12 @@ from typing import ClassVar, Final, NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
 from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, Zone
+from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.deferred import deferred_features
 from shotc.passes.resolve.earth import check_earth, geo_origin
-from shotc.passes.resolve.files import Ground, match_files, read_file
+from shotc.passes.resolve.files import Ground, Reader, match_files
 from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
@@ -37,12 +38,14 @@ ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
 class _World(NamedTuple):
     """All but the shots.
 
-    put : puts a place into W; astray : whether its places on earth lie too far from each other
+    put : puts a place into W; read : who reads the files, and has those that were read
+    astray : whether its places on earth lie too far from each other
     sound : whether every drone can fly as it is written
     """
 
     put: Put
     ground: Ground
+    read: Reader
     zones: tuple[Zone, ...]
     drones: Mapping[str, Drone]
     targets: Mapping[str, Target | None]
@@ -99,7 +102,8 @@ def _world(ir: LoadedMission) -> _World:
     astray = check_earth(spec, origins)
     origin = geo_origin(spec)
     put = partial(placed, origin or ANYWHERE)
-    ground = Ground(origin, origins, partial(read_file, ir.folder, origins))
+    read = Reader(ir.folder, origins)
+    ground = Ground(origin, origins, read)
     found_zones, zone_faults = zones(spec, put, origins)
     found_drones, drone_faults = drones(spec, put, origins)
     tracks, track_faults = tracks_of(ir, put, ground)
@@ -108,6 +112,7 @@ def _world(ir: LoadedMission) -> _World:
     return _World(
         put,
         ground,
+        read,
         found_zones,
         found_drones,
         found_targets,
@@ -137,6 +142,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         fleets=show.fleets,
         displays=shots.displays,
         files=show.files,
+        source=MissionSource(ir.text, tuple(world.read.tables.items()), show.drawn, ir.chosen),
     )
 
 

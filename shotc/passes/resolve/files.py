@@ -9,6 +9,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
 from shotc.source.limits import MAX_TABLE_BYTES
 from shotc.spec.words import closest
@@ -16,7 +17,24 @@ from shotc.spec.words import closest
 MOST_FILES = 5_000  # frames of an animation
 _WILD = "*?"
 Read = Callable[[str, KeyPath], bytes | Diagnostic]
+NOT_KEPT = "plan the mission again: a plan keeps every file that its mission reads"
 NO_FOLDER = "a mission read from standard input has no folder; save it to a file"
+
+
+class Reader:
+    """Reads the tables that a mission names, and keeps what it has read: a plan holds them, too."""
+
+    def __init__(self, folder: Path | KeptFiles | None, origins: OriginMap) -> None:
+        self._folder = folder
+        self._origins = origins
+        self.tables: dict[str, bytes] = {}
+
+    def __call__(self, name: str, path: KeyPath) -> bytes | Diagnostic:
+        """Return the bytes of the file that the mission names at ``path``, or what is wrong with it."""
+        data = read_file(self._folder, self._origins, name, path)
+        if isinstance(data, bytes):
+            self.tables[name] = data
+        return data
 
 
 class Ground(NamedTuple):
@@ -31,7 +49,11 @@ class Ground(NamedTuple):
 
 
 def read_file(
-    folder: Path | None, origins: OriginMap, name: str, path: KeyPath, most: int = MAX_TABLE_BYTES
+    folder: Path | KeptFiles | None,
+    origins: OriginMap,
+    name: str,
+    path: KeyPath,
+    most: int = MAX_TABLE_BYTES,
 ) -> bytes | Diagnostic:
     """Return the bytes of the file that the mission names at ``path``, or what is wrong with it.
 
@@ -41,6 +63,9 @@ def read_file(
     label = (origins.value(path),)
     if folder is None:
         return Diagnostic("N008", f"cannot read `{name}`", label, ("the mission has no folder",), NO_FOLDER)
+    if isinstance(folder, KeptFiles):
+        kept = folder.tables.get(name)
+        return Diagnostic("N008", f"`{name}` is not kept", label, help=NOT_KEPT) if kept is None else kept
     try:
         root = folder.resolve()
         place = (root / name).resolve()
@@ -68,7 +93,7 @@ def read_file(
 
 
 def match_files(
-    folder: Path | None, origins: OriginMap, pattern: str, path: KeyPath
+    folder: Path | KeptFiles | None, origins: OriginMap, pattern: str, path: KeyPath
 ) -> tuple[str, ...] | Diagnostic:
     """Return the names of the files that a pattern at ``path`` stands for, or what is wrong with it.
 
@@ -85,7 +110,7 @@ def match_files(
     if folder is None:
         note = "the mission has no folder"
         return Diagnostic("N008", f"cannot look for `{pattern}`", label, (note,), NO_FOLDER)
-    found = _listed(folder, where, last)
+    found = _kept(folder, where, last) if isinstance(folder, KeptFiles) else _listed(folder, where, last)
     if isinstance(found, str):
         return Diagnostic("N008", f"cannot look for `{pattern}`", label, (found,), "check the folder's name")
     if not found:
@@ -97,9 +122,20 @@ def match_files(
     return tuple(f"{where}{slash}{name}" for name in sorted(found, key=_in_order))
 
 
+def _fitting(pattern: str) -> re.Pattern[str]:
+    return re.compile(translate(pattern.replace("[", "[[]")))
+
+
+def _kept(files: KeptFiles, where: str, pattern: str) -> list[str]:
+    """Return the names in a folder that fit a pattern, of the files that were there when they were listed."""
+    fits = _fitting(pattern)
+    apart = (name.rpartition("/") for name in dict(files.drawn))
+    return [last for folder, _, last in apart if folder == where and fits.match(last)]
+
+
 def _listed(folder: Path, where: str, pattern: str) -> list[str] | str:
     """Return the names in a folder that fit a pattern, or why they cannot be listed."""
-    fits = re.compile(translate(pattern.replace("[", "[[]")))
+    fits = _fitting(pattern)
     try:
         root = folder.resolve()
         place = (root / where).resolve()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
+from shotc.ir.source import KeptFiles
 from shotc.passes.resolve.files import Ground
 from shotc.passes.resolve.world import Put
 from shotc.spec.load import LoadedMission
@@ -48,10 +49,14 @@ def check_ideals(mission: MissionIR) -> list[Diagnostic]:
 
 
 class Show(NamedTuple):
-    """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others."""
+    """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others.
+
+    files : (name, bytes); drawn : (name, SHA-256) of the same
+    """
 
     fleets: "tuple[Fleet, ...]" = ()
     files: tuple[tuple[str, bytes], ...] = ()
+    drawn: tuple[tuple[str, str], ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -59,11 +64,13 @@ def shown(ir: LoadedMission, put: Put, ground: Ground, displays: "tuple[Display,
     """Resolve the fleets, and read what their displays draw."""
     if not ir.spec.fleets:
         return Show()
-    from shotc.passes.resolve.show import fleets_of, read_material
+    from shotc.passes.resolve.show import digests, fleets_of, not_kept, read_material
 
     fleets, wrong = fleets_of(ir.spec, put, ground)
+    if isinstance(ir.folder, KeptFiles):
+        return Show(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
     files, missing = read_material(displays, ir.folder, ir.origins)
-    return Show(fleets, files, (*wrong, *missing))
+    return Show(fleets, files, digests(files), (*wrong, *missing))
 
 
 def check_fleets(mission: MissionIR, ir: LoadedMission, *, order: bool) -> list[Diagnostic]:

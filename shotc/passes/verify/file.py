@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from math import isfinite
 
 from shotc import __version__
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.lowered import Lowered
+from shotc.ir.source import MissionSource
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
 from shotc.passes.verify.advice import REPLAN
+from shotc.passes.verify.asked import Difference, differences, source_differences
 from shotc.passes.verify.claims import TOLERANCE
 from shotc.passes.verify.numbers import told_apart
 from shotc.planfile.read import ReadPlan, read_plan
-from shotc.source.file import WHOLE_FILE
+from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.units import clip
+
+Lower = Callable[[MissionSource, str], Lowered]
 
 REPORTED = 10
 """Differing claims that are reported one by one."""
@@ -38,31 +44,77 @@ class FileVerdict:
 
     plan : the verified plan, or None where it breaks a hard claim or is no plan
     certificate : every claim as proved now, broken ones included
-    mission : what the mission file was called, and the SHA-256 of its bytes, where the plan can be read
+    mission : the text of the mission in the plan, where the plan can be read
     """
 
     plan: VerifiedIR | None
     certificate: tuple[Claim, ...]
     diagnostics: tuple[Diagnostic, ...]
-    mission: tuple[str, str] | None = None
+    mission: SourceFile | None = None
 
 
-def verify_file(data: bytes, name: str, ctx: PassContext) -> FileVerdict:
-    """Prove the plan in ``data``; ``name`` is how to show the file."""
+def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileVerdict:
+    """Prove the plan in ``data`` by what its mission, lowered again, asks for.
+
+    name : how to show the file; lower : lowers the mission that a plan holds
+    """
     read = read_plan(data, name)
     if read.trajectory is None:
         return FileVerdict(None, (), read.diagnostics)
-    verdict = judge(read.trajectory, ctx)
-    diagnostics = list(verdict.diagnostics)
+    written = read.trajectory.keyframes
+    asked = lower(written.mission.source, written.mission.origins.file)
+    if asked.keyframes is None:
+        return FileVerdict(None, (), _not_lowered(read, asked, name), asked.file)
+    other = _of_another_mission(read, asked.keyframes)
+    # What is said of another mission is judged by itself: its own faults may explain what was done to it.
+    ir = read.trajectory if other else replace(read.trajectory, keyframes=asked.keyframes)
+    verdict = judge(ir, ctx)
+    diagnostics = [*other, *verdict.diagnostics]
     if verdict.certificate:
         diagnostics += _against_the_file(read, verdict.certificate, name)
-    mission = read.trajectory.keyframes.mission
-    return FileVerdict(
-        None if has_errors(diagnostics) else VerifiedIR(read.trajectory, verdict.certificate),
-        verdict.certificate,
-        tuple(diagnostics),
-        (mission.origins.file, mission.source_sha256),
-    )
+    plan = None if has_errors(diagnostics) else VerifiedIR(ir, verdict.certificate)
+    return FileVerdict(plan, verdict.certificate, tuple(diagnostics), asked.file)
+
+
+def _not_lowered(read: ReadPlan, asked: Lowered, name: str) -> tuple[Diagnostic, ...]:
+    """Say why the mission in a plan cannot be lowered, and then its own faults."""
+    label = (Label(name, WHOLE_FILE),)
+    assert read.trajectory is not None
+    if not read.trajectory.keyframes.mission.source.text:
+        text = "the plan does not hold the mission that it was made from"
+        return (Diagnostic("V042", text, label, _writer(read), REPLAN),)
+    text = "the mission in the plan cannot be lowered, so nothing tells what the plan is to do"
+    notes = ("the faults of that mission follow", *_writer(read))
+    help_ = f"{REPLAN}; where a kind of shot is unknown, install the package that it comes from"
+    return (Diagnostic("V042", text, label, notes, help_), *asked.diagnostics)
+
+
+def _writer(read: ReadPlan) -> tuple[str, ...]:
+    if read.tool == __version__:
+        return ()
+    return (f"the file was written by shotc {clip(read.tool)}, this is {__version__}",)
+
+
+def _of_another_mission(read: ReadPlan, asked: KeyframeIR) -> list[Diagnostic]:
+    """Report what the plan says of its mission that the mission does not say."""
+    assert read.trajectory is not None
+    written = read.trajectory.keyframes
+    found = [*differences(written, asked), *source_differences(written.mission, asked.mission)]
+    return told(found, asked, "V041", (*_writer(read),))
+
+
+def told(
+    found: Sequence[Difference], asked: KeyframeIR, code: str, notes: tuple[str, ...]
+) -> list[Diagnostic]:
+    """Return differences as diagnostics on the mission's lines, the first ones each, the others together."""
+    shown = [
+        Diagnostic(code, d.text, (asked.mission.origins.value(d.path),), notes, REPLAN)
+        for d in found[:REPORTED]
+    ]
+    if len(found) > REPORTED:
+        more = f"and {len(found) - REPORTED} more differences between the plan and its mission"
+        shown.append(Diagnostic(code, more, (asked.mission.origins.value(()),), help=REPLAN))
+    return shown
 
 
 def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> list[Diagnostic]:

@@ -24,10 +24,12 @@ from shotc.planfile.compare import compare
 from shotc.planfile.read import read_plan
 from shotc.source.file import Span
 from tests.fleets import CONTEXT, PADS, display, fleet, mission, plan
+from tests.lowered import always
 from tests.records import replace
 
 PLAN = plan()
 DATA = EMITTER.emit(PLAN).artifacts[0].data
+LOWER = always(PLAN.trajectory.keyframes)
 
 
 def same(a: Any, b: Any) -> bool:
@@ -45,7 +47,7 @@ def test_a_show_comes_back_as_it_was() -> None:
     assert read.diagnostics == ()
     assert same(read.trajectory, PLAN.trajectory)
     assert same(read.certificate, PLAN.certificate)
-    verdict = verify_file(DATA, "plan.json", CONTEXT)
+    verdict = verify_file(DATA, "plan.json", CONTEXT, LOWER)
     assert verdict.diagnostics == ()
     assert verdict.plan is not None
     assert verdict.certificate == PLAN.certificate
@@ -158,7 +160,9 @@ EDITS: list[tuple[str, Callable[[dict[str, Any]], Any], str, str]] = [
 def test_edits_are_noticed(edit: Callable[[dict[str, Any]], Any], code: str, said: str) -> None:
     document = json.loads(DATA)
     edit(document)
-    verdict = verify_file(json.dumps(document).encode(), "plan.json", CONTEXT)
+    verdict = verify_file(
+        json.dumps(document).encode(), "plan.json", CONTEXT, always(PLAN.trajectory.keyframes)
+    )
     found = [d for d in verdict.diagnostics if d.code == code]
     assert any(said in d.message for d in found)
     assert verdict.plan is None
@@ -183,7 +187,9 @@ def test_any_value_anywhere_is_told_not_raised(place: tuple[str | int, ...], jun
     for key in place[:-1]:
         at = at[key]
     at[place[-1]] = junk
-    verdict = verify_file(json.dumps(document).encode(), "plan.json", CONTEXT)
+    verdict = verify_file(
+        json.dumps(document).encode(), "plan.json", CONTEXT, always(PLAN.trajectory.keyframes)
+    )
     assert all(d.code in registry() for d in verdict.diagnostics)
 
 

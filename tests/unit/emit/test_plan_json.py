@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from shotc.ir.mission import Zone
 from shotc.ir.origin import OriginMap
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import VerifiedIR
+from shotc.lowering import lower_kept
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
 from shotc.passes.verify.file import verify_file
@@ -24,6 +26,7 @@ from shotc.planfile import layout
 from shotc.planfile.compare import compare
 from shotc.planfile.read import read_plan
 from shotc.source.file import Span
+from tests.lowered import always
 from tests.records import replace
 from tests.samples import orbit_plan
 
@@ -68,7 +71,7 @@ def test_the_same_bytes_twice_and_after_reading() -> None:
     again = EMITTER.emit(verified(orbit_plan())).artifacts[0]
     assert again.name == "plan.json"
     assert again.data == DATA
-    verdict = verify_file(DATA, "plan.json", CONTEXT)
+    verdict = verify_file(DATA, "plan.json", CONTEXT, always(PLAN.trajectory.keyframes))
     assert verdict.diagnostics == ()
     assert verdict.plan is not None
     assert verdict.certificate == PLAN.certificate
@@ -78,7 +81,7 @@ def test_the_same_bytes_twice_and_after_reading() -> None:
 def test_the_file_is_versioned_and_can_be_skimmed() -> None:
     document = json.loads(DATA)
     assert (document["format"], document["version"]) == ("shotc-plan", 1)
-    assert document["source"]["sha256"] == "0" * 64
+    assert document["source"]["sha256"] == sha256("\n".join(document["source"]["text"]).encode()).hexdigest()
     assert document["drones"][0]["phases"][2] == {"name": "shot", "shot": "half", "start": 22.0, "end": 52.0}
     lines = DATA.decode("ascii").splitlines()
     assert max(map(len, lines)) < 450
@@ -116,7 +119,7 @@ def test_unlimited_heights_and_missing_origins_survive() -> None:
     read = read_plan(data, "plan.json").trajectory
     assert read is not None
     assert same(read, plan)
-    assert verify_file(data, "plan.json", CONTEXT).diagnostics == ()
+    assert verify_file(data, "plan.json", CONTEXT, always(plan.keyframes)).diagnostics == ()
 
 
 def curve(document: dict[str, Any]) -> dict[str, Any]:
@@ -170,7 +173,7 @@ EDITS: list[tuple[str, Callable[[dict[str, Any]], None], str, str]] = [
 
 @pytest.mark.parametrize(("edit", "code", "said"), [e[1:] for e in EDITS], ids=[e[0] for e in EDITS])
 def test_edits_are_noticed(edit: Callable[[dict[str, Any]], None], code: str, said: str) -> None:
-    verdict = verify_file(edited(edit), "plan.json", CONTEXT)
+    verdict = verify_file(edited(edit), "plan.json", CONTEXT, lower_kept)
     found = [d for d in verdict.diagnostics if d.code == code]
     assert found
     assert any(said in d.message for d in found)
@@ -226,7 +229,7 @@ def test_any_value_in_any_place_is_read_or_told(data: st.DataObject) -> None:
             break
         place = inner
     place[key] = data.draw(junk)
-    verdict = verify_file(json.dumps(document).encode(), "plan.json", CONTEXT)
+    verdict = verify_file(json.dumps(document).encode(), "plan.json", CONTEXT, lower_kept)
     assert verdict.plan is not None or verdict.diagnostics
 
 

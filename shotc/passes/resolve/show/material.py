@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import partial
+from hashlib import sha256
 from pathlib import Path
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.show import Display, Drawing, Lettering, Model, Picture
+from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.svg import svg_fault
-from shotc.passes.resolve.files import read_file
+from shotc.passes.resolve.files import NOT_KEPT, read_file
 from shotc.passes.resolve.show.places import key_of
 from shotc.source.limits import MAX_TABLE_BYTES
 
@@ -45,6 +47,22 @@ def read_material(
         else:
             found[name] = data
     return tuple(found.items()), list(faults.values())
+
+
+def digests(files: Material) -> tuple[tuple[str, str], ...]:
+    """Return (name, SHA-256, hexadecimal) of files."""
+    return tuple((name, sha256(data).hexdigest()) for name, data in files)
+
+
+def not_kept(displays: Iterable[Display], kept: KeptFiles, origins: OriginMap) -> list[Diagnostic]:
+    """Return a fault for every file that displays draw and a plan does not know."""
+    known = dict(kept.drawn)
+    named = (found for display in displays for found in _named(display))
+    return [
+        Diagnostic("N008", f"`{name}` is not kept", (origins.value(path),), help=NOT_KEPT)
+        for name, path in dict(named).items()
+        if name not in known
+    ]
 
 
 def _named(display: Display) -> Iterator[tuple[str, KeyPath]]:

@@ -1,0 +1,46 @@
+"""What a mission is lowered from: its text, the files it names, and what planning chose. Plain Python."""
+
+from typing import Literal, NamedTuple
+
+Autopilot = Literal["px4", "ardupilot"]
+
+
+class Chosen(NamedTuple):
+    """What planning chose where the mission leaves it open.
+
+    drones : (id of a shot with `drone: auto`, its drone); autopilot : of every drone, None where each keeps
+        its own
+    """
+
+    drones: tuple[tuple[str, str], ...] = ()
+    autopilot: Autopilot | None = None
+
+
+class MissionSource(NamedTuple):
+    """All that a mission is made from: with it, and the kinds that are installed, it is lowered again.
+
+    text : the bytes of the mission file, none of a mission that was made without one
+    tables : (name, bytes) of the tracks, paths and layouts that it names
+    drawn : (name, SHA-256, hexadecimal) of the files that its displays draw: nothing of a plan but how well a
+        picture is drawn depends on what is in them
+    """
+
+    text: bytes = b""
+    tables: tuple[tuple[str, bytes], ...] = ()
+    drawn: tuple[tuple[str, str], ...] = ()
+    chosen: Chosen = Chosen()
+
+
+class KeptFiles(NamedTuple):
+    """The files of a mission that is lowered again, in place of its folder.
+
+    tables : bytes by name; drawn : (name, SHA-256) of the files that displays draw
+    """
+
+    tables: dict[str, bytes]
+    drawn: tuple[tuple[str, str], ...]
+
+
+def kept_files(source: MissionSource) -> KeptFiles:
+    """Return the files that a source holds."""
+    return KeptFiles(dict(source.tables), source.drawn)

@@ -1,0 +1,82 @@
+"""A mission lowered again: what it asks for, from its own text, with what planning chose for it.
+
+A plan holds the mission's text and the tables that it names, so that verification takes from the mission
+itself what the plan is to do, and believes nothing that the plan says of it.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from shotc import plugins
+from shotc.checking import models_of
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.lowered import Lowered
+from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, kept_files
+from shotc.passes.base import PassContext
+from shotc.passes.resolve.names import AUTO
+from shotc.pipeline import front_passes, run
+from shotc.source.file import SourceFile
+from shotc.spec.load import LoadedMission, load
+
+
+def lower_kept(source: MissionSource, name: str) -> Lowered:
+    """Lower the mission that a plan holds; ``name`` is how to show it."""
+    return lower(source.text, name, kept_files(source), source.chosen)
+
+
+def lower(data: bytes, name: str, folder: Path | KeptFiles | None, chosen: Chosen) -> Lowered:
+    """Lower a mission as far as it goes without a solver.
+
+    data, name, folder : as of ``spec.load.load``
+    chosen : what planning chose; a shot without a drone of its own takes its drone from there
+    """
+    kinds = plugins.shot_kinds()
+    loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
+    found = list(loaded.diagnostics)
+    mission = None if loaded.mission is None else _with_chosen(loaded.mission, chosen, found)
+    if mission is None or has_errors(found):
+        return _stopped(found, loaded.file)
+    return _placed(mission, kinds.plugins, loaded.file, chosen.autopilot)
+
+
+def _placed(
+    mission: LoadedMission, kinds: Mapping[str, Any], file: SourceFile, autopilot: Autopilot | None
+) -> Lowered:
+    front = run(front_passes(kinds), mission, PassContext())
+    if not isinstance(front.value, KeyframeIR) or has_errors(front.diagnostics):
+        return _stopped(front.diagnostics, file)
+    return Lowered(with_autopilot(front.value, autopilot), (), file)
+
+
+def _stopped(found: Any, file: SourceFile) -> Lowered:
+    return Lowered(None, tuple(d for d in found if has_errors([d])), file)
+
+
+def _with_chosen(mission: LoadedMission, chosen: Chosen, found: list[Diagnostic]) -> LoadedMission:
+    """Return the mission with the drones that were chosen; a shot that lacks one is told in ``found``."""
+    drones = dict(chosen.drones)
+    shots = mission.spec.shots
+    left = {i: shot.id for i, shot in enumerate(shots) if shot.drone == AUTO}
+    for i in (i for i, name in left.items() if name not in drones):
+        label = mission.origins.value(("shots", i, "drone"))
+        text = f"the plan does not say which drone films shot `{left[i]}`"
+        found.append(Diagnostic("V042", text, (label,), help="plan the mission again"))
+    filled = tuple(
+        shot.model_copy(update={"drone": drones.get(shot.id, AUTO)}) if i in left else shot
+        for i, shot in enumerate(shots)
+    )
+    used = Chosen(tuple((name, drones[name]) for name in left.values() if name in drones))
+    return mission._replace(spec=mission.spec.model_copy(update={"shots": filled}), chosen=used)
+
+
+def with_autopilot(keyframes: KeyframeIR, autopilot: Autopilot | None) -> KeyframeIR:
+    """Return the mission with every drone under another autopilot than its model's, if one was chosen."""
+    if autopilot is None:
+        return keyframes
+    mission = keyframes.mission
+    drones = tuple(drone._replace(autopilot=autopilot) for drone in mission.drones)
+    source = mission.source._replace(chosen=mission.source.chosen._replace(autopilot=autopilot))
+    return keyframes._replace(mission=mission._replace(drones=drones, source=source))

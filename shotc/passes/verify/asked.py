@@ -1,0 +1,191 @@
+"""Where a plan says another thing of its mission than the mission itself, lowered again."""
+
+from collections.abc import Iterator, Sequence
+from itertools import zip_longest
+from math import isfinite
+from typing import Any, NamedTuple
+
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.records import field_names
+from shotc.units import clip
+
+SAME = 1e-9
+"""Share of a number (at least of one) by which it may differ: machines round sines in their own way."""
+
+FOUND = 1e-6
+"""The same for places that are found by iteration, from how subjects are to appear."""
+
+APART = frozenset({"origins", "source", "files"})
+"""Fields of a mission that are no part of what it asks for."""
+
+ELSEWHERE = frozenset({"path", "source_sha256"})
+"""Fields that say where something is written; another file may say the same elsewhere."""
+
+
+class Difference(NamedTuple):
+    """One thing in which a plan differs from its mission; path : where the mission writes it."""
+
+    path: KeyPath
+    text: str
+
+
+class _Place(NamedTuple):
+    """Where a comparison is: in words and in the mission.
+
+    passed : fields that are passed over; near : share of a number by which it may differ
+    """
+
+    words: str
+    path: KeyPath
+    passed: frozenset[str]
+    near: float = SAME
+
+    def field(self, name: str) -> "_Place":
+        """Return the place of a field."""
+        words = f"{self.words}, {name}" if self.words else name
+        return self._replace(words=words, path=(*self.path, name))
+
+    def item(self, words: str, path: KeyPath) -> "_Place":
+        """Return the place of an element that has a name of its own."""
+        return self._replace(words=words, path=path)
+
+    def differs(self, text: str) -> Difference:
+        """Return a difference here."""
+        return Difference(self.path, f"{self.words}{text}")
+
+
+def differences(written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = True) -> Iterator[Difference]:
+    """Yield where what a plan says of its mission differs from what the mission asks for.
+
+    same_text : whether both were lowered from one text, in which everything has to stand at one place
+    """
+    passed = APART if same_text else APART | ELSEWHERE
+    yield from _walk(written.mission, asked.mission, _Place("", (), passed))
+    yield from _walk(written.shots, asked.shots, _Place("placed shots", ("shots",), passed | {"shot"}))
+    if same_text:
+        yield from _origins(written, asked)
+
+
+def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[Difference]:
+    """Yield where the files or the choices that a plan holds are not those that its mission uses."""
+    for words, mine, true in (
+        (
+            "the tables in the plan",
+            [n for n, _ in written.source.tables],
+            [n for n, _ in asked.source.tables],
+        ),
+        ("the drawings in the plan", written.source.drawn, asked.source.drawn),
+        ("the drones that were chosen", written.source.chosen, asked.source.chosen),
+    ):
+        if mine != true:
+            yield Difference((), f"{words} are not those that the mission uses")
+
+
+def _origins(written: KeyframeIR, asked: KeyframeIR) -> Iterator[Difference]:
+    """Yield a place in the file that is told wrong."""
+    one, other = written.mission.origins, asked.mission.origins
+    for mine, true in ((one.keys, other.keys), (one.values, other.values)):
+        for path, span in mine.items():
+            if path not in true or true[path] != span:
+                name = ".".join(map(str, path)) or "the mission"
+                yield Difference(path, f"the place of {name} in the file is another one")
+                return
+
+
+def _walk(written: Any, asked: Any, at: _Place) -> Iterator[Difference]:
+    if written is asked:
+        return
+    if isinstance(written, float | int) and isinstance(asked, float | int):
+        if not _same(written, asked, at.near):
+            yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+    elif type(written) is not type(asked):
+        yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+    elif names := field_names(asked):
+        near = FOUND if getattr(asked, "framed", False) is True else at.near
+        here = at._replace(path=getattr(asked, "path", at.path), near=near)
+        for name in names:
+            if name not in at.passed:
+                yield from _walk(getattr(written, name), getattr(asked, name), here.field(name))
+    elif isinstance(asked, tuple):
+        yield from _items(written, asked, at)
+    elif written != asked:
+        yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+
+
+def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[Difference]:
+    named = [_name(item) for item in (*written, *asked)]
+    if named and all(named):
+        yield from _named(written, asked, at)
+    elif all(isinstance(item, float | int | str) for item in (*written, *asked)):
+        pairs = zip(written, asked, strict=False)
+        if len(written) != len(asked) or not all(_same(one, other, at.near) for one, other in pairs):
+            yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+    elif len(written) != len(asked):
+        yield at.differs(f": the plan has {len(written)}, the mission asks for {len(asked)}")
+    else:
+        for i, (one, other) in enumerate(zip(written, asked, strict=True), 1):
+            words = f"{_one_of(at.words)} {i}"
+            yield from _walk(one, other, at.item(words, _path(other, at)))
+
+
+def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[Difference]:
+    """Compare elements that have names: which there are, in which order, and each with its namesake."""
+    mine, true = {_name(item): item for item in written}, {_name(item): item for item in asked}
+    for name, item in true.items():
+        if name not in mine:
+            yield Difference(_path(item, at), f"{at.words}: `{name}` is left out")
+    for name in mine:
+        if name not in true:
+            yield at.differs(f": the mission has no `{clip(name)}`")
+    if mine.keys() == true.keys():
+        for one, other in zip_longest(written, asked):
+            if one is None or other is None or _name(one) != _name(other):
+                yield at.differs(" are in another order, or there twice")
+                break
+    for name, item in true.items():
+        if name in mine:
+            place = at.item(f"{_one_of(at.words)} `{name}`", _path(item, at))
+            yield from _walk(mine[name], item, place)
+
+
+def _path(item: Any, at: _Place) -> KeyPath:
+    """Return where the mission writes an element; a placed shot is written where its shot is."""
+    found: KeyPath = getattr(getattr(item, "shot", item), "path", at.path)
+    return found
+
+
+def _one_of(words: str) -> str:
+    """Return the name of one of what has a name in the plural."""
+    return words.removesuffix("s")
+
+
+def _name(item: Any) -> str:
+    """Return the name of an element, empty where it has none."""
+    if not field_names(item):
+        return ""
+    if "shot" in field_names(item):
+        return _name(item.shot)
+    found = getattr(item, "name", getattr(item, "id", ""))
+    return found if isinstance(found, str) else ""
+
+
+def _same(a: Any, b: Any, near: float) -> bool:
+    if isinstance(a, float) and isinstance(b, float) and isfinite(a) and isfinite(b):
+        return abs(a - b) <= near * max(1.0, abs(a), abs(b))
+    return bool(a == b) and isinstance(a, bool) == isinstance(b, bool)
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return f"{value:.9g}"
+    if isinstance(value, int):
+        return clip(str(value))
+    if isinstance(value, tuple) and not field_names(value):
+        return clip(f"({', '.join(map(_shown, value))})")
+    if field_names(value):
+        return f"a {type(value).__name__}"
+    return "nothing" if value is None else f"`{clip(str(value))}`"

@@ -1,0 +1,18 @@
+"""Texts of files as lists of their lines, exactly: UTF-8 as it reads, any other byte as a lone surrogate."""
+
+from __future__ import annotations
+
+from shotc.planfile.layout import Rows
+
+_ESCAPED = "surrogateescape"
+_END = "\n"
+
+
+def as_lines(data: bytes) -> Rows:
+    """Return the lines of a file's bytes; a carriage return belongs to the line that it ends."""
+    return Rows(data.decode("utf-8", _ESCAPED).split(_END))
+
+
+def as_bytes(lines: tuple[str, ...]) -> bytes:
+    """Return the bytes of a file from its lines; ValueError where they are those of no file."""
+    return _END.join(lines).encode("utf-8", _ESCAPED)
