@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import degrees, isfinite
 from pathlib import Path
 from textwrap import wrap
@@ -10,6 +10,7 @@ from textwrap import wrap
 from shotc.cli.fleet_summary import display_rows, headline, nearest
 from shotc.cli.table import clock, table
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
+from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 
@@ -73,7 +74,7 @@ def _framing(told: ScreenSummary) -> tuple[str, str, str]:
 def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
-    facts += [("drones", text) for text in (*_together(plan), *nearest(plan))]
+    facts += [("drones", text) for text in (*_together(plan), *nearest(plan), *_on_pads(plan))]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
     facts.append(
@@ -142,6 +143,18 @@ def _together(plan: VerifiedIR) -> list[str]:
     other = near.constraint.removeprefix(APART)
     text = f"{near.subject} and {other} come nearest, {near.worst:.2f} m, {near.limit:.2f} m needed"
     return [text + ("" if near.time is None else f", at {clock(near.time)}") + f"; {_pictures(plan)}"]
+
+
+def _on_pads(plan: VerifiedIR) -> Iterator[str]:
+    """Name the drones and fleets that the plan does not fly, and how near those come that it does."""
+    ir = plan.trajectory
+    names = [f"{track.drone} films nothing and stands on its pad" for track in parked(ir)]
+    names += [f"fleet {fleet.name} shows nothing and stands on its pads" for fleet in parked_fleets(ir)]
+    who = [*(track.drone for track in parked(ir)), *(fleet.name for fleet in parked_fleets(ir))]
+    for name, text in zip(who, names, strict=True):
+        near = [claim for claim in plan.certificate if claim.constraint == APART + name]
+        least = min(near, key=lambda claim: claim.worst)
+        yield f"{text}, {least.worst:.2f} m from the nearest, {least.limit:.2f} m needed"
 
 
 def _pictures(plan: VerifiedIR) -> str:

@@ -15,6 +15,7 @@ from shotc.emit.table_numbers import DEGREES, NUMBER, geodetic
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import others_of
+from shotc.ir.parked import bodies
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
@@ -40,13 +41,14 @@ class CsvTable:
         """Return trajectory.csv and framing.csv."""
         mission = plan.trajectory.keyframes.mission
         tracks = sorted(plan.trajectory.drones, key=lambda track: track.drone)
+        everyone = bodies(plan.trajectory)
         header = TRAJECTORY + (GEODETIC if mission.origin is not None else "")
         if mission.fleets:
             header += LIGHT
         framing = [
             row.encode()
             for track in tracks
-            for row in _framing(mission, track, others_of(tracks, track.drone))
+            for row in _framing(mission, track, others_of(everyone, track.drone))
         ]
         return Emission(
             (

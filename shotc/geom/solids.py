@@ -32,6 +32,11 @@ class Cylinder(NamedTuple):
         return n[0] * self.centre[0] + n[1] * self.centre[1] + rim + max(n[2] * self.bottom, n[2] * self.top)
 
 
+def point(p: Vec3) -> Cylinder:
+    """Return a place as a solid of no size."""
+    return Cylinder((p[0], p[1]), 0.0, p[2], p[2])
+
+
 class Prism(NamedTuple):
     """An upright prism over a simple polygon; points counter-clockwise, bottom and top z, metres.
 

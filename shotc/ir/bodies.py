@@ -35,6 +35,11 @@ def parts_of_one(a: Target, b: Target, t: Array) -> Mask:
     return np.asarray(are_one((x, y, z), a.radius + b.radius, 0.5 * (a.height + b.height)))
 
 
+def standing_at(place: Array, times: Array) -> Array:
+    """Return the place of what stands, at times; shape (M, 3)."""
+    return np.tile(place, (len(times), 1))
+
+
 def flying(curve: Piecewise, times: Array) -> Array:
     """Return where a drone is at times, before and after its flight on its pad; shape (M, 3)."""
     return np.asarray(curve(np.clip(times, curve.start, curve.end))[:, :3])

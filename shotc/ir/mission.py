@@ -271,6 +271,12 @@ class MissionIR(NamedTuple):
     files: tuple[tuple[str, bytes], ...] = ()
     source: MissionSource = MissionSource()
 
+    @property
+    def parked(self) -> tuple[Drone, ...]:
+        """The drones that film nothing: they stand on their pads all the time."""
+        filming = {shot.drone for shot in self.shots}
+        return tuple(drone for drone in self.drones if drone.name not in filming)
+
     def drone(self, name: str) -> Drone:
         """Return the drone of that name; KeyError if there is none."""
         return next_named(self.drones, name)

@@ -214,7 +214,8 @@ CODES: tuple[CodeInfo, ...] = (
         "homes-too-near",
         "two drones have their homes nearer to each other than they may fly",
         "`rules.separation` holds from the first second to the last, on the ground too, centre to centre: two "
-        "drones that lift off side by side start apart. Move one of the homes.",
+        "drones that lift off side by side start apart, and one that films nothing is in the way on its pad. Move "
+        "one of the homes.",
         ("home: [8, -60, 0]", "home: [1, -60, 0]"),
         base=_TWO,
     ),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.geom.solids import Cylinder, Solid, edges
+from shotc.geom.solids import Cylinder, Solid, edges, point
 from shotc.ir.mission import Drone, MissionIR
 
 Array = NDArray[np.float64]
@@ -23,7 +23,7 @@ class Obstacle:
 
 
 def obstacles_of(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
-    """Return keep-out zones and standing targets, with the clearances that verification holds them to."""
+    """Return keep-out zones, standing targets and parked drones, with the clearances they are held to."""
     zones = [Obstacle(f"zone {z.name}", z.solid, drone.radius) for z in mission.zones if z.keep == "out"]
     clearance = drone.radius + mission.rules.target_clearance
     targets = [
@@ -37,7 +37,12 @@ def obstacles_of(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
         for t in mission.targets
         if t.track is None
     ]
-    return (*zones, *targets)
+    pads = [
+        Obstacle(f"drone {other.name}", point(other.home), mission.rules.separation)
+        for other in mission.parked
+        if other.name != drone.name
+    ]
+    return (*zones, *targets, *pads)
 
 
 def shortfall(obstacle: Obstacle, points: Array) -> Array:

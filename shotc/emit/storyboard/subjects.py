@@ -11,6 +11,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, Shot
 from shotc.ir.occlusion import others_of
+from shotc.ir.parked import bodies
 from shotc.ir.sampling import SAME_TIME, references, seen
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Reference, VerifiedIR
 
@@ -97,7 +98,7 @@ def _composition(shot: Shot, target: str, keyframe: int) -> Composition:
 
 
 def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str, time: float) -> str:
-    others = others_of(plan.trajectory.drones, flight.drone)
+    others = others_of(bodies(plan.trajectory), flight.drone)
     frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]), others)
     if not frames.in_frame[0]:
         return "cropped"

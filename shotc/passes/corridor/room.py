@@ -6,7 +6,7 @@ from math import hypot, inf
 
 from shotc.geom.convex import bounded
 from shotc.geom.corridor import Disc, Obstacle, Room, Wall
-from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges, hull_and_pockets
+from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges, hull_and_pockets, point
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 
@@ -14,7 +14,10 @@ GROUND = "ground"
 
 
 def flight_room(mission: MissionIR, drone: Drone) -> Room:
-    """Return the room of every phase but take-off and landing, as far as it stands."""
+    """Return the room of every phase but take-off and landing, as far as it stands.
+
+    A drone that films nothing stands on its pad; those that fly are no part of a room.
+    """
     obstacles = _keep_outs(mission, drone)
     for target in (t for t in mission.targets if t.track is None):
         half = target.height / 2
@@ -22,6 +25,7 @@ def flight_room(mission: MissionIR, drone: Drone) -> Room:
         part = Cylinder((x, y), target.radius, z - half, z + half)
         clearance = drone.radius + mission.rules.target_clearance
         obstacles.append(Obstacle(f"target {target.name}", part, clearance))
+    obstacles += _parked(mission, drone)
     over_ground = mission.rules.ground_clearance + drone.radius
     walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
     return _with_keep_ins(mission, drone, (obstacles, walls), floors=True)
@@ -30,7 +34,7 @@ def flight_room(mission: MissionIR, drone: Drone) -> Room:
 def pad_room(mission: MissionIR, drone: Drone) -> Room:
     """Return the room of take-off and landing: no clearances, no ground, no keep-in floors.
 
-    Zones and the targets' own bodies still bind.
+    Zones and the targets' own bodies still bind, and so does the separation from parked drones.
     """
     obstacles = _keep_outs(mission, drone)
     for target in (t for t in mission.targets if t.track is None):
@@ -38,6 +42,7 @@ def pad_room(mission: MissionIR, drone: Drone) -> Room:
         x, y, z = target.centre
         part = Cylinder((x, y), target.radius, z - half, z + half)
         obstacles.append(Obstacle(f"target {target.name}", part, drone.radius))
+    obstacles += _parked(mission, drone)
     return _with_keep_ins(mission, drone, (obstacles, []), floors=False)
 
 
@@ -73,6 +78,14 @@ def _keep_outs(mission: MissionIR, drone: Drone) -> list[Obstacle]:
         for zone in mission.zones
         if zone.keep == "out"
         for part in convex_parts(zone.solid)
+    ]
+
+
+def _parked(mission: MissionIR, drone: Drone) -> list[Obstacle]:
+    return [
+        Obstacle(f"drone {other.name}", point(other.home), mission.rules.separation)
+        for other in mission.parked
+        if other.name != drone.name
     ]
 
 

@@ -34,7 +34,8 @@ class PlaceGoals:
         """Place the goals of every display, fleet by fleet; all faults of all pictures are told."""
         shows: list[FleetGoals] = []
         drawn: list[Drawn] = []
-        for fleet in ir.mission.fleets:
+        showing = {display.fleet for display in ir.mission.displays}
+        for fleet in (f for f in ir.mission.fleets if f.name in showing):
             displays = [d for d in ir.mission.displays if d.fleet == fleet.name]
             found = [_display(ir.mission, fleet, display, ctx) for display in displays]
             shows.append(FleetGoals(fleet.name, tuple(f for d in found for p in d for f in p.frames)))

@@ -41,12 +41,15 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
 
 
 def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield the pairs of drones that film something and whose homes are nearer than the separation."""
+    """Yield the pairs of drones, of which one films something, whose homes are nearer than the separation.
+
+    The other one is in the way on its pad, too, whether or not it ever leaves it.
+    """
     filming = {shot.drone for shot in mission.shots}
     least = mission.rules.separation
-    for one, other in combinations([d for d in mission.drones if d.name in filming], 2):
+    for one, other in combinations(mission.drones, 2):
         away = dist(one.home, other.home)
-        if away >= least - ROUNDING:
+        if away >= least - ROUNDING or not filming & {one.name, other.name}:
             continue
         labels = (
             mission.origins.value((*other.path, "home")),

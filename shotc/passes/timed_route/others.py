@@ -7,31 +7,26 @@ from functools import partial
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
-from shotc.geom.solids import Cylinder
-from shotc.ir.bodies import flying
+from shotc.geom.solids import point
+from shotc.ir.bodies import flying, standing_at
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.timed_route.moving import Moving
 
-POINT = Cylinder((0.0, 0.0), 0.0, 0.0, 0.0)
+POINT = point((0.0, 0.0, 0.0))
 
 
 def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTrajectory]) -> tuple[Moving, ...]:
-    """Return every drone but one that films something.
+    """Return every drone but one that films something; those that do not are part of the room.
 
     flights : by drone, of those that are planned; the others count as standing on their pads
     """
-    filming = {shot.drone for shot in mission.shots}
+    parked = {drone.name for drone in mission.parked}
     found = []
     for drone in mission.drones:
-        if drone.name == name or drone.name not in filming:
+        if drone.name == name or drone.name in parked:
             continue
         flight = flights.get(drone.name)
-        at = partial(_standing, np.array(drone.home)) if flight is None else partial(flying, flight.curve)
+        at = partial(standing_at, np.array(drone.home)) if flight is None else partial(flying, flight.curve)
         found.append(Moving(f"drone {drone.name}", POINT, mission.rules.separation, at, always=True))
     return tuple(found)
-
-
-def _standing(place: Array, times: Array) -> Array:
-    return np.tile(place, (len(times), 1))

@@ -16,7 +16,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import value_rows
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
-from shotc.ir.bodies import flying
+from shotc.ir.bodies import flying, standing_at
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import DroneTrajectory
@@ -73,6 +73,9 @@ def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTraje
         camera = partial(_camera, flight.curve, other.aspect)
         watchers += [Watcher(p.start, p.end, camera) for p in flight.phases if p.shot is not None]
         bodies.append(Body(other.radius, partial(flying, flight.curve)))
+    if mission.rules.visibility == "require":
+        # No shot is bent for a pad that is only preferred not to be seen.
+        bodies += [Body(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
     return Sights(tuple(watchers), tuple(bodies), mission.rules.half_angle)
 
 

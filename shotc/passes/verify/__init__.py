@@ -1,5 +1,7 @@
 """Pass verify: takes a TrajectoryIR, trusts nobody, and gives a VerifiedIR with its certificate.
 
+It looks at every drone of the mission: one that the plan does not fly is a body on its pad.
+
 Limits, zones and clearances are proved over continuous time by Bernstein hulls (geom.proof); what the
 camera sees is sampled at the output rate and closed between samples by bounds on rates. Every claim names
 its limit, worst value, time, place and method. A plan that breaks a hard claim is not given on.
@@ -13,13 +15,14 @@ from typing import ClassVar
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.occlusion import others_of
+from shotc.ir.parked import bodies
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.framing import framing
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
-from shotc.passes.verify.pair import separation
+from shotc.passes.verify.pair import from_fleets, separation
 from shotc.passes.verify.report import report
 from shotc.passes.verify.shape import shape, structure
 from shotc.passes.verify.shots import shots
@@ -55,15 +58,22 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     broken = (*structure(ir), *_fleet_structure(ir))
     if broken:
         return Verdict((), broken)
-    flights = [
-        Flight(mission, mission.drone(track.drone), track, others_of(ir.drones, track.drone))
-        for track in ir.drones
+    everyone = bodies(ir)
+    present = [
+        Flight(mission, mission.drone(track.drone), track, others_of(everyone, track.drone))
+        for track in everyone
     ]
+    flights, on_pads = present[: len(ir.drones)], present[len(ir.drones) :]
     claims: list[Claim] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
-    claims += [*separation(ir, flights), *sights(flights), *_fleet_claims(ir, ctx)]
+    claims += [
+        *separation(flights, on_pads),
+        *from_fleets(ir, flights),
+        *sights(present),
+        *_fleet_claims(ir, ctx),
+    ]
     certificate = tuple(claims)
     return Verdict(certificate, (*_grounded(ir), *report(ir, certificate), *losses(ir, certificate)))
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from shotc.geom.pieces import Mask
 from shotc.ir.occlusion import hiders, others_of
+from shotc.ir.parked import bodies
 from shotc.ir.sampling import clock, framed
 from shotc.ir.trajectory import Claim, TrajectoryIR
 
@@ -20,7 +21,7 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
     times = ticks[framed(track, str(claim.shot), target, ticks)]
     if not len(times):
         return
-    others, eyes = others_of(ir.drones, track.drone), track.curve(times)[:, :3]
+    others, eyes = others_of(bodies(ir), track.drone), track.curve(times)[:, :3]
     found = [(float(hides.mean()), name) for name, hides in hiders(mission, others, target, eyes, times)]
     for share, what in sorted(found, key=lambda pair: -pair[0]):
         sort, _, name = what.partition(" ")

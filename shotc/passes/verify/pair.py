@@ -1,29 +1,58 @@
-"""Drones against each other: separation, centre to centre, at every instant of the common clock."""
+"""Drones against each other: separation, centre to centre, at every instant of the common clock.
+
+Two drones that the plan does not fly stand where the mission puts them, and nothing is claimed of them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
+from math import inf
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.pieces import Pieces, cut, join
-from shotc.geom.proof import inf_distance
-from shotc.geom.solids import Cylinder
+from shotc.geom.pieces import Pieces, cut, join, pieces
+from shotc.geom.proof import Bound, box_gap, inf_distance
+from shotc.geom.solids import point
+from shotc.ir.parked import parked_fleets
+from shotc.ir.show import Fleet
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
-POINT = Cylinder((0.0, 0.0), 0.0, 0.0, 0.0)
+POINT = point((0.0, 0.0, 0.0))
 
 
-def separation(ir: TrajectoryIR, flights: list[Flight]) -> Iterator[Claim]:
-    """Claim the separation of every pair of drones; one that has landed stands at its home."""
-    least = ir.keyframes.mission.rules.separation
-    for one, other in combinations(flights, 2):
+def separation(flights: list[Flight], on_pads: list[Flight]) -> Iterator[Claim]:
+    """Claim the separation of every pair of drones of which one flies; who has landed stands at its home.
+
+    on_pads : the drones that the plan does not fly
+    """
+    for one, other in (*combinations(flights, 2), *product(flights, on_pads)):
+        least = one.mission.rules.separation
         apart = _difference(one.track.curve.channels(0, 1, 2), other.track.curve.channels(0, 1, 2))
         limit = Limit(f"separation from {other.drone.name}", least, "m", ("rules", "separation"), upper=False)
         yield bounded(one, limit, inf_distance(apart, POINT, gap(least)))
+
+
+def from_fleets(ir: TrajectoryIR, flights: list[Flight]) -> Iterator[Claim]:
+    """Claim the separation of every drone from the pads of the fleets that the plan does not fly."""
+    least = ir.keyframes.mission.rules.separation
+    for flight, fleet in product(flights, parked_fleets(ir)):
+        limit = Limit(f"separation from {fleet.name}", least, "m", ("rules", "separation"), upper=False)
+        yield bounded(flight, limit, _from_pads(pieces(flight.track.curve.channels(0, 1, 2)), fleet, least))
+
+
+def _from_pads(flown: Pieces, fleet: Fleet, least: float) -> Bound:
+    """Bound the distance from the nearest pad: from box to box first, and those that boxes cannot tell."""
+    boxes = np.array([box_gap(flown.ctrl, point(pad)).min() for pad in fleet.pads])
+    best = Bound(inf, inf, 0.0)
+    for k in np.argsort(boxes, kind="stable"):
+        if boxes[k] >= best.proven:
+            break
+        found = inf_distance(flown, point(fleet.pads[k]), gap(least))
+        best = found if found.proven < best.proven else best
+    return best
 
 
 def _difference(one: Piecewise, other: Piecewise) -> Pieces:

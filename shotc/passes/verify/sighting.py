@@ -8,6 +8,7 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR
+from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
@@ -28,7 +29,7 @@ def sighted(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
     """Report a claim that another drone is out of the picture, and that is broken."""
     mission = ir.keyframes.mission
     name = claim.constraint.removesuffix(ENDING)
-    film, other = (next(t for t in ir.drones if t.drone == who) for who in (claim.subject, name))
+    film, other = (next(t for t in bodies(ir) if t.drone == who) for who in (claim.subject, name))
     phase = next(p for p in film.phases if p.shot == claim.shot)
     cone = mission.rules.half_angle
     where = "in the picture of" if cone is None else f"within {measure(cone, 'rad')} of the optical axis of"
@@ -78,6 +79,8 @@ def _how_far(sight: Sight, claim: Claim) -> str:
 
 def _doing(other: DroneTrajectory, time: float) -> str:
     """Return what a drone is doing at a time."""
+    if not other.phases:
+        return f"{other.drone} stands on its pad all the time"
     if time >= other.curve.end:
         return f"{other.drone} has landed then and stands on its pad"
     phase = next(p for p in other.phases if time <= p.end)

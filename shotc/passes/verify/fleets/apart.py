@@ -7,14 +7,22 @@ kept counts as much as the horizontal one (``geom.separation``).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from functools import partial
+from itertools import combinations, product
 
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.proof import norm
 from shotc.geom.separation import Nearest, closest, closest_between
+from shotc.geom.solids import point
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Apart, stricter
-from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Limit, Worst, held
-from shotc.passes.verify.fleets.flight import FleetFlight
+from shotc.ir.parked import parked, parked_fleets
+from shotc.ir.show import Apart, drone_names, stricter
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import Limit, Worst, gap, held
+from shotc.passes.verify.fleets.flight import FleetFlight, bounded
+from shotc.passes.verify.fleets.space import nearest
 
 
 def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
@@ -23,19 +31,40 @@ def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
         if len(flight.names) > 1:
             apart = flight.fleet.apart
             found = closest(flight.track.breaks, flight.track.coef, apart)
-            yield _claim((flight, flight), "separation", apart, found)
+            yield _claim((flight, flight.names), "separation", apart, found)
     for one, other in combinations(flights, 2):
         apart = stricter(one.fleet.apart, other.fleet.apart)
         first, second = one.track, other.track
         found = closest_between(first.breaks, first.coef, second.breaks, second.coef, apart)
-        yield _claim((one, other), f"separation from {other.fleet.name}", apart, found)
+        yield _claim((one, other.names), f"separation from {other.fleet.name}", apart, found)
 
 
-def _claim(of: tuple[FleetFlight, FleetFlight], name: str, apart: Apart, found: Nearest) -> Claim:
-    one, other = of
+def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
+    """Claim the separation of every fleet from the drones and the fleets that the plan does not fly."""
+    least = ir.keyframes.mission.rules.separation
+    for flight, track in product(flights, parked(ir)):
+        pad = track.curve(0.0)[:3]
+        limit = Limit(f"separation from {track.drone}", least, "m", ("rules", "separation"), upper=False)
+        found = nearest(flight.flown.bag(), point((float(pad[0]), float(pad[1]), float(pad[2]))), gap(least))
+        yield bounded(flight, limit, found, partial(_away, pad))
+    for flight, fleet in product(flights, parked_fleets(ir)):
+        apart, names = stricter(flight.fleet.apart, fleet.apart), drone_names(fleet)
+        pads = np.repeat(np.array(fleet.pads)[:, None], 4, axis=1)
+        found_near = closest_between(
+            flight.track.breaks, flight.track.coef, np.array([0.0, 1.0]), pads, apart
+        )
+        yield _claim((flight, names), f"separation from {fleet.name}", apart, found_near)
+
+
+def _away(pad: Array, places: Array) -> Array:
+    return norm(places - pad)
+
+
+def _claim(of: tuple[FleetFlight, tuple[str, ...]], name: str, apart: Apart, found: Nearest) -> Claim:
+    one, others = of
     limit = Limit(name, apart.across, "m", _path(one), upper=False)
     worst = Worst(found.proven, found.time, "bounded", found.position)
-    return held(one.fleet.name, limit, worst, (one.names[found.first], other.names[found.second]))
+    return held(one.fleet.name, limit, worst, (one.names[found.first], others[found.second]))
 
 
 def _path(flight: FleetFlight) -> KeyPath:

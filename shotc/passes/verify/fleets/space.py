@@ -77,7 +77,7 @@ def _keep_out(
     free, upright = parts
     radius = flight.fleet.radius
     if len(free.low):
-        found = _nearest(free.bag(), solid, gap(radius + limit.value))
+        found = nearest(free.bag(), solid, gap(radius + limit.value))
         yield bounded(flight, limit, less(found, radius), lambda p: signed_distance(solid, p))
     if upright:
         limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
@@ -97,14 +97,14 @@ def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetP
     worst = Bound(inf, inf, 0.0)
     if clear.any():
         some = FleetPieces(upright.low, upright.high, upright.ctrl[clear])
-        worst = less(_nearest(some.bag(), solid, gap(radius)), radius)
+        worst = less(nearest(some.bag(), solid, gap(radius)), radius)
     for drone in np.flatnonzero(~clear):
-        nearest = less(inf_distance(upright.of(int(drone)), solid, gap(near[drone])), float(near[drone]))
-        worst = nearest if nearest.proven < worst.proven else worst
+        found = less(inf_distance(upright.of(int(drone)), solid, gap(near[drone])), float(near[drone]))
+        worst = found if found.proven < worst.proven else worst
     return bounded(flight, limit, worst, lambda p: signed_distance(solid, p) - near)
 
 
-def _nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
+def nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
     """Bound the infimum of the distance from a solid along many pieces, as ``inf_distance`` does."""
     if len(pieces) > SEEDS:
         apart = box_gap(pieces.ctrl, solid)
