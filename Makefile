@@ -8,7 +8,7 @@ STAMP := $(VENV)/.installed
 PLUGINS := $(wildcard plugins/*/pyproject.toml)
 UV := $(shell command -v uv 2>/dev/null)
 
-.PHONY: help setup demo test test-fast check lint type fmt layers gen gen-check bless bench papers build clean
+.PHONY: help setup demo test test-fast fuzz check lint type fmt layers gen gen-check bless bench papers build clean
 
 help: ## List the tasks
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 14
@@ -36,6 +36,9 @@ test: $(STAMP) ## Run every test
 
 test-fast: $(STAMP) ## Run the tests that plan no whole mission
 	$(BIN)/pytest -n 2 --ignore=tests/e2e
+
+fuzz: $(STAMP) ## Plan 300 drawn missions, and run every property test with new random numbers
+	CI= OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "fuzz or hypothesis"
 
 check: lint type layers gen-check test build ## Everything, as CI runs it
 

@@ -1,0 +1,85 @@
+"""Missions drawn by seed: each is planned, and every shot shows the whole subject where geometry allows it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from shotc.checking import check_source
+from shotc.diag.registry import has_errors
+from tests.generated.judge import judge, write
+from tests.generated.missions import Mission, mission
+
+FEW = range(30)
+"""Small missions of ``make test``: at most two drones with a shot each."""
+
+MANY = range(300)
+"""Missions of ``make fuzz``."""
+
+KINDS = {
+    *("keyframes", "static", "orbit", "spiral", "elevator", "dolly", "crane", "top-down", "follow-path"),
+    *("chase", "lead", "lateral", "flyby", "framing"),
+}
+
+
+def small(seed: int) -> Mission:
+    return mission(seed, most_drones=2, most_takes=1)
+
+
+@pytest.mark.parametrize("seed", FEW)
+def test_a_small_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> None:
+    is_planned_and_whole(small(seed))
+
+
+@pytest.mark.fuzz
+@pytest.mark.parametrize("seed", MANY)
+def test_a_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> None:
+    is_planned_and_whole(mission(seed))
+
+
+def is_planned_and_whole(asked: Mission) -> None:
+    verdict = judge(asked)
+    assert not verdict.errors
+    assert not [shot for shot in verdict.shots if shot.falls_short]
+    assert {shot.id for shot in verdict.shots} == {take.id for take in asked.takes}
+
+
+@pytest.mark.fuzz
+def test_every_kind_theme_and_number_of_drones_is_drawn_often() -> None:
+    drawn = [mission(seed) for seed in MANY]
+    kinds = Counter(str(take.wanted["kind"]) for m in drawn for take in m.takes)
+    assert set(kinds) == KINDS
+    assert min(kinds.values()) >= 5
+    assert min(Counter(m.theme for m in drawn).values()) >= 5
+    drones = Counter(len(m.cameras) for m in drawn)
+    assert set(drones) == {1, 2, 3, 4}
+    assert sum(drones[n] for n in (2, 3, 4)) >= 90
+    lenses = [c.hfov for m in drawn for c in m.cameras]
+    assert min(lenses) < 0.35
+    assert max(lenses) > 1.75
+    assert sum("zones:" in m.text for m in drawn) >= 60
+
+
+def test_a_seed_means_the_same_mission_in_every_process(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "tests.generated", "--seeds", "3:6", "--dump", str(tmp_path / "other")]
+    root = Path(__file__).parents[2]
+    subprocess.run(command, check=True, cwd=root, env={"PYTHONHASHSEED": "7"}, capture_output=True)
+    for seed in range(3, 6):
+        (tmp_path / f"{seed}").mkdir()
+        write(mission(seed), tmp_path / f"{seed}")
+        files = {p.name: p.read_bytes() for p in (tmp_path / f"{seed}").iterdir()}
+        assert files == {p.name: p.read_bytes() for p in (tmp_path / "other" / f"seed-{seed}").iterdir()}
+
+
+def test_a_shot_that_falls_short_is_told() -> None:
+    """The judge looks: of a mission whose lens is made longer, the shots are cropped, or the mission refused."""
+    asked = mission(3)
+    longer = asked._replace(text=asked.text.replace("hfov: 42 deg", "hfov: 4 deg"))
+    assert longer.text != asked.text
+    verdict = judge(longer)
+    assert verdict.errors or any(shot.falls_short for shot in verdict.shots)
+    assert has_errors(check_source(longer.text.encode(), "m.yaml", None).diagnostics) <= bool(verdict.errors)
