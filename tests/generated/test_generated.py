@@ -1,4 +1,4 @@
-"""Missions drawn by seed: each is planned, and every shot shows the whole subject where geometry allows it."""
+"""Missions drawn by seed: each is planned, and every shot shows all of its subjects that geometry allows."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_a_seed_means_the_same_mission_in_every_process(tmp_path: Path) -> None:
 
 
 def test_a_shot_that_falls_short_is_told() -> None:
-    """The judge looks: of a mission whose lens is made longer, the shots are cropped, or the mission refused."""
+    """The judge looks: with a longer lens the shots are cropped, or the mission is refused."""
     asked = mission(3)
     longer = asked._replace(text=asked.text.replace("hfov: 42 deg", "hfov: 4 deg"))
     assert longer.text != asked.text
