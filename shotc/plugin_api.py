@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         impossible,
         solver_nan,
         stopped_early,
+        unrefined,
     )
     from shotc.spec.shot import ShotBase
 
@@ -61,6 +62,7 @@ _HOMES = {
     "impossible": "shotc.passes.refine_path.faults",
     "solver_nan": "shotc.passes.refine_path.faults",
     "stopped_early": "shotc.passes.refine_path.faults",
+    "unrefined": "shotc.passes.refine_path.faults",
 }
 
 __all__ = [
@@ -91,6 +93,7 @@ __all__ = [
     "impossible",
     "solver_nan",
     "stopped_early",
+    "unrefined",
 ]
 
 

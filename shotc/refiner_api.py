@@ -25,16 +25,17 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLe
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
-from shotc.passes.parameterize_time.estimate import lateness, rough_times
+from shotc.passes.parameterize_time.estimate import lateness, leg_time, rough_times
 from shotc.passes.parameterize_time.marks import flying_times
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
-from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined, with_camera
+from shotc.passes.solve_path_qp.rejoin import rejoined
 from shotc.passes.solve_path_qp.turns import steady
+from shotc.passes.solve_path_qp.with_camera import NoTransit, with_camera
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
-from shotc.passes.timed_route.flights import flights
+from shotc.passes.timed_route.flights import FlownShot, flights, flown_shot
 from shotc.passes.timed_route.pictures import least_out
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
@@ -52,6 +53,7 @@ __all__ = [
     "Drone",
     "DroneTrajectory",
     "Fit",
+    "FlownShot",
     "IntArray",
     "Looker",
     "Mask",
@@ -78,6 +80,7 @@ __all__ = [
     "fit",
     "flight_room",
     "flights",
+    "flown_shot",
     "flying",
     "flying_times",
     "frustum_margins",
@@ -86,6 +89,7 @@ __all__ = [
     "lateness",
     "least_out",
     "leg_of",
+    "leg_time",
     "moved",
     "nearest_depth",
     "others_of",

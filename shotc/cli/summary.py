@@ -13,10 +13,12 @@ from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.passes.refine_path.account import DONE
 
 WIDTH = 100
 GLUE = "\N{NO-BREAK SPACE}"
 APART, OUT = "separation from ", " out of the picture"
+REFINED = ".refined"
 LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
 
 
@@ -85,7 +87,15 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
         )
     )
     facts += [("bent", text) for text in _bent(plan.trajectory.deviations)]
+    facts += [("refined", text) for text in _refined(plan)]
     return facts + [("note", note) for note in notes]
+
+
+def _refined(plan: VerifiedIR) -> list[str]:
+    """Tell, where not all shots are refined, how many are, and of each other one why it is not."""
+    told = [(k.removesuffix(REFINED), v) for k, v in plan.trajectory.stats if k.endswith(REFINED)]
+    left = [f"not `{shot}`: {why}" for shot, why in told if why != DONE]
+    return ["; ".join([f"{len(told) - len(left)} of {len(told)} shots", *left])] if left else []
 
 
 def _bent(deviations: Iterable[Deviation]) -> list[str]:

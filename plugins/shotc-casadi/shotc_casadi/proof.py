@@ -23,6 +23,7 @@ from shotc_casadi.problem import Margins
 from shotc_casadi.wishes import Subject, fields_of_view, wishes
 
 SAMPLES = 6  # a piece
+PROVED = 1e-6  # metres that a proof may lack
 ROOM_STEP = 0.02  # metres added to what was missing
 FRAME_STEP = 1.5  # times what was missing
 LIMIT_STEP = 1.2  # times what was missing

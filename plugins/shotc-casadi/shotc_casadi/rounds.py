@@ -84,7 +84,7 @@ def _refine(
     nodes = stages(leg, subject.placed, subject.drone, count)
     wanted = wishes(subject, condition, nodes.s)
     margins = Margins()
-    walls = half_spaces(subject.room, leg.curve, nodes, margins.comfort)
+    walls = _walls(subject, nodes, margins)
     following = problem(subject, condition, nodes, wanted, walls, margins)
     ends = following.states[[0, -1]][:, [YAW, PITCH]]
     done: list[_Tried] = []
@@ -97,10 +97,17 @@ def _refine(
         if tried.camera is None or tried.check.holds or (best.check.lack <= 0 and not helped):
             break
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
-        walls = half_spaces(subject.room, leg.curve, nodes, margins.comfort)
+        walls = _walls(subject, nodes, margins)
         tightened = problem(subject, condition, nodes, wanted, walls, margins)
         following = replace(tightened, states=attempt.solution.states, inputs=attempt.solution.inputs)
     return _result(subject, nodes, done, best), best.check
+
+
+def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
+    """Return the half-spaces that the nodes are kept in."""
+    assert subject.leg.curve is not None
+    others = None if subject.beside is None else subject.beside(nodes.s)
+    return half_spaces(subject.room, subject.leg.curve, nodes, margins.comfort, others)
 
 
 class _Tried(NamedTuple):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import Array, Room, corridor, kept
+from shotc.refiner_api import Array, IntArray, Room, corridor, kept
 from shotc_casadi.stages import Stages
 
 REACH = 8.0  # metres beyond its clearance within which an obstacle counts
@@ -14,10 +16,20 @@ COUNTS = (0, 2, 4, 8, 16)  # how many half-spaces a programme may have, so that 
 FREE = -1.0  # slack in metres of a half-space that means nothing
 
 
-def half_spaces(room: Room, reference: Piecewise, stages: Stages, share: float) -> Array:
+class NodePlanes(NamedTuple):
+    """Half-spaces n.p >= b for single nodes: which ones, shape (R,); normal and b, shape (R, 4)."""
+
+    node: IntArray
+    row: Array
+
+
+def half_spaces(
+    room: Room, reference: Piecewise, stages: Stages, share: float, others: NodePlanes | None = None
+) -> Array:
     """Return half-spaces n.p >= b that hold near every node, shape (N + 1, M, 4): normal and b.
 
     share : of the room that the reference has beyond its clearances, kept (see ``corridor``)
+    others : half-spaces beside what moves, to hold as well
     The nearest ones of each node; M is the same for all, and rows that mean nothing hold everywhere.
     """
     s = stages.s
@@ -33,6 +45,8 @@ def half_spaces(room: Room, reference: Piecewise, stages: Stages, share: float) 
         nodes[k] += [
             (slack, row) for row in _bounds(room, hull, share) if (slack := _slack(hull, row)) < REACH
         ]
+    for k, row in zip(*((), ()) if others is None else others, strict=True):
+        nodes[int(k)].append((_slack(hulls[k], row), row))
     most = max(len(found) for found in nodes)
     count = next((c for c in COUNTS if c >= most), COUNTS[-1])
     out = np.zeros((len(s), count, 4))

@@ -7,13 +7,14 @@ v_d of Gebhardt and Hilliges, Sec. 4.1-4.2). Elsewhere the angles of the convex 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api import Leg, MissionIR
+from shotc.plugin_api import Leg, MissionIR, PathIR
 from shotc.refiner_api import (
     CAM_PITCH,
     CAM_YAW,
@@ -24,11 +25,13 @@ from shotc.refiner_api import (
     PlacedShot,
     Room,
     aim_at,
+    flight_room,
     smoother,
     steady,
 )
 from shotc_casadi.conditions import Condition
 from shotc_casadi.sight import sight_point
+from shotc_casadi.walls import NodePlanes
 
 FAR = 1.0  # metres ahead of the camera that a target nobody asked for is put
 
@@ -50,14 +53,30 @@ class Wishes:
     whole: Array
 
 
+Beside = Callable[[Array], NodePlanes]
+"""Half-spaces for nodes at path parameters s, shape (N + 1,)."""
+
+
 class Subject(NamedTuple):
-    """What a shot is about: the mission, its drone, where it may fly, its keyframes and its leg."""
+    """What a shot is about: the mission, its drone, where it may fly, its keyframes and its leg.
+
+    beside : what it is to keep clear of where others move near it, None where nothing does
+    """
 
     mission: MissionIR
     drone: Drone
     room: Room
     placed: PlacedShot
     leg: Leg
+    beside: Beside | None = None
+
+
+def subject_of(path: PathIR, drone: str, leg: Leg) -> Subject:
+    """Return what the shot of a leg is about; drone : who flies it."""
+    mission = path.keyframes.mission
+    flown_by = mission.drone(drone)
+    (placed,) = (p for p in path.keyframes.shots if p.shot.id == leg.shot)
+    return Subject(mission, flown_by, flight_room(mission, flown_by), placed, leg)
 
 
 def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:

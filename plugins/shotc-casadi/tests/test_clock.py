@@ -262,8 +262,9 @@ def test_numbers_that_are_none_are_told() -> None:
 def test_a_camera_that_follows_less_well_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     of = subject(compiled(FLYBY))
     monkeypatch.setattr("shotc_casadi.clock.rounds.astray", lambda _, leg: 0.0 if leg is of.leg else 0.1)
-    path, told = refine_clocks(of.path, PassContext(), "ours")
-    assert told == ()
+    path, (told,) = refine_clocks(of.path, PassContext(), "ours")
+    assert told.code == "R014"
+    assert "its guide films" in told.message
     assert subject_of(path, "s").leg is of.leg
     assert dict(path.stats)["s.refine_status"] == KEPT
 

@@ -232,8 +232,8 @@ def test_where_the_guide_is_better_by_its_own_cost_it_is_flown(monkeypatch: pyte
     monkeypatch.setattr(
         "shotc_casadi.clock.rounds.flown_cost", lambda _, __, leg: 0.0 if leg is of.leg else 1.0
     )
-    path, told = refine_clocks(of.path, PassContext(), "ours")
-    assert told == ()
+    path, (told,) = refine_clocks(of.path, PassContext(), "ours")
+    assert told.code == "R014"
     assert subject_of(path, "s").leg is of.leg
     assert dict(path.stats)["s.refine_status"] == KEPT
 

@@ -169,4 +169,17 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "R014",
+        "shot-not-refined",
+        Severity.WARNING,
+        "a shot stays as the convex path has it",
+        "A refiner improves the filmed legs of the convex path where it can. This shot stays as it was, for the reason "
+        "that is told: refined, it would come too near to something that moves, into another drone's picture, or not be "
+        "over in the time that the flights beside it were planned for; what the refiner found is no better; or the "
+        "refiner has nothing for shots of its kind. The plan is verified like any other.",
+        "",
+        "",
+        "other",
+    ),
 )

@@ -21,8 +21,9 @@ from shotc.passes.parameterize_time.windows import windowed_move
 
 # What a flight is late at least that no single stretch makes late; seconds that are none.
 LITTLE, SOON = 0.01, 1e-3
-# Rounding by which a time may be shorter than the shortest, relative and in seconds.
-ROUNDING = 1e-9
+# Rounding by which a time may be shorter than the shortest, relative and in seconds; and the share to which
+# the solver knows the shortest, a tenth of what it keeps from the limits: moves may be flown that much faster.
+ROUNDING, SOLVED_TO = 1e-9, 1e-7
 # The search for the least delay that would do: first try, seconds; doublings; halvings after that.
 FIRST_DELAY, DOUBLINGS, HALVINGS = 0.05, 9, 5
 
@@ -175,7 +176,9 @@ def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
         least = sum(seconds for _, _, seconds in found)
         room = _room(plan, a, b)
         lack = least - room
-        if lack > ROUNDING * (1 + room) and (room <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))):
+        if lack > ROUNDING * (1 + room) + SOLVED_TO * least and (
+            room <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))
+        ):
             return _Late(i + 1, lack)
         parts += [_Part(m, end, room * seconds / least, seconds, i + 1) for m, end, seconds in found]
     rest = _parts(plan, timed.paced, anchors[-1].s, plan.stops[-1].s)
@@ -203,7 +206,7 @@ def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> lis
 
 def _made(timed: DueLeg, fast: Move, parts: list[_Part]) -> Move | None:
     if len(parts) == 1:
-        return fast.stretched(max(1.0, parts[0].seconds / fast.duration))
+        return fast.stretched(max(1.0 - SOLVED_TO, parts[0].seconds / fast.duration))
     span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))
     ends = np.array([p.end for p in parts])
     seconds = np.array([p.seconds for p in parts])

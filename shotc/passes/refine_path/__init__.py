@@ -13,6 +13,7 @@ from typing import ClassVar
 
 from shotc.ir.path import PathIR
 from shotc.passes.base import Outcome, PassContext
+from shotc.passes.refine_path.account import accounted
 from shotc.passes.refine_path.ask import ask
 from shotc.passes.refine_path.blame import blame, still_true
 from shotc.passes.refine_path.seat import REFINER, KeepPath, Refiner, Seat, Unusable
@@ -34,4 +35,5 @@ class RefinePath:
 
     def run(self, ir: PathIR, ctx: PassContext) -> Outcome[PathIR]:
         """Refine the filmed legs, or explain."""
-        return settle(ir, self.seat, ask(self.seat, self.deadline, ir, ctx))
+        settled = settle(ir, self.seat, ask(self.seat, self.deadline, ir, ctx))
+        return accounted(ir, self.seat, settled)

@@ -1,32 +1,96 @@
-"""Whether refined shots on their own clock are the same shots: their times, their ends, the legs around."""
+"""Whether refined drones on the mission's clock fly the same shots: their times, ends and ways between."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+from math import inf
 
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.path import FramingSpan, Leg, PathIR, TimedLeg
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import UPRIGHT, FramingSpan, Leg, PathIR, TimedLeg, TimedPath
+from shotc.passes.parameterize_time.estimate import leg_time
 from shotc.passes.refine_path.finding import Finding
-from shotc.passes.refine_path.form import broken, jumps
+from shotc.passes.refine_path.form import SAME, broken, changed_shot, jumps
 from shotc.passes.verify.shape import AT_REST
 
 EQUAL = 1e-9
 """Seconds, metres or radians, m/s and so on: the legs around a shot stay, so it joins them to rounding."""
 
+IN_TIME = 1e-6
+"""Seconds by which a leg may take longer or shorter than it did: what the clock of a mission is good to."""
+
+_DENSE = 257
+
 
 def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
     """Find what is wrong with drones on the mission's clock; both paths have the same legs."""
+    mission = before.keyframes.mission
     for old, new in zip(before.timed, after.timed, strict=True):
+        drone = mission.drone(new.drone)
         for was, now in zip(old.legs, new.legs, strict=True):
             if was is now:
                 continue
             if isinstance(was, TimedLeg) and isinstance(now, TimedLeg):
                 yield from _shot(was, now)
             elif isinstance(was, Leg) and isinstance(now, Leg) and not _alike(was, now):
-                note = f"of `{new.drone}`, whose flight is timed already"
-                yield Finding("R005", f"changed the {was.phase}", (note,), was.shot)
+                yield from _on_path(mission, drone, was, now)
+        yield from _joints(new)
+
+
+def _on_path(mission: MissionIR, drone: Drone, was: Leg, now: Leg) -> Iterator[Finding]:
+    """Find what is wrong with a leg that is a curve over its path; it may turn anew, and a shot may move."""
+    changed = list(_as_told(was, now))
+    if changed:
+        what = f"the {was.phase}" if was.shot is None else f"what shot `{was.shot}` is to do"
+        yield Finding("R005", f"changed {what}", (*changed, f"of `{drone.name}`"), was.shot)
+        return
+    if now.curve is not None:
+        yield from jumps(now, now.curve)
+    took, takes = (leg_time(mission, drone, leg) for leg in (was, now))
+    if abs(took - takes) > IN_TIME:
+        note = f"it takes {takes:.6f} s instead of {took:.6f} s, and others are planned beside it"
+        yield Finding("R005", f"changed how long `{drone.name}` flies", (note, f"its {was.phase}"), was.shot)
+
+
+def _as_told(was: Leg, now: Leg) -> Iterator[str]:
+    """Say what of a leg is another; one whose time was free may state the time that it takes."""
+    if was.duration is None:
+        now = replace(now, duration=None)
+    if now.phase == "shot":
+        yield from changed_shot(was, now)
+        return
+    told = [(leg.phase, leg.pace, leg.duration, leg.start, leg.path) for leg in (was, now)]
+    if told[0] != told[1] or len(was.stops) != len(now.stops):
+        yield "its timing is another"
+    elif now.phase in UPRIGHT:
+        yield "its flight is another"
+    elif _moved(was, now) > SAME:
+        yield f"it flies {_moved(was, now):.3g} m from where it was"
+
+
+def _moved(was: Leg, now: Leg) -> float:
+    """Return how far an unfilmed leg is from the places where it was, at dense samples, metres."""
+    if was.curve is None or now.curve is None:
+        return 0.0 if was.curve is now.curve else inf
+    if abs(was.curve.start - now.curve.start) + abs(was.curve.end - now.curve.end) > SAME:
+        return inf
+    s = np.linspace(was.curve.start, was.curve.end, _DENSE)
+    return float(np.abs(was.curve(s)[:, :3] - now.curve(s)[:, :3]).max())
+
+
+def _joints(flown: TimedPath) -> Iterator[Finding]:
+    for a, b in pairwise(flown.legs):
+        end = np.array(a.pose) if a.curve is None else a.curve.ctrl[-1, -1]
+        gap = float(np.abs(end - np.array(b.pose)).max())
+        if gap > SAME:
+            name = b.shot or (b.phase if isinstance(b, Leg) else "")
+            yield broken(
+                f"{flown.drone}: `{name}` begins {gap:.3g} from where the leg before ends (m or rad)"
+            )
 
 
 def _shot(was: TimedLeg, now: TimedLeg) -> Iterator[Finding]:

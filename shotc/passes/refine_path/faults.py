@@ -12,9 +12,10 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import Leg, PathIR, TimedLeg
+from shotc.ir.path import DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.passes.verify.numbers import measure
 
+UNREFINED = "R014"
 NO_HELP = "let this shot fly its convex path by `refine: {optional: true}`, or plan with `--refiner none`"
 
 
@@ -90,6 +91,18 @@ def fallback(path: PathIR, shot: str, solvers: tuple[str, str], why: str) -> Dia
     )
 
 
+def unrefined(path: PathIR, shot: str, why: str) -> Diagnostic:
+    """Return the warning of a shot that stays as it was; why : a clause, e.g. "no path is clear"."""
+    mission = path.keyframes.mission
+    return Diagnostic(
+        UNREFINED,
+        f"shot `{shot}` is not refined: {why}",
+        (mission.origins.key(shot_named(mission, shot).path, "flies its convex path"),),
+        (),
+        "the plan is proved as any other; only the framing between keyframes may be worse",
+    )
+
+
 def shot_named(mission: MissionIR, name: str) -> Shot:
     """Return the shot of that name; KeyError if there is none."""
     for shot in mission.shots:
@@ -113,21 +126,21 @@ def place(leg: Leg | TimedLeg, s: float) -> str:
 
 
 def leg_of(path: PathIR, shot: str) -> Leg:
-    """Return the leg that films a shot; KeyError if there is none."""
-    for drone in path.drones:
-        for leg in drone.legs:
-            if leg.shot == shot:
-                return leg
-    raise KeyError(shot)
+    """Return the leg that films a shot on a path; KeyError if there is none."""
+    leg = filmed(path, shot)
+    if not isinstance(leg, Leg):
+        raise KeyError(shot)
+    return leg
 
 
 def filmed(path: PathIR, shot: str) -> Leg | TimedLeg:
     """Return the leg that films a shot, whatever it is a curve over; KeyError if there is none."""
-    for drone in path.timed:
+    every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
+    for drone in every:
         for leg in drone.legs:
             if leg.shot == shot:
                 return leg
-    return leg_of(path, shot)
+    raise KeyError(shot)
 
 
 def _help(path: PathIR, state: SolverState, keyframes: str, *, loosen: bool = False) -> str:

@@ -52,7 +52,7 @@ def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
             if leg.curve is not None:
                 yield from jumps(leg, leg.curve)
         for was, now in zip(_shots(old), _shots(new), strict=True):
-            for fault in _changed(was, now):
+            for fault in changed_shot(was, now):
                 yield Finding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
 
 
@@ -64,9 +64,9 @@ def _shapes(path: PathIR) -> Iterator[Finding]:
                 yield broken(f"the {leg.phase} {fault}", leg.shot)
     for clocked in path.timed:
         for filmed in clocked.legs:
-            fault = _misshapen(filmed.curve) if isinstance(filmed, TimedLeg) else ""
+            fault = _misshapen(filmed.curve) if isinstance(filmed, TimedLeg) else _shapeless(filmed)
             if fault:
-                yield broken(f"the shot {fault}", filmed.shot)
+                yield broken(f"the {'shot' if filmed.shot else 'way'} {fault}", filmed.shot)
 
 
 def broken(note: str, shot: str | None = None) -> Finding:
@@ -79,8 +79,12 @@ def _skeleton(path: PathIR) -> list[tuple[str, list[tuple[str, str | None]]]]:
     kept: list[tuple[str, list[tuple[str, str | None]]]] = [
         (d.drone, [(leg.phase, leg.shot) for leg in d.legs if leg.phase not in UNFILMED]) for d in path.drones
     ]
-    kept += [(d.drone, [(type(leg).__name__, leg.shot) for leg in d.legs]) for d in path.timed]
+    kept += [(d.drone, [(_kind(leg), leg.shot) for leg in d.legs]) for d in path.timed]
     return kept
+
+
+def _kind(leg: Leg | TimedLeg) -> str:
+    return leg.phase if isinstance(leg, Leg) else type(leg).__name__
 
 
 def _doubled(drone: DronePath) -> bool:
@@ -180,7 +184,7 @@ def _lifts(drone: DronePath) -> list[Leg]:
     return [leg for leg in drone.legs if leg.phase in UPRIGHT]
 
 
-def _changed(was: Leg, now: Leg) -> Iterator[str]:
+def changed_shot(was: Leg, now: Leg) -> Iterator[str]:
     """Say what of a shot is not as it was."""
     if (was.pace, was.duration, was.start, was.path) != (now.pace, now.duration, now.start, now.path):
         yield "its timing is another"

@@ -17,7 +17,7 @@ from shotc.geom.corridor import Room, breaches, shortfall
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, sup_channel
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, UPRIGHT, Leg, PathIR, TimedLeg
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, UPRIGHT, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.passes.corridor.room import flight_room, named, owner_path
 from shotc.passes.refine_path.faults import leg_of, place
 from shotc.passes.refine_path.finding import Finding
@@ -42,21 +42,15 @@ class Near(NamedTuple):
 def limits(path: PathIR) -> Iterator[Finding]:
     """Find where a path of sound form breaks a clearance, misses a keyframe or leaves the gimbal's range."""
     mission = path.keyframes.mission
-    for track in path.drones:
+    every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
+    for track in every:
         drone = mission.drone(track.drone)
         room = flight_room(mission, drone)
         for leg in track.legs:
             if leg.curve is not None:
-                if leg.phase not in UPRIGHT:
+                if isinstance(leg, TimedLeg) or leg.phase not in UPRIGHT:
                     yield from _clearance(mission, room, leg, leg.curve)
                 yield from _gimbal(mission, drone, leg, leg.curve)
-    for clocked in path.timed:
-        drone = mission.drone(clocked.drone)
-        room = flight_room(mission, drone)
-        for shot in clocked.legs:
-            if isinstance(shot, TimedLeg):
-                yield from _clearance(mission, room, shot, shot.curve)
-                yield from _gimbal(mission, drone, shot, shot.curve)
     yield from _keyframes(path)
 
 
@@ -136,8 +130,9 @@ def _fine(_worst: float) -> float:
 
 
 def _keyframes(path: PathIR) -> Iterator[Finding]:
-    names = {drone.drone for drone in path.drones}
-    for placed in (p for p in path.keyframes.shots if p.shot.drone in names):
+    on_paths = {leg.shot for drone in path.drones for leg in drone.legs}
+    on_paths |= {leg.shot for drone in path.timed for leg in drone.legs if isinstance(leg, Leg)}
+    for placed in (p for p in path.keyframes.shots if p.shot.id in on_paths):
         leg = leg_of(path, placed.shot.id)
         for mark in leg.marks:
             keyframe = placed.keyframes[mark.index]

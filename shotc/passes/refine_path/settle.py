@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -19,7 +19,8 @@ from shotc.passes.refine_path.finding import Fault, Finding, tell
 from shotc.passes.refine_path.form import form, structure
 from shotc.passes.refine_path.room import limits
 from shotc.passes.refine_path.seat import Seat
-from shotc.passes.solve_path_qp.rejoin import NoTransit, rejoined
+from shotc.passes.solve_path_qp.rejoin import rejoined
+from shotc.passes.solve_path_qp.with_camera import NoTransit
 
 CAMERA = (X, Y, Z, CAM_YAW, CAM_PITCH)
 
@@ -82,20 +83,39 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
         for leg in drone.legs
         if leg.shot is not None and leg.curve is not None and leg.shot not in convex
     }
+    refined |= {
+        now.shot: now.curve.channels(*CAMERA)
+        for was, now in _on_paths(before, path)
+        if now.shot is not None and now.shot not in convex and now.curve is not None and not same(was, now)
+    }
     try:
         joined = rejoined(before, refined)
     except (NoTransit, ValueError):
         return None
     bent = [d for d in before.deviations if d.shot in convex]
     bent += [d for d in path.deviations if d.shot not in convex]
-    timed = tuple(_guided(old, new, convex) for old, new in zip(before.timed, path.timed, strict=True))
+    timed = tuple(_guided(old, new, convex) for old, new in zip(joined.timed, path.timed, strict=True))
     return replace(joined, deviations=tuple(bent), stats=path.stats, timed=timed)
 
 
+def _on_paths(before: PathIR, after: PathIR) -> Iterator[tuple[Leg, Leg]]:
+    """Yield the filmed legs on a path of drones on the mission's clock, as they were and as they are."""
+    for old, new in zip(before.timed, after.timed, strict=True):
+        for was, now in zip(old.legs, new.legs, strict=True):
+            if isinstance(was, Leg) and isinstance(now, Leg) and now.phase == "shot":
+                yield was, now
+
+
 def _guided(old: TimedPath, new: TimedPath, convex: set[str]) -> TimedPath:
-    """Return a drone's legs with the guides of some shots: refined legs begin and end where those do."""
+    """Return a drone's legs with refined shots on their own clock, less some that keep their guides.
+
+    Refined legs begin and end where those do.
+    """
     legs = zip(old.legs, new.legs, strict=True)
-    return TimedPath(old.drone, tuple(was if was.shot in convex else now for was, now in legs))
+    return TimedPath(
+        old.drone,
+        tuple(now if isinstance(now, TimedLeg) and now.shot not in convex else was for was, now in legs),
+    )
 
 
 def same(a: Leg | TimedLeg, b: Leg | TimedLeg) -> bool:

@@ -180,7 +180,24 @@ def _with_angles(
         drone.body == "follow-camera" or start[BODY_YAW] == goal[BODY_YAW]
     )
     breaks = position.breaks if straight and drone.body != "forward" else subdivide(position.breaks, PIECES)
-    position = restrict(position, breaks)
+    return _stacked(drone, restrict(position, breaks), start, goal, free_end=free_end)
+
+
+def turned_way(drone: Drone, leg: Leg, start: Pose, goal: Pose) -> Leg | AngleFailure:
+    """Return an unfilmed leg through the same places, from other angles to others."""
+    assert leg.curve is not None
+    position = leg.curve.channels(0, 1, 2)
+    if len(position.breaks) == 2:
+        position = restrict(position, subdivide(position.breaks, PIECES))
+    curve = _stacked(drone, position, start, goal, free_end=False)
+    return curve if isinstance(curve, AngleFailure) else replace(leg, curve=curve, pose=start)
+
+
+def _stacked(
+    drone: Drone, position: Piecewise, start: Pose, goal: Pose, *, free_end: bool
+) -> Piecewise | AngleFailure:
+    """Return a position curve with a camera that turns evenly, and the body that goes with it."""
+    breaks = position.breaks
     camera = restrict(_even(position, start, goal), breaks)
     yaw = camera.channels(0)
     end = None if free_end else goal[BODY_YAW]

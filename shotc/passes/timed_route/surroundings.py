@@ -114,9 +114,14 @@ class Planes:
         )
 
 
-def surroundings(path: PathIR, drone: Drone, breaks: Array) -> Surroundings:
-    """Return what a drone of a path keeps clear of on pieces of mission time."""
-    mission, room = path.keyframes.mission, flight_room(path.keyframes.mission, drone)
+def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: bool = True) -> Surroundings:
+    """Return what a drone of a path keeps clear of on pieces of mission time.
+
+    standing_too : whether what stands counts, or only what moves: a shot on a path is proved clear of what
+        stands whatever its time
+    """
+    mission = path.keyframes.mission
+    room = flight_room(mission, drone) if standing_too else Room((), (), ())
     flown = flights(path)
     moving = (
         *standing(room),

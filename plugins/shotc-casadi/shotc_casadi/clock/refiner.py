@@ -12,6 +12,7 @@ from shotc.plugin_api import (
     PassContext,
     PathIR,
     SolverState,
+    unrefined,
 )
 from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
 from shotc_casadi.clock.program import ROWS
@@ -24,6 +25,9 @@ from shotc_casadi.telling import UNITS, fallen_back, given_up, stats
 NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
 STEP = 0.1  # seconds between the places that are compared with it
 KEPT = "kept: the guide shows more"
+GUIDE_BETTER = "its guide films the subject as well or better by what the refiner measures"
+SHOWS_LESS = "its guide shows more of its subjects"
+IN_PICTURE = "refined, a drone would come into another's picture"
 OUT = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
 CALM = "a calmer camera, and the drone's limits"
 SIGHT = "what would hide the subject"
@@ -39,16 +43,25 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
     legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
     for shot in [leg.shot for leg in legs]:
         ctx.progress(f"refine shot {shot}")
-        subject = subject_of(path, shot)
-        refined = refine_clock(subject)
-        said = _report(path, subject, refined, name)
-        told += [] if said is None else [said]
-        new = refined.leg
-        if new is not None and subject.together and not no_less(subject, subject.leg, new):
-            refined = replace(refined, leg=None)
-        refined, moved = _taken(path, refined, past_what_hides(subject, refined))
-        path = replace(moved, stats=(*moved.stats, *_stats(refined)))
+        path, said = refine_one(path, shot, name)
+        told += said
     return path, tuple(told)
+
+
+def refine_one(path: PathIR, shot: str, name: str) -> tuple[PathIR, list[Diagnostic]]:
+    """Return the path with one shot on its own clock refined, and what has to be said of it."""
+    subject = subject_of(path, shot)
+    refined = refine_clock(subject)
+    said = _report(path, subject, refined, name)
+    new, why = refined.leg, GUIDE_BETTER
+    if new is not None and subject.together and not no_less(subject, subject.leg, new):
+        refined, why = replace(refined, leg=None), SHOWS_LESS
+    if refined.leg is not None:
+        why = IN_PICTURE
+    refined, moved = _taken(path, refined, past_what_hides(subject, refined))
+    if said is None and refined.leg is None:
+        said = unrefined(path, shot, why)
+    return replace(moved, stats=(*moved.stats, *_stats(refined))), [] if said is None else [said]
 
 
 def _taken(path: PathIR, plain: ClockRefined, freed: ClockRefined | None) -> tuple[ClockRefined, PathIR]:

@@ -1,0 +1,167 @@
+"""Shots refined in a mission with a clock: each beside what other drones and moving targets do meanwhile.
+
+A shot on a path is refined by the problem that it has alone, and flown in the time that its convex path
+takes, so that nobody planned beside it has to move. What comes too near then is kept away from by half-spaces
+at the nodes, at the times that these have, and the shot is solved again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.plugin_api import Diagnostic, Leg, Outcome, PassContext, PathIR, Piecewise, unrefined
+from shotc.refiner_api import (
+    Array,
+    FlownShot,
+    Looker,
+    NoTransit,
+    PlacedSubject,
+    flown_shot,
+    least_out,
+    leg_time,
+    quintic_hermite,
+    rejoined,
+    surroundings,
+)
+from shotc_casadi.clock.refiner import IN_PICTURE, OUT, refine_one
+from shotc_casadi.conditions import Condition
+from shotc_casadi.proof import PROVED
+from shotc_casadi.report import deviation, report
+from shotc_casadi.rounds import Refined, refine_shot
+from shotc_casadi.telling import stats
+from shotc_casadi.walls import REACH, NodePlanes
+from shotc_casadi.wishes import Subject, subject_of
+
+TRIES = 3  # about the last refined path; one more is about the convex path, which is known to be clear
+APART = 1e-6  # seconds at least between two nodes
+DEEPER = 0.05  # share by which a drone may be deeper in a picture in which it is already
+SHARE = 0.5  # of the room beside a wall, kept; what moves has its own
+
+
+def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> Outcome[PathIR]:
+    """Return the path with every shot refined, drone by drone in order of priority.
+
+    Shots on their own clock have no keyframes to interpolate; the conditions that do leave them alone.
+    """
+    told: list[Diagnostic] = []
+    filmed = [(flown.drone, leg) for flown in path.timed for leg in flown.legs if leg.curve is not None]
+    for drone, leg in filmed:
+        if leg.shot is None:
+            continue
+        ctx.progress(f"refine shot {leg.shot}")
+        if isinstance(leg, Leg):
+            path, said = _refined(path, subject_of(path, drone, leg), condition)
+        elif condition.aims == "framing":
+            path, said = refine_one(path, leg.shot, condition.name)
+        else:
+            said = [unrefined(path, leg.shot, f"`{condition.name}` goes from keyframe to keyframe")]
+        told += said
+    return Outcome(path, tuple(told))
+
+
+def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[PathIR, list[Diagnostic]]:
+    """Return the path with one shot on a path refined, and what has to be said of it."""
+    shot, task, why = subject.placed.shot.id, subject, ""
+    for tries in range(1, TRIES + 2):
+        refined = refine_shot(task, condition)
+        if refined.camera is None and not why:
+            error = report(path, refined, condition.name)
+            return path, [] if error is None else [error]
+        moved = path  # beside whose flight the next one is put
+        if refined.camera is not None:
+            try:
+                moved = rejoined(path, {shot: refined.camera})
+            except NoTransit as fault:
+                why = f"refined, it cannot keep {fault}"
+                if task.leg.duration is not None:
+                    break
+                task = task._replace(leg=_in_its_time(subject))
+                continue
+            against = _against(path, moved, subject)
+            if against is None:
+                return _told(path, moved, refined, condition)
+            why = against
+        course = path if tries == TRIES else moved
+        task = task._replace(beside=_Passing(course, subject, flown_shot(course, shot)).half_spaces)
+    return path, [unrefined(path, shot, why)]
+
+
+def _in_its_time(subject: Subject) -> Leg:
+    """Return the leg with the time that it takes as the time that it is to take."""
+    return replace(subject.leg, duration=leg_time(subject.mission, subject.drone, subject.leg))
+
+
+def _told(
+    path: PathIR, moved: PathIR, refined: Refined, condition: Condition
+) -> tuple[PathIR, list[Diagnostic]]:
+    """Return a path with a shot that is refined, with what is measured and said of it."""
+    warning = report(path, refined, condition.name)
+    entries = stats(refined.shot, refined.rounds, refined.solution)
+    left = (*moved.deviations, *deviation(path, refined))
+    whole = replace(moved, stats=(*moved.stats, *entries), deviations=left)
+    return whole, [] if warning is None else [warning]
+
+
+def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
+    """Return what stands against a refined shot as it is flown, None where nothing does.
+
+    What its convex path keeps no better does not count: verification has the word on that.
+    """
+    lacks = _lacking(after, subject)
+    kept = _lacking(before, subject) if lacks else {}
+    for owner, lack in lacks.items():
+        if lack > kept.get(owner, 0.0) + PROVED:
+            return f"refined, it comes {lack:.2g} m too near to {owner}"
+    free = least_out(before)
+    return IN_PICTURE if least_out(after) < min(OUT, free - DEEPER * abs(free)) else None
+
+
+def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
+    """Return what moves and is not proved to be clear of a shot as it is flown, with the metres that lack."""
+    flown = flown_shot(path, subject.placed.shot.id).curve
+    around = surroundings(path, subject.drone, flown.breaks, standing_too=False)
+    found: dict[str, float] = {}
+    for motion in around.motions:
+        lack = float(replace(around, motions=(motion,)).lacking(flown.ctrl[:, :, :3]).max())
+        if lack > PROVED:
+            found[motion.what.owner] = lack
+    return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Passing:
+    """What moves about a shot's flight, at the times at which it passes its nodes."""
+
+    path: PathIR
+    subject: Subject
+    flown: FlownShot
+
+    def half_spaces(self, s: Array) -> NodePlanes:
+        """Return half-spaces for nodes at path parameters s, shape (N + 1,)."""
+        t = self.flown.times(s) + APART * np.arange(len(s))
+        t = np.minimum(t, self.flown.curve.end + APART * np.arange(len(s)))
+        course = self._course(t)
+        drone = self.subject.drone
+        around = surroundings(self.path, drone, t, standing_too=False)
+        looker = Looker(self.subject.mission, drone, tuple(self._subjects()))
+        free = around.free(looker, (self.flown.start, self.flown.curve.end), course)
+        planes = around.half_spaces(course.ctrl, REACH, SHARE).and_also(free)
+        ends = (planes.piece, planes.piece + 1)
+        rows = [np.column_stack([planes.normal, planes.border[:, side]]) for side in (0, 1)]
+        return NodePlanes(np.concatenate(ends), np.concatenate(rows))
+
+    def _course(self, t: Array) -> Piecewise:
+        curve = self.flown.curve.channels(0, 1, 2)
+        inside = np.minimum(t, curve.end)
+        return quintic_hermite(t, *(curve.derivative(k)(inside) if k else curve(inside) for k in range(3)))
+
+    def _subjects(self) -> Iterator[PlacedSubject]:
+        """Yield what the shot frames, if that is one target in one place."""
+        framed = {(k.target, k.reference) for k in self.subject.placed.keyframes}
+        if len(framed) == 1:
+            ((target, reference),) = framed
+            if target is not None and reference is not None:
+                yield PlacedSubject(target, reference, None, None, self.subject.placed.shot.path)

@@ -1,0 +1,71 @@
+"""What has to be said of a shot on a path: how its solver fared, and how far it leaves its convex path."""
+
+from __future__ import annotations
+
+from math import isfinite, isnan, nan
+
+import numpy as np
+
+from shotc.plugin_api import Diagnostic, PathIR, SolverState
+from shotc.refiner_api import Deviation, leg_of
+from shotc_casadi.rounds import Gap, Refined
+from shotc_casadi.solving import MOTION
+from shotc_casadi.symbols import TIME
+from shotc_casadi.telling import UNITS, fallen_back, given_up
+
+NOTICE = 0.1  # metres off the convex path that are worth telling
+
+
+def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
+    """Return what has to be said of one shot's solver; name : of the refiner."""
+    solution = refined.solution
+    if refined.camera is not None:
+        return fallen_back(path, refined.shot, refined.first, solution)
+    if refined.gap is not None:
+        return given_up(path, _between(refined, refined.gap, name), solution)
+    return given_up(path, state_of(refined, solution.constraint or MOTION, name), solution)
+
+
+def _between(refined: Refined, gap: Gap, name: str) -> SolverState:
+    """Return the state of a problem whose solution does not hold between its nodes."""
+    k = min(int(np.searchsorted(refined.nodes.s, gap.s)), len(refined.nodes.s) - 1)
+    what = "the gimbal's pitch range" if isnan(gap.metres) else "the clearances between stages"
+    return state_of(refined, what, name)._replace(
+        stage=k, s=gap.s, time=float(refined.solution.states[k, TIME]), excess=gap.metres, unit="m"
+    )
+
+
+def state_of(refined: Refined, constraint: str, name: str) -> SolverState:
+    """Return where the last problem of a shot stood, for a constraint; name : of the refiner."""
+    solution = refined.solution
+    time = float(solution.states[solution.stage, TIME])
+    return SolverState(
+        shot=refined.shot,
+        refiner=name,
+        solver=solution.solver,
+        stage=solution.stage,
+        stages=len(solution.inputs),
+        s=float(refined.nodes.s[solution.stage]),
+        time=time if isfinite(time) else None,
+        constraint=constraint,
+        excess=solution.residual if constraint == solution.constraint else nan,
+        unit=UNITS.get(constraint, ""),
+    )
+
+
+def deviation(path: PathIR, refined: Refined) -> list[Deviation]:
+    """Return where a refined shot is farthest from its convex path, if that is worth telling."""
+    assert refined.camera is not None
+    leg = leg_of(path, refined.shot)
+    assert leg.curve is not None
+    away = np.linalg.norm(
+        (refined.camera(refined.nodes.s) - leg.curve(refined.nodes.s)[:, :5])[:, :3], axis=1
+    )
+    k = int(away.argmax())
+    if away[k] < NOTICE:
+        return []
+    return [
+        Deviation(
+            refined.shot, float(away[k]), float(refined.nodes.s[k]), "its framing and a smoother flight"
+        )
+    ]
