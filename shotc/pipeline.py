@@ -123,18 +123,30 @@ def run_refined(
     done = run(passes, value, ctx, stop_after)
     k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), 0)
     outputs: list[Any] = [report.output for report in done.reports]
-    if not k or outputs[k] is None or outputs[k] is outputs[k - 1]:
+    if not k or outputs[k] is None:
         return done
-    paths = outputs[k - 1], outputs[k]
+    convex, refined = outputs[k - 1], outputs[k]
     late = tuple(d for report in done.reports[k + 1 :] for d in report.diagnostics)
     if not has_errors(late):
-        return done._replace(diagnostics=still_true(paths, done.diagnostics))
-    again = run(passes[k + 1 :], outputs[k - 1], ctx, stop_after)
+        true = done._replace(diagnostics=still_true((convex, refined), done.diagnostics))
+        return _accounted(true, seat, (convex, refined))
+    if refined is convex:
+        return done
+    again = run(passes[k + 1 :], convex, ctx, stop_after)
     if has_errors(again.diagnostics):
         return done
-    verdict = blame(seat, paths, tuple(d for d in late if has_errors([d])))
+    verdict = blame(seat, (convex, refined), tuple(d for d in late if has_errors([d])))
     early = tuple(d for report in done.reports[: k + 1] for d in report.diagnostics)
     if not verdict.convex:
         return Run(None, (*early, *verdict.diagnostics), done.reports)
     said = (*early, *verdict.diagnostics, *again.diagnostics)
-    return Run(again.value, said, (*done.reports[: k + 1], *again.reports))
+    flown = Run(again.value, said, (*done.reports[: k + 1], *again.reports))
+    return _accounted(flown, seat, (convex, convex))
+
+
+def _accounted(done: Run, seat: Any, paths: tuple[Any, Any]) -> Run:
+    """Return a run that tells of every shot whether it is refined; paths : as in ``account``."""
+    from shotc.passes.refine_path import account
+
+    told = account(seat, paths, done.diagnostics)
+    return done._replace(value=told.noted_in(done.value), diagnostics=(*done.diagnostics, *told.warnings))

@@ -22,7 +22,7 @@ from shotc.passes.parameterize_time.windows import windowed_move
 # What a flight is late at least that no single stretch makes late; seconds that are none.
 LITTLE, SOON = 0.01, 1e-3
 # Rounding by which a time may be shorter than the shortest, relative and in seconds; and the share to which
-# the solver knows the shortest, a tenth of what it keeps from the limits: moves may be flown that much faster.
+# the solver knows the shortest, a tenth of what it keeps from the limits: a move may be so much faster.
 ROUNDING, SOLVED_TO = 1e-9, 1e-7
 # The search for the least delay that would do: first try, seconds; doublings; halvings after that.
 FIRST_DELAY, DOUBLINGS, HALVINGS = 0.05, 9, 5

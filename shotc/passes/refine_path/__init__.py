@@ -13,13 +13,23 @@ from typing import ClassVar
 
 from shotc.ir.path import PathIR
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.refine_path.account import accounted
+from shotc.passes.refine_path.account import account
 from shotc.passes.refine_path.ask import ask
 from shotc.passes.refine_path.blame import blame, still_true
 from shotc.passes.refine_path.seat import REFINER, KeepPath, Refiner, Seat, Unusable
 from shotc.passes.refine_path.settle import settle
 
-__all__ = ["REFINER", "KeepPath", "RefinePath", "Refiner", "Seat", "Unusable", "blame", "still_true"]
+__all__ = [
+    "REFINER",
+    "KeepPath",
+    "RefinePath",
+    "Refiner",
+    "Seat",
+    "Unusable",
+    "account",
+    "blame",
+    "still_true",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,5 +45,4 @@ class RefinePath:
 
     def run(self, ir: PathIR, ctx: PassContext) -> Outcome[PathIR]:
         """Refine the filmed legs, or explain."""
-        settled = settle(ir, self.seat, ask(self.seat, self.deadline, ir, ctx))
-        return accounted(ir, self.seat, settled)
+        return settle(ir, self.seat, ask(self.seat, self.deadline, ir, ctx))

@@ -60,8 +60,10 @@ def test_a_refiner_that_breaks_a_promise_is_blamed(planned):
 def test_the_convex_path_is_flown_where_every_refined_shot_accepts_it(planned):
     done = planned(detour, hurried(ROUND))
     assert done.plan is not None
-    assert [d.code for d in done.diagnostics] == ["R003"]
+    assert [d.code for d in done.diagnostics] == ["R003", "R014"]
     assert "shot `round`" in done.diagnostics[0].message
+    assert "shot `pass` is not refined: refiner `odd`" in done.diagnostics[1].message
+    assert "none that can be flown" in str(dict(done.plan.trajectory.stats)["round.refined"])
     (flown,) = (p for p in done.plan.trajectory.drones[0].phases if p.shot == ROUND)
     assert flown.end - flown.start == pytest.approx(DURATION, abs=1e-6)
     assert [report.name for report in done.reports][-3:] == ["refine-path", "parameterize-time", "verify"]

@@ -14,6 +14,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedPath, X, Y, Z
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.parameterize_time.estimate import leg_time
 from shotc.passes.refine_path import RefinePath, Seat
+from shotc.passes.refine_path.account import Account, account
 from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.settle import same
 from shotc.passes.solve_path_qp.rejoin import rejoined
@@ -39,6 +40,7 @@ shots:
   - {id: round, kind: orbit, drone: cam2, target: mast, radius: 25, altitude: 12, start_azimuth: 90 deg,
      sweep: 60 deg, timing: {after: pass}}
 """
+SEAT = Seat(Odd(Outcome), "odd-maker")
 CAMERA = (X, Y, Z, CAM_YAW, CAM_PITCH)
 
 
@@ -58,7 +60,7 @@ def path(*optional: str) -> PathIR:
 
 
 def refine(act, *optional: str):
-    return RefinePath(Seat(Odd(act), "odd-maker")).run(path(*optional), PassContext())
+    return RefinePath(SEAT._replace(refiner=Odd(act))).run(path(*optional), PassContext())
 
 
 def leg(ir: PathIR, shot: str) -> Leg:
@@ -184,20 +186,21 @@ def test_a_spoilt_shot_that_may_is_flown_convex_and_the_others_stay_refined():
     before = path("pass")
     assert same(filmed(before, "pass"), filmed(outcome.value, "pass"))
     assert not same(filmed(before, "round"), filmed(outcome.value, "round"))
-    stats = dict(outcome.value.stats)
-    assert stats["round.refined"] == "yes"
-    assert "none that can be flown" in stats["pass.refined"]
+    told = dict(account(SEAT, (before, outcome.value), outcome.diagnostics).entries)
+    assert told["round.refined"] == "yes"
+    assert "none that can be flown" in str(told["pass.refined"])
 
 
 def test_a_refiner_that_knows_nothing_of_the_clock_is_told_of_once_a_shot():
-    outcome = refine(lambda ir: Outcome(replace(ir)))
-    assert [d.code for d in outcome.diagnostics] == ["R014", "R014"]
-    assert [d.message.split("`")[1] for d in outcome.diagnostics] == ["pass", "round"]
-    assert all("refiner `odd` of package odd-maker left it" in d.message for d in outcome.diagnostics)
-    assert dict(outcome.value.stats)["still.refined"] == "its camera stands still"
+    told = account(SEAT, (path(), replace(path())), ())
+    assert [d.code for d in told.warnings] == ["R014", "R014"]
+    assert [d.message.split("`")[1] for d in told.warnings] == ["pass", "round"]
+    assert all("refiner `odd` of package odd-maker left it" in d.message for d in told.warnings)
+    assert dict(told.entries)["still.refined"] == "its camera stands still"
+    again = account(SEAT, (path(), replace(path())), told.warnings)
+    assert again.warnings == ()
+    assert again.entries == told.entries
 
 
 def test_where_nobody_was_to_refine_nothing_is_told():
-    outcome = RefinePath(Seat()).run(path(), PassContext())
-    assert outcome.diagnostics == ()
-    assert not [name for name, _ in outcome.value.stats if name.endswith(".refined")]
+    assert account(Seat(), (path(), path()), ()) == Account()
