@@ -16,7 +16,6 @@ from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
 from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
-from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
@@ -27,16 +26,19 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
 from shotc.passes.parameterize_time.estimate import lateness, leg_time, rough_times
 from shotc.passes.parameterize_time.marks import flying_times
+from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.refine_path.faults import leg_of
 from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import rejoined
 from shotc.passes.solve_path_qp.turns import steady
 from shotc.passes.solve_path_qp.with_camera import NoTransit, with_camera
-from shotc.passes.timed_route.aims import Looker
+from shotc.passes.timed_route.aims import Looker, aims_at, looker_of
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.flights import FlownShot, flights, flown_shot
+from shotc.passes.timed_route.keyed import Keyed
 from shotc.passes.timed_route.pictures import least_out
+from shotc.passes.timed_route.position import Bound, bounds_of
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
@@ -47,6 +49,7 @@ __all__ = [
     "CAM_YAW",
     "HFOV",
     "Array",
+    "Bound",
     "Clock",
     "Cylinder",
     "Deviation",
@@ -55,6 +58,7 @@ __all__ = [
     "Fit",
     "FlownShot",
     "IntArray",
+    "Keyed",
     "Looker",
     "Mask",
     "NoTransit",
@@ -71,8 +75,9 @@ __all__ = [
     "View",
     "Watch",
     "aim_at",
-    "at_start",
+    "aims_at",
     "bounded",
+    "bounds_of",
     "convex_parts",
     "corridor",
     "cylinder",
@@ -90,10 +95,12 @@ __all__ = [
     "least_out",
     "leg_of",
     "leg_time",
+    "looker_of",
     "moved",
     "nearest_depth",
     "others_of",
     "parts_of_one",
+    "placed_at",
     "places",
     "quintic_hermite",
     "rejoined",

@@ -4,6 +4,7 @@ from functools import lru_cache
 
 from shotc.geom.same import Same
 from shotc.ir.flown_order import flown_order
+from shotc.ir.keyed import carriers
 from shotc.ir.mission import MissionIR, Shot
 
 
@@ -22,7 +23,7 @@ def first_start(mission: MissionIR, shot: Shot) -> float:
     """Return when a shot begins, or where that is not known, when it may at the earliest."""
     if shot.timing.start is not None:
         return shot.timing.start
-    tracks = (mission.target(s.target).track for s in shot.subjects)
+    tracks = (mission.target(name).track for name in carriers(shot))
     known = [track.since for track in tracks if track is not None]
     return max([known_start(mission, shot) or 0.0, *known])
 

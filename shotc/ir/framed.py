@@ -36,6 +36,7 @@ from shotc.geom.viewpoint import (
 )
 from shotc.ir.begins import first_start
 from shotc.ir.ideal import ideal_place
+from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject, Target
 
 KNOT = 0.5  # seconds between the knots of a course
@@ -66,10 +67,12 @@ class Course(NamedTuple):
 
 
 def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
-    """Return a shot as it is where its first frame is at ``start``; only a framing depends on that."""
-    if shot.ideal is None or not shot.ideal.framed or not shot.subjects:
-        return shot
+    """Return a shot as it is where its first frame is at ``start``; framings and keyframes depend on that."""
     if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME:
+        return shot
+    if is_keyed(shot):
+        return settled(mission, shot, start)
+    if shot.ideal is None or not shot.ideal.framed or not shot.subjects:
         return shot
     return course_of(mission, shot, start).shot
 

@@ -3,6 +3,7 @@
 from bisect import bisect_right
 from math import cos, sin
 
+from shotc.ir.keyed import way_at
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
 
@@ -15,6 +16,8 @@ def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
     ideal, duration = shot.ideal, shot.timing.duration
     assert ideal is not None
     assert duration is not None
+    if ideal.frame == "keyframes":
+        return way_at(mission, shot, start, t)
     offset = _offset(ideal.points, min(1.0, max(0.0, (t - start) / duration)))
     if ideal.target is None:
         return offset

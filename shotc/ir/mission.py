@@ -117,10 +117,22 @@ class Composition(NamedTuple):
         return not (self.points or self.u_lines or self.v_lines or self.keep)
 
 
+class Beside(NamedTuple):
+    """A place that counts from a target.
+
+    offset : from its foot, the lowest point of its axis, metres: East, North and Up, or, where it turns with
+        the way that the target goes, ahead of it, to the left of it and up
+    """
+
+    target: str
+    offset: Vec3
+    turns: bool = False
+
+
 class Keyframe(NamedTuple):
     """Where the camera is to be and what it looks at, before composition.
 
-    at : p_WC
+    at : p_WC; where it counts from a target that moves, as that is for a shot that begins as early as it may
     aim : (yaw, pitch) as the user wrote them, rad, camera yaw counter-clockwise from East; a point
         of W to look at; or None to look at ``target``
     target : name of the subject that is framed here, if any
@@ -128,6 +140,7 @@ class Keyframe(NamedTuple):
     hold : seconds at rest; time : seconds from the shot's start, if fixed
     placed : True where the user gave the position (it binds), False where a kind generated it
     heading : compass heading as the user wrote it, rad, whole turns included; None where none is written
+    beside : what the place counts from, or None for a place of W
     """
 
     at: Vec3
@@ -140,6 +153,7 @@ class Keyframe(NamedTuple):
     placed: bool
     path: KeyPath
     heading: float | None = None
+    beside: Beside | None = None
 
 
 class Ideal(NamedTuple):
@@ -147,8 +161,9 @@ class Ideal(NamedTuple):
 
     frame : what offsets count from. "world": W's origin. "target": the target's axis, East and North of
         it, z in W. "heading": the same, ahead of the way the target faces and to the left of it.
-        "about": the target's centre, along W's axes
-    target : its name, None in the world
+        "about": the target's centre, along W's axes. "keyframes": points are the places of the shot's
+        keyframes and when they are reached, and ``ir.keyed`` says where the camera is between them
+    target : its name, None in the world and of keyframes
     points : (share of the shot's time, offset in metres), shares rising from 0 to 1; even between them
     placed : True where the user gave the positions, False where a kind generated them
     aim : (yaw, pitch) that the camera keeps, rad, or None where it follows the shot's subjects
@@ -156,7 +171,7 @@ class Ideal(NamedTuple):
         time at which the shot begins, as far as that is known
     """
 
-    frame: Literal["world", "target", "heading", "about"]
+    frame: Literal["world", "target", "heading", "about", "keyframes"]
     target: str | None
     points: tuple[tuple[float, Vec3], ...]
     placed: bool = False
@@ -198,7 +213,8 @@ class Shot(NamedTuple):
 
     pace : share of the limits used where the duration is not given, 0 to 1
     subject : the target as the shot names it, or None
-    ideal : of a shot on its own clock, whose timing has a duration; it has no keyframes then
+    ideal : of a shot on its own clock, whose timing has a duration; it has no keyframes then, unless they are
+        what the ideal is made of
     subjects : whom it frames then
     size : that its target is to have, as in Subject, or None
     """
@@ -295,6 +311,15 @@ class MissionIR(NamedTuple):
             if display.id == name:
                 return display
         raise KeyError(name)
+
+
+def frozen(mission: MissionIR, time: float) -> MissionIR:
+    """Return the mission with every target standing where it is at a time, for pictures of that moment."""
+    if all(target.track is None for target in mission.targets):
+        return mission
+    return mission._replace(
+        targets=tuple(target._replace(centre=target.at(time), track=None) for target in mission.targets)
+    )
 
 
 _Named = TypeVar("_Named", Drone, Target, "Fleet")

@@ -35,7 +35,8 @@ class Stop:
 class Mark:
     """A keyframe on the path.
 
-    s : its path parameter; time : seconds from the shot's start, if the mission fixes it
+    s : its path parameter, of a shot on its own clock mission time
+    time : seconds from the shot's start, if the mission fixes it
     index : among the shot's keyframes
     """
 
@@ -92,7 +93,7 @@ class TimedLeg:
 
     curve : channels CHANNELS over mission time, piecewise quintic, at least C2
     start, end : mission time of the first and the last filmed frame, seconds
-    framing : as in Leg, but over mission time
+    framing : as in Leg, but over mission time; marks : its keyframes, s is mission time
     """
 
     shot: str
@@ -101,6 +102,7 @@ class TimedLeg:
     end: float
     framing: tuple[FramingSpan, ...]
     path: KeyPath
+    marks: tuple[Mark, ...] = ()
 
     @property
     def pose(self) -> tuple[float, ...]:

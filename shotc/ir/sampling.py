@@ -94,15 +94,6 @@ def seen(
     return replace(frames(still, cylinder(filmed)), hidden=covered)
 
 
-def frozen(mission: MissionIR, time: float) -> MissionIR:
-    """Return the mission with every target standing where it is at a time, for pictures of that moment."""
-    if all(target.track is None for target in mission.targets):
-        return mission
-    return mission._replace(
-        targets=tuple(target._replace(centre=target.at(time), track=None) for target in mission.targets)
-    )
-
-
 def beside(curve: Piecewise, target: Target) -> Piecewise:
     """Return a curve of channels x, y, z over mission time as it is where the target stands at its centre."""
     if target.track is None:

@@ -11,9 +11,20 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
 from shotc.geom.geodetic import above_ground
 from shotc.ir.limits import Vec2, Vec3
-from shotc.ir.mission import Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Rules, Subject, Target
+from shotc.ir.mission import (
+    Beside,
+    Composition,
+    Deferred,
+    Drone,
+    GeoOrigin,
+    Ideal,
+    Keyframe,
+    Rules,
+    Subject,
+    Target,
+)
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.spec.fields import Geodetic
+from shotc.spec.fields import Geodetic, Relative
 from shotc.spec.shot import ShotBase
 from shotc.spec.words import nearest
 
@@ -41,10 +52,17 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 
 API_VERSION = 1
 OURS = "shotc"
-MOVING = "a moving target"
+OWN = "target"  # what a place counts from where that is the target of its shot
 STILL = 5.0  # seconds that a camera which stands still films where the timing gives no duration
 
 Place = Vec3 | Geodetic
+
+
+class Stand(NamedTuple):
+    """Where a camera is: a place of W, and what it counts from where that moves."""
+
+    at: Vec3
+    beside: Beside | None = None
 
 
 Part = Keyframe | Diagnostic | Deferred
@@ -109,12 +127,35 @@ class Scene(NamedTuple):
             return unknown_target(self.origins, where, name, self.targets)
         return self.targets[name] or Deferred("a target whose track cannot be used", where)
 
-    def standing(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
-        """Return a target as ``subject`` does, if it stands: what moves has no keyframes yet."""
-        found = self.subject(name, *path)
-        if isinstance(found, Target) and found.track is not None:
-            return Deferred(f"this kind of shot of {MOVING}", (*self.path, *path))
-        return found
+    def stand(
+        self, shot: ShotBase, at: "Place | Relative", *path: str | int
+    ) -> Stand | Diagnostic | Deferred:
+        """Return where a camera is that is written at ``path`` below the shot.
+
+        A place that counts from a target that stands is one of W like any other.
+        """
+        if not isinstance(at, Relative):
+            return Stand(self.place(at))
+        name = shot.target if at.from_ == OWN and OWN not in self.targets else at.from_
+        if name is None:
+            message = "the place counts from the target of a shot that has none"
+            return self.fault(
+                "K016", message, "name it, as `from: NAME`, or give the shot a `target`", *path, "from"
+            )
+        target = self.subject(name, *path, "from")
+        if not isinstance(target, Target):
+            return target
+        if target.track is None and at.turn is not None:
+            message = f"the place turns with the way that `{name}` goes, but `{name}` stands"
+            return self.fault(
+                "K017", message, "leave `turn` out: the offset is [east, north, up] then", *path, "turn"
+            )
+        x, y, z = target.centre
+        east, north, up = at.offset
+        foot = (x + east, y + north, z - target.height / 2 + up)
+        if target.track is None:
+            return Stand(foot)
+        return Stand(foot, Beside(name, at.offset, turns=at.turn is not None))
 
     def aim(self, shot: ShotBase, aimed: "Aimed", *path: str | int) -> Aim | Diagnostic | Deferred:
         """Return (aim, target) of a camera that is aimed as ``aimed``, at ``path`` below the shot, says.
@@ -123,10 +164,10 @@ class Scene(NamedTuple):
         taken, and the shot's own target, if it has one, is framed.
         """
         if isinstance(aimed.look_at, str):
-            found = self.standing(aimed.look_at, *path, "look_at")
+            found = self.subject(aimed.look_at, *path, "look_at")
             return (None, aimed.look_at) if isinstance(found, Target) else found
         if shot.target is not None:
-            subject = self.standing(shot.target, "target")
+            subject = self.subject(shot.target, "target")
             if not isinstance(subject, Target):
                 return subject
         if aimed.look_at is not None:

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Deferred
-from shotc.kinds.base import Expansion, Kind, Part, Scene
+from shotc.kinds.base import Expansion, Kind, Part, Scene, Stand
 from shotc.spec.shot import KeyframeSpec, ShotBase
 
 
@@ -29,8 +29,11 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
     aim = scene.aim(shot, spec, *path)
     if isinstance(aim, Diagnostic | Deferred):
         return aim
+    stand = scene.stand(shot, spec.at, *path, "at")
+    if not isinstance(stand, Stand):
+        return stand
     return scene.keyframe(
-        scene.place(spec.at),
+        stand.at,
         aim[1],
         aim=aim[0],
         composition=spec.frame or scene.composition,
@@ -40,6 +43,7 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
         placed=True,
         path=(*scene.path, *path),
         heading=spec.heading,
+        beside=stand.beside,
     )
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from shotc.ir.keyed import KEYED
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Ideal, Subject, Target
 from shotc.kinds.base import Expansion, Scene
@@ -42,6 +43,28 @@ def timed(
     if subjects is None:
         subjects = () if shot.target is None else (scene.framed(shot, shot.target),)
     return Expansion(ideal=ideal, subjects=subjects, lasts=lasts)
+
+
+def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
+    """Return keyframes of what moves as a shot on its own clock; a camera that stands still has one twice.
+
+    The last keyframe's time, where it has one, says how long the shot lasts if nothing else does.
+    """
+    keyframes, lasts = given.keyframes, given.lasts
+    last = keyframes[-1]
+    if lasts is None and last.time is not None:
+        lasts = last.time + last.hold
+    if len(keyframes) == 1:
+        lasts = last.hold
+        keyframes = (last._replace(hold=0.0), last._replace(hold=0.0))
+    named = {k.target: k for k in reversed(keyframes) if k.target is not None}
+    subjects = tuple(
+        Subject(k.target, k.composition, shot.size, None, k.path)
+        for k in reversed(named.values())
+        if k.target is not None
+    )
+    found = timed(shot, scene, KEYED, subjects, lasts)
+    return found if found.ideal is None else found._replace(keyframes=keyframes)
 
 
 def evenly(points: Sequence[Vec3]) -> tuple[tuple[float, Vec3], ...]:

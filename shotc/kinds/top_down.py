@@ -6,7 +6,7 @@ from typing import Literal
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Composition, Target
+from shotc.ir.mission import Beside, Composition, Target
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.rounding import at_most
 from shotc.spec.fields import Length, Name, Velocity
@@ -21,7 +21,7 @@ class TopDownShot(ShotBase):
 
     kind: Literal["top-down"] = Field(description="what sort of shot it is")
     target: Name = Field(description="name of the target below the camera")
-    altitude: Length = Field(description="z of the camera")
+    altitude: Length = Field(description="z of the camera; over the foot of a target that moves")
     drift: Velocity | None = Field(
         default=None, description="velocity of the camera from above the target; needs timing.duration"
     )
@@ -33,7 +33,7 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     Looking down is what this kind is for, so the camera tilts only for a composition that the shot
     itself asks for.
     """
-    target = scene.standing(shot.target, "target")
+    target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
     x, y, _ = target.centre
@@ -43,16 +43,24 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
         "aim": (atan2(north, east) if hypot(east, north) > 0 else NORTH, -pi / 2),
         "composition": shot.composition or WATCH,
     }
-    above = (x, y, shot.altitude)
-    if hypot(east, north, up) == 0:
-        return Expansion.of([scene.keyframe(above, shot.target, hold=duration or STILL, **fixed)])
-    if duration is None:
+    drifts = hypot(east, north, up) > 0
+    if drifts and duration is None:
         return Expansion.of([scene.lasting("K009", "a drift needs a duration", "drift")])
-    fault = _too_fast(shot, scene, duration)
+    lasts = duration or STILL
+    end = (east * lasts, north * lasts, shot.altitude + up * lasts)
+    if target.track is not None:
+        ends = ((0.0, 0.0, shot.altitude), end)
+        beside = (scene.keyframe(p, shot.target, beside=Beside(shot.target, p), **fixed) for p in ends)
+        return Expansion.of(beside)._replace(lasts=lasts)
+    above = (x, y, shot.altitude)
+    if not drifts:
+        return Expansion.of([scene.keyframe(above, shot.target, hold=lasts, **fixed)])
+    fault = _too_fast(shot, scene, lasts)
     if fault is not None:
         return Expansion.of([fault])
-    end = (x + east * duration, y + north * duration, shot.altitude + up * duration)
-    return Expansion.of(scene.keyframe(at, shot.target, **fixed) for at in (above, end))
+    return Expansion.of(
+        scene.keyframe(at, shot.target, **fixed) for at in (above, (x + end[0], y + end[1], end[2]))
+    )
 
 
 def _too_fast(shot: TopDownShot, scene: Scene, duration: float) -> Diagnostic | None:

@@ -253,11 +253,11 @@ def _placed(value: Any, mission: MissionIR, decoder: Decoder) -> tuple[PlacedSho
     for i, item in enumerate(value):
         fields = decoder.fields(kinds, item, f"keyframes[{i}]")
         shot = shots.get(fields.get("shot", ""))
-        if shot is not None and bool(fields.get("keyframes")) == (shot.ideal is None):
+        if shot is not None and len(fields.get("keyframes", ())) == len(shot.keyframes):
             found.append(PlacedShot(shot, fields["keyframes"], fields.get("subjects", ())))
         elif len(fields) == len(kinds):
             decoder.fault(
                 f"keyframes[{i}]",
-                "names no shot of the mission, or has no keyframes (or has some on its own clock)",
+                "names no shot of the mission, or has not as many keyframes as that",
             )
     return tuple(found)

@@ -8,7 +8,8 @@ from math import dist, hypot, pi
 
 from shotc.geom.solids import Cylinder, Solid, is_simple, signed_area
 from shotc.geom.track import Track
-from shotc.ir.mission import Drone, Ideal, MissionIR
+from shotc.ir.keyed import in_order, is_keyed
+from shotc.ir.mission import Drone, Ideal, MissionIR, Shot
 from shotc.ir.path import CHANNELS
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.planfile.fleet_sanity import fleet_faults
@@ -73,7 +74,8 @@ def _motion(track: Track) -> str:
 
 
 def _ideal(ideal: Ideal, targets: set[str]) -> str:
-    known = ideal.target is None if ideal.frame == "world" else ideal.target in targets
+    alone = ideal.frame in ("world", "keyframes")
+    known = ideal.target is None if alone else ideal.target in targets
     if not known:
         return "it is about no target of the mission"
     shares = [share for share, _ in ideal.points]
@@ -127,13 +129,26 @@ def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:
         named = {shot.subject, *(k.target for k in shot.keyframes), *(s.target for s in shot.subjects)}
         for target in named - {None, *targets}:
             yield f"mission.shots[{i}]", f"there is no target `{target}`"
-        if shot.ideal is not None and (text := _ideal(shot.ideal, targets)):
-            yield f"mission.shots[{i}].ideal", text
-        if shot.ideal is not None and shot.timing.duration is None:
-            yield f"mission.shots[{i}].timing", "a shot on its own clock needs a duration"
+        if shot.ideal is not None:
+            yield from _on_clock(shot, targets, f"mission.shots[{i}]")
     missing = {shot.id for shot in mission.shots} - {placed.shot.id for placed in ir.keyframes.shots}
     for name in sorted(missing):
         yield "keyframes", f"those of shot `{name}` are missing"
+
+
+def _on_clock(shot: Shot, targets: set[str], path: str) -> Iterator[Fault]:
+    """Yield what is wrong with a shot on its own clock."""
+    assert shot.ideal is not None
+    if shot.timing.duration is None:
+        yield f"{path}.timing", "a shot on its own clock needs a duration"
+    elif text := _ideal(shot.ideal, targets):
+        yield f"{path}.ideal", text
+    elif is_keyed(shot) != bool(shot.keyframes) or len(shot.keyframes) not in (0, len(shot.ideal.points)):
+        yield f"{path}.keyframes", "they are not those of its ideal"
+    elif is_keyed(shot) and not in_order(shot):
+        yield f"{path}.ideal", "its keyframes are not in order of time"
+    for name in {k.beside.target for k in shot.keyframes if k.beside is not None} - targets:
+        yield f"{path}.keyframes", f"there is no target `{name}`"
 
 
 def _twice(path: str, names: Iterable[str]) -> Iterator[Fault]:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.fieldtypes import Flag, Integer, NamedOr, Text
-from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position
+from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position, Relative, Station
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
 from shotc.spec.sizes import SIZES
@@ -47,6 +47,7 @@ __all__ = [
     "PositiveLengthSpan",
     "PositiveShare",
     "Priority",
+    "Relative",
     "RelativePath",
     "ScreenDistance",
     "ScreenPoint",
@@ -55,6 +56,7 @@ __all__ = [
     "ShotSize",
     "Size3",
     "Speed",
+    "Station",
     "Switch",
     "Velocity",
 ]

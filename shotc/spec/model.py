@@ -128,8 +128,9 @@ class Model(BaseModel):
             return data
         data = cls.shorthand(data)
         if not isinstance(data, dict):
-            raise _no_mapping(data, cls.model_fields)
-        details = [_empty(key) for key, value in data.items() if value is None and key in cls.model_fields]
+            raise _no_mapping(data, cls.keys())
+        known = cls.keys()
+        details = [_empty(key) for key, value in data.items() if value is None and key in known]
         details += [detail for rule in cls.exclusive for detail in rule.conflicts(data)]
         lacks = [lack for rule in cls.exclusive for lack in rule.lacks(data)]
         try:
@@ -141,6 +142,11 @@ class Model(BaseModel):
         if details or lacks:
             raise together([*details, *(lack.detail for lack in lacks)])
         return model
+
+    @classmethod
+    def keys(cls) -> Mapping[str, FieldInfo]:
+        """Return the fields by the keys that missions write; `from`, no name in Python, is an alias."""
+        return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
@@ -162,7 +168,7 @@ class Model(BaseModel):
         cls, error: ValidationError, data: Mapping[str, object], lacks: list[Lack]
     ) -> list[InitErrorDetails]:
         """Put pydantic's faults about this mapping's own keys into the language's words."""
-        details, known = details_of(error), cls.model_fields
+        details, known = details_of(error), cls.keys()
         missing = [str(d["loc"][0]) for d in details if _is(d, "missing")]
         lacks = [*lacks, *(_missing(key, known[key]) for key in missing if key not in data)]
         unknown = [str(d["loc"][0]) for d in details if _is(d, "extra_forbidden")]
@@ -276,7 +282,7 @@ def _keys_below(field: FieldInfo) -> Mapping[str, object]:
     parts = (field.annotation, *get_args(field.annotation))
     marks = (*field.metadata, *(mark for part in parts for mark in get_args(part)))
     models = (*parts, *(mark.model for mark in marks if isinstance(mark, Later)))
-    return next((m.model_fields for m in models if isinstance(m, type) and issubclass(m, Model)), {})
+    return next((m.keys() for m in models if isinstance(m, type) and issubclass(m, Model)), {})
 
 
 def _detail(loc: tuple[str | int, ...], slug: str, message: str, help_: str = "") -> InitErrorDetails:

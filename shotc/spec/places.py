@@ -1,6 +1,6 @@
 """Field types for places in the world: a position, and what a camera looks at."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
@@ -101,6 +101,42 @@ class PositionType(FieldType):
 
 POSITION = PositionType()
 Position = Annotated[Vec3 | Geodetic, POSITION]
+
+
+class Relative(Model):
+    """A place that counts from a target, wherever that is at the moment."""
+
+    from_: Annotated[str, NAME] = Field(
+        alias="from", description="name of the target it counts from, or target for the shot's own"
+    )
+    offset: Annotated[Vec3, _POINT3] = Field(
+        description="[east, north, up] from the target's foot, or [ahead, left, up] where it turns"
+    )
+    turn: Literal["course"] | None = Field(
+        default=None, description="course: the offset turns with the way that the target goes"
+    )
+
+
+class StationType(FieldType):
+    """Where a keyframe's camera is: a position, or a place that counts from a target."""
+
+    label = "Station"
+
+    def read(self, value: Any) -> Vec3 | Geodetic | Relative:
+        """Return a point of W in metres, a geodetic place, or one that counts from a target."""
+        if isinstance(value, Relative) or (isinstance(value, dict) and value.keys() & Relative.keys().keys()):
+            return Relative.model_validate(value)
+        if isinstance(value, list | tuple | dict | Geodetic):
+            return POSITION.read(value)
+        raise fault("wrong-type", f"expected a position, got {describe(value)}", _STATION_HINT)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the ways to write it."""
+        return {"anyOf": [POSITION.reference(), {"$model": Relative}]}
+
+
+_STATION_HINT = f"{_HINT}, or {{from: a target, offset: [east, north, up]}}"
+Station = Annotated[Vec3 | Geodetic | Relative, StationType()]
 
 
 class LookAtType(FieldType):

@@ -18,8 +18,8 @@ from shotc.spec.fields import (
     NonNegativeDuration,
     Pace,
     Pitch,
-    Position,
     ShotSize,
+    Station,
 )
 from shotc.spec.later import Refine, Require, Timing
 from shotc.spec.model import Model, OneOf, section
@@ -60,7 +60,7 @@ class KeyframeSpec(Model):
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (AIM,)
 
-    at: Position = Field(description="position of the camera")
+    at: Station = Field(description="position of the camera")
     heading: Heading | None = Field(
         default=None,
         description="compass heading of the camera; 360 deg and more, either way, says how far to turn there",

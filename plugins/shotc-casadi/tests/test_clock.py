@@ -270,9 +270,14 @@ def test_a_camera_that_follows_less_well_is_not_taken(monkeypatch: pytest.Monkey
 
 
 def test_what_is_framed_high_in_the_picture_is_looked_at_less_steeply() -> None:
-    of = subject(compiled(FLYBY))
-    assert of.watched is not None
-    low, high = steepest(of.drone, of.watched._replace(reference=(0.0, 0.0)))
-    up = steepest(of.drone, of.watched._replace(reference=(0.0, 0.5)))
+    of, at = subject(compiled(FLYBY)), np.array([12.0])
+
+    def framed_at(v: float) -> ClockSubject:
+        wanted = Piecewise(np.array([of.leg.start, of.leg.end]), np.full((1, 1, 2), [0.0, v]))
+        (span,) = of.leg.framing
+        return replace(of, leg=replace(of.leg, framing=(replace(span, reference=wanted),)))
+
+    ((low, high),) = steepest(framed_at(0.0), at)
+    (up,) = steepest(framed_at(0.5), at)
     assert up[0] > low
     assert up[1] >= high

@@ -38,6 +38,31 @@ def _code(
     return slip(f"K{number:03}", slug, summary, explanation, _PASSING, change)._replace(exact=exact)
 
 
+_BESIDE = """\
+shotc: 1
+mission: beside
+targets:
+  runner: {track: {start: [0, 0, 0.9], velocity: [1.5, 0, 0]}, radius: 0.4, height: 1.8}
+  tower: {at: [20, 40, 12], radius: 4, height: 24}
+drones:
+  cam1: {model: x500, home: [0, -30, 0]}
+shots:
+  - id: round
+    kind: keyframes
+    drone: cam1
+    target: runner
+    timing: {start: 12, duration: 15}
+    keyframes:
+      - {at: {from: target, offset: [-8, 0, 3], turn: course}, look_at: runner}
+      - {at: {from: target, offset: [0, -8, 3]}, look_at: runner}
+"""
+
+
+def _beside(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
+    """Return the code of a keyframe that counts from a target."""
+    return slip(f"K{number:03}", slug, summary, explanation, _BESIDE, *changes)
+
+
 CODES: tuple[CodeInfo, ...] = (
     _code(
         1,
@@ -176,4 +201,19 @@ CODES: tuple[CodeInfo, ...] = (
         "where the drone does fly so. Without `model` nothing is said, for the drone is your own.",
         ("speed: 9 m/s", "speed: 50 m/s"),
     )._replace(severity=Severity.WARNING),
+    _beside(
+        16,
+        "no-target-to-count-from",
+        "a place counts from the target of a shot that names none",
+        "`from: target` is the shot's own target. Name another one, as `from: runner`, or give the shot a `target`.",
+        ("    target: runner\n", ""),
+    ),
+    _beside(
+        17,
+        "no-course",
+        "a place turns with the way of a target that stands",
+        "With `turn: course` an offset is ahead of a target, to its left and up, by the way that it goes. A target "
+        "that stands goes nowhere: leave `turn` out, and the offset is east, north and up.",
+        ("from: target, offset", "from: tower, offset"),
+    ),
 )

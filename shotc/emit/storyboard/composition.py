@@ -30,7 +30,7 @@ def composition_text(placed: PlacedShot) -> str:
 def _wanted(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
     # What the composition pass chose: between keyframes a reference also passes by other places.
     shot = placed.shot
-    if shot.ideal is not None:
+    if not placed.keyframes:
         return [
             (subject.target, written.composition, subject.reference)
             for subject, written in zip(placed.subjects, shot.subjects, strict=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from shotc.emit.screen import ScreenSummary, certified, framed_targets
 from shotc.emit.storyboard.composition import composition_text
 from shotc.emit.storyboard.subjects import Framed, at_keyframe, at_time
 from shotc.geom.bernstein import Array
+from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Drone, MissionIR, Shot, Target
@@ -88,7 +89,9 @@ def _board(
     times = [k for k in flight.keyframes if k.shot == shot.id]
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
     # One or two generated keyframes are the whole shot; more only sample a curve.
-    if shot.ideal is None and (by_hand or len(times) <= 2):
+    if is_keyed(shot) and by_hand:
+        moments = tuple(_passed(plan, pair, k) for k in _spread(times, MOST_PLACED))
+    elif shot.ideal is None and (by_hand or len(times) <= 2):
         moments = tuple(_keyframe(plan, pair, k) for k in _spread(times, MOST_PLACED))
     else:
         even = np.linspace(start, end, most_generated)
@@ -101,7 +104,7 @@ def _board(
         start=start,
         end=end,
         moments=moments,
-        total=len(times) if by_hand and shot.ideal is None else None,
+        total=len(times) if times and by_hand else None,
         path=flight.curve(np.linspace(start, end, 200))[:, :3],
         flight=flight.curve(np.linspace(flight.curve.start, flight.curve.end, 600))[:, :3],
         composition=composition_text(placed),
@@ -128,6 +131,12 @@ def _keyframe(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: Ke
         hold=placed.keyframes[at.index].hold,
         framed=at_keyframe(plan, pair, at),
     )
+
+
+def _passed(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime) -> Moment:
+    """Return a keyframe of a shot on its own clock, whose picture is that of the moment."""
+    moment = passing(plan, pair, at.time, at.index + 1)
+    return replace(moment, hold=pair[0].keyframes[at.index].hold)
 
 
 def passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int) -> Moment:

@@ -17,9 +17,8 @@ from shotc.emit.storyboard.scene import Picture, draw_scene, name_places, pictur
 from shotc.emit.storyboard.subjects import Framed
 from shotc.geom.camera import heading_of
 from shotc.ir.limits import Vec2, Vec3
-from shotc.ir.mission import Composition, MissionIR
+from shotc.ir.mission import Composition, MissionIR, frozen
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.sampling import frozen
 
 LINE = 0.165
 """Height of a line of a caption, inches."""

@@ -91,7 +91,7 @@ def _spans(framing: Sequence[Reference], time: float) -> list[Reference]:
 
 
 def _composition(shot: Shot, target: str, keyframe: int) -> Composition:
-    if shot.ideal is None:
+    if shot.keyframes:
         return shot.keyframes[keyframe].composition
     own = (subject.composition for subject in shot.subjects if subject.target == target)
     return next(own, Composition("none"))

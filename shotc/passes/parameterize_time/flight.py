@@ -74,6 +74,7 @@ class Flight:
             self.phases.append(Phase("transit", None, self.clock, leg.start))
         self.phases.append(Phase("shot", leg.shot, leg.start, leg.end))
         self.phases.append(Phase("transit", None, leg.end, leg.curve.end))
+        self.keyframes += [KeyframeTime(leg.shot, mark.index, mark.s) for mark in leg.marks]
         self.framing += [Reference(leg.shot, s.target, s.start, s.end, s.reference) for s in leg.framing]
         self.clock = float(leg.curve.end)
 

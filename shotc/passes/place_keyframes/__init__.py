@@ -7,6 +7,7 @@ guarantees that every target with a composition is whole in the frame of a camer
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from math import atan2, hypot, pi
 from typing import TYPE_CHECKING, ClassVar
@@ -17,6 +18,7 @@ from shotc.geom.angles import direction
 from shotc.geom.camera import aim_at
 from shotc.geom.vec import Vec2, Vec3, minus
 from shotc.ir.flown_order import flown_order
+from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.base import Outcome, PassContext
@@ -40,6 +42,13 @@ class PlaceKeyframes:
         diagnostics: list[Diagnostic] = []
         for shot in flown_order(ir.shots):
             ctx.progress(f"placing the keyframes of {shot.id}")
+            if is_keyed(shot):
+                from shotc.passes.place_keyframes.keyed import place_keyed
+
+                moving, wrong = place_keyed(ir, shot)
+                shots.append(moving)
+                diagnostics += [*wrong, *_sized(ir, moving)]
+                continue
             if shot.ideal is not None:
                 from shotc.passes.place_keyframes.subjects import place_subjects
 
@@ -73,13 +82,18 @@ def _sized(mission: MissionIR, placed: PlacedShot) -> list[Diagnostic]:
     return [] if fault is None else [fault]
 
 
-def place_shot(mission: MissionIR, shot: Shot) -> tuple[tuple[PlacedKeyframe, ...], tuple[Miss, ...]]:
-    """Place one shot's keyframes; the misses are what its composition could not give."""
+def place_shot(
+    mission: MissionIR, shot: Shot, moments: Sequence[MissionIR] = ()
+) -> tuple[tuple[PlacedKeyframe, ...], tuple[Miss, ...]]:
+    """Place one shot's keyframes; the misses are what its composition could not give.
+
+    moments : for every keyframe the mission as it is when the camera is there, where something moves
+    """
     placed: list[PlacedKeyframe] = []
     misses: list[Miss] = []
     for index, keyframe in enumerate(shot.keyframes):
         course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH)
-        done, miss = _place(mission, shot, keyframe, course)
+        done, miss = _place(moments[index] if moments else mission, shot, keyframe, course)
         placed.append(done)
         if miss is not None:
             misses.append(miss)

@@ -13,8 +13,9 @@ from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
 from shotc.ir.begins import first_start
 from shotc.ir.framed import lens_of
 from shotc.ir.ideal import ideal_place
+from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import Drone, MissionIR, frozen
 
 LOOKS = 40  # stretches of a shot on its own clock
 OFF = 0.1  # share of the size asked that is worth telling
@@ -38,7 +39,7 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
     shot, asked = placed.shot, placed.shot.size
     if asked is None or (shot.ideal is not None and shot.ideal.framed):
         return None
-    looks = list(_on_clock(mission, placed) if shot.ideal is not None else _at_keyframes(mission, placed))
+    looks = list(_at_keyframes(mission, placed) if placed.keyframes else _on_clock(mission, placed))
     if not looks:
         return None
     worst = max(looks, key=lambda look: abs(look.size / asked - 1.0))
@@ -92,9 +93,12 @@ def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
 
 def _at_keyframes(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
     """Yield what is seen of the targets at the keyframes of a shot."""
-    drone = mission.drone(placed.shot.drone)
-    for keyframe in placed.keyframes:
-        look = None if keyframe.target is None else _from_keyframe(mission, drone, keyframe, keyframe.target)
+    shot, drone = placed.shot, mission.drone(placed.shot.drone)
+    times = arrivals(shot) if is_keyed(shot) else (0.0,) * len(placed.keyframes)
+    start = first_start(mission, shot)
+    for keyframe, t in zip(placed.keyframes, times, strict=True):
+        then = frozen(mission, start + t)
+        look = None if keyframe.target is None else _from_keyframe(then, drone, keyframe, keyframe.target)
         if look is not None:
             yield look
 

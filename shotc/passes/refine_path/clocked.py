@@ -105,6 +105,8 @@ def _changed(was: TimedLeg, now: TimedLeg) -> Iterator[str]:
     """Say what of a shot is not as it was."""
     if max(abs(was.start - now.start), abs(was.end - now.end)) > EQUAL or was.path != now.path:
         yield "its first or its last frame is at another time"
+    if was.marks != now.marks:
+        yield "its keyframes are others, or at other times"
     if len(was.framing) != len(now.framing) or not all(map(_same_span, was.framing, now.framing)):
         yield "it frames other targets, or at other places on screen"
 

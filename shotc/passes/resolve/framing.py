@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from math import acos, degrees, dist, hypot, pi
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import frustum_margins, heading_of, nearest_depth, silhouette_bounds, view
 from shotc.geom.vec import Vec2
+from shotc.ir.begins import first_start
+from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes import explicit_aim, setting_of
@@ -24,13 +26,27 @@ def check_framing(mission: MissionIR, misplaced: Collection[KeyPath] = ()) -> li
     faults: list[Diagnostic] = []
     told: set[tuple[object, ...]] = set()
     for shot in mission.shots:
-        for keyframe in shot.keyframes:
-            fault = None if keyframe.path in misplaced else _fault(mission, shot, keyframe)
+        for keyframe, then in _moments(mission, shot):
+            fault = None if keyframe.path in misplaced else _fault(then, shot, keyframe)
             # The keyframes of a file or of a generated path share a line, and one report will do.
             if fault is not None and (keyframe.path, fault.code) not in told:
                 told.add((keyframe.path, fault.code))
                 faults.append(fault)
     return faults
+
+
+def _moments(mission: MissionIR, shot: Shot) -> Iterator[tuple[Keyframe, MissionIR]]:
+    """Yield the keyframes of a shot whose picture is sure, with the mission as it is at their moment."""
+    if not is_keyed(shot):
+        yield from ((keyframe, mission) for keyframe in shot.keyframes)
+        return
+    from shotc.passes.place_keyframes.keyed import is_sure, moments
+
+    for keyframe, then in zip(
+        shot.keyframes, moments(mission, shot, first_start(mission, shot)), strict=True
+    ):
+        if is_sure(mission, shot, keyframe):
+            yield keyframe, then
 
 
 def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | None:

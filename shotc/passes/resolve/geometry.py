@@ -13,6 +13,7 @@ from functools import cache, partial
 from typing import TYPE_CHECKING
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move, obstacles_of
@@ -26,14 +27,19 @@ _CODES = {"out": "G002", "in": "G003", "target": "G004"}
 
 def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
     """Yield the faults of a shot's keyframes, one for each keyframe line and obstacle, with that line."""
+    if is_keyed(shot):
+        from shotc.passes.resolve.keyed import check_carried
+
+        yield from check_carried(mission, shot)
+        return
     drone = mission.drone(shot.drone)
     clear = cache(partial(_changes, mission, shot))
     for path, keyframes in _by_line(shot).items():
-        for fault in _too_low(mission, shot, drone, path, keyframes):
+        for fault in too_low(mission, shot, drone, path, keyframes):
             yield path, fault
         raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
         for obstacle in obstacles_of(mission, drone):
-            for fault in _blocked(mission, shot, raised, obstacle, clear):
+            for fault in blocked(mission, shot, raised, obstacle, clear):
                 yield path, fault
 
 
@@ -51,9 +57,10 @@ def _raised(keyframe: Keyframe, floor: float) -> Keyframe:
     return keyframe if z >= floor else keyframe._replace(at=(x, y, floor))
 
 
-def _too_low(
+def too_low(
     mission: MissionIR, shot: Shot, drone: Drone, path: KeyPath, keyframes: list[Keyframe]
 ) -> Iterator[Diagnostic]:
+    """Yield the fault of a line with a keyframe that is too near to the ground."""
     lowest = min(keyframes, key=lambda k: k.at[2])
     floor = mission.rules.ground_clearance + drone.radius
     z = lowest.at[2]
@@ -69,7 +76,8 @@ def _too_low(
         label = mission.origins.value((*shot.path, "altitude"))
     message = f"{_what(shot, lowest)} is too low: {where}"
     notes = (note, *_over_ground(mission, lowest, floor))
-    help_ = f"raise it by {at_least(floor - z)} m, to z = {at_least(floor)}"
+    to = f"to z = {at_least(floor)}" if lowest.beside is None else "that is, its offset or altitude"
+    help_ = f"raise it by {at_least(floor - z)} m, {to}"
     yield Diagnostic("G001", message, (label,), notes, help_)
 
 
@@ -100,7 +108,7 @@ def _altitude(mission: MissionIR) -> float:
     return 0.0 if mission.origin is None else mission.origin.alt
 
 
-def _blocked(
+def blocked(
     mission: MissionIR,
     shot: Shot,
     keyframes: list[Keyframe],

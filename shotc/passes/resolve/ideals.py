@@ -11,6 +11,7 @@ from math import inf
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.ir.begins import known_start
+from shotc.ir.keyed import carriers, in_order, is_keyed
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.framing import beyond_gimbal
 from shotc.passes.resolve.keeping_up import check_speed
@@ -22,6 +23,8 @@ from shotc.rounding import at_least, down, up
 def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield what is wrong with a shot on its own clock; one without a start from when it can begin."""
     if shot.ideal is None or shot.timing.duration is None:
+        return
+    if is_keyed(shot) and not in_order(shot):
         return
     outside = list(_outside(mission, shot))
     yield from outside
@@ -37,8 +40,7 @@ def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     A shot without a start may begin at any time from the earliest on, so only what ends too early is sure.
     """
     duration, start, known = shot.timing.duration or 0.0, shot.timing.start, known_start(mission, shot)
-    followed = () if shot.ideal is None or shot.ideal.target is None else (shot.ideal.target,)
-    for name in dict.fromkeys([*followed, *(s.target for s in shot.subjects)]):
+    for name in carriers(shot):
         track = mission.target(name).track
         if track is None:
             continue
@@ -76,7 +78,7 @@ def _within(track: Track, duration: float) -> str:
 def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Tell an altitude that is a number of the user's, and under the ground clearance."""
     ideal = shot.ideal
-    if ideal is None or ideal.frame == "about":
+    if ideal is None or ideal.frame in ("about", "keyframes"):
         return
     need = mission.rules.ground_clearance + mission.drone(shot.drone).radius
     lowest = min(offset[2] for _, offset in ideal.points)

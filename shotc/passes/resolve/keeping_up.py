@@ -14,6 +14,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start, known_start
 from shotc.ir.ideal import ideal_place
+from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.rounding import down, up
 
@@ -77,12 +78,18 @@ def _is_even(mission: MissionIR, shot: Shot) -> bool:
     """Tell whether the place moves alike whenever the shot begins: in the world, or by an even target."""
     if shot.ideal is None or shot.ideal.framed:
         return False
+    if is_keyed(shot):
+        tracks = {mission.target(name).track for name in carriers(shot)} - {None}
+        along = all(k.beside is not None for k in shot.keyframes)
+        return along and len(tracks) == 1 and all(len(t.times) == 1 for t in tracks if t is not None)
     track = None if shot.ideal.target is None else mission.target(shot.ideal.target).track
     return track is None or (len(track.times) == 1 and track.times[0] <= track.since)
 
 
 def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float]:
     """Return the highest mean speed over a window, m/s, and when it is, if the shot begins at ``start``."""
+    if is_keyed(shot):
+        shot = settled(mission, shot, start)
     duration = shot.timing.duration or 0.0
     window = min(WINDOW, duration)
     found = []
@@ -142,8 +149,10 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
     """Yield a longer duration, where the shot moves about its target or along a path of its own."""
     if shot.ideal is None or len({p for _, p in shot.ideal.points}) < 2:
         return
+    if any(k.time is not None for k in shot.keyframes[1:]):
+        return
     duration, start = shot.timing.duration or 0.0, first_start(mission, shot)
-    tracks = (mission.target(s.target).track for s in shot.subjects)
+    tracks = (mission.target(name).track for name in carriers(shot))
     until = min((track.until for track in tracks if track is not None), default=inf)
     for more in MORE:
         lasts = up(duration * share * more, 1)

@@ -124,13 +124,17 @@ def obstacles_of(mission: MissionIR, drone: "Drone | Fleet") -> list[Obstacle]:
 
 def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Obstacle) -> str:
     """Return in words the shortest move out of an obstacle to a place that is free of all, or nothing."""
+    place = free_place(mission, drone, p, obstacle)
+    return "" if place is None else move(p, place)
+
+
+def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Obstacle) -> Vec3 | None:
+    """Return the nearest place out of an obstacle that is free of all, or None."""
     others = obstacles_of(mission, drone)
     lowest = mission.rules.ground_clearance + drone.radius
     places = [outward(p, q) for q in obstacle.ways_out(p)]
     free = [q for q in places if q[2] >= lowest - ROUNDING and all(o.lack(q) <= ROUNDING for o in others)]
-    if not free:
-        return ""
-    return move(p, min(free, key=lambda place: dist(p, place)))
+    return min(free, key=lambda place: dist(p, place), default=None)
 
 
 def move(p: Vec3, q: Vec3) -> str:

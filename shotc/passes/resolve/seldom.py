@@ -7,11 +7,13 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.source import KeptFiles
+from shotc.kinds.base import Expansion, Scene
 from shotc.passes.resolve.files import Ground
 from shotc.passes.resolve.world import Put
 from shotc.spec.load import LoadedMission
+from shotc.spec.shot import ShotBase
 
 if TYPE_CHECKING:
     from shotc.geom.track import Track
@@ -29,13 +31,31 @@ def tracks_of(
     return read_tracks(ir.spec, put, ground)
 
 
+def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
+    """Return keyframes of what moves as a shot on its own clock."""
+    from shotc.kinds import moving
+
+    return moving.on_clock(shot, scene, given)
+
+
 def framed(mission: MissionIR) -> tuple[MissionIR, list[Diagnostic]]:
-    """Return the mission with the ideals of its framings, and what stands against them."""
+    """Return the mission with the ideals of shots on their own clock, and what stands against them."""
+    if any(shot.ideal is not None and shot.keyframes for shot in mission.shots):
+        from shotc.passes.resolve.keyed import with_times
+
+        mission = with_times(mission)
     if not any(shot.ideal is not None and shot.ideal.framed for shot in mission.shots):
         return mission, []
     from shotc.passes.resolve.framings import with_framings
 
     return with_framings(mission)
+
+
+def keyed_times(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
+    """Return what is wrong with the times of a shot on its own clock that keyframes tell."""
+    from shotc.passes.resolve.keyed import check_times
+
+    return list(check_times(mission, shot))
 
 
 def check_ideals(mission: MissionIR) -> list[Diagnostic]:

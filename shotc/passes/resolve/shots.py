@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Deferred, Drone, GeoOrigin, Promise, Rules, Shot, Target
+from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.foreign import expanded
+from shotc.passes.resolve.seldom import on_clock
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
 
@@ -78,7 +79,17 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
         fleets=tuple(spec.fleets),
     )
     kind = cast.kinds[shot.kind]
-    return expanded(kind, shot, scene) if kind.foreign else kind.expand(shot, scene)
+    expansion = expanded(kind, shot, scene) if kind.foreign else kind.expand(shot, scene)
+    if not _moves(expansion.keyframes, cast.targets):
+        return expansion
+    return on_clock(shot, scene, expansion)
+
+
+def _moves(keyframes: tuple[Keyframe, ...], targets: Mapping[str, Target | None]) -> bool:
+    """Tell whether a keyframe films, or counts its place from, what moves."""
+    names = {k.target for k in keyframes} | {k.beside.target for k in keyframes if k.beside is not None}
+    found = (targets.get(name) for name in names if name is not None)
+    return any(target is not None and target.track is not None for target in found)
 
 
 def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath) -> Shot:

@@ -9,10 +9,12 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.flown_order import flown_order
+from shotc.ir.keyed import is_keyed
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.resolve.breeze import less_wind
 from shotc.passes.resolve.motion import least_shot, least_travel, length
+from shotc.passes.resolve.seldom import keyed_times
 from shotc.rounding import at_least
 
 _LESS = ("shorten the shot", "cut it in two for two flights")
@@ -28,7 +30,10 @@ def check_timing(mission: MissionIR, shots: Iterable[Shot], *, schedule: bool) -
     """
     faults: list[Diagnostic] = []
     for shot in shots:
-        faults += _own_times(mission, shot) or _own_duration(mission, shot)
+        if is_keyed(shot):
+            faults += keyed_times(mission, shot)
+        else:
+            faults += _own_times(mission, shot) or _own_duration(mission, shot)
     return _schedule(mission) if schedule and not faults else faults
 
 
@@ -91,7 +96,7 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
     least = least_shot(shot.keyframes, drone.limits)
     asked = shot.timing.duration
     if (least if asked is None else asked) > drone.endurance:
-        return [_too_long(mission, shot, drone, least)]
+        return [too_long(mission, shot, drone, least)]
     if asked is None or asked >= least - SLACK:
         return []
     label = _duration_label(mission, shot)
@@ -140,7 +145,7 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
     )
 
 
-def _too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diagnostic:
+def too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diagnostic:
     """Say that a shot lasts longer than the endurance: as it is written, or as it has to."""
     asked, calmer = shot.timing.duration, list[str]()
     lasts = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
@@ -176,7 +181,7 @@ def _schedule(mission: MissionIR) -> list[Diagnostic]:
         drone, before = mission.drone(shot.drone), free[shot.drone]
         # A shot of a moving target may leave its ideal, so no way to it or from it is sure.
         first, last = (
-            (k.at for k in (shot.keyframes[0], shot.keyframes[-1])) if shot.keyframes else (None, None)
+            (k.at for k in (shot.keyframes[0], shot.keyframes[-1])) if shot.ideal is None else (None, None)
         )
         there = before.time
         if first is not None and before.at is not None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from shotc.geom.bernstein import Piecewise
+from shotc.ir.keyed import carriers
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
@@ -263,7 +264,7 @@ class Itinerary:
         return Reached(made, way, way.end - begins) if isinstance(way, Way) else way
 
     def _since(self, placed: PlacedShot) -> float:
-        tracks = (self.mission.target(s.target).track for s in placed.subjects)
+        tracks = (self.mission.target(name).track for name in carriers(placed.shot))
         return max((track.since for track in tracks if track is not None), default=0.0)
 
     def _take(self, way: Way) -> None:
@@ -287,4 +288,4 @@ def _shifted(leg: TimedLeg, turns: float) -> TimedLeg:
     ctrl = leg.curve.ctrl.copy()
     ctrl[:, :, CAM_YAW] += turns
     ctrl[:, :, BODY_YAW] += turns
-    return TimedLeg(leg.shot, Piecewise(leg.curve.breaks, ctrl), leg.start, leg.end, leg.framing, leg.path)
+    return replace(leg, curve=Piecewise(leg.curve.breaks, ctrl))

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
@@ -82,10 +83,10 @@ Reach = Callable[[PlacedShot, float], Reached | Trouble]
 def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrack | None:
     """Return the target whose track ends before a shot that begins at ``start`` does; None without one."""
     end = start + (placed.shot.timing.duration or 0.0)
-    for subject in placed.subjects:
-        track = mission.target(subject.target).track
+    for name in carriers(placed.shot):
+        track = mission.target(name).track
         if track is not None and end > track.until + ROUNDING:
-            return OutsideTrack(subject.target, start, max(0.0, track.until - start))
+            return OutsideTrack(name, start, max(0.0, track.until - start))
     return None
 
 
@@ -124,7 +125,10 @@ def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float)
     short = outside(mission, placed, start)
     if short is None:
         return reach(placed, start)
-    return short if short.left < SHORTEST else reach(lasting(placed, short.left), start)
+    # Keyframes have their times: what they tell is not cut short.
+    if short.left < SHORTEST or is_keyed(placed.shot):
+        return short
+    return reach(lasting(placed, short.left), start)
 
 
 def later(start: float, seconds: float) -> float:

@@ -9,17 +9,36 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, aim_at
 from shotc.geom.track_array import places as track_places
-from shotc.ir.keyframes import PlacedSubject
+from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone, MissionIR
+from shotc.passes.timed_route.keyed import Keyed, keyed_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Looker:
-    """A drone that frames subjects, the first one foremost; none where it looks where it goes."""
+    """A drone that frames subjects, the first one foremost; none where it looks where it goes.
+
+    keyed : what its camera does instead, where keyframes tell it
+    """
 
     mission: MissionIR
     drone: Drone
     subjects: tuple[PlacedSubject, ...]
+    keyed: Keyed | None = None
+
+    @property
+    def watches(self) -> bool:
+        """Whether the camera films anything that the author named."""
+        return bool(self.subjects) or self.keyed is not None
+
+    def hfov(self, times: Array) -> Array:
+        """Return its field of view at mission times (M,), rad."""
+        return np.full(len(times), self.drone.hfov) if self.keyed is None else self.keyed.hfov(times)
+
+
+def looker_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> Looker:
+    """Return who films a shot that is placed for its start, seconds."""
+    return Looker(mission, drone, placed.subjects, keyed_of(mission, drone, placed, start))
 
 
 ROUNDS = 12  # of Gauss and Newton, from a good first guess
@@ -30,9 +49,12 @@ MOST = 0.2  # rad of a step
 def aims_at(looker: Looker, times: Array, places: Array) -> Array:
     """Return the yaw and the pitch that put subjects in their places, from places (M, 3) at times (M,).
 
-    Of several with a place the squares of their distances from it on screen are least, each counting alike.
+    Where keyframes tell the shot they say it. Of several subjects with a place the squares of their distances
+    from it on screen are least, each counting alike.
     Shape (M, 2), rad, not unwrapped.
     """
+    if looker.keyed is not None:
+        return looker.keyed.aims(times, places)
     mission, drone, subjects = looker.mission, looker.drone, looker.subjects
     placed = [s for s in subjects if s.reference is not None] or list(subjects[:1])
     each = np.stack([_aim(mission, drone, s, times, places) for s in placed])

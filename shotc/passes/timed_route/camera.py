@@ -93,7 +93,7 @@ def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
         return np.tile(np.array(watch.kept), (len(times), 1))
     if watch.course is not None:
         return watch.course(times)
-    if not watch.looker.subjects:
+    if not watch.looker.watches:
         yaw = _motion(position.derivative()(times)[:, :2])
         return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])
     found = aims_at(watch.looker, times, position(times)[:, :3])

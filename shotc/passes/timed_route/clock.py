@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil
 
 import numpy as np
@@ -10,12 +11,15 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.ideal import ideal_place
+from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.mission import Drone, MissionIR, Shot
 
 PIECE = 0.5  # seconds of a piece of the spline, of a shot that is not very long
 FEWEST, MOST = 16, 240  # pieces of the film
 SHARE = 0.6  # of the drone's acceleration and jerk that the ways in and out are laid out for
 SETTLE = 1.0  # seconds that they have beyond that
+PARTS = 4  # pieces at least from a keyframe to the next, so that a smooth way bends between them
+ROUNDING = 1e-9  # seconds
 STEP = 0.5  # seconds over which the speed at the ends of a shot is measured
 
 
@@ -49,11 +53,27 @@ def clock_of(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> Cloc
     breaks = np.concatenate(
         [
             np.linspace(start - before, start, first + 1)[:-1],
-            np.linspace(start, end, pieces + 1),
+            _filmed(shot, start, step) if is_keyed(shot) else np.linspace(start, end, pieces + 1),
             np.linspace(end, end + after, last + 1)[1:],
         ]
     )
     return Clock(breaks, start, end)
+
+
+def _filmed(shot: Shot, start: float, step: float) -> Array:
+    """Return the knots of a film told by keyframes: each is reached and left at one of them.
+
+    step : seconds of a piece where there is no reason for a shorter one
+    """
+    duration = shot.timing.duration or 0.0
+    stops = [(t, t + k.hold) for t, k in zip(arrivals(shot), shot.keyframes, strict=True)]
+    ends = sorted({0.0, duration, *(min(t, duration) for stop in stops for t in stop)})
+    kept = ends[:1] + [b for a, b in pairwise(ends) if b - a > ROUNDING]
+    kept[-1] = duration
+    knots = [
+        start + np.linspace(a, b, max(PARTS, ceil((b - a) / step)), endpoint=False) for a, b in pairwise(kept)
+    ]
+    return np.append(np.concatenate(knots), start + duration)
 
 
 def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> float:

@@ -9,10 +9,11 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
+from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
 from shotc.geom.corridor import Room, shortfall
 from shotc.ir.ideal import ideal_place
-from shotc.ir.limits import Limits
+from shotc.ir.keyed import arrivals, is_keyed, place_of
+from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
@@ -43,8 +44,44 @@ STAND = 3.0  # seconds that a drone may stand where a motion begins or ends
 REACH = 4.0  # metres beyond its clearance within which something that stands counts
 SHARES = (0.5, 0.95)  # as in solve_path_qp.position
 PROVED = 1e-6  # metres
+ROUNDING = 1e-9  # seconds
 GAIN = 0.01
 HOPE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bound:
+    """A place of the author's, W, metres, where the camera is at a time, or from a time to another, seconds.
+
+    index : of its keyframe in the shot
+    """
+
+    index: int
+    place: Vec3
+    start: float
+    end: float
+
+    @property
+    def still(self) -> bool:
+        """Whether the camera stands still there for a while."""
+        return self.end > self.start
+
+
+def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]:
+    """Return where keyframes bind the camera of a shot whose first frame is at mission time ``start``."""
+    if not is_keyed(shot):
+        return ()
+    found: list[Bound] = []
+    for index, (keyframe, at) in enumerate(zip(shot.keyframes, arrivals(shot), strict=True)):
+        if not keyframe.placed:
+            continue
+        reach, leave = start + at, start + at + keyframe.hold
+        if keyframe.beside is None:
+            found.append(Bound(index, keyframe.at, reach, leave))
+            continue
+        times = [reach] if keyframe.hold <= 0 else [reach, leave]
+        found += [Bound(index, place_of(mission, keyframe, t), t, t) for t in times]
+    return tuple(found)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,6 +92,7 @@ class Task:
     passing : what passes while it stands where the motion begins, and where it ends
     room : what stands; motions : its obstacles and what moves, even on the clock's pieces
     sights : whose pictures count
+    bound : where it has to be when; free : whether that does not count
     """
 
     looker: Looker
@@ -64,6 +102,8 @@ class Task:
     motions: tuple[Even, ...]
     passing: tuple[tuple[Even, ...], tuple[Even, ...]]
     sights: Sights
+    bound: tuple[Bound, ...] = ()
+    free: bool = False
 
     @property
     def mission(self) -> MissionIR:
@@ -226,7 +266,34 @@ def _base(task: Task) -> SplineProblem:
     )
     rest = at_rest(breaks)
     still = Equalities(rest, np.zeros((len(rest.piece), 3)))
-    return SplineProblem(count(breaks), goals, still, (), limits_of(task.drone.limits, breaks))
+    held = still if task.free else _through(task, still)
+    return SplineProblem(count(breaks), goals, held, (), limits_of(task.drone.limits, breaks))
+
+
+def _through(task: Task, rest: Equalities) -> Equalities:
+    """Return the rest at both ends, and the places that the author gave to keyframes at their times.
+
+    Where the camera stands still in the world for a while, all coefficients of that stretch are its place;
+    beside a target it is there when a hold begins and when it ends.
+    """
+    breaks, rows, values = task.clock.breaks, [rest.rows], [rest.value]
+    for bound in task.bound:
+        if bound.still:
+            first, last = np.searchsorted(breaks, np.array([bound.start, bound.end]) - ROUNDING)
+            found = _coefficients(int(first), int(last) + DEGREE, len(breaks) - 1)
+        else:
+            found = value_rows(breaks, np.array([bound.start]))
+        rows.append(found)
+        values.append(np.tile(np.array(bound.place), (len(found.piece), 1)))
+    every = Rows(np.concatenate([r.piece for r in rows]), np.concatenate([r.weight for r in rows]))
+    return Equalities(every, np.concatenate(values))
+
+
+def _coefficients(first: int, last: int, pieces: int) -> Rows:
+    """Return rows that are the coefficients of a spline from one index up to another, which is left out."""
+    index = np.arange(first, last)
+    piece = np.minimum(index, pieces - 1)
+    return Rows(piece, np.eye(DEGREE + 1)[index - piece])
 
 
 def at_rest(breaks: Array) -> Rows:

@@ -10,15 +10,17 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, breaches
 from shotc.geom.runs import worst_of_runs
-from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
+from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
-from shotc.passes.timed_route.aims import Looker
+from shotc.passes.place_keyframes.keyed import placed_at
+from shotc.passes.timed_route.aims import Looker, looker_of
 from shotc.passes.timed_route.camera import Watch, turn
-from shotc.passes.timed_route.clock import clock_of
+from shotc.passes.timed_route.clock import Clock, clock_of
+from shotc.passes.timed_route.keyed import marks_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
-from shotc.passes.timed_route.position import Flown, Task, fly, standing_by
+from shotc.passes.timed_route.position import Flown, Task, bounds_of, fly, standing_by
 from shotc.passes.timed_route.sights import Sights
 from shotc.solvers.conic import Status
 
@@ -64,12 +66,14 @@ def timed_shot(
     or leaves has time to.
     """
     mission, drone = looker.mission, looker.drone
-    shot = at_start(mission, placed.shot, start)
+    placed = placed_at(mission, placed, start)
+    shot, looker = placed.shot, looker_of(mission, drone, placed, start)
     clock = clock_of(mission, drone, shot, start)
     near = (*standing(room), *traffic.moving)
     motions = tuple(evened(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks)
-    task = Task(looker, shot, clock, room, motions, passing, traffic.sights)
+    bound = bounds_of(mission, shot, start)
+    task = Task(looker, shot, clock, room, motions, passing, traffic.sights, bound)
     flown = fly(task)
     if flown.curve is None:
         return NoMotion(flown.status, _lacks(task, flown))
@@ -77,11 +81,11 @@ def timed_shot(
     turned = turn(Watch(looker, kept), clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
-    lens = np.full((*turned.curve.ctrl.shape[:2], 1), drone.hfov)
+    lens = _lens(looker, clock)
     curve = Piecewise(clock.breaks, np.concatenate([flown.curve.ctrl, turned.curve.ctrl, lens], axis=2))
-    leg = TimedLeg(
-        shot.id, curve, clock.start, clock.end, _framing(placed, clock.start, clock.end), shot.path
-    )
+    keyed, marks = looker.keyed, marks_of(placed, start)
+    framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.spans()
+    leg = TimedLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, marks)
     stats = (
         (f"{shot.id}.pieces", float(len(curve.ctrl))),
         (f"{shot.id}.qp_objective", flown.objective),
@@ -89,6 +93,13 @@ def timed_shot(
         (f"{shot.id}.qp_status", str(flown.status)),
     )
     return TimedShot(leg, _deviations(task, flown), stats)
+
+
+def _lens(looker: Looker, clock: Clock) -> Array:
+    """Return the control points of the field of view on the pieces of a clock, shape (P, 6, 1)."""
+    if looker.keyed is not None:
+        return looker.keyed.lens(clock.breaks).ctrl
+    return np.full((len(clock.breaks) - 1, 6, 1), looker.drone.hfov)
 
 
 def _lacks(task: Task, flown: Flown) -> tuple[tuple[str, float], ...]:
@@ -114,12 +125,16 @@ def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
     ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
     assert flown.curve is not None
     away = np.linalg.norm(flown.curve(times) - ideal, axis=1)
-    return tuple(
+    found = tuple(
         Deviation(
             task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, ideal[i], float(times[i]))
         )
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
+    if is_keyed(task.shot):
+        # Between keyframes nobody asked for a way: only what stands in it is worth telling.
+        return tuple(d for d in found if d.cause != LIMITS)
+    return found
 
 
 def _cause(task: Task, flown: Flown, ideal: Array, t: float) -> str:

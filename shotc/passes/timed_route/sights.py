@@ -116,7 +116,7 @@ def keep_free(
         )
         for watcher in sights.watchers
     ]
-    if looker.subjects:
+    if looker.watches:
         own = times[(times > span[0]) & (times < span[1])]
         asked += [(partial(_in_own, looker, body, sights.half_angle), own) for body in sights.bodies]
     found = [_linear(outside_of, at, breaks, course) for outside_of, at in asked if len(at)]
@@ -157,5 +157,5 @@ def _in_theirs(
 
 def _in_own(looker: Looker, body: Body, half_angle: float | None, times: Array, places: Array) -> Array:
     drone, aims = looker.drone, aims_at(looker, times, places)
-    camera = Cameras(places, aims[:, 0], aims[:, 1], np.full(len(times), drone.hfov), drone.aspect)
+    camera = Cameras(places, aims[:, 0], aims[:, 1], looker.hfov(times), drone.aspect)
     return _out(camera, body.at(times), body.radius, half_angle)

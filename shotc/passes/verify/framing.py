@@ -15,6 +15,7 @@ from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed, references, seen, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
+from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 from shotc.passes.verify.close import errors_close, margins_close
 from shotc.passes.verify.hidden import longest
@@ -42,7 +43,7 @@ def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
         if len(flown) != 1 or placed.shot.drone != flight.drone.name:
             continue
-        yield from wanted_framing(flight, placed, flown[0])
+        yield from wanted_framing(flight, placed_at(flight.mission, placed, flown[0].start), flown[0])
         for target in subjects(flight.mission, flight.track, placed.shot.id):
             view = view_of(flight, placed, target, flown[0])
             if view is not None:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
+from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Promise
 from shotc.ir.phases import Phase
@@ -33,7 +34,7 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
     are hard where the shot promises something, else soft.
     """
     shot, hard = placed.shot, placed.shot.promise != Promise()
-    if shot.ideal is not None:
+    if shot.ideal is not None and not is_keyed(shot):
         yield from _all_along(flight, placed, phase, hard=hard)
         return
     times = {k.index: k.time for k in flight.track.keyframes if k.shot == shot.id}

@@ -11,12 +11,14 @@ from shotc.geom.pieces import cut
 from shotc.geom.proof import norm, sup_convex
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
+from shotc.ir.keyed import is_keyed, place_of
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Shot
-from shotc.ir.path import HFOV
+from shotc.ir.path import HFOV, Z
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
 
 ON_TIME = 1e-3
@@ -37,7 +39,7 @@ def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
         yield claim(flight, once, Worst(float(len(flown)), None, "exact"))
         if len(flown) == 1:
             yield from _timing(flight, placed.shot, flown[0], ends)
-            yield from _keyframes(flight, placed, flown[0])
+            yield from _keyframes(flight, placed_at(flight.mission, placed, flown[0].start), flown[0])
             yield from _place(flight, placed.shot, flown[0])
 
 
@@ -62,11 +64,13 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
     for index, keyframe in enumerate(placed.keyframes):
         time = times.get(index)
         if keyframe.placed:
-            met.append((_miss(flight, keyframe, phase, time), keyframe))
+            which = (placed.shot, index)
+            met += [(_miss(flight, which, phase, t), keyframe) for t in _there(placed, index, time)]
         if keyframe.time is not None:
             off = inf if time is None else abs(time - phase.start - keyframe.time)
             late.append((Worst(off, time, "exact"), keyframe))
-        if keyframe.hold > 0 or len(placed.keyframes) == 1:
+        rests = keyframe.hold > 0 and placed.shot.keyframes[index].beside is None
+        if rests or len(placed.keyframes) == 1:
             until = phase.end if len(placed.keyframes) == 1 else (time or 0.0) + keyframe.hold
             yield _still(flight, keyframe, (time, until), (placed.shot, index, phase))
     for name, unit, limit, found in (
@@ -92,10 +96,19 @@ def _place(flight: Flight, shot: Shot, phase: Phase) -> Iterator[Claim]:
     yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "sampled"))
 
 
-def _miss(flight: Flight, keyframe: PlacedKeyframe, phase: Phase, time: float | None) -> Worst:
+def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | None, ...]:
+    """Return when the camera has to be at a keyframe: beside a target, when a hold there ends, too."""
+    hold = placed.keyframes[index].hold
+    if time is None or hold <= 0 or placed.shot.keyframes[index].beside is None:
+        return (time,)
+    return (time, time + hold)
+
+
+def _miss(flight: Flight, which: tuple[Shot, int], phase: Phase, time: float | None) -> Worst:
     if time is None or not phase.start - ON_TIME <= time <= phase.end + ON_TIME:
         return Worst(inf, None, "exact")
-    away = flight.track.curve(time)[:3] - np.array(keyframe.at)
+    shot, index = which
+    away = flight.track.curve(time)[:3] - np.array(place_of(flight.mission, shot.keyframes[index], time))
     return Worst(float(np.linalg.norm(away)), time, "exact")
 
 
@@ -110,7 +123,8 @@ def _still(
     limit = Limit(f"drift at keyframe {index + 1}", ON_PLACE, "m", keyframe.path, shot=shot.id)
     if start is None or start < phase.start - ON_TIME or end > phase.end + ON_TIME:
         return claim(flight, limit, Worst(inf, start, "exact"))
-    curve = flight.track.curve.channels(*range(HFOV + 1))
+    # A camera that follows what moves turns while it rests.
+    curve = flight.track.curve.channels(*range(Z + 1 if is_keyed(shot) else HFOV + 1))
     pose = curve(start)
     drift = sup_convex(cut(curve, start, end), lambda c: norm(c - pose), gap(ON_PLACE))
     return bounded(flight, limit, drift)

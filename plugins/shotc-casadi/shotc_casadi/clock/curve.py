@@ -14,7 +14,6 @@ from shotc.refiner_api import (
     HFOV,
     Array,
     Clock,
-    Looker,
     TimedLeg,
     Watch,
     quintic_hermite,
@@ -56,8 +55,7 @@ def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None 
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
     ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
     clock = Clock(leg.curve.breaks, leg.start, leg.end)
-    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
-    turned = turn(Watch(looker, subject.aim, ends, camera), clock, position)
+    turned = turn(Watch(subject.looker, subject.aim, ends, camera), clock, position)
     if turned.curve is None:
         return None
     breaks = position.breaks

@@ -19,6 +19,8 @@ COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so t
 FREE = 1.0  # metres of slack of what means nothing: a constraint needs an interior
 UNFILMED = 1e3
 WIDE = 5e-4  # half the width of the box about the given states of both ends, m and so on
+HELD = 2e-4  # half the width of the box about a keyframe's place; of its velocity and acceleration at rest
+SAME = 1e-9  # seconds
 OPEN = 1.0  # of a slack in the first guess
 
 
@@ -125,6 +127,11 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, share: float) ->
     rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]], camera)[0]
     for k, given in zip((0, -1), rest, strict=True):
         low[k], high[k] = given - WIDE, given + WIDE
+    for bound in subject.bound:
+        at = (breaks >= bound.start - SAME) & (breaks <= bound.end + SAME)
+        low[at, :3], high[at, :3] = np.array(bound.place) - HELD, np.array(bound.place) + HELD
+        if bound.still:
+            low[at, 3:9], high[at, 3:9] = -HELD, HELD
     return low, high
 
 
@@ -146,7 +153,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
         "target": wanted.target,
         "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
         "turn": turn if wanted.watches else np.zeros((n + 1, 6)),
-        "steep": np.tile(steepest(drone, subject.watched), (n + 1, 1)),
+        "steep": steepest(subject, breaks),
         "free": np.where(filmed & wanted.watches, 0.0, UNFILMED),
         "price": np.full(n + 1, weights.STEEP / wanted.usual),
         "hidden": np.full(n + 1, weights.HIDDEN * unit),

@@ -7,7 +7,17 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import CAM_PITCH, CAM_YAW, Drone, Surroundings, TimedLeg, aim_at, wrapped
+from shotc.refiner_api import (
+    CAM_PITCH,
+    CAM_YAW,
+    Drone,
+    Looker,
+    Surroundings,
+    TimedLeg,
+    aim_at,
+    aims_at,
+    wrapped,
+)
 from shotc_casadi.clock.wishes import ClockSubject
 
 PROVED = 1e-6  # metres
@@ -52,7 +62,9 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
 
 def astray(subject: ClockSubject, leg: TimedLeg) -> float:
     """Return the most by which a camera misses the aim that its subject asks for, in the film, rad."""
-    watched, drone = subject.watched, subject.drone
+    watched, drone, looker = subject.watched, subject.drone, subject.looker
+    if looker.keyed is not None:
+        return _off(looker, leg)
     if watched is None:
         return 0.0
     target, uv = subject.mission.target(watched.target), watched.reference or (0.0, 0.0)
@@ -65,3 +77,12 @@ def astray(subject: ClockSubject, leg: TimedLeg) -> float:
             turned = wrapped(q[CAM_YAW] - aim[0])
             worst = max(worst, float(np.hypot(np.cos(aim[1]) * turned, q[CAM_PITCH] - aim[1])))
     return worst
+
+
+def _off(looker: Looker, leg: TimedLeg) -> float:
+    """Return the most by which a camera misses what keyframes tell it, in the film, rad."""
+    times = np.linspace(leg.start, leg.end, AIMS)
+    pose = leg.curve(times)
+    aims = aims_at(looker, times, pose[:, :3])
+    turned = np.cos(aims[:, 1]) * wrapped(pose[:, CAM_YAW] - aims[:, 0])
+    return float(np.hypot(turned, pose[:, CAM_PITCH] - aims[:, 1]).max())

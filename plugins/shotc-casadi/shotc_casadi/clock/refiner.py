@@ -14,7 +14,7 @@ from shotc.plugin_api import (
     SolverState,
     unrefined,
 )
-from shotc.refiner_api import Deviation, TimedLeg, TimedPath, at_start, ideal_place, least_out
+from shotc.refiner_api import Deviation, TimedLeg, TimedPath, ideal_place, least_out, placed_at
 from shotc_casadi.clock.program import ROWS
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
@@ -81,7 +81,7 @@ def subject_of(path: PathIR, shot: str) -> ClockSubject:
     (placed,) = (p for p in path.keyframes.shots if p.shot.id == shot)
     legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
     (leg,) = (leg for leg in legs if leg.shot == shot)
-    begun = placed._replace(shot=at_start(mission, placed.shot, leg.start))
+    begun = placed_at(mission, placed, leg.start)
     return ClockSubject(path, mission.drone(placed.shot.drone), begun, leg)
 
 
@@ -112,11 +112,13 @@ def _deviations(subject: ClockSubject, before: tuple[Deviation, ...], why: str) 
     off = np.flatnonzero(away > LEFT)
     runs = np.split(off, np.flatnonzero(np.diff(off) > 1) + 1) if len(off) else []
     worst = [int(run[away[run].argmax()]) for run in runs]
-    return tuple(
+    found = tuple(
         Deviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
         for k in worst
         if away[k] > NOTICE
     )
+    # Between keyframes nobody asked for a way.
+    return tuple(d for d in found if d.cause != CALM) if subject.looker.keyed is not None else found
 
 
 def _cause(before: tuple[Deviation, ...], t: float, why: str) -> str:

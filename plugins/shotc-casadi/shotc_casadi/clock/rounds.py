@@ -12,7 +12,6 @@ from typing import NamedTuple
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import (
     Array,
-    Looker,
     Mask,
     Planes,
     Surroundings,
@@ -167,9 +166,8 @@ def _next(shot: _Shot, now: _Round) -> _Round:
 def _planes(shot: _Shot, now: _Round) -> Planes:
     """Return the half-spaces about the course of a round."""
     subject, leg = shot.subject, shot.subject.leg
-    looker = Looker(subject.mission, subject.drone, subject.placed.subjects)
     planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, SHARE), now.wanted, now.over)
-    return planes.and_also(shot.around.free(looker, (leg.start, leg.end), now.course))
+    return planes.and_also(shot.around.free(subject.looker, (leg.start, leg.end), now.course))
 
 
 def _unsolved(shot: _Shot, after: _Round) -> _Round:

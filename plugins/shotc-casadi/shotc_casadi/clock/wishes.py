@@ -8,7 +8,21 @@ from math import pi, tan
 import numpy as np
 
 from shotc.plugin_api import MissionIR, PathIR
-from shotc.refiner_api import Array, Drone, Mask, PlacedShot, PlacedSubject, TimedLeg, ideal_place, places
+from shotc.refiner_api import (
+    Array,
+    Bound,
+    Drone,
+    Keyed,
+    Looker,
+    Mask,
+    PlacedShot,
+    PlacedSubject,
+    TimedLeg,
+    bounds_of,
+    ideal_place,
+    looker_of,
+    places,
+)
 from shotc_casadi.clock.several import pictured
 from shotc_casadi.clock.symbols import BODY, LINE
 
@@ -16,6 +30,7 @@ AROUND = 0.5  # seconds to either side over which a track is smoothed, so that i
 SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
 STEEPEST = tan(89.0 * pi / 180)
 KEPT = 0.05  # of the usual distance: a guide that is farther off a framing's place does not keep it
+STEEP = 0.15  # of a line of sight that is level, below which it is as good as straight down
 NEAREST = 1.0  # metres: least distance that counts as usual
 
 
@@ -34,13 +49,27 @@ class ClockSubject:
         return self.path.keyframes.mission
 
     @property
+    def looker(self) -> Looker:
+        """Who films, and what its camera does where keyframes tell it."""
+        return looker_of(self.mission, self.drone, self.placed, self.leg.start)
+
+    @property
+    def bound(self) -> tuple[Bound, ...]:
+        """Where keyframes of the author's bind the camera."""
+        return bounds_of(self.mission, self.placed.shot, self.leg.start)
+
+    @property
     def watched(self) -> PlacedSubject | None:
         """What the camera follows, None where it keeps an aim or looks where it goes."""
+        if self.looker.keyed is not None:
+            return followed(self.placed, self.looker.keyed)
         return self.placed.subjects[0] if self.placed.subjects and self.aim is None else None
 
     @property
     def framed(self) -> tuple[PlacedSubject, ...]:
         """All that is to be seen, where the camera follows something."""
+        if self.looker.keyed is not None:
+            return () if self.watched is None else (self.watched,)
         return self.placed.subjects if self.aim is None else ()
 
     @property
@@ -92,11 +121,12 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
         [ideal_place(subject.mission, subject.placed.shot, subject.leg.start, float(u)) for u in t]
     )
     watched, shot, n = subject.watched, subject.placed.shot, len(t)
-    placed = shot.ideal is not None and (shot.ideal.placed or shot.ideal.framed)
+    keyed = subject.looker.keyed is not None
+    placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
     centres = seen_at(subject, t)
     shown = pictured(subject.mission, subject.framed, centres)
     nothing = (centres, shown, np.zeros((n, 0, LINE)), np.zeros((n, 0, BODY)))
-    if watched is None:
+    if watched is None or (keyed and _over(subject, centres, ideal)):
         away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((n, 9))])
         return ClockWishes(ideal, away, 100.0, False, placed, False, *nothing)
     target = np.mean([motion(subject.mission, one.target, t) for one in subject.framed], axis=0)
@@ -105,6 +135,18 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     off = np.linalg.norm(subject.leg.curve(t)[filmed, :3] - ideal[filmed], axis=1).max()
     yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT * usual)
     return ClockWishes(ideal, target, usual, True, placed, yields, *nothing)
+
+
+def followed(placed: PlacedShot, keyed: Keyed) -> PlacedSubject | None:
+    """Return the target that all keyframes of a shot lead from place to place on screen, if it is one."""
+    one = len(placed.subjects) == 1 and all(stretch.follows for stretch in keyed.stretches)
+    return placed.subjects[0] if one else None
+
+
+def _over(subject: ClockSubject, centres: Array, ideal: Array) -> bool:
+    """Tell whether the camera comes so nearly over its target that the ray to it has no bearing."""
+    rays = centres[:, 0] - ideal
+    return bool((np.linalg.norm(rays[:, :2], axis=1) < STEEP * np.linalg.norm(rays, axis=1)).any())
 
 
 def seen_at(subject: ClockSubject, t: Array) -> Array:
@@ -136,12 +178,15 @@ def motion(mission: MissionIR, name: str, t: Array) -> Array:
     return np.concatenate(orders, axis=1)
 
 
-def steepest(drone: Drone, watched: PlacedSubject | None) -> tuple[float, float]:
+def steepest(subject: ClockSubject, t: Array) -> Array:
     """Return the tangents of the lowest and highest elevation of a target that the gimbal's pitch allows.
 
-    The target is off the middle of the picture by its place there; its height on it counts.
+    The target is off the middle of the picture by its place there; its height on it counts. Shape (M, 2).
     """
-    v = watched.reference[1] if watched is not None and watched.reference is not None else 0.0
-    up = float(np.arctan(v * np.tan(drone.hfov / 2) / drone.aspect))
-    low, high = (np.clip(limit + up, -pi / 2, pi / 2) for limit in drone.gimbal.pitch)
-    return max(-STEEPEST, float(np.tan(low))), min(STEEPEST, float(np.tan(high)))
+    drone, watched, v = subject.drone, subject.watched, np.zeros(len(t))
+    for span in subject.leg.framing:
+        if watched is not None and span.target == watched.target and span.reference is not None:
+            v = span.reference(t)[:, 1]
+    up = np.arctan(v * np.tan(subject.looker.hfov(t) / 2) / drone.aspect)
+    low, high = (np.tan(np.clip(limit + up, -pi / 2, pi / 2)) for limit in drone.gimbal.pitch)
+    return np.asarray(np.clip(np.column_stack([low, high]), -STEEPEST, STEEPEST))

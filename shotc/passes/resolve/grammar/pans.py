@@ -94,13 +94,16 @@ def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
     kept = shot.ideal is not None and shot.ideal.aim is not None
     if start is None or duration is None or kept or not shot.subjects:
         return
+    if shot.keyframes and _followed(shot.keyframes) is None:
+        return
     pieces = max(2, min(STEPS, ceil(4 * duration)))
     ahead = min(pieces, max(1, round(WINDOW * pieces / duration)))
     looks: list[Vec3 | None] = []
     for i in range(pieces + 1):
         seen = sight(mission, shot, i / pieces)
         looks.append(None if seen is None else seen.offset)
-    width = 2 * tan(mission.drone(shot.drone).hfov / 2)
+    hfov = min((k.hfov for k in shot.keyframes), default=mission.drone(shot.drone).hfov)
+    width = 2 * tan(hfov / 2)
     who = shot.subjects[0].target
     lasts = duration * ahead / pieces
     for i, (a, b) in enumerate(zip(looks, looks[ahead:], strict=False)):

@@ -4,6 +4,7 @@ from math import hypot, tan
 from typing import NamedTuple
 
 from shotc.geom.vec import minus
+from shotc.ir.keyed import arrivals, carriers, is_keyed
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
 
@@ -63,9 +64,11 @@ def begins(mission: MissionIR, shot: Shot) -> float | None:
     way is straight; any time on that way will do then.
     """
     ideal = shot.ideal
-    if shot.timing.start is not None or ideal is None or ideal.target is None:
+    if shot.timing.start is not None or ideal is None or (ideal.target is None and not is_keyed(shot)):
         return shot.timing.start
-    tracks = [mission.target(name).track for name in {ideal.target, *(s.target for s in shot.subjects)}]
+    if any(k.beside is None for k in shot.keyframes):
+        return None
+    tracks = [mission.target(name).track for name in carriers(shot)]
     if len(tracks) == 1 and tracks[0] is not None and tracks[0].straight:
         return tracks[0].underway
     return None
@@ -78,7 +81,16 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
     from shotc.ir.ideal import ideal_place
 
     t = start + share * duration
-    targets = [mission.target(subject.target) for subject in shot.subjects]
+    names = [subject.target for subject in shot.subjects]
+    if is_keyed(shot):
+        # Of several targets that keyframes hand over, one is in the picture.
+        after = [
+            k.target
+            for k, reached in zip(shot.keyframes, arrivals(shot), strict=True)
+            if start + reached >= t
+        ]
+        names = [next((name for name in (*after, shot.keyframes[-1].target)), None) or names[0]]
+    targets = [mission.target(name) for name in names]
     first = targets[0]
     return _sound(
         Sight(

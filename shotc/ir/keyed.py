@@ -1,0 +1,204 @@
+"""Shots on their own clock told by keyframes: when each is reached, and the way between. Plain Python.
+
+Every keyframe's place is carried along by the target that it counts from, all through the shot. The way
+is the mean of these places, each weighed by how near its time is: cubic Hermite polynomials over time, which
+rest at holds. So the way between keyframes beside one target is smooth as the target sees it, that between
+places of the world is smooth there, and from the one to the other it passes smoothly.
+"""
+
+from bisect import bisect_right
+from functools import lru_cache
+from itertools import pairwise
+from math import cos, dist, sin
+from typing import NamedTuple
+
+from shotc.geom.same import Same
+from shotc.geom.vec import Vec3
+from shotc.ir.mission import Ideal, Keyframe, MissionIR, Shot
+
+ROUNDS = 5  # in which times and the lengths of ways that depend on them are settled
+LEAST = 0.1  # of the mean way between keyframes: a shorter one, where the camera turns, counts as long
+NEVER = 1e-9  # seconds of a stretch that has no time
+
+
+class Weight(NamedTuple):
+    """How much the place of one keyframe counts in the way of the camera; number : its index."""
+
+    number: int
+    share: float
+
+
+def is_keyed(shot: Shot) -> bool:
+    """Tell whether a shot on its own clock is told by keyframes."""
+    return shot.ideal is not None and shot.ideal.frame == "keyframes"
+
+
+def place_of(mission: MissionIR, keyframe: Keyframe, t: float) -> Vec3:
+    """Return a keyframe's place at a mission time, metres: of one beside a target, as that is then."""
+    beside = keyframe.beside
+    if beside is None:
+        return keyframe.at
+    target = mission.target(beside.target)
+    x, y, z = target.at(t)
+    a, b, up = beside.offset
+    if beside.turns and target.track is not None:
+        facing = target.track.heading(t)
+        c, s = cos(facing), sin(facing)
+        a, b = c * a - s * b, s * a + c * b
+    return (x + a, y + b, z - target.height / 2 + up)
+
+
+def carriers(shot: Shot) -> tuple[str, ...]:
+    """Return the targets that a shot on its own clock counts its places from, or films."""
+    ideal = () if shot.ideal is None or shot.ideal.target is None else (shot.ideal.target,)
+    beside = (k.beside.target for k in shot.keyframes if k.beside is not None)
+    return tuple(dict.fromkeys([*ideal, *beside, *(s.target for s in shot.subjects)]))
+
+
+def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
+    """Return a shot told by keyframes as it is where its first frame is at a mission time, seconds.
+
+    Its keyframes are where they are then. A keyframe without a time of its own is reached when the length of
+    the way says so, between those that have one.
+    """
+    ideal, duration = shot.ideal, shot.timing.duration
+    assert ideal is not None
+    assert duration is not None
+    arrive = _even(shot.keyframes, duration)
+    for _ in range(ROUNDS):
+        ways = [
+            _way(mission, shot.keyframes, i, (start + arrive[i], start + arrive[i + 1])) for i in _gaps(shot)
+        ]
+        arrive = _by_length(shot.keyframes, duration, ways)
+    placed = tuple(
+        k._replace(at=place_of(mission, k, start + t)) for k, t in zip(shot.keyframes, arrive, strict=True)
+    )
+    points = tuple((t / duration, k.at) for t, k in zip(arrive, placed, strict=True))
+    return shot._replace(keyframes=placed, ideal=ideal._replace(points=points))
+
+
+def arrivals(shot: Shot) -> tuple[float, ...]:
+    """Return when each keyframe is reached, seconds from the shot's start."""
+    assert shot.ideal is not None
+    return tuple(share * (shot.timing.duration or 0.0) for share, _ in shot.ideal.points)
+
+
+def way_at(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
+    """Return where the camera is at a mission time; beyond the first and the last keyframe it stays there.
+
+    start : mission time of the shot's first frame
+    """
+    x = y = z = 0.0
+    for number, share in _weights(_bends(Same(mission), Same(shot), start), t - start):
+        a, b, c = place_of(mission, shot.keyframes[number], t)
+        x, y, z = x + share * a, y + share * b, z + share * c
+    return (x, y, z)
+
+
+class _Bends(NamedTuple):
+    """When each keyframe is reached and left, seconds, and the slope of the way there.
+
+    slopes : by how much the places of the keyframe before, this one and the one after count in it, 1/s
+    """
+
+    arrive: tuple[float, ...]
+    leave: tuple[float, ...]
+    slopes: tuple[Vec3, ...]
+
+
+@lru_cache(maxsize=32)
+def _bends(mission: Same[MissionIR], shot: Same[Shot], start: float) -> _Bends:
+    keyframes, arrive = shot.it.keyframes, arrivals(shot.it)
+    leave = tuple(t + k.hold for t, k in zip(arrive, keyframes, strict=True))
+    speeds: list[tuple[float, float]] = []
+    for i in _gaps(shot.it):
+        lasts = arrive[i + 1] - leave[i]
+        way = _way(mission.it, keyframes, i, (start + leave[i], start + arrive[i + 1]))
+        speeds.append((way / lasts, lasts))
+    rests = [k.hold > 0 for k in keyframes]
+    rests[0] |= arrive[0] > 0
+    slopes = tuple(_slope(speeds, i, rests=rests[i]) for i in range(len(keyframes)))
+    return _Bends(arrive, leave, slopes)
+
+
+def _slope(speeds: list[tuple[float, float]], i: int, *, rests: bool) -> Vec3:
+    """Return the slope at a keyframe; speeds : of every way, m/s, and how many seconds it takes.
+
+    The mean velocity of the slower way counts more, so that none is left by far (Fritsch and Butland, 1984).
+    """
+    if rests:
+        return (0.0, 0.0, 0.0)
+    if i == 0:
+        return (0.0, -1 / speeds[0][1], 1 / speeds[0][1])
+    if i == len(speeds):
+        return (-1 / speeds[-1][1], 1 / speeds[-1][1], 0.0)
+    (before, came), (after, goes) = speeds[i - 1], speeds[i]
+    share = after / (before + after) if before + after > 0 else 0.5
+    first, second = share / came, (1 - share) / goes
+    return (-first, first - second, second)
+
+
+def _weights(bends: _Bends, t: float) -> tuple[Weight, ...]:
+    """Return how much each keyframe counts at a time, seconds from the shot's start; together they are 1."""
+    i = bisect_right(bends.arrive, t) - 1
+    if i < 0:
+        return (Weight(0, 1.0),)
+    if i == len(bends.arrive) - 1 or t <= bends.leave[i]:
+        return (Weight(i, 1.0),)
+    length = bends.arrive[i + 1] - bends.leave[i]
+    x = (t - bends.leave[i]) / length
+    found = {i: (1 - x) ** 2 * (1 + 2 * x), i + 1: x * x * (3 - 2 * x)}
+    for end, bend in ((i, x * (1 - x) ** 2), (i + 1, x * x * (x - 1))):
+        for number, slope in enumerate(bends.slopes[end], end - 1):
+            found[number] = found.get(number, 0.0) + bend * length * slope
+    return tuple(Weight(number, share) for number, share in found.items() if share != 0.0)
+
+
+def _gaps(shot: Shot) -> range:
+    return range(len(shot.keyframes) - 1)
+
+
+def _way(mission: MissionIR, keyframes: tuple[Keyframe, ...], i: int, times: tuple[float, float]) -> float:
+    """Return how far the camera goes from a keyframe to the next one; beside one target, as that sees it.
+
+    times : at which it leaves the one and reaches the other, mission time
+    """
+    a, b = keyframes[i], keyframes[i + 1]
+    leave, reach = times
+    if a.beside is not None and b.beside is not None and a.beside.target == b.beside.target:
+        leave = reach
+    return dist(place_of(mission, a, leave), place_of(mission, b, reach))
+
+
+def _even(keyframes: tuple[Keyframe, ...], duration: float) -> tuple[float, ...]:
+    return _by_length(keyframes, duration, [1.0] * (len(keyframes) - 1))
+
+
+def _by_length(keyframes: tuple[Keyframe, ...], duration: float, ways: list[float]) -> tuple[float, ...]:
+    """Return the times of all keyframes; between two that are known they are shared out by length."""
+    last = len(keyframes) - 1
+    known = {i: k.time for i, k in enumerate(keyframes) if k.time is not None}
+    known.setdefault(0, 0.0)
+    known.setdefault(last, duration - keyframes[last].hold)
+    least = LEAST * sum(ways) / len(ways) or 1.0
+    times = [0.0] * len(keyframes)
+    for i, j in pairwise(sorted(known)):
+        lengths = [max(least, way) for way in ways[i:j]]
+        free = known[j] - known[i] - sum(k.hold for k in keyframes[i:j])
+        clock = known[i]
+        for k, length in zip(range(i, j), lengths, strict=True):
+            times[k] = clock
+            clock += keyframes[k].hold + free * length / sum(lengths)
+        times[j] = known[j]
+    return tuple(times)
+
+
+def in_order(shot: Shot) -> bool:
+    """Tell whether every keyframe has time to be left before the next one is reached."""
+    arrive = arrivals(shot)
+    pairs = zip(shot.keyframes, pairwise(arrive), strict=False)
+    return all(reach - leave - k.hold > NEVER for k, (leave, reach) in pairs)
+
+
+KEYED = Ideal("keyframes", None, (), placed=True)
+"""The ideal of a shot before its keyframes are settled."""

@@ -1,0 +1,83 @@
+"""Keyframes of what moves: placed in the picture of the moment at which the camera is there.
+
+What that picture is depends on when the shot begins. Where the mission does not say, it is placed for the
+earliest time there is, and again, by ``placed_at``, for the one at which it begins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.begins import first_start
+from shotc.ir.framed import at_start
+from shotc.ir.keyed import arrivals, is_keyed
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
+from shotc.ir.mission import Keyframe, MissionIR, Shot, frozen
+from shotc.passes.place_keyframes import place_shot
+from shotc.passes.place_keyframes.faults import Miss, report
+from shotc.passes.place_keyframes.turns import while_following
+
+
+def placed_at(mission: MissionIR, placed: PlacedShot, start: float) -> PlacedShot:
+    """Return a placed shot as it is where its first frame is at ``start``, seconds."""
+    shot = at_start(mission, placed.shot, start)
+    if not is_keyed(shot) or shot is placed.shot:
+        return placed._replace(shot=shot)
+    return placed._replace(shot=shot, keyframes=_placed(mission, shot, start))
+
+
+def moments(mission: MissionIR, shot: Shot, start: float) -> tuple[MissionIR, ...]:
+    """Return, for every keyframe, the mission with its targets where they are when the camera is there."""
+    return tuple(frozen(mission, start + t) for t in arrivals(shot))
+
+
+def is_sure(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> bool:
+    """Tell whether what a keyframe shows is the same whenever its shot begins, or the mission says when."""
+    if shot.timing.start is not None or not is_keyed(shot):
+        return True
+    if keyframe.beside is not None and keyframe.beside.turns:
+        return False
+    beside = None if keyframe.beside is None else keyframe.beside.target
+    moves = keyframe.target is not None and mission.target(keyframe.target).track is not None
+    at_point = keyframe.aim is not None and len(keyframe.aim) == 3
+    return (keyframe.target if moves else None) == beside and not (at_point and beside is not None)
+
+
+def place_keyed(mission: MissionIR, shot: Shot) -> tuple[PlacedShot, list[Diagnostic]]:
+    """Return a shot with its keyframes placed, and what is wrong with those whose picture is known."""
+    start = first_start(mission, shot)
+    then = moments(mission, shot, start)
+    keyframes, misses = place_shot(mission, shot, then)
+    subjects = tuple(PlacedSubject(s.target, None, s.size, s.view, s.path) for s in shot.subjects)
+    sure = [is_sure(mission, shot, k) for k in shot.keyframes]
+    faults = _told(shot, then, misses, sure)
+    if all(sure):
+        faults += while_following(mission, shot.keyframes, keyframes)
+    return PlacedShot(shot, keyframes, subjects), faults
+
+
+def misplaced(mission: MissionIR, placed: PlacedShot, start: float) -> list[Diagnostic]:
+    """Return what composition cannot give a shot that begins at ``start``, where that was not sure before.
+
+    placed : the shot as it is then
+    """
+    shot, then = placed.shot, moments(mission, placed.shot, start)
+    open_ = [not is_sure(mission, shot, k) for k in shot.keyframes]
+    found = _told(shot, then, place_shot(mission, shot, then)[1], open_)
+    return [*found, *(while_following(mission, shot.keyframes, placed.keyframes) if any(open_) else [])]
+
+
+def _told(
+    shot: Shot, then: Sequence[MissionIR], misses: Sequence[Miss], judged: Sequence[bool]
+) -> list[Diagnostic]:
+    """Return the misses of the keyframes that are judged, each reported for its own moment."""
+    found: list[Diagnostic] = []
+    for keyframe, moment, mine in zip(shot.keyframes, then, judged, strict=True):
+        missed = [miss for miss in misses if mine and miss.keyframe is keyframe]
+        found += report(moment, shot, missed)
+    return list(dict.fromkeys(found))
+
+
+def _placed(mission: MissionIR, shot: Shot, start: float) -> tuple[PlacedKeyframe, ...]:
+    return place_shot(mission, shot, moments(mission, shot, start))[0]

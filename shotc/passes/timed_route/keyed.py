@@ -1,0 +1,236 @@
+"""What the camera of a shot told by keyframes does at every instant: its lens, its aim, the places on screen.
+
+At a keyframe it has that keyframe's field of view, and puts its target in its place or looks where it says.
+From one to the next all of it passes smoothly: the place on screen of a target that both have, or else the
+aim itself, while the camera leaves the one target for the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from shotc.geom.angles import wrapped
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import IntArray, restrict
+from shotc.geom.camera import View, aim_at
+from shotc.geom.track_array import places as track_places
+from shotc.ir.keyed import arrivals, is_keyed
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import FramingSpan, Mark
+
+STEEP = 0.1  # of a line of sight that is level, below which it has no bearing to turn to
+CALM = 1e-4  # half frames squared that a turn of 1 rad off the keyframes' own angles costs there
+ROUNDS = 8  # of Gauss and Newton
+NUDGE = 1e-6  # rad
+MOST = 0.2  # rad of a step
+SAME = 1e-9  # seconds
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """The way from a keyframe to the next one, or a hold, where both are the same; mission time, s."""
+
+    start: float
+    end: float
+    a: PlacedKeyframe
+    b: PlacedKeyframe
+
+    @property
+    def follows(self) -> bool:
+        """Whether one target is led from a place on screen to another."""
+        same = self.a.target is not None and self.a.target == self.b.target
+        return same and self.a.reference is not None and self.b.reference is not None
+
+    def share(self, times: Array) -> Array:
+        """Return how much of the way is done at times (M,), by the step 10 x^3 - 15 x^4 + 6 x^5."""
+        x = np.clip((times - self.start) / (self.end - self.start), 0.0, 1.0)
+        return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Keyed:
+    """A shot told by keyframes, as it begins at one time.
+
+    stretches : in order and without gaps, from the first frame to the last
+    """
+
+    mission: MissionIR
+    drone: Drone
+    stretches: tuple[Stretch, ...]
+
+    def hfov(self, times: Array) -> Array:
+        """Return the field of view at times (M,), rad."""
+        ends = np.array([[s.a.hfov, s.b.hfov] for s in self.stretches])
+        share, of = self._shares(times)
+        return np.asarray(ends[of, 0] + share * (ends[of, 1] - ends[of, 0]))
+
+    def lens(self, breaks: Array) -> Piecewise:
+        """Return the field of view as a curve on breaks that hold all knots, constant beyond the film."""
+        every = self.stretches
+        knots = [breaks[0], *(s.start for s in every), every[-1].end, breaks[-1]]
+        ends = [(every[0].a, every[0].a), *((s.a, s.b) for s in every), (every[-1].b, every[-1].b)]
+        ctrl = np.array([[a.hfov] * 3 + [b.hfov] * 3 for a, b in ends])[:, :, None]
+        return restrict(Piecewise(np.array(knots), ctrl), breaks)
+
+    def aims(self, times: Array, places: Array) -> Array:
+        """Return the yaw and the pitch from places (M, 3) at times (M,), shape (M, 2), rad."""
+        found, (share, of) = np.zeros((len(times), 2)), self._shares(times)
+        for k in np.unique(of):
+            here = of == k
+            found[here] = self._aims(self.stretches[k], share[here], times[here], places[here])
+        return found
+
+    def spans(self) -> tuple[FramingSpan, ...]:
+        """Return what is framed when; a hand-over from one target to another is cut in its middle."""
+        return tuple(_joined([span for stretch in self.stretches for span in _spans(stretch)]))
+
+    def _shares(self, times: Array) -> tuple[Array, IntArray]:
+        starts = np.array([s.start for s in self.stretches[1:]])
+        of = np.asarray(np.searchsorted(starts, times, side="right"))
+        share = np.zeros(len(times))
+        for k in np.unique(of):
+            share[of == k] = self.stretches[k].share(times[of == k])
+        return share, of
+
+    def _aims(self, stretch: Stretch, share: Array, times: Array, places: Array) -> Array:
+        a, b = stretch.a, stretch.b
+        first = np.array([a.yaw, a.pitch])
+        step = np.array([wrapped(b.yaw - a.yaw) if b.turn is None or a is b else b.turn, b.pitch - a.pitch])
+        own: Array = first + share[:, None] * step
+        if stretch.follows:
+            ends = np.array([a.reference, b.reference])
+            wanted = ends[0] + share[:, None] * (ends[1] - ends[0])
+            return self._following(str(a.target), wanted, (times, places), own)
+        if a is b:
+            return own
+        here, there = (np.tile(end, (len(times), 1)) for end in (first, first + step))
+        here, there = (self._at(k, (times, places), angles) for k, angles in ((a, here), (b, there)))
+        return np.asarray(here + share[:, None] * (there - here))
+
+    def _at(self, keyframe: PlacedKeyframe, where: tuple[Array, Array], own: Array) -> Array:
+        """Return the aim that a keyframe has wherever the camera is; own : its angles, (M, 2)."""
+        if keyframe.target is None or keyframe.reference is None:
+            return own
+        wanted = np.tile(np.array(keyframe.reference), (len(own), 1))
+        found = self._following(keyframe.target, wanted, where, own)
+        return np.column_stack([own[:, 0] + wrapped(found[:, 0] - own[:, 0]), found[:, 1]])
+
+    def _following(self, name: str, wanted: Array, where: tuple[Array, Array], own: Array) -> Array:
+        """Return the aim that has a target at places on screen, (M, 2).
+
+        Straight above it or below it that does not say which way to turn: there the aim stays near ``own``.
+        """
+        times, places = where
+        target = self.mission.target(name)
+        centres = np.tile(np.array(target.centre), (len(times), 1))
+        offsets = (centres if target.track is None else track_places(target.track, times)) - places
+        hfov, found = self.hfov(times), own.copy()
+        level = np.linalg.norm(offsets[:, :2], axis=1) >= STEEP * np.linalg.norm(offsets, axis=1)
+        for i in np.flatnonzero(level):
+            x, y, z = map(float, offsets[i])
+            uv = (float(wanted[i, 0]), float(wanted[i, 1]))
+            found[i] = aim_at((x, y, z), uv, float(hfov[i]), self.drone.aspect, own[i, 0]) or own[i]
+        steep = ~level
+        if steep.any():
+            lens = np.tan(hfov[steep] / 2), np.tan(hfov[steep] / 2) / self.drone.aspect
+            found[steep] = _calmly(offsets[steep], wanted[steep], lens, own[steep])
+        return found
+
+
+def keyed_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> Keyed | None:
+    """Return a shot placed for its start as what its camera does, or None where no keyframes tell it."""
+    if not is_keyed(placed.shot):
+        return None
+    return Keyed(mission, drone, tuple(_stretches(placed, start)))
+
+
+def marks_of(placed: PlacedShot, start: float) -> tuple[Mark, ...]:
+    """Return the keyframes of a shot on its own clock as marks over mission time."""
+    if not is_keyed(placed.shot):
+        return ()
+    pairs = zip(arrivals(placed.shot), placed.keyframes, strict=True)
+    return tuple(Mark(start + t, k.time, i, k.path) for i, (t, k) in enumerate(pairs))
+
+
+def _stretches(placed: PlacedShot, start: float) -> Iterator[Stretch]:
+    keyframes, duration = placed.keyframes, placed.shot.timing.duration or 0.0
+    arrive = arrivals(placed.shot)
+    stops = [(0.0, arrive[0], keyframes[0], keyframes[0])]
+    for i, (a, b) in enumerate(pairwise(keyframes)):
+        leave = arrive[i] + a.hold
+        stops += [(arrive[i], leave, a, a), (leave, arrive[i + 1], a, b)]
+    stops += [(arrive[-1], duration, keyframes[-1], keyframes[-1])]
+    long = [stop for stop in stops if stop[1] - stop[0] > SAME]
+    ends = [*(stop[0] for stop in long[1:]), duration]
+    begin = 0.0
+    for (_, _, a, b), end in zip(long, ends, strict=True):
+        yield Stretch(start + begin, start + end, a, b)
+        begin = end
+
+
+def _spans(stretch: Stretch) -> Iterator[FramingSpan]:
+    a, b = stretch.a, stretch.b
+    if stretch.follows:
+        ctrl = np.array([[a.reference] * 3 + [b.reference] * 3], dtype=np.float64)
+        wanted = Piecewise(np.array([stretch.start, stretch.end]), ctrl)
+        yield FramingSpan(str(a.target), stretch.start, stretch.end, wanted)
+        return
+    if a.target is not None and a.target == b.target:
+        yield FramingSpan(a.target, stretch.start, stretch.end, None)
+        return
+    middle = 0.5 * (stretch.start + stretch.end)
+    if a.target is not None:
+        yield FramingSpan(a.target, stretch.start, middle, None)
+    if b.target is not None:
+        yield FramingSpan(b.target, middle, stretch.end, None)
+
+
+def _joined(spans: Sequence[FramingSpan]) -> Iterator[FramingSpan]:
+    """Yield spans of one target that follow one another as one."""
+    last: FramingSpan | None = None
+    for span in spans:
+        if last is not None and last.target == span.target and last.end == span.start:
+            a, b = last.reference, span.reference
+            if (a is None) == (b is None):
+                joined = None
+                if a is not None and b is not None:
+                    joined = Piecewise(np.append(a.breaks, b.breaks[1:]), np.concatenate([a.ctrl, b.ctrl]))
+                last = FramingSpan(last.target, last.start, span.end, joined)
+                continue
+        if last is not None:
+            yield last
+        last = span
+    if last is not None:
+        yield last
+
+
+def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array) -> Array:
+    """Return the angles near ``own`` that show points at places on screen, (M, 2): damped least squares."""
+    turned = np.zeros_like(own)
+    for _ in range(ROUNDS):
+        here = _off(offsets, wanted, lens, own + turned)
+        slopes = np.stack(
+            [(_off(offsets, wanted, lens, own + turned + NUDGE * step) - here) / NUDGE for step in np.eye(2)],
+            axis=2,
+        )
+        normal = np.einsum("mri,mrj->mij", slopes, slopes) + CALM * np.eye(2)
+        down = np.einsum("mri,mr->mi", slopes, here) + CALM * turned
+        turned = turned - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST, MOST)
+    return own + turned
+
+
+def _off(offsets: Array, wanted: Array, lens: tuple[Array, Array], aim: Array) -> Array:
+    """Return how far points are from their places on screen, half frames, (M, 2)."""
+    yaw, pitch = aim.T
+    camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), *lens)
+    x, y, z = offsets.T
+    right, down, forward = camera.to_camera((x, y, z))
+    forward = np.maximum(forward, 0.1 * np.linalg.norm(offsets, axis=1))
+    return np.column_stack(
+        [right / (forward * lens[0]) - wanted[:, 0], -down / (forward * lens[1]) - wanted[:, 1]]
+    )
