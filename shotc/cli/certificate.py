@@ -9,6 +9,7 @@ from shotc.cli.table import clock, table
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.numbers import measure, told_apart
 
+OUT = " out of the picture"
 WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}
 HEADING = ("", "claim", "asked", "worst", "at", "known by")
 
@@ -26,17 +27,24 @@ def certificate_text(certificate: Sequence[Claim]) -> str:
 
 def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
     for claim in claims:
-        worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
-        if not claim.holds:
-            worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
         yield (
             mark(claim),
-            claim.constraint,
-            f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-",
-            worst if isfinite(claim.worst) else "-",
+            *_values(claim),
             "" if claim.time is None else clock(claim.time),
             WAYS[claim.method] + (f", {' and '.join(claim.drones)}" if claim.drones else ""),
         )
+
+
+def _values(claim: Claim) -> tuple[str, str, str]:
+    """Return what a claim is about, what is asked, and the worst that happens."""
+    if claim.constraint.endswith(OUT) and claim.unit == "m" and isfinite(claim.worst):
+        side = "outside" if claim.worst >= 0.0 else "inside"
+        return claim.constraint, "outside the frame", f"{measure(abs(claim.worst), 'm')} {side}"
+    worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
+    if not claim.holds:
+        worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
+    asked = f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-"
+    return claim.constraint, asked, worst if isfinite(claim.worst) else "-"
 
 
 def mark(claim: Claim) -> str:

@@ -12,7 +12,7 @@ import typer
 from shotc.cli import console
 from shotc.cli.plans import PlanPath, proved
 from shotc.cli.verify import Format
-from shotc.rounding import up
+from shotc.rounding import at_least, up
 
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 Gusty = Annotated[float, typer.Option("--gusts", min=0.0, help="Standard deviation of gusts, m/s an axis.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of the gusts.")]
 FormatOption = Annotated[Format, typer.Option("--format", help="How to print what came of it.")]
+LARGEST_MARGIN = 2.0
+"""Times the separation: with a larger margin a show has no pictures left."""
 HEADING = ("fleet", "drones", "strays, RMS", "99 %", "farthest", "nearest", "asked", "margin")
 
 
@@ -81,10 +83,18 @@ def _verdict(fleet: Fleet, came: Rehearsal) -> str:
     safe = up(2 * came.farthest, 1)
     if below:
         pairs = "1 pair comes" if below == 1 else f"{below} pairs come"
-        return f"{pairs} nearer than asked; plan with `margin: {safe:g}` of the separation"
+        return f"{pairs} nearer than the separation; {_remedy(fleet, came.farthest, safe)}"
     if fleet.apart.margin >= 2 * came.farthest:
-        return "the margin cannot be used up in this wind"
-    return f"the margin was enough this time; `margin: {safe:g}` could not be used up"
+        return "no two drones can come too near in this wind: the margin is twice the farthest stray, or more"
+    return f"the margin was enough in this run; {_remedy(fleet, came.farthest, safe)}"
+
+
+def _remedy(fleet: Fleet, farthest: float, safe: float) -> str:
+    """Say which margin keeps any two drones apart, or that none is reasonable."""
+    stray = f"a drone strays up to {at_least(farthest)} m from its place"
+    if safe > LARGEST_MARGIN * fleet.apart.horizontal:
+        return f"{stray}, too far for any margin: do not fly this show in such wind"
+    return f"{stray}: plan with `separation: {{margin: {safe:g}}}`, which keeps any two apart in such wind"
 
 
 def _document(found: list[tuple[Fleet, Rehearsal]]) -> str:

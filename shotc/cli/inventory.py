@@ -120,6 +120,7 @@ def _compositions() -> list[tuple[str, ...]]:
     for name, composition in FRAMES.items():
         points = [f"({u:.3g}, {v:.3g})" for u, v in composition.points]
         lines = [f"u = {u:.3g}" for u in composition.u_lines] + [f"v = {v:.3g}" for v in composition.v_lines]
+        lines += [f"else ({u:.3g}, {v:.3g})" for u, v in composition.last]
         said = (
             "the target stays where the keyframe shows it" if composition.keep else ", ".join(points + lines)
         )

@@ -7,6 +7,8 @@ from math import degrees, isfinite
 from pathlib import Path
 from textwrap import wrap
 
+from shotc.cli.centred import centred
+from shotc.cli.certificate import OUT
 from shotc.cli.fleet_summary import display_rows, headline, nearest
 from shotc.cli.table import clock, table
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
@@ -14,11 +16,14 @@ from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
+from shotc.rounding import at_least, at_most, away
 
 WIDTH = 100
 GLUE = "\N{NO-BREAK SPACE}"
-APART, OUT = "separation from ", " out of the picture"
+APART = "separation from "
 REFINED = ".refined"
+NOTHING = 1e-6
+"""Of a limit's unit: less is rounding of what does not move."""
 LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
 
 
@@ -68,8 +73,8 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
 def _framing(told: ScreenSummary) -> tuple[str, str, str]:
     return (
         "-" if told.in_frame is None else percent(told.in_frame),
-        "-" if told.error is None else f"{told.error:.3f}",
-        "-" if told.size is None else "{:.2f} to {:.2f}".format(*told.size),
+        "-" if told.error is None else at_least(told.error, 3),
+        "-" if told.size is None else f"{at_most(told.size[0])} to {at_least(told.size[1])}",
     )
 
 
@@ -88,6 +93,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     )
     facts += [("bent", text) for text in _bent(plan.trajectory.deviations)]
     facts += [("refined", text) for text in _refined(plan)]
+    facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
     return facts + [("note", note) for note in notes]
 
 
@@ -103,7 +109,7 @@ def _bent(deviations: Iterable[Deviation]) -> list[str]:
     most: dict[tuple[str, str], float] = {}
     for d in deviations:
         most[d.shot, d.cause] = max(d.distance, most.get((d.shot, d.cause), 0.0))
-    return [f"shot {s} leaves its ideal by up to {m:.2f} m: {cause}" for (s, cause), m in most.items()]
+    return [f"shot {s} leaves its ideal by up to {at_least(m)} m: {cause}" for (s, cause), m in most.items()]
 
 
 def _used(certificate: Iterable[Claim]) -> list[str]:
@@ -118,8 +124,13 @@ def _used(certificate: Iterable[Claim]) -> list[str]:
         )
         subject = (*most.drones, most.subject)[0]
         who = f" ({subject})" if several or most.drones else ""
-        texts.append(f"{name} {most.worst * scale:.3g} of {most.limit * scale:.3g} {unit}{who}")
+        texts.append(f"{name} {_used_up(most.worst * scale)} of {most.limit * scale:.3g} {unit}{who}")
     return texts
+
+
+def _used_up(value: float) -> str:
+    """Return what is used of a limit with three digits, rounded up."""
+    return f"{away(value, upper=True, digits=3):.3g}" if value > NOTHING else "0"
 
 
 def _closest(claims: Sequence[Claim]) -> list[str]:
@@ -137,7 +148,7 @@ def _closest(claims: Sequence[Claim]) -> list[str]:
     near.sort(key=lambda c: c.worst - c.limit)
     several = len({c.subject for c in claims}) > 1
     return [
-        f"{c.worst:.2f} m, {c.limit:.2f} m needed: {c.constraint}"
+        f"{at_most(c.worst)} m, {c.limit:.2f} m needed: {c.constraint}"
         + "".join(f" of {drone}" for drone in c.drones or (c.subject,) * several)
         + ("" if c.time is None else f" at {clock(c.time)}")
         for c in near[:2]
@@ -151,7 +162,7 @@ def _together(plan: VerifiedIR) -> list[str]:
         return []
     near = min(apart, key=lambda c: c.worst)
     other = near.constraint.removeprefix(APART)
-    text = f"{near.subject} and {other} come nearest, {near.worst:.2f} m, {near.limit:.2f} m needed"
+    text = f"{near.subject} and {other} come nearest, {at_most(near.worst)} m, {near.limit:.2f} m needed"
     return [text + ("" if near.time is None else f", at {clock(near.time)}") + f"; {_pictures(plan)}"]
 
 

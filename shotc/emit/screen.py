@@ -13,6 +13,7 @@ from shotc.geom.pieces import Mask
 from shotc.ir.mission import Composition
 from shotc.ir.sampling import clock, framed, references, seen
 from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
+from shotc.rounding import down
 
 IN_FRAME = " in frame"
 """How the claim ends that tells how much of the time a target is seen whole; before it stands its name."""
@@ -133,8 +134,8 @@ def off_place(error: float) -> str:
 
 
 def percent(share: float) -> str:
-    """Return a share in percent, as everywhere with four digits; only the whole is called 100 %."""
-    return "100 %" if share >= 1.0 else f"{min(100 * share, 99.99):.4g} %"
+    """Return a share in percent, rounded down to four digits; only the whole is called 100 %."""
+    return "100 %" if share >= 1.0 else f"{min(down(100 * share), 99.99):.4g} %"
 
 
 def guide_lines(composition: Composition) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -103,6 +103,7 @@ class Composition(NamedTuple):
 
     points : (u, v) in [-1, 1]^2, u right, v up
     u_lines, v_lines : vertical lines u = c, horizontal lines v = c
+    last : points that are taken only where the whole target fits at no other place of the set
     """
 
     name: str
@@ -110,6 +111,7 @@ class Composition(NamedTuple):
     u_lines: tuple[float, ...] = ()
     v_lines: tuple[float, ...] = ()
     keep: bool = False
+    last: tuple[Vec2, ...] = ()
 
     @property
     def watches(self) -> bool:

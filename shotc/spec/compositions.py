@@ -25,6 +25,7 @@ def _centre_and_corners(distance: float) -> tuple[Vec2, ...]:
 COMPOSITIONS: dict[str, Composition] = {
     "center": Composition("center", points=((0.0, 0.0),)),
     "thirds": Composition("thirds", points=_centre_and_corners(_THIRD)),
+    "thirds-first": Composition("thirds-first", u_lines=(-_THIRD, _THIRD), last=((0.0, 0.0),)),
     "thirds-lines": Composition("thirds-lines", u_lines=(-_THIRD, _THIRD), v_lines=(-_THIRD, _THIRD)),
     "phi": Composition("phi", points=_centre_and_corners(_PHI)),
     "keep": Composition("keep", keep=True),

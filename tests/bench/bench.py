@@ -1,7 +1,8 @@
 """`make bench`: whole-process times as ratios to bare imports, growth over keyframes and stages, memory.
 
 Whole processes are medians of runs that take turns (A B A B ...), so that a machine whose speed drifts
-slows both sides alike; CPU time stands beside wall time, for it suffers less from what else runs.
+slows both sides alike; CPU time stands beside wall time, for it suffers less from what else runs. The
+ratios of a table stand over its own first row. Memory is that of all processes of a command together.
 Nothing is asserted: the tables are for people.
 """
 
@@ -24,6 +25,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
 from tests.bench import shows
 from tests.bench.fleets import fleets, mission
+from tests.bench.memory import check_status, peak_memory, start
 
 ROOT = Path(__file__).resolve().parents[2]
 DEMO = ROOT / "specs" / "westerhever-lighthouse.yaml"
@@ -37,30 +39,19 @@ ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYT
 
 @dataclass(frozen=True)
 class Timing:
-    """Wall seconds, CPU seconds and peak memory (MiB) of one process, and of what it waited for.
-
-    peak : of the largest process
-    """
+    """Wall seconds and CPU seconds of one process and of what it waited for."""
 
     wall: float
     cpu: float
-    peak: float
 
 
 def run(command: Sequence[str]) -> Timing:
     """Run a command to its end with its output thrown away."""
     began = time.perf_counter()
-    pid = os.posix_spawn(
-        command[0],
-        command,
-        ENVIRONMENT,
-        file_actions=[(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)],
-    )
-    _, status, usage = os.wait4(pid, 0)
-    if status:
-        raise SystemExit(f"exit status {os.waitstatus_to_exitcode(status)}: {' '.join(command)}")
+    _, status, usage = os.wait4(start(command, ENVIRONMENT), 0)
     wall = time.perf_counter() - began
-    return Timing(wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
+    check_status(command, status)
+    return Timing(wall, usage.ru_utime + usage.ru_stime)
 
 
 def in_turn(commands: Sequence[Sequence[str]], runs: int) -> list[Timing]:
@@ -72,7 +63,7 @@ def in_turn(commands: Sequence[Sequence[str]], runs: int) -> list[Timing]:
     def median(side: int, key: str) -> float:
         return statistics.median(getattr(times[side], key) for times in rounds)
 
-    return [Timing(*(median(i, key) for key in ("wall", "cpu", "peak"))) for i in range(len(commands))]
+    return [Timing(*(median(i, key) for key in ("wall", "cpu"))) for i in range(len(commands))]
 
 
 def processes(runs: int, imports: str, commands: Mapping[str, Sequence[str]]) -> None:
@@ -81,10 +72,11 @@ def processes(runs: int, imports: str, commands: Mapping[str, Sequence[str]]) ->
     base, *ours = in_turn([bare, *commands.values()], runs)
     print(f"\n| process, median of {runs} | wall | ratio | CPU | ratio | peak memory |")
     print("|---|---|---|---|---|---|")
-    for name, t in zip((f"python -c 'import {imports}'", *commands), (base, *ours), strict=True):
+    every = {f"python -c 'import {imports}'": bare, **commands}
+    for (name, command), t in zip(every.items(), (base, *ours), strict=True):
         print(
             f"| `{name}` | {t.wall:.2f} s | x{t.wall / base.wall:.2f} "
-            f"| {t.cpu:.2f} s | x{t.cpu / base.cpu:.2f} | {t.peak:.0f} MiB |"
+            f"| {t.cpu:.2f} s | x{t.cpu / base.cpu:.2f} | {peak_memory(command, ENVIRONMENT):.0f} MiB |"
         )
 
 

@@ -60,13 +60,13 @@ def test_it_tells_where_drones_come_nearer_than_asked(run: Run, tmp_path: Path) 
     tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 3.9, 3.9, 0.0))
     done = run("fly", written(tmp_path, plan(mission(fleets=(tight,)))), "--gusts", "0.5")
     assert done.code == 0
-    assert "nearer than asked" in done.out
+    assert "nearer than the separation" in done.out
     assert "margin" in done.out.splitlines()[-1]
 
 
 @pytest.mark.parametrize(
     ("margin", "verdict"),
-    [(0.8, "the margin cannot be used up in this wind"), (0.0, "the margin was enough this time")],
+    [(0.8, "no two drones can come too near in this wind"), (0.0, "the margin was enough in this run")],
 )
 def test_it_judges_the_margin(run: Run, tmp_path: Path, margin: float, verdict: str) -> None:
     roomy = fleet(PADS)._replace(apart=Apart("ellipsoid", 1.0, 1.0, margin))
@@ -76,7 +76,7 @@ def test_it_judges_the_margin(run: Run, tmp_path: Path, margin: float, verdict: 
     (row,) = json.loads(run("fly", show, "--format", "json").out)["fleets"]
     assert (margin >= 2 * row["farthest"]) == (margin > 0)
     if not margin:
-        proposed = float(re.search(r"`margin: ([\d.]+)`", said)[1])
+        proposed = float(re.search(r"\{margin: ([\d.]+)\}", said)[1])
         assert 2 * row["farthest"] <= proposed <= 2 * row["farthest"] + 0.1
 
 
@@ -88,3 +88,10 @@ def test_a_plan_without_fleets_is_a_mistake_of_usage(run: Run, tmp_path: Path) -
     done = run("fly", written(tmp_path, made))
     assert done.code == 2
     assert "no fleet" in done.err
+
+
+def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, tmp_path: Path) -> None:
+    tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 0.5, 0.5, 0.0))
+    last = run("fly", written(tmp_path, plan(mission(fleets=(tight,)))), "--gusts", "3").out.splitlines()[-1]
+    assert "do not fly this show in such wind" in last
+    assert "{margin:" not in last

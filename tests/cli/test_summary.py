@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from shotc.cli.centred import centred
 from shotc.cli.summary import WIDTH, shot_rows, summary
 from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.spec.compositions import COMPOSITIONS
 from tests.pairs import claims, pair_plan
 from tests.records import replace
 from tests.samples import SPEED, orbit_plan
@@ -68,3 +70,20 @@ def test_of_the_stretches_bent_by_one_cause_the_worst_is_told() -> None:
         "shot half leaves its ideal by up to 0.64 m: zone tree",
         "shot half leaves its ideal by up to 0.20 m: drone cam2",
     ]
+
+
+def test_shots_that_their_composition_leaves_in_the_centre_are_told_with_what_moves_them() -> None:
+    plan = orbit_plan()
+    keyframes = plan.trajectory.keyframes
+    (placed,) = keyframes.shots
+    for name, told in (("thirds", True), ("center", False)):
+        kind = COMPOSITIONS[name]
+        shot = replace(
+            placed.shot, keyframes=tuple(replace(k, composition=kind) for k in placed.shot.keyframes)
+        )
+        centre = tuple(replace(k, reference=(0.0, 0.0)) for k in placed.keyframes)
+        lines = centred(replace(keyframes, shots=(replace(placed, shot=shot, keyframes=centre),)))
+        assert bool(lines) is told
+        assert all(f"shot `{shot.id}`" in line and "thirds-first" in line for line in lines)
+        third = (replace(centre[0], reference=(1 / 3, 1 / 3)), *centre[1:])
+        assert centred(replace(keyframes, shots=(replace(placed, shot=shot, keyframes=third),))) == []

@@ -15,6 +15,7 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import HFOV
 from shotc.ir.trajectory import DroneTrajectory
+from shotc.rounding import at_least
 
 ZOOM_LEAST = np.radians(0.1)
 CUT_LEAST = 0.05  # metres, of clearance
@@ -139,11 +140,12 @@ def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic
 
 def note(file: str, drone: Drone, count: int, error: Error) -> str:
     """Return the line that says what one file is worth."""
-    text = f"{drone.autopilot} {file}: {count} items, position within {error.position:.2f} m"
+    text = f"{drone.autopilot} {file}: {count} items, position within {at_least(error.position)} m"
     if not error.shot:
         return text
+    heading = at_least(degrees(error.heading), 1)
     return (
-        f"{text}, heading within {degrees(error.heading):.1f} deg, adds at most {error.screen:.3f} of the"
+        f"{text}, heading within {heading} deg, adds at most {at_least(error.screen, 3)} of the"
         f" screen (shot {error.shot}, t = {error.time:.1f} s); its waypoints take about {error.filmed:.0f} s"
         f" where the plan films {error.planned:.0f} s"
     )
@@ -157,7 +159,7 @@ def sidenotes(drone: Drone, asked: list[Step], flown: list[Step]) -> list[str]:
         )
         off = [abs(a.hold - b.hold) for a, b in zip(asked, flown, strict=True)]
         worst = max(off, default=0.0)
-        rounded = f"ardupilot {drone.name}: holds are whole seconds, off by up to {worst:.1f} s"
+        rounded = f"ardupilot {drone.name}: holds are whole seconds, off by up to {at_least(worst, 1)} s"
         return [text, rounded] if worst >= 0.05 else [text]
     if any(s.leg.shot and is_steep(s.across, s.rise) and s.duration > 0 for s in flown):
         return [

@@ -15,6 +15,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Drone, MissionIR, Shot, Target
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
+from shotc.rounding import at_least
 
 MOST_PLACED, MOST_GENERATED = 12, 6
 
@@ -112,7 +113,9 @@ def _board(
             (target, certified(plan.certificate, shot.id, target))
             for target in framed_targets(plan.certificate, shot.id)
         ),
-        note="" if worst is None else f"leaves its ideal by up to {worst.distance:.1f} m: {worst.cause}",
+        note=""
+        if worst is None
+        else f"leaves its ideal by up to {at_least(worst.distance, 1)} m: {worst.cause}",
     )
 
 

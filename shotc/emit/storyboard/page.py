@@ -27,6 +27,7 @@ from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.map import draw_map
 from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.rounding import at_least
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
 HEADING, FOOTING, BAND, LINE = 1.40, 0.85, 0.60, 0.18
@@ -253,7 +254,7 @@ def _facts(board: ShotBoard) -> list[str]:
 def _framing(framing: ScreenSummary) -> str:
     parts = []
     if framing.error is not None:
-        parts.append(f"screen error at most {framing.error:.3f}")
+        parts.append(f"screen error at most {at_least(framing.error, 3)}")
     if framing.in_frame is not None:
         parts.append(f"whole subject in frame {percent(framing.in_frame)}")
     if framing.visible is not None and framing.visible < 1.0:

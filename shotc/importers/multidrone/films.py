@@ -10,6 +10,7 @@ from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Action, Sequence
 from shotc.importers.multidrone.targets import LEAD, NEAR, SAME, Course, courses_of, gap, route_of
 from shotc.importers.notes import Notes, plain
+from shotc.rounding import at_least
 
 
 class Film(NamedTuple):
@@ -72,7 +73,7 @@ def _name(
         if apart < NEAR and (known.identity == identity or None in (known.identity, identity)):
             if apart < SAME:
                 return known.name, ()
-            message = f"the way of one target is told again, and up to {apart:.1f} m beside"
+            message = f"the way of one target is told again, and up to {at_least(apart, 1)} m beside"
             return known.name, (notes.assume(node, message, f"{known.name}, as it was told first"),)
     name = f"target{len(targets) + 1}"
     other = next((t.name for t in targets if identity is not None and t.identity == identity), None)

@@ -103,7 +103,8 @@ def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -
     """Return the place of the set nearest to ``asked`` that is a candidate, or None."""
     points = [p for p in composition.points if setting.slack(p) >= -TOUCH]
     lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
-    return _nearest(setting, asked, (*points, *(_along(setting, line, asked) for line in lines)))
+    place = _nearest(setting, asked, (*points, *(_along(setting, line, asked) for line in lines)))
+    return place or _nearest(setting, asked, (p for p in composition.last if setting.slack(p) >= -TOUCH))
 
 
 def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
@@ -117,7 +118,8 @@ def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2
 
 def roomiest(setting: Setting, composition: Composition) -> float:
     """Return the largest slack on the set's points and lines and on the verticals through its points."""
-    verticals = dict.fromkeys((*(u for u, _ in composition.points), *composition.u_lines))
+    points = (*composition.points, *composition.last)
+    verticals = dict.fromkeys((*(u for u, _ in points), *composition.u_lines))
     lines = (*(Line(u, True) for u in verticals), *(Line(c, False) for c in composition.v_lines))
     return max(setting.slack(line.point(_best(setting, line))) for line in lines)
 
@@ -125,7 +127,7 @@ def roomiest(setting: Setting, composition: Composition) -> float:
 def has_candidate(setting: Setting, composition: Composition) -> bool:
     """Tell whether the target can stand somewhere on the set itself."""
     lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
-    return any(setting.slack(p) >= -TOUCH for p in composition.points) or any(
+    return any(setting.slack(p) >= -TOUCH for p in (*composition.points, *composition.last)) or any(
         setting.slack(line.point(_best(setting, line))) >= -TOUCH for line in lines
     )
 

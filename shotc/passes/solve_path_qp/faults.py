@@ -21,6 +21,7 @@ from shotc.passes.solve_path_qp.pad import PadBlocked
 from shotc.passes.solve_path_qp.remedy import conflict, needed, remedy
 from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, Stuck
 from shotc.passes.solve_path_qp.swings import Swing
+from shotc.rounding import at_least
 from shotc.solvers.conic import Status
 
 _WAY = {"over": "down", "under": "up"}
@@ -95,7 +96,7 @@ def moved(mission: MissionIR, shot: PlacedShot, deviation: Deviation) -> Diagnos
         labels.append(_owner_label(mission, deviation.cause, "is in the way"))
     return Diagnostic(
         "Q006",
-        f"shot `{shot.shot.id}` leaves its ideal path by up to {deviation.distance:.2f} m, "
+        f"shot `{shot.shot.id}` leaves its ideal path by up to {at_least(deviation.distance)} m, "
         f"round {named(deviation.cause)}",
         tuple(labels),
         (f"the largest distance is {where}",),
@@ -132,7 +133,7 @@ def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
     """Return the warning for a camera that swings round, or is not always where it should be."""
     first, second = (shot.keyframes[k] for k in (swing.index, swing.index + 1))
     where = f"{swing.s:.1f} m along the shot, between keyframes {swing.index + 1} and {swing.index + 2}"
-    off = f"the target is up to {degrees(swing.miss):.1f} deg off its place"
+    off = f"the target is up to {at_least(degrees(swing.miss), 1)} deg off its place"
     if swing.turn > 0:
         over = "over" if swing.pitch < 0 else "under"
         message = (

@@ -8,7 +8,7 @@ from math import isfinite
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.numbers import enough, told_apart
-from shotc.rounding import away
+from shotc.rounding import at_least, away
 
 PROMISES = frozenset({"V019", "V020", "V021"})
 """Codes of broken promises."""
@@ -59,7 +59,7 @@ def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
         if found.shot == shot:
             kind, space, name = found.cause.partition(" ")
             cause = f"{kind} `{name}`" if space and kind in ("zone", "target") else found.cause
-            yield f"the shot leaves its ideal path by up to {found.distance:.2f} m, round {cause}"
+            yield f"the shot leaves its ideal path by up to {at_least(found.distance)} m, round {cause}"
 
 
 def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:

@@ -19,6 +19,7 @@ from shotc.passes.place_keyframes.candidates import (
     nearest_on_verticals,
     roomiest,
 )
+from shotc.spec.compositions import COMPOSITIONS
 from tests.records import replace
 
 THIRD = 1 / 3
@@ -153,3 +154,21 @@ def test_directions_are_unit_vectors_of_the_pinhole() -> None:
     assert hypot(*setting.direction((0.7, -0.3))) == pytest.approx(1.0)
     x, y, z = setting.direction((1.0, 1.0))
     assert (x / z, y / z) == pytest.approx((1.0, 0.5))
+
+
+THIRDS_FIRST = COMPOSITIONS["thirds-first"]
+
+
+def test_a_set_that_prefers_the_thirds_takes_the_centre_only_where_neither_third_fits() -> None:
+    slim = Setting((0.0, 20.0, 0.0), 0.5, 2.0, radians(70), 16 / 9, (-1.5, 0.5))
+    place = nearest_candidate(slim, THIRDS_FIRST, (0.0, 0.0))
+    assert place is not None
+    assert place == pytest.approx((-1 / 3, 0.0))
+    wide = slim._replace(radius=11.0)  # fits across the frame in its middle alone
+    assert nearest_candidate(wide, THIRDS_FIRST, (0.0, 0.0)) == (0.0, 0.0)
+    assert nearest_candidate(wide._replace(radius=15.0), THIRDS_FIRST, (0.0, 0.0)) is None
+
+
+def test_a_set_that_prefers_the_thirds_keeps_the_side_that_is_asked() -> None:
+    slim = Setting((0.0, 20.0, 0.0), 0.5, 2.0, radians(70), 16 / 9, (-1.5, 0.5))
+    assert nearest_candidate(slim, THIRDS_FIRST, (0.2, 0.1)) == pytest.approx((1 / 3, 0.1), abs=0.02)

@@ -96,3 +96,11 @@ def test_a_limit_of_nothing_asks_for_no_endless_shot() -> None:
 def test_values_that_differ_look_different(value: float, by: float, unit: str) -> None:
     one, other = told_apart(value, value + by, unit)
     assert one != other
+
+
+@pytest.mark.parametrize(("worst", "said"), [(-3.67, "3.670 m inside"), (1.25, "1.250 m outside")])
+def test_a_certificate_says_on_which_side_of_the_frame_a_drone_is(worst: float, said: str) -> None:
+    seen = replace(broken(f"b{SIGHT}", 0.0, upper=False), worst=worst, unit="m", hard=False)
+    (row,) = (line for line in certificate_text((seen,)).splitlines() if SIGHT in line)
+    assert "outside the frame" in row
+    assert said in row
