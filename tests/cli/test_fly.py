@@ -15,15 +15,22 @@ from tests.fleets import PADS, fleet, mission, plan
 from tests.samples import orbit_plan
 
 
-def written(folder: Path, made) -> str:
-    path = folder / "plan.json"
-    path.write_bytes(EMITTER.emit(made).artifacts[0].data)
-    return str(path)
+@pytest.fixture
+def written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Give the command a plan made by hand, which has no mission in a file that it could be held to."""
+
+    def made(flown) -> str:
+        path = tmp_path / "plan.json"
+        path.write_bytes(EMITTER.emit(flown).artifacts[0].data)
+        monkeypatch.setattr("shotc.cli.fly.proved", lambda _path: flown)
+        return str(path)
+
+    return made
 
 
 @pytest.fixture
-def show(tmp_path: Path) -> str:
-    return written(tmp_path, plan())
+def show(written) -> str:
+    return written(plan())
 
 
 def test_it_says_how_far_drones_stray_and_how_near_they_come(run: Run, show: str) -> None:
@@ -56,9 +63,9 @@ def test_gusts_depend_on_their_seed_and_take_from_the_separation(run: Run, show:
     assert one["near"]["distance"] > 4.0 - 2 * one["farthest"]
 
 
-def test_it_tells_where_drones_come_nearer_than_asked(run: Run, tmp_path: Path) -> None:
+def test_it_tells_where_drones_come_nearer_than_asked(run: Run, written) -> None:
     tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 3.9, 3.9, 0.0))
-    done = run("fly", written(tmp_path, plan(mission(fleets=(tight,)))), "--gusts", "0.5")
+    done = run("fly", written(plan(mission(fleets=(tight,)))), "--gusts", "0.5")
     assert done.code == 0
     assert "nearer than the separation" in done.out
     assert "margin" in done.out.splitlines()[-1]
@@ -68,9 +75,9 @@ def test_it_tells_where_drones_come_nearer_than_asked(run: Run, tmp_path: Path) 
     ("margin", "verdict"),
     [(0.8, "no two drones can come too near in this wind"), (0.0, "the margin was enough in this run")],
 )
-def test_it_judges_the_margin(run: Run, tmp_path: Path, margin: float, verdict: str) -> None:
+def test_it_judges_the_margin(run: Run, written, margin: float, verdict: str) -> None:
     roomy = fleet(PADS)._replace(apart=Apart("ellipsoid", 1.0, 1.0, margin))
-    show = written(tmp_path, plan(mission(fleets=(roomy,))))
+    show = written(plan(mission(fleets=(roomy,))))
     said = run("fly", show).out.splitlines()[-1]
     assert verdict in said
     (row,) = json.loads(run("fly", show, "--format", "json").out)["fleets"]
@@ -80,18 +87,18 @@ def test_it_judges_the_margin(run: Run, tmp_path: Path, margin: float, verdict: 
         assert 2 * row["farthest"] <= proposed <= 2 * row["farthest"] + 0.1
 
 
-def test_a_plan_without_fleets_is_a_mistake_of_usage(run: Run, tmp_path: Path) -> None:
+def test_a_plan_without_fleets_is_a_mistake_of_usage(run: Run, written) -> None:
     from shotc.passes.base import PassContext
     from shotc.passes.verify import Verify
 
     made = Verify().run(orbit_plan().trajectory, PassContext()).value
-    done = run("fly", written(tmp_path, made))
+    done = run("fly", written(made))
     assert done.code == 2
     assert "no fleet" in done.err
 
 
-def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, tmp_path: Path) -> None:
+def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, written) -> None:
     tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 0.5, 0.5, 0.0))
-    last = run("fly", written(tmp_path, plan(mission(fleets=(tight,)))), "--gusts", "3").out.splitlines()[-1]
+    last = run("fly", written(plan(mission(fleets=(tight,)))), "--gusts", "3").out.splitlines()[-1]
     assert "do not fly this show in such wind" in last
     assert "{margin:" not in last
