@@ -8,6 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from shotc.geom import proof
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.geom.pieces import Pieces, cut, join, pieces
 from shotc.geom.proof import inf_channel, inf_distance, sup_channel, sup_norm, sup_outside
@@ -255,3 +256,59 @@ def test_a_sight_line_that_only_touches_is_free() -> None:
     assert list(seen) == [False, True, True]
     assert closest_on_segment((0, 0), (1, 0), (0.5, 2)) == (0.5, 0.0)
     assert len(edges(L_SHAPE.points)) == 6
+
+
+@pytest.mark.parametrize("halted", [False, True])
+def test_a_bound_that_is_left_coarse_is_still_a_bound(halted: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    # Whether it need not be any closer, or too many pieces are open: what was not looked into counts.
+    if halted:
+        monkeypatch.setattr(proof, "OPEN_LIMIT", 0)
+    gap = 1e-6 if halted else 100.0
+    hill = Piecewise(np.array([0.0, 1.0]), np.array([[[0.0, 0.0, 0.0], [0.0, 8.0, 9.0], [0.0, 0.0, 0.0]]]))
+    highest = sup_norm(pieces(hill), lambda _: gap)
+    assert highest.attained < hypot(4.0, 4.5) <= highest.proven
+    floor = Cylinder((0.0, 20.0), 1.0, -inf, inf)
+    twice = Piecewise(
+        np.array([0.0, 1.0, 2.0]),
+        np.array([[[0.0, 0.0, 0.0], [9.0, 6.0, 0.0], [0.0, 15.0, 0.0]], [[0.0, 15.0, 0.0]] * 3]),
+    )
+    wave = Piecewise(twice.breaks, twice.ctrl + np.array([0.0, -15.0, 0.0]))
+    nearest = inf_distance(pieces(wave), floor, lambda _: gap)
+    assert nearest.proven <= 19.0
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_a_piece_that_comes_near_at_its_end_counts_however_far_its_middle(first: int) -> None:
+    # The one passes level at 1.5 m over a box, the other comes down to 1 m beside it at its end.
+    over = np.linspace((-5.0, 0.0, 5.5), (5.0, 0.0, 5.5), 6)
+    down = np.linspace((30.0, 0.0, 3.0), (3.0, 0.0, 3.0), 6)
+    curves = np.stack([over, down][:: 1 if first == 0 else -1])
+    solid = Prism(((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)), 0.0, 4.0)
+    found = inf_distance(Pieces(np.array([0.0, 1.0]), np.array([1.0, 2.0]), curves), solid, fine)
+    assert found.proven == pytest.approx(1.0, abs=2e-6)
+
+
+def test_a_box_round_a_solid_is_no_nearer_than_it_is() -> None:
+    solid = Cylinder((0.0, 0.0), 10.0, 0.0, 4.0)
+    for place, gap in (
+        ((13.0, 0.0, 2.0), 3.0),
+        ((13.0, 14.0, 2.0), 5.0),
+        ((13.0, 14.0, 16.0), 13.0),
+        ((9, 9, 2), 0),
+    ):
+        ctrl = np.tile(np.array(place, float), (1, 6, 1))
+        assert proof.box_gap(ctrl, solid)[0] == pytest.approx(gap)
+        assert gap <= distance(solid, place) + 1e-12
+
+
+def test_the_ceiling_of_a_zone_is_left_as_its_floor_is() -> None:
+    room = Cylinder((0.0, 0.0), 50.0, 2.0, 60.0)
+    rising = straight((0, 0, 30), (10, 0, 63))
+    assert sup_outside(rising, room, fine).proven == pytest.approx(3.0)
+    assert sup_outside(rising, room, fine, floor=False).proven == pytest.approx(3.0)
+
+
+def test_a_pocket_of_a_zone_is_outside_of_it_also_where_its_hull_is_not_left() -> None:
+    # Deep in the notch, a metre from the next wall, and above its floor by more.
+    inside = straight((7, 7, 4), (6.5, 6.5, 4))
+    assert sup_outside(inside, L_SHAPE, fine).proven > 0.0

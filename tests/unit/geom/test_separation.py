@@ -115,3 +115,33 @@ def test_the_fleets_of_a_crowd_are_told_apart() -> None:
     sampled = float(np.maximum(across, up).min())
     assert found.proven <= found.attained <= sampled + 1e-9
     assert sampled - found.proven < 1e-2
+
+
+def test_two_on_the_rim_of_their_cylinder_are_nearer_than_two_abreast() -> None:
+    # 1 m apart both ways, which is 1.41 m as the crow flies: farther than the other two, 1.2 m abreast.
+    breaks = np.array([0.0, 1.0, 2.0])
+    places_ = [(0.0, 0.0, 10.0), (1.2, 0.0, 10.0), (50.0, 0.0, 10.0), (51.0, 0.0, 12.0)]
+    coef = np.stack([straight(breaks, list(place), [0.0, 0.0, 0.0]) for place in places_])
+    found = closest(breaks, coef, CAN)
+    assert found.attained == pytest.approx(1.0)
+    assert (found.first, found.second) == (2, 3)
+    for a, b in (((0, 1), (2, 3)), ((2, 3), (0, 1)), ((0, 2), (1, 3))):
+        both = closest_between(breaks, coef[list(a)], breaks, coef[list(b)], CAN)
+        if (a, b) == ((0, 2), (1, 3)):
+            assert both.attained == pytest.approx(1.0)
+        else:
+            assert both.attained > 40.0
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_of_pairs_that_move_the_one_that_comes_nearest_counts(swapped: bool) -> None:
+    # At the middle of every slab the first two are the nearer ones; the others rush by between.
+    breaks = np.linspace(0.0, 8.0, 3)
+    still = [straight(breaks, [0.0, y, 10.0], [0.0, 0.0, 0.0]) for y in (0.0, 2.0)]
+    rush = [
+        straight(breaks, [40.0 - x, y, 10.0], [v, 0.0, 0.0]) for x, y, v in ((9.0, 0, 6.0), (-9.0, 0.5, -6.0))
+    ]
+    coef = np.stack([*rush, *still] if swapped else [*still, *rush])
+    found = closest(breaks, coef, BALL)
+    assert found.attained == pytest.approx(0.5, abs=1e-6)
+    assert found.proven == pytest.approx(0.5, abs=1e-5)

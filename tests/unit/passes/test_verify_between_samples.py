@@ -1,0 +1,133 @@
+"""Every motion counts between two samples: at both of them all is well and at rest, in the middle it is not.
+
+Each case moves one thing alone, so that a bound which leaves out its rate would close the time at once.
+"""
+
+from __future__ import annotations
+
+from math import radians
+
+import numpy as np
+import pytest
+
+from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.geom.track import Track
+from shotc.ir.mission import MissionIR, Target
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.trajectory import DroneTrajectory, Reference
+from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.close import errors_close, margins_close, rates
+from shotc.passes.verify.sight import Sight, infimum
+from tests.records import replace
+from tests.sights import EYE, LENGTH, at, film, mission, still, through, unfilmed
+
+ENDS = np.array([0.0, 1.0])
+POST = (20.0, 4.0, 10.0)
+ASIDE = -0.2
+"""Where the post stands on screen, half frames: it is a fifth of its distance to the left."""
+
+SWAYS = {
+    "yaw": {CAM_YAW: -0.9},
+    "pitch": {CAM_PITCH: 0.9},
+    "zoom": {HFOV: radians(-82)},
+    "closing in": {0: 18.0},
+    "aside": {1: -30.0},
+    "above": {2: 30.0},
+}
+
+
+def swayed(moves: dict[int, float]) -> Piecewise:
+    """Stand, move some channels there and back within the first second, and stand."""
+    there = EYE.copy()
+    for channel, by in moves.items():
+        there[channel] += by
+    return through([0.0, 0.5, 1.0, LENGTH], [EYE, there, EYE, EYE])
+
+
+def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> Flight:
+    """A camera that films a post at one sample a second; what is wanted of it moves aside and back."""
+    post = Target("post", POST, 1.0, 2.0, ("targets", "post"), track)
+    of: MissionIR = replace(mission(rate=1.0), targets=(post,))
+    zero = np.zeros((4, 2))
+    wanted = np.array([[ASIDE, 0.0], [ASIDE + aside, 0.0], [ASIDE, 0.0], [ASIDE, 0.0]])
+    reference = quintic_hermite(np.array([0.0, 0.5, 1.0, LENGTH]), wanted, zero, zero)
+    flown = film("eye", curve)
+    framed = (Reference("eyes", "post", 0.0, LENGTH, reference),)
+    track_ = DroneTrajectory("eye", flown.curve, flown.phases, (), framed)
+    return Flight(of, of.drone("eye"), track_)
+
+
+def going(by: tuple[float, float, float]) -> Track:
+    far = tuple(a + b for a, b in zip(POST, by, strict=True))
+    return Track((0.0, 0.5, 1.0), (POST, (far[0], far[1], far[2]), POST))
+
+
+def test_what_stands_is_closed() -> None:
+    assert margins_close(flight(still(EYE)), "post", ENDS)
+    assert errors_close(flight(still(EYE)), "eyes", "post", ENDS, 0.01)
+
+
+@pytest.mark.parametrize("sway", SWAYS)
+def test_a_target_that_leaves_the_frame_between_samples_is_not_closed(sway: str) -> None:
+    assert not margins_close(flight(swayed(SWAYS[sway])), "post", ENDS)
+
+
+@pytest.mark.parametrize("by", [(0.0, 40.0, 0.0), (0.0, 0.0, 40.0), (-30.0, 0.0, 0.0)])
+def test_a_target_that_runs_out_of_the_frame_and_back_is_not_closed(by: tuple[float, float, float]) -> None:
+    assert not margins_close(flight(still(EYE), going(by)), "post", ENDS)
+    assert not errors_close(flight(still(EYE), going(by)), "eyes", "post", ENDS, 0.3)
+
+
+@pytest.mark.parametrize("sway", SWAYS)
+def test_a_target_that_leaves_its_place_between_samples_is_not_closed(sway: str) -> None:
+    assert not errors_close(flight(swayed(SWAYS[sway])), "eyes", "post", ENDS, 0.3)
+
+
+def test_what_is_wanted_moves_between_samples_too() -> None:
+    assert not errors_close(flight(still(EYE), aside=0.5), "eyes", "post", ENDS, 0.3)
+
+
+@pytest.mark.parametrize("sway", SWAYS)
+def test_rates_are_those_of_the_flight(sway: str) -> None:
+    of = flight(swayed(SWAYS[sway]), going((1.0, -2.0, 3.0)))
+    t = np.linspace(0.0, 1.0, 20_001)
+    rate, place = of.track.curve.derivative()(t), of.track.curve(t)
+    target = of.mission.targets[0]
+    centres = np.array([target.at(float(x)) for x in t])
+    velocity = np.diff(centres, axis=0) / np.diff(t)[:, None]
+    found = rates(of, "post", 0.0, 1.0)
+    for bound, value in (
+        (found.speed, np.linalg.norm(rate[1:, :3] - velocity, axis=1).max()),
+        (found.far, np.linalg.norm(place[:, :3] - centres, axis=1).max()),
+        (found.turn, np.abs(rate[:, CAM_YAW]).max() + np.abs(rate[:, CAM_PITCH]).max()),
+        (found.zoom, np.abs(rate[:, HFOV]).max()),
+        (found.wide, np.tan(place[:, HFOV] / 2).max()),
+        (-found.narrow, -np.tan(place[:, HFOV] / 2).min()),
+    ):
+        assert value - 1e-2 <= bound <= value + 0.06 * abs(value) + 1e-2
+
+
+BIRD = at(20.0, 60.0, 10.0)
+PASSES = {
+    "bird": (still(EYE), through([0, 0.5, 1, LENGTH], [BIRD, at(20, 25, 10), BIRD, BIRD])),
+    "eye": (swayed({0: -30.0}), still(BIRD)),
+    "yaw": (swayed({CAM_YAW: 0.4}), still(BIRD)),
+    "pitch": (swayed({CAM_PITCH: 0.4}), still(at(20.0, 0.0, 60.0))),
+    "zoom": (swayed({HFOV: radians(40)}), still(BIRD)),
+}
+
+
+CASES = [(name, None) for name in PASSES] + [(name, radians(30)) for name in PASSES if name != "zoom"]
+"""Who moves, and the angle to be kept free, which does not change with the lens."""
+
+
+@pytest.mark.parametrize(("name", "half_angle"), CASES)
+def test_a_drone_that_comes_nearer_to_a_picture_between_samples_is_seen(
+    name: str, half_angle: float | None
+) -> None:
+    eye, bird = PASSES[name]
+    sight = Sight(mission(half_angle=half_angle), film("eye", eye), unfilmed("bird", bird))
+    dense = sight.out(np.linspace(0.0, 1.0, 20_001)).min()
+    assert dense < sight.out(ENDS).min() - 0.05
+    found = infimum(sight, ENDS, half_angle or 0.0)
+    assert found.proven <= dense + 1e-9

@@ -1,0 +1,115 @@
+"""One test for one term of what is claimed of fleets: what it protects a show from."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.geom.pieces import Pieces
+from shotc.geom.solids import Cylinder
+from shotc.geom.track import Track
+from shotc.ir.fleet import Shown
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Target
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify import judge
+from shotc.passes.verify.fleets.space import nearest
+from tests.fleets import CONTEXT, display, fleet, mission, show
+from tests.records import replace
+
+SHOW = show()
+
+
+def claim(ir: TrajectoryIR, constraint: str) -> Claim:
+    return next(c for c in judge(ir, CONTEXT).certificate if c.constraint == constraint)
+
+
+def showing(*shown: tuple[int, float, float]) -> TrajectoryIR:
+    """The show with pictures at times: (picture, start, end)."""
+    track = SHOW.fleets[0]
+    pictures = tuple(Shown("globe", picture, 0, start, end) for picture, start, end in shown)
+    return replace(SHOW, fleets=(replace(track, shown=pictures),))
+
+
+@pytest.mark.parametrize(
+    ("shown", "astray"),
+    [
+        (((0, 16.0, 20.0), (1, 26.0, 28.0)), 0),
+        (((1, 16.0, 20.0), (0, 26.0, 28.0)), 1),  # the second one first, each in its own time
+        (((0, 16.0, 18.0), (0, 18.0, 20.0), (1, 26.0, 28.0)), 1),  # one of them twice
+        (((0, 16.0, 26.5), (1, 26.0, 28.0)), 1),  # the second one begins while the first one stands
+        (((0, 16.0, 20.0), (1, 26.0, 28.5)), 1),  # the last one stays beyond the display
+        (((0, 15.5, 20.0), (1, 26.0, 28.0)), 1),  # the first one begins before it
+    ],
+)
+def test_pictures_are_shown_one_after_another_in_the_order_written(
+    shown: tuple[tuple[int, float, float], ...], astray: int
+) -> None:
+    order = claim(showing(*shown), "pictures out of order")
+    assert order.worst == astray
+    assert order.holds is (astray == 0)
+
+
+@pytest.mark.parametrize("by", [-1.0, 1.0])
+def test_a_transition_and_a_hold_are_no_shorter_and_a_transition_no_longer(by: float) -> None:
+    moved = showing((0, 16.0, 20.0), (1, 26.0 + by, 28.0))
+    assert claim(moved, "error of transition").worst == pytest.approx(1.0)
+    assert claim(moved, "lack of hold").worst == pytest.approx(max(by, 0.0))
+
+
+@pytest.mark.parametrize("by", [-0.5, 0.5])
+def test_a_display_starts_and_lasts_as_asked_from_both_sides(by: float) -> None:
+    for timing, name in (
+        (Timing(start=16.0 + by), "error of start"),
+        (Timing(duration=12.0 + by), "error of duration"),
+    ):
+        ir = show(mission(displays=(display()._replace(timing=timing),)))
+        assert claim(ir, name).worst == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(("ends", "early"), [(15.0, -1.0), (17.0, 1.0)])
+def test_a_display_waits_for_the_one_it_comes_after(ends: float, early: float) -> None:
+    far = tuple((x + 100.0, y, z) for x, y, z in fleet().pads)
+    asked = mission(
+        fleets=(fleet(), fleet(far, "other")),
+        displays=(display()._replace(timing=Timing(after="first")), display("first", "other", 1)),
+    )
+    ir = show(asked)
+    second = ir.fleets[1]
+    phases = tuple(
+        replace(p, start=ends if p.name == "return" else p.start, end=ends if p.shot else p.end)
+        for p in second.phases
+    )
+    phases = (phases[0], replace(phases[1], end=14.0), replace(phases[2], start=14.0), *phases[3:])
+    ir = replace(ir, fleets=(ir.fleets[0], replace(second, phases=phases)))
+    start = claim(ir, "start too early")
+    assert start.worst == pytest.approx(early)
+    assert start.holds is (early <= 0)
+
+
+def test_an_acceleration_at_the_pads_is_no_rest() -> None:
+    # A cubic whose first two control points are the pad's, and whose third is above, begins with a push.
+    track = SHOW.fleets[0]
+    coef = track.coef.copy()
+    coef[0, 0, 2] = coef[0, 2, 2] = 1e-4
+    coef[0, 1, 2] = -0.5e-4
+    pushed = replace(SHOW, fleets=(replace(track, coef=coef),))
+    assert not claim(pushed, "rate at start and end").holds
+
+
+def test_what_a_box_tells_to_be_far_is_no_nearer_than_its_box() -> None:
+    # Hundreds of pieces at a corner of the box round a mast, 4.1 m from it, and one at 3 m from its side.
+    mast = Cylinder((0.0, 0.0), 10.0, 0.0, 50.0)
+    places = np.array([*[(10.0, 10.0, 20.0)] * 400, (13.0, 0.0, 20.0)])
+    many = Pieces(np.arange(401.0), np.arange(1.0, 402.0), np.repeat(places[:, None], 4, axis=1))
+    assert nearest(many, mast, lambda _: 1e-6).proven == pytest.approx(3.0, abs=2e-6)
+
+
+def test_of_drones_beside_a_moving_target_the_nearest_counts_not_the_one_whose_box_is() -> None:
+    # Both fly up to y = 20: one towards its middle, 2 m off, the other aside, 3.4 m off. Boxes are alike.
+    where = (0.0, 32.0, 20.0)
+    giant = Target("giant", where, 10.0, 60.0, ("targets", "giant"), Track((0.0, 100.0), (where, where)))
+    ir = show(mission(fleets=(fleet(((6.0, 0.0, 0.0), (0.0, 0.0, 0.0))),), targets=(giant,)))
+    found = claim(ir, "target giant")
+    assert found.worst == pytest.approx(2.0 - 0.3, abs=1e-5)
+    assert found.drones == ("swarm-2",)
