@@ -23,6 +23,7 @@ from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.names import check_names, emitters_of, once
+from shotc.passes.resolve.pads import check_pads
 from shotc.passes.resolve.seldom import Show, check_fleets, check_ideals, framed, shown, tracks_of
 from shotc.passes.resolve.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.timing import check_timing
@@ -150,7 +151,10 @@ def _judged(ir: LoadedMission, mission: MissionIR, world: _World, *, order: bool
     """Return what can be told from numbers alone; ``order`` is whether names and waits all stand."""
     if world.astray:
         return []
-    faults = _static_faults(mission, timing=world.sound, order=order)
+    faults = [
+        *_static_faults(mission, timing=world.sound, order=order),
+        *check_pads(ir.spec, mission),
+    ]
     return [*faults, *check_fleets(mission, ir, order=order and not has_errors(faults))]
 
 

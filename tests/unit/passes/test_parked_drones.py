@@ -139,11 +139,21 @@ def test_a_way_past_a_parked_drone_is_planned_at_its_distance(shot: str, home: s
     )
 
 
-def test_a_keyframe_at_a_parked_drone_is_refused_on_its_line() -> None:
+def test_a_keyframe_at_a_parked_drone_is_told_by_check_on_its_line_with_a_move_that_helps() -> None:
     text = HEAD.replace("HOME", "[-10, -45, 0]") + PAST
-    faults = compile_source(text.encode(), "m.yaml", None, PlanOptions("none")).diagnostics
+    faults = check_source(text.encode(), "m.yaml", None).diagnostics
     assert [d.code for d in faults] == ["Q004"]
     assert faults[0].labels[0].span.line == text[: text.index("{at: [-10")].count("\n") + 1
+    assert faults[0].labels[1].span.line == text[: text.index("cam2:")].count("\n") + 1
+    assert "5.38 m apart" in faults[0].notes[0]
+    place = faults[0].help.rpartition("to ")[2]
+    mended = text.replace("[-10, -49, 3.6]", place)
+    assert check_source(mended.encode(), "m.yaml", None).diagnostics == ()
+
+
+def test_where_it_is_open_who_films_nobody_is_known_to_stand() -> None:
+    text = (HEAD.replace("HOME", "[-10, -45, 0]") + PAST).replace("drone: cam1", "drone: auto")
+    assert check_source(text.encode(), "m.yaml", None).diagnostics == ()
 
 
 @pytest.mark.parametrize(("home", "codes"), [("[3.6, -60, 0]", ["G019"]), ("[8, -60, 0]", [])])

@@ -1,0 +1,45 @@
+"""Keyframes that are nearer to a drone on its pad than any two drones may be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import dist
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.solids import point
+from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move
+from shotc.spec.mission import MissionSpec
+
+
+def check_pads(spec: MissionSpec, mission: MissionIR) -> Iterator[Diagnostic]:
+    """Yield the placed keyframes that are too near to a drone which films nothing, and so stands on its pad.
+
+    Where it is open who films a shot, nobody is known to stand.
+    """
+    filming = {shot.drone for shot in spec.shots}
+    if AUTO in filming:
+        return
+    standing = [drone for drone in mission.drones if drone.name not in filming]
+    for shot in mission.shots if standing else ():
+        for keyframe in shot.keyframes:
+            near = [d for d in standing if dist(keyframe.at, d.home) < mission.rules.separation - ROUNDING]
+            if near and keyframe.placed:
+                yield _too_near(mission, shot, keyframe, min(near, key=lambda d: dist(keyframe.at, d.home)))
+
+
+def _too_near(mission: MissionIR, shot: Shot, keyframe: Keyframe, other: Drone) -> Diagnostic:
+    least, away = mission.rules.separation, dist(keyframe.at, other.home)
+    pad = Obstacle(other.name, "out", point(other.home), least, other.path)
+    place = ", ".join(f"{c:.2f}" for c in keyframe.at)
+    return Diagnostic(
+        "Q004",
+        f"[{place}] is too near to drone `{other.name}` for `{shot.drone}`",
+        (
+            mission.origins.value((*keyframe.path, "at")),
+            mission.origins.value((*other.path, "home"), "it films nothing, and stands here"),
+        ),
+        (f"they are {away:.2f} m apart; `rules.separation` asks for {least:.2f} m, centre to centre",),
+        free_move(mission, mission.drone(shot.drone), keyframe.at, pad) or f"move the home of `{other.name}`",
+    )
