@@ -127,11 +127,14 @@ def differentiated(s: Stage) -> Derived:
     states = s.following.numel()
     inputs = s.z.numel() - states
     x = s.z[:states]
-    cost, bound = s.node + s.passing, ca.vertcat(s.held, s.driven)
+    cost, end_cost, bound = s.cost, s.end_cost, ca.vertcat(s.held, s.driven)
     weight, costate = ca.SX.sym("weight"), ca.SX.sym("costate", states)
     force, held_force = ca.SX.sym("force", bound.numel()), ca.SX.sym("force", s.held.numel())
     lagrangian = weight * cost - ca.dot(costate, s.following) + ca.dot(force, bound)
-    end_lagrangian = weight * s.node + ca.dot(held_force, s.held)
+    end_lagrangian = weight * end_cost + ca.dot(held_force, s.held)
+    exact = weight * (s.node + s.passing) - ca.dot(costate, s.following) + ca.dot(force, bound)
+    end_exact = weight * s.node + ca.dot(held_force, s.held)
+    roots, end_roots = ca.vertcat(s.node_roots, s.passing_roots), s.node_roots
     own = ca.vertcat(-ca.jacobian(s.following, s.z), ca.jacobian(bound, s.z))
     end_own = ca.jacobian(s.held, x)
     joint = ca.horzcat(ca.SX.eye(states), ca.SX(states, inputs))
@@ -141,14 +144,20 @@ def differentiated(s: Stage) -> Derived:
 
     return Derived(
         cost=function("cost", [s.z, s.p], [cost, s.following, bound]),
-        last_cost=function("last_cost", [x, s.p], [s.node, s.held]),
+        last_cost=function("last_cost", [x, s.p], [end_cost, s.held]),
         gradient=function("gradient", [s.z, s.p], [cost, ca.gradient(cost, s.z)]),
-        last_gradient=function("last_gradient", [x, s.p], [s.node, ca.gradient(s.node, x)]),
+        last_gradient=function("last_gradient", [x, s.p], [end_cost, ca.gradient(end_cost, x)]),
         first_jacobian=function("first_jacobian", [s.z, s.p], [s.following, bound, own]),
         jacobian=function("jacobian", [s.z, s.p], [s.following, bound, ca.vertcat(joint, own)]),
         last_jacobian=function("last_jacobian", [x, s.p], [s.held, ca.vertcat(ca.SX.eye(states), end_own)]),
-        hessian=function("hessian", [s.z, s.p, weight, costate, force], _curved(lagrangian, s.z)),
-        last_hessian=function("last_hessian", [x, s.p, weight, held_force], _curved(end_lagrangian, x)),
+        hessian=function(
+            "hessian", [s.z, s.p, weight, costate, force], _curved(lagrangian, exact, roots, weight, s.z)
+        ),
+        last_hessian=function(
+            "last_hessian",
+            [x, s.p, weight, held_force],
+            _curved(end_lagrangian, end_exact, end_roots, weight, x),
+        ),
         bound=bound.numel(),
         last_bound=s.held.numel(),
         states=states,
@@ -157,9 +166,10 @@ def differentiated(s: Stage) -> Derived:
     )
 
 
-def _curved(lagrangian: Any, at: Any) -> list[Any]:
-    curvature, slope = ca.hessian(lagrangian, at)
-    return [slope, curvature]
+def _curved(lagrangian: Any, exact: Any, roots: Any, weight: Any, at: Any) -> list[Any]:
+    """Return the slope of a Lagrangian, and its curvature: of a part exactly, and that of squares."""
+    slopes = ca.jacobian(roots, at)
+    return [ca.gradient(lagrangian, at), ca.hessian(exact, at)[0] + 2 * weight * (slopes.T @ slopes)]
 
 
 def _block_diagonal(d: Derived, stages: int) -> Any:

@@ -9,7 +9,8 @@ progress is made (theta of Gebhardt and Hilliges Eq. 15, with progress as the in
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import casadi as ca
@@ -63,6 +64,8 @@ class Stage:
     z : state and input; p : parameters
     following : the next state; node : cost of the state; passing : cost of the way to the next
     held : what is bounded of the state; driven : what is bounded of the input
+    node_roots, passing_roots : columns whose squares are added to these costs, where the curvature is that of
+        Gauss and Newton: never negative, and half as dear
     """
 
     z: Any
@@ -72,6 +75,18 @@ class Stage:
     passing: Any
     held: Any
     driven: Any
+    node_roots: Any = field(default_factory=partial(ca.SX, 0, 1))
+    passing_roots: Any = field(default_factory=partial(ca.SX, 0, 1))
+
+    @property
+    def end_cost(self) -> Any:
+        """Return the whole cost of the state."""
+        return self.node + ca.sumsqr(self.node_roots)
+
+    @property
+    def cost(self) -> Any:
+        """Return the whole cost of the state and of the way to the next."""
+        return self.end_cost + self.passing + ca.sumsqr(self.passing_roots)
 
 
 def stage(visibility: Visibility, planes: int) -> Stage:

@@ -190,6 +190,11 @@ def test_two_solvers_find_the_same_motion() -> None:
     assert max(a.residual, b.residual) < program.FEASIBLE
 
 
+def test_the_solver_takes_no_small_curvature_for_none() -> None:
+    # With a cost that next to nothing hangs on it adds to the diagonal, and creeps: 30 steps and more.
+    assert program.solve(task(subject(compiled(FLYBY))), "fatrop").iterations < 15
+
+
 def test_the_control_points_of_every_stage_keep_what_is_asked() -> None:
     of = subject(compiled(LATERAL, 3.0, "", SHED))
     refined = refine_clock(of)

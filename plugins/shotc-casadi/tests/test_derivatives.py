@@ -33,33 +33,43 @@ def plain(kind, planes):
     """Cost, constraints and their derivatives by CasADi on one expression graph, stage after stage."""
     s = made(kind, planes)
     states, width, each = sizes(s)
-    of = ca.Function("stage", [s.z, s.p], [s.node + s.passing, s.following, ca.vertcat(s.held, s.driven)])
-    last = ca.Function("last", [s.z, s.p], [s.node, s.held])
+    roots = ca.vertcat(s.node_roots, s.passing_roots)
+    of = ca.Function(
+        "stage",
+        [s.z, s.p],
+        [s.node + s.passing, s.following, ca.vertcat(s.held, s.driven), roots],
+    )
+    last = ca.Function("last", [s.z, s.p], [s.node, s.held, s.node_roots])
     x, p = ca.MX.sym("x", N * width + states), ca.MX.sym("p", (N + 1) * each)
-    cost, rows = 0, []
+    cost, rows, squared = 0, [], []
     for k in range(N):
         z, following = x[k * width : (k + 1) * width], x[(k + 1) * width : (k + 1) * width + states]
-        value, end, bound = of(z, p[k * each : (k + 1) * each])
+        value, end, bound, root = of(z, p[k * each : (k + 1) * each])
         cost += value
         rows += [following - end, bound]
-    value, bound = last(ca.vertcat(x[N * width :], ca.MX(width - states, 1)), p[N * each :])
-    cost, g = cost + value, ca.vertcat(*rows, bound)
+        squared.append(root)
+    value, bound, root = last(ca.vertcat(x[N * width :], ca.MX(width - states, 1)), p[N * each :])
+    cost, g, squared = cost + value, ca.vertcat(*rows, bound), ca.vertcat(*squared, root)
     lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", g.numel())
-    curvature, slope = ca.hessian(lam_f * cost + ca.dot(lam_g, g), x)
+    whole, slopes = cost + ca.sumsqr(squared), ca.jacobian(squared, x)
+    # Squares count by their slopes: Gauss and Newton.
+    curvature = ca.hessian(lam_f * cost + ca.dot(lam_g, g), x)[0] + 2 * lam_f * (slopes.T @ slopes)
+    slope = ca.gradient(lam_f * whole + ca.dot(lam_g, g), x)
     return ca.Function(
         "plain",
         [x, p, lam_f, lam_g],
-        [cost, ca.gradient(cost, x), g, ca.jacobian(g, x), slope, curvature],
+        [whole, ca.gradient(whole, x), g, ca.jacobian(g, x), slope, curvature],
     )
 
 
-def point(seed, s):
+def point(seed, s, kind):
     """A random point: a target in the neighbourhood, mostly in the frame; everything weighs."""
     states, width, each = sizes(s)
     draw = np.random.default_rng(seed)
     x = draw.normal(0, 1, N * width + states)
     p = draw.uniform(0.2, 1.5, ((N + 1), each))
-    p[:, :3] += draw.normal(0, 3, 3)
+    first = 1 if kind in CLOCKS else 0  # after the length of a stage, which is above zero
+    p[:, first : first + 3] += draw.normal(0, 3, 3)
     held, driven = s.held.numel(), s.driven.numel()
     return x, p.ravel(), draw.normal(), draw.normal(0, 1, N * (states + held + driven) + held)
 
@@ -77,7 +87,7 @@ def test_what_the_solvers_get_is_what_casadi_derives(kind, planes):
     x, p = ca.MX.sym("x", N * width + states), ca.MX.sym("p", (N + 1) * each)
     fatrop, ipopt = (laid_out(differentiated(s), solver, N, x, p) for solver in ("fatrop", "ipopt"))
     for seed in range(4):
-        at = point(seed, s)
+        at = point(seed, s, kind)
         cost, gradient, g, jacobian, slope, curvature = reference(*at)
         for given in (fatrop, ipopt):
             value, matrix = given["nlp_jac_g"](*at[:2])

@@ -17,6 +17,7 @@ from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, steepest
 STAGES = 100  # of the film, if its pieces allow
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so that few are built
 FREE = 1.0  # metres of slack of what means nothing: a constraint needs an interior
+WEIGHTS = ("place", "jerk", "turn", "price", "hidden", "field", "touch", "picture")
 UNFILMED = 1e3
 WIDE = 5e-4  # half the width of the box about the given states of both ends, m and so on
 HELD = 2e-4  # half the width of the box about a keyframe's place; of its velocity and acceleration at rest
@@ -28,7 +29,7 @@ OPEN = 1.0  # of a slack in the first guess
 class ClockProblem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(*sizes))
+    parameters : shape (N + 1, symbols.size(*sizes)); unit : what their weights are multiplied by
     states, inputs : first guess, shapes (N + 1, sizes.states) and (N, sizes.inputs)
     state_bounds : (lower, upper), shapes as states; least : of each input, shape (sizes.inputs,)
     held, driven : (lower, upper) of a stage's constraints, as in symbols.stage
@@ -36,6 +37,7 @@ class ClockProblem:
 
     sizes: Sizes
     parameters: Array
+    unit: float
     states: Array
     inputs: Array
     state_bounds: tuple[Array, Array]
@@ -106,6 +108,7 @@ def problem(
     return ClockProblem(
         sizes,
         np.column_stack([_parameters(subject, breaks, wanted), table, *flat]),
+        _unit(wanted),
         start[0],
         inputs,
         _bounds(subject, breaks, sizes, share),
@@ -139,7 +142,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
     leg, n = subject.leg, len(breaks) - 1
     length = np.append(np.diff(breaks), 0.0)
     filmed = (breaks >= leg.start - 1e-9) & (breaks < leg.end - 1e-9)
-    near = 1.0 / wanted.usual**2
+    near, paid = 1.0 / wanted.usual**2, _unit(wanted)
     binds, turn = _binds(subject, wanted), np.array(weights.TURN)
     free = wanted.placed and not subject.together
     turn = np.where(filmed[:, None], turn, (0.0 if free else weights.UNWATCHED) * turn)
@@ -162,8 +165,21 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
         "picture": weights.TOGETHER * _shared(filmed * length),
         "lens": np.tile([half, half / drone.aspect], (n + 1, 1)),
     }
+    values |= {name: paid * values[name] for name in WEIGHTS}
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
     return np.column_stack(table)
+
+
+def _unit(wanted: ClockWishes) -> float:
+    """Return what all weights are multiplied by for the solver.
+
+    Where nothing is filmed a jerk costs next to nothing, and fatrop takes a small curvature for none: it adds
+    to the diagonal, again and again, and creeps. Beside what is looked past the cost has hills between one
+    side and the other, and costs that are large against the barrier strand it on the first: there they stay.
+    """
+    if wanted.past.shape[1]:
+        return 1.0
+    return weights.UNIT * wanted.usual**2
 
 
 def _binds(subject: ClockSubject, wanted: ClockWishes) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -13,13 +14,15 @@ from shotc_casadi.horizon import Solver
 from shotc_casadi.solving import Instance, Solution, solved
 
 TOLERANCE = 1e-5
+IN_UNITS = 1e-2  # the same, where the cost is in a unit of the problem's own
 FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
 ROWS = ("speed", "acceleration", "jerk", "speed", "climb and descent")
 
 
 def solve(task: ClockProblem, solver: Solver) -> Solution:
     """Solve a problem from its first guess."""
-    return solved(instance(task), solver)
+    found = solved(instance(task), solver)
+    return replace(found, objective=found.objective / task.unit)
 
 
 def instance(task: ClockProblem) -> Instance:
@@ -34,7 +37,7 @@ def instance(task: ClockProblem) -> Instance:
         held=task.held,
         driven=task.driven,
         named=partial(_named, task.sizes),
-        tolerance=TOLERANCE,
+        tolerance=IN_UNITS if task.unit > 1.0 else TOLERANCE,
         feasible=FEASIBLE,
     )
 
@@ -54,7 +57,8 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
     if sizes.bodies:
         u[:, -1] = lack[:, sizes.screens :].max(axis=1)
     value = made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[0]
-    return float(np.array(value).sum()) + float(made.last_cost(states[-1], task.parameters[-1])[0])
+    last = made.last_cost(states[-1], task.parameters[-1])[0]
+    return (float(np.array(value).sum()) + float(last)) / task.unit
 
 
 def _named(sizes: Sizes, row: int) -> str:

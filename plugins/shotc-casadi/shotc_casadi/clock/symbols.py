@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 
 from shotc_casadi.clock.angles import over_ground, turning
-from shotc_casadi.clock.picture import SUBJECT, picture
+from shotc_casadi.clock.picture import SUBJECT, residuals
 from shotc_casadi.derivatives import Derived, differentiated
 from shotc_casadi.symbols import Stage, cut
 
@@ -121,14 +121,16 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
     aimed = _aims_at_several(x, u, given, shown) if subjects else _aims_at_one(x, u, given)
     depths = [inside(body, place) for body in near]
     covers = [cover(line[:SCREEN], place, line[SCREEN:]) for line in past]
-    node = given["place"] * off * (1 + given["leash"] * off) + aimed.node
-    passing = given["jerk"] * ca.sumsqr(jerk) + aimed.slack + ca.dot(given["turn"], aimed.turned**2)
+    passing = given["jerk"] * ca.sumsqr(jerk) + aimed.slack
+    reached = []
     if covers:
         passing += given["hidden"] * u[sizes.moves]
     if depths:
         passing += given["touch"] * u[-1]
-        reached = [ca.fmax(0.0, 1.0 - q / body[-1]) for q, body in zip(depths, near, strict=True)]
-        node += given["field"] * ca.sumsqr(ca.vertcat(*reached))
+        reached = [
+            ca.sqrt(given["field"]) * ca.fmax(0.0, 1.0 - q / body[-1])
+            for q, body in zip(depths, near, strict=True)
+        ]
     middle = v + h * a / 2
     driven = ca.vertcat(
         ca.sumsqr(jerk),
@@ -139,8 +141,17 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
         *(u[sizes.moves] - covered for covered in covers),
         *(q - 1.0 + u[-1] for q in depths),
     )
-    held = ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a))
-    return Stage(z, p, ca.vertcat(moved, *aimed.moved), node, h * passing, held, driven)
+    return Stage(
+        z,
+        p,
+        ca.vertcat(moved, *aimed.moved),
+        node=given["place"] * off * (1 + given["leash"] * off) + aimed.node,
+        passing=h * passing,
+        held=ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a)),
+        driven=driven,
+        node_roots=ca.vertcat(*reached),
+        passing_roots=ca.sqrt(h * given["turn"]) * aimed.turned,
+    )
 
 
 class _Aimed(NamedTuple):
@@ -173,8 +184,9 @@ def _aims_at_several(x: Any, u: Any, given: Mapping[str, Any], shown: Sequence[A
     turns = u[CAMERA_JERK]
     moved = (_integrated(x[k : k + 3], turns[i], given["length"]) for i, k in enumerate((YAW, PITCH)))
     turned = ca.vertcat(x[YAW + 1], x[PITCH + 1], x[YAW + 2], x[PITCH + 2], turns)
-    pictures = sum(picture(one, x[POSITION], (x[YAW], x[PITCH]), given["lens"]) for one in shown)
-    return _Aimed(turned, node=given["picture"] * pictures, moved=tuple(moved))
+    off = (residuals(one, x[POSITION], (x[YAW], x[PITCH]), given["lens"]) for one in shown)
+    # What cannot all be as asked leaves much: by Gauss and Newton that takes many steps.
+    return _Aimed(turned, node=given["picture"] * sum(map(ca.sumsqr, off)), moved=tuple(moved))
 
 
 def _integrated(x: Any, jerk: Any, h: Any) -> Any:

@@ -25,3 +25,4 @@ LOOSE = (
 FIELD = 1.0  # of the potential field, which is 1 in the middle of what is kept away from
 RANGE = 0.5  # metres beyond the clearance at which it ends
 TOUCH = 100.0  # of a second in what is kept away from, in units of the place's weight
+UNIT = 150.0  # what the solver's cost is in, over usual distances squared: see ``problem``
