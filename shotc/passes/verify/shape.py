@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 from math import isfinite
 
 import numpy as np
@@ -31,6 +31,10 @@ LARGEST = 1e6
 
 SHORTEST = 1e-5
 """Seconds of the shortest piece; below it third derivatives drown in rounding."""
+
+
+REPORTED = 5
+"""Faults of the form of one flight that are told one by one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,13 +72,20 @@ def structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
     for track in ir.drones:
         if track.drone in known:
             label = mission.origins.key(known[track.drone].path)
-            for fault in _faults(track, shots):
+            for fault in first_few(_faults(track, shots)):
                 yield Diagnostic(
                     "V014",
                     f"the flight of `{track.drone}` is not whole: {fault}",
                     labels=(label,),
                     help="plan the mission again",
                 )
+
+
+def first_few(faults: Iterator[str]) -> Iterator[str]:
+    """Yield the first faults of a flight, and that there are more; a damaged plan may have any number."""
+    yield from islice(faults, REPORTED)
+    if next(faults, None) is not None:
+        yield f"more than {REPORTED} faults of its form are not told one by one"
 
 
 def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:

@@ -225,3 +225,10 @@ shots:
     assert "fleet idle shows nothing and stands on its pads" in summary(
         made.plan, [Path("out/plan.json")], []
     )
+
+
+def test_of_many_pads_the_nearest_counts_not_the_one_whose_box_is() -> None:
+    # The first is in the box round the way home, 8.5 m from the way; the second is 6 m above the orbit.
+    idle = fleets.fleet(((24.0, -24.0, 12.0), (40.0, 0.0, 26.0)), "idle")
+    claim = found(with_mission(fleets=(idle,)), "separation from idle")
+    assert claim.worst == pytest.approx(6.0, abs=1e-4)

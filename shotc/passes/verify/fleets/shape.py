@@ -19,7 +19,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN
 from shotc.passes.verify.claims import TOLERANCE, Limit
 from shotc.passes.verify.fleets.flight import FleetFlight, of_drone
-from shotc.passes.verify.shape import AT_HOME, AT_REST, LARGEST, SHORTEST, gaps
+from shotc.passes.verify.shape import AT_HOME, AT_REST, LARGEST, SHORTEST, first_few, gaps
 
 
 def fleet_structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
@@ -32,7 +32,7 @@ def fleet_structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
             yield Diagnostic("V014", text, help=REPLAN)
             continue
         label = mission.origins.key(known[track.fleet].path)
-        for fault in _faults(mission, track):
+        for fault in first_few(_faults(mission, track)):
             text = f"the flight of `{track.fleet}` is not whole: {fault}"
             yield Diagnostic("V014", text, labels=(label,), help=REPLAN)
 
