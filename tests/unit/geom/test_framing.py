@@ -117,3 +117,17 @@ def test_margins_change_no_faster_than_their_bound(seed: int) -> None:
         aspect,
     )
     assert abs(margins[1] - margins[0]) <= rate + 1e-9
+
+
+@pytest.mark.parametrize(("aspect", "hfov"), [(16 / 9, radians(160)), (9 / 16, radians(10))])
+def test_the_upper_edge_may_turn_faster_than_the_lens_opens(aspect: float, hfov: float) -> None:
+    # A point above, beside the upper edge: wide frames of wide lenses, and upright frames of narrow ones.
+    point = Cylinder((20.0, 0.0), 1e-6, 0.0, 1e-6)
+    step = 1e-6
+    margins = []
+    for angle in (hfov, hfov + step):
+        up = float(np.arctan(np.tan(hfov / 2) / aspect))
+        margins.append(frames(cameras([0.0, 0.0, 0.0], 0.0, -up, angle, aspect), point).margin[0])
+    rate = abs(margins[1] - margins[0]) / step
+    assert rate > 1.2 * 20.0 * 0.5
+    assert rate <= margin_rate(20.0, 0.0, 0.0, 1.0, aspect) + 1e-3

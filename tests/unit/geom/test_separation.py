@@ -145,3 +145,13 @@ def test_of_pairs_that_move_the_one_that_comes_nearest_counts(swapped: bool) -> 
     found = closest(breaks, coef, BALL)
     assert found.attained == pytest.approx(0.5, abs=1e-6)
     assert found.proven == pytest.approx(0.5, abs=1e-5)
+
+
+def test_two_that_come_together_at_the_end_of_a_slab_are_not_left_out() -> None:
+    # In its middle they are 1.78 m apart, and the others, who stand, 1.2 m.
+    breaks = np.array([0.0, 1.0])
+    stand = [straight(breaks, [50.0, y, 10.0], [0.0, 0.0, 0.0]) for y in (0.0, 1.2)]
+    meet = [straight(breaks, [0.0, y, 10.0], [0.0, v, 0.0]) for y, v in ((0.0, 0.78), (2.56, -0.78))]
+    found = closest(breaks, np.stack([*stand, *meet]), BALL)
+    assert found.attained == pytest.approx(1.0, abs=1e-6)
+    assert (found.first, found.second) == (2, 3)

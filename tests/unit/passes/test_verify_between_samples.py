@@ -57,6 +57,14 @@ def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> 
     return Flight(of, of.drone("eye"), track_)
 
 
+def nodding(rate: float) -> Piecewise:
+    """Stand, and pitch down and back at an even rate within the first second, as no motor could."""
+    ends = np.repeat(EYE[None], 4, axis=0)
+    ends[1, CAM_PITCH] -= 0.5 * rate
+    ctrl = np.linspace(ends[:-1], ends[1:], 6, axis=1)
+    return Piecewise(np.array([0.0, 0.5, 1.0, LENGTH]), ctrl)
+
+
 def going(by: tuple[float, float, float]) -> Track:
     far = tuple(a + b for a, b in zip(POST, by, strict=True))
     return Track((0.0, 0.5, 1.0), (POST, (far[0], far[1], far[2]), POST))
@@ -87,6 +95,26 @@ def test_what_is_wanted_moves_between_samples_too() -> None:
     assert not errors_close(flight(still(EYE), aside=0.5), "eyes", "post", ENDS, 0.3)
 
 
+def test_a_tall_target_moves_in_the_frame_as_fast_as_its_end_does() -> None:
+    # Its top is 25 m away, its middle 20 m: at 0.3 rad/s it goes farther than its middle would.
+    of = flight(nodding(0.3))
+    tall = Target("post", (20.0, 0.0, 10.0), 0.1, 30.0, ("targets", "post"))
+    of = replace(of, mission=replace(of.mission, targets=(tall,)))
+    assert not margins_close(of, "post", ENDS)
+
+
+@pytest.mark.parametrize(("limit", "closed"), [(0.15, False), (0.5, True)])
+def test_up_and_down_count_as_much_as_the_frame_is_wide(limit: float, closed: bool) -> None:
+    # In a frame twice as wide as high a tilt of 0.1 rad is 0.2 of half its height.
+    of = flight(nodding(0.2))
+    ahead = Target("post", (20.0, 0.0, 10.0), 0.1, 0.2, ("targets", "post"))
+    wide = replace(mission(rate=1.0, aspect=2.0), targets=(ahead,))
+    middle = Piecewise(np.array([0.0, LENGTH]), np.zeros((1, 6, 2)))
+    track = replace(of.track, framing=(Reference("eyes", "post", 0.0, LENGTH, middle),))
+    of = replace(of, mission=wide, drone=wide.drone("eye"), track=track)
+    assert errors_close(of, "eyes", "post", ENDS, limit) is closed
+
+
 @pytest.mark.parametrize("sway", SWAYS)
 def test_rates_are_those_of_the_flight(sway: str) -> None:
     of = flight(swayed(SWAYS[sway]), going((1.0, -2.0, 3.0)))
@@ -108,7 +136,9 @@ def test_rates_are_those_of_the_flight(sway: str) -> None:
 
 
 BIRD = at(20.0, 60.0, 10.0)
+FAR = at(2000.0, 1500.0, 10.0)
 PASSES = {
+    "far bird": (still(EYE), through([0, 0.5, 1, LENGTH], [FAR, at(2000, 1200, 10), FAR, FAR])),
     "bird": (still(EYE), through([0, 0.5, 1, LENGTH], [BIRD, at(20, 25, 10), BIRD, BIRD])),
     "eye": (swayed({0: -30.0}), still(BIRD)),
     "yaw": (swayed({CAM_YAW: 0.4}), still(BIRD)),
