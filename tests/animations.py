@@ -32,6 +32,6 @@ shots:
     kind: display
     fleet: swarm
     frames:
-      - model: {{files: "*.ply", period: {period}, {at}}}
+      - model: {{files: "*.ply", period: {period}, units: m, {at}}}
         hold: 2
 """.encode()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 
 from shotc.geom.bernstein import Array
@@ -58,8 +60,44 @@ def stl(corners: Array) -> bytes:
 
 
 def obj(corners: Array) -> bytes:
-    """Return triangles as an OBJ file that names a material nobody may open."""
+    """Return triangles as an OBJ file, y up as modellers write it, that names a material nobody may open."""
     lines = ["mtllib /etc/hostname", "usemtl none"]
-    lines += [f"v {x} {y} {z}" for x, y, z in corners.reshape(-1, 3)]
+    lines += [f"v {x} {z} {-y}" for x, y, z in corners.reshape(-1, 3)]
     lines += [f"f {3 * k + 1} {3 * k + 2} {3 * k + 3}" for k in range(len(corners))]
     return "\n".join(lines).encode()
+
+
+def glb(corners: Array, *moves: tuple[float, float, float]) -> bytes:
+    """Return triangles as a binary glTF file, y up and in metres, at places (W) that its nodes move it to."""
+    data = (
+        np.stack([corners[..., 0], corners[..., 2], -corners[..., 1]], axis=-1).reshape(-1, 3).astype("<f4")
+    )
+    header = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": list(range(len(moves)))}],
+        "nodes": [{"mesh": 0, "translation": [x, z, -y]} for x, y, z in moves],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [
+            {
+                "bufferView": 0,
+                "componentType": 5126,
+                "count": len(data),
+                "type": "VEC3",
+                "min": data.min(axis=0).tolist(),
+                "max": data.max(axis=0).tolist(),
+            }
+        ],
+        "bufferViews": [{"buffer": 0, "byteLength": data.nbytes}],
+        "buffers": [{"byteLength": data.nbytes}],
+    }
+    return chunks(json.dumps(header).encode(), data.tobytes())
+
+
+def chunks(header: bytes, body: bytes) -> bytes:
+    """Return a GLB file of a header and a body."""
+    header += b" " * (-len(header) % 4)
+    parts = [np.uint32([len(header), 0x4E4F534A]).tobytes(), header]
+    parts += [np.uint32([len(body), 0x004E4942]).tobytes(), body]
+    whole = b"".join(parts)
+    return b"glTF" + np.uint32([2, 12 + len(whole)]).tobytes() + whole

@@ -118,6 +118,8 @@ class Model(NamedTuple):
     centre : where the middle of the first frame's bounding box goes, None to leave it where it is
     height : to which the first frame is scaled, all others alike, metres, or None
     heading : by which all are turned about the vertical through that middle, compass sense
+    unit : metres that one unit of the files is long
+    up : axis of the files that points up, None where each format's own does
     """
 
     files: tuple[str, ...]
@@ -125,6 +127,8 @@ class Model(NamedTuple):
     centre: Vec3 | None
     height: float | None
     heading: float
+    unit: float = 1.0
+    up: Literal["x", "y", "z"] | None = None
 
 
 Source = Sphere | Box | Torus | Lettering | Drawing | Model

@@ -84,13 +84,19 @@ class DrawingSpec(Model):
 class FilesSpec(Model):
     """Meshes or point clouds, one file a frame."""
 
-    files: RelativePath = Field(description="PLY, OBJ or STL: one file, or a pattern such as walk/*.ply")
+    files: RelativePath = Field(description="PLY, OBJ, STL or GLB: one file, or a pattern such as walk/*.ply")
     period: Duration | None = Field(default=None, description="time from frame to frame, of several")
     center: Position | None = Field(
         default=None, description="where the middle of the first frame goes; where it is if silent"
     )
     height: PositiveLength | None = Field(
-        default=None, description="height of the first frame; as it is, in metres, if silent"
+        default=None, description="height to which the first frame is scaled, whatever the units of the file"
+    )
+    units: Literal["m", "cm", "mm", "ft", "in"] | None = Field(
+        default=None, description="length of one unit of the files; GLB files are in metres"
+    )
+    up: Literal["x", "y", "z"] | None = Field(
+        default=None, description="axis of the files that points up; y of OBJ and GLB, z of others if silent"
     )
     heading: Angle = Field(default=0.0, description="compass bearing to which all are turned")
 

@@ -8,7 +8,10 @@ from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Spher
 from shotc.kinds.base import Scene
 from shotc.kinds.pictures import DrawingSpec, FilesSpec, PictureSpec, TextSpec
 
-MESHES = (".ply", ".obj", ".stl")
+MESHES = (".ply", ".obj", ".stl", ".glb")
+METRES = (".glb",)
+"""Endings of files whose format says that they are in metres."""
+UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
 FONTS = (".ttf", ".otf", ".ttc")
 DRAWINGS = (".svg",)
 
@@ -81,8 +84,24 @@ def _model(spec: FilesSpec, scene: Scene, path: KeyPath) -> Model | Diagnostic:
         return Diagnostic(
             "D010", "this animation has no period", (label,), (note,), "add `period`, such as 1 s"
         )
+    if spec.units is None and spec.height is None:
+        silent = next((name for name in names if not name.lower().endswith(METRES)), None)
+        if silent is not None:
+            return _without_units(scene, silent, where)
     centre = None if spec.center is None else scene.place(spec.center)
-    return Model(names, spec.period, centre, spec.height, spec.heading)
+    unit = UNITS[spec.units or "m"]
+    return Model(names, spec.period, centre, spec.height, spec.heading, unit, spec.up)
+
+
+def _without_units(scene: Scene, name: str, path: KeyPath) -> Diagnostic:
+    """Return the diagnostic of a model whose size nobody says."""
+    return Diagnostic(
+        "D025",
+        f"nothing says how large `{name}` is",
+        (scene.origins.value(path),),
+        (f"a {name.rsplit('.', 1)[-1].upper()} file has numbers without a unit",),
+        "add `units: m` (or cm, mm, ft, in), or `height`, how tall the first frame is to be",
+    )
 
 
 def _unreadable(

@@ -24,9 +24,9 @@ shots:
     viewpoint: [0, -100, 2]
     frames:
       - {sphere: {center: [0, 0, 40], radius: 12}, hold: 2}
-      - {model: {files: good.ply, center: [0, 0, 40]}, hold: 2}
+      - {model: {files: good.ply, units: m, center: [0, 0, 40]}, hold: 2}
       - {svg: {file: good.svg, center: [0, 0, 40], height: 30}, hold: 2}
-      - {model: {files: walk*.obj, center: [0, 0, 40], period: 2}, hold: 2}
+      - {model: {files: walk*.obj, units: m, center: [0, 0, 40], period: 2}, hold: 2}
 """
 SVG = (
     b'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '

@@ -310,6 +310,18 @@ CODES: tuple[CodeInfo, ...] = (
         _TWO,
         ("timing: {after: shapes}", "timing: {after: ball}"),
     ),
+    CodeInfo(
+        "D025",
+        "model-without-units",
+        Severity.ERROR,
+        "nothing says how large a model is",
+        "PLY, OBJ and STL files hold numbers without a unit: the same file is a person in metres and a speck in "
+        "millimetres. The mission says which: `units: m` (or cm, mm, ft, in), or `height`, to which the first frame is "
+        "scaled. GLB files are in metres by their format.",
+        "",
+        "",
+        "other",
+    ),
     *pictures.CODES,
     *flights.CODES,
 )

@@ -53,9 +53,9 @@ CODES: tuple[CodeInfo, ...] = (
         "model-out-of-scale",
         Severity.ERROR,
         "a model is more than a kilometre large",
-        "Files do not say in which unit they are; they are read as metres. This one is more than 1000 m large, as what "
-        "is drawn in millimetres is. `height` scales it: the first frame becomes that tall, and all others are scaled "
-        "alike.",
+        "In the unit that the mission states for it, or that GLB files have, this model is more than 1000 m large, as what "
+        "is drawn in millimetres and read as metres is. State the right `units`; or `height`, which scales it: the first "
+        "frame becomes that tall, and all others are scaled alike.",
         "",
         "",
         "other",

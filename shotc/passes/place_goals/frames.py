@@ -16,7 +16,7 @@ from shotc.passes.place_goals.model_file import Mesh, Unreadable, read_model
 
 LARGEST = 1000.0
 """Extent of a picture, metres, beyond which its file is in another unit."""
-UNITS = (("millimetres", 1e-3), ("centimetres", 1e-2), ("inches", 0.0254), ("feet", 0.3048))
+UNITS = (("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254), ("ft", 0.3048))
 LIKELY = 20.0
 """Extent that pictures tend to have, metres: of the units that make sense, the nearest to it is named."""
 LEAP = 5.0
@@ -27,7 +27,7 @@ def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[
     """Return the body of every frame in its place in W, or what is wrong with the first bad one."""
     meshes: list[Mesh] = []
     for name in source.files:
-        mesh = read_model(name, files[name])
+        mesh = read_model(name, files[name], source.up)
         if isinstance(mesh, Unreadable):
             return SourceFault("D050", "files", f"model `{name}` cannot be drawn", (mesh.note,), mesh.help)
         fault = _open(name, mesh) if fill == "volume" else None
@@ -50,9 +50,11 @@ class _Place:
     def __init__(self, source: Model, first: Array) -> None:
         low, high = first.min(axis=0), first.max(axis=0)
         self._middle = (low + high) / 2.0
-        self._scale = 1.0 if source.height is None else source.height / max(float(high[2] - low[2]), 1e-300)
+        self._scale = (
+            source.unit if source.height is None else source.height / max(float(high[2] - low[2]), 1e-300)
+        )
         self._axes = upright_axes(source.heading)
-        self._centre = self._middle if source.centre is None else np.array(source.centre)
+        self._centre = source.unit * self._middle if source.centre is None else np.array(source.centre)
 
     def of(self, corners: Array) -> Array:
         return np.asarray(self._centre + self._scale * (corners - self._middle) @ self._axes)
@@ -80,12 +82,14 @@ def _uneven(source: Model, meshes: list[Mesh]) -> SourceFault | None:
 
 
 def _out_of_scale(source: Model, mesh: Mesh) -> SourceFault | None:
-    size = np.ptp(mesh.corners, axis=0)
+    size = source.unit * np.ptp(mesh.corners, axis=0)
     largest = float(size.max())
     if source.height is not None or largest <= LARGEST:
         return None
-    unit, factor = min(UNITS, key=lambda u: abs(log10(u[1] * largest / LIKELY)))
+    unit, factor = min(UNITS, key=lambda u: abs(log10(u[1] / source.unit * largest / LIKELY)))
     message = f"model `{source.files[0]}` is {largest:.5g} m large"
-    note = f"were it in {unit}, it would be {largest * factor:.3g} m: a factor of {1 / factor:.5g}"
-    help_ = f"say how tall it is to be, such as `height: {max(float(size[2]) * factor, 1.0):.3g}`"
-    return SourceFault("D052", "files", message, (note,), help_)
+    likely = factor / source.unit
+    note = f"were it in {unit}, it would be {largest * likely:.3g} m large"
+    tall = max(float(size[2]) * likely, 1.0)
+    help_ = f"write `units: {unit}`, or say how tall it is to be, such as `height: {tall:.3g}`"
+    return SourceFault("D052", "units", message, (note,), help_)

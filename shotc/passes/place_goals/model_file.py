@@ -1,11 +1,12 @@
-"""Meshes and point clouds from the bytes of PLY, OBJ and STL files, by trimesh; nothing else is opened."""
+"""Meshes and point clouds from the bytes of PLY, OBJ, STL and GLB files, by trimesh alone."""
 
 from __future__ import annotations
 
 import io
+import json
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -13,7 +14,13 @@ from shotc.geom.bernstein import Array
 from shotc.geom.columns import Numbers
 from shotc.ir.fleet import Colors
 
-FORMATS = ("ply", "obj", "stl")
+Axis = Literal["x", "y", "z"]
+UP: dict[str, Axis] = {"ply": "z", "obj": "y", "stl": "z", "glb": "y"}
+"""The axis that points up in each format that is read, as modellers write it."""
+TURNED: dict[Axis, list[int]] = {"x": [1, 2, 0], "y": [0, 2, 1], "z": [0, 1, 2]}
+"""Which axis of a file becomes East, North and Up; where y is up, North is turned round."""
+MOST_CORNERS = 5_000_000
+"""Corners that a scene may have once its meshes stand everywhere they are placed."""
 FARTHEST = 1e9
 """Coordinates beyond which a file is broken whatever its unit."""
 
@@ -35,12 +42,17 @@ class Unreadable:
     help: str = "export it anew as binary PLY"
 
 
-def read_model(name: str, data: bytes) -> Mesh | Unreadable:
-    """Return what a file holds, in its own units, with coinciding corners made one."""
+def read_model(name: str, data: bytes, up: Axis | None = None) -> Mesh | Unreadable:
+    """Return what a file holds, in its own units, z up, with coinciding corners made one.
+
+    up : the axis of the file that points up, None for that of its format
+    """
     kind = name.rsplit(".", 1)[-1].lower()
-    if kind not in FORMATS:
-        return Unreadable(f"`.{kind[:20]}` is no format that is read", "export it as .ply, .obj or .stl")
-    claim = _claimed(data) if kind == "ply" else 0
+    if kind not in UP:
+        return Unreadable(
+            f"`.{kind[:20]}` is no format that is read", "export it as .glb, .ply, .obj or .stl"
+        )
+    claim = _claimed(data) if kind == "ply" else _claimed_by_accessors(data) if kind == "glb" else 0
     if claim > len(data):
         return Unreadable(f"its header promises {claim} elements in {len(data)} bytes")
     try:
@@ -49,12 +61,22 @@ def read_model(name: str, data: bytes) -> Mesh | Unreadable:
     except Exception as error:  # noqa: BLE001  the reader's faults of foreign bytes
         reason = (str(error).splitlines() or [type(error).__name__])[0][:200]
         return Unreadable(f"trimesh says: {reason or type(error).__name__}")
-    return _checked(_together(parts))
+    return _checked(_upright(_together(parts), up or UP[kind]))
 
 
 def _claimed(data: bytes) -> int:
     header = data[:100_000].partition(b"end_header")[0]
     return sum(int(count) for count in re.findall(rb"^element\s+\S+\s+(\d{1,18})", header, re.MULTILINE))
+
+
+def _claimed_by_accessors(data: bytes) -> int:
+    """Return how many elements the header of a GLB file promises, those without a place in it, too."""
+    size = int.from_bytes(data[12:16], "little")
+    try:
+        header = json.loads(data[20 : 20 + size])
+        return sum(int(accessor["count"]) for accessor in header.get("accessors", []))
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return 0  # the reader says what is wrong
 
 
 def _parts(kind: str, data: bytes) -> list[Mesh]:
@@ -68,7 +90,11 @@ def _parts(kind: str, data: bytes) -> list[Mesh]:
         maintain_order=True,
         skip_materials=True,
     )
-    return [_part(geometry) for geometry in scene.geometry.values() if hasattr(geometry, "vertices")]
+    placed = [node for node in scene.graph.nodes_geometry if scene.graph[node][1] in scene.geometry]
+    corners = sum(len(getattr(scene.geometry[scene.graph[node][1]], "vertices", ())) for node in placed)
+    if corners > MOST_CORNERS:
+        raise ValueError(f"its scene has {corners} corners, at most {MOST_CORNERS} are read")
+    return [_part(geometry) for geometry in scene.dump() if hasattr(geometry, "vertices")]
 
 
 def _part(geometry: Any) -> Mesh:
@@ -98,6 +124,14 @@ def _together(parts: list[Mesh]) -> Mesh:
         white = [np.full((len(p.corners), 3), 255, np.uint8) if p.colors is None else p.colors for p in parts]
         colors = np.concatenate(white)
     return Mesh(corners, np.concatenate([np.zeros((0, 3), np.intp), *triangles]), colors)
+
+
+def _upright(mesh: Mesh, up: Axis) -> Mesh:
+    """Turn a file's coordinates so that z is up, its triangles still counter-clockwise from outside."""
+    corners = mesh.corners[:, TURNED[up]]
+    if up == "y":
+        corners = corners * np.array([1.0, -1.0, 1.0])
+    return Mesh(corners, mesh.triangles, mesh.colors)
 
 
 def _checked(mesh: Mesh) -> Mesh | Unreadable:

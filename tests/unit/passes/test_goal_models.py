@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ from shotc.passes.place_goals.body import SourceFault
 from shotc.passes.place_goals.frames import model_bodies
 from shotc.passes.place_goals.model import mesh_body, open_edges
 from shotc.passes.place_goals.model_file import Mesh, Unreadable, read_model
-from tests.meshes import box_mesh, obj, ply, sphere_mesh, stl
+from tests.meshes import box_mesh, chunks, glb, obj, ply, sphere_mesh, stl
 
 BALL = sphere_mesh(10.0)
 PLACES = b"property float x\nproperty float y\nproperty float z\n"
@@ -23,7 +25,10 @@ def read(name: str, data: bytes) -> Mesh:
     return mesh
 
 
-@pytest.mark.parametrize(("name", "data"), [("a.ply", ply(BALL)), ("A.STL", stl(BALL)), ("a.obj", obj(BALL))])
+@pytest.mark.parametrize(
+    ("name", "data"),
+    [("a.ply", ply(BALL)), ("A.STL", stl(BALL)), ("a.obj", obj(BALL)), ("a.glb", glb(BALL, (0, 0, 0)))],
+)
 def test_all_formats_give_the_same_closed_mesh(name: str, data: bytes) -> None:
     mesh = read(name, data)
     assert len(mesh.triangles) == len(BALL)
@@ -55,7 +60,7 @@ def test_faces_that_do_not_run_alike_are_counted_by_parity() -> None:
 @pytest.mark.parametrize(
     ("name", "data", "told"),
     [
-        ("a.glb", b"x", "no format"),
+        ("a.fbx", b"x", "no format"),
         ("a.ply", b"", "ply"),
         ("a.obj", b"", "no points"),
         ("a.stl", b"", "no points"),
@@ -105,8 +110,8 @@ def test_a_mesh_in_millimetres_needs_a_height() -> None:
     files = {"a.ply": ply(box_mesh((0, 0, 0), (4000, 9000, 18000)))}
     told = fault(files)
     assert told.code == "D052"
-    assert "millimetres" in told.notes[0]
-    assert "a factor of 1000" in told.notes[0]
+    assert "were it in mm, it would be 18 m large" in told.notes[0]
+    assert "`units: mm`" in told.help
     assert "height: 18" in told.help
     (body,) = frames(files, height=18.0)
     points = body.draw("volume", 2000, np.random.default_rng(0))
@@ -139,3 +144,74 @@ def test_a_mesh_of_faces_over_each_other_gets_fewer_columns(monkeypatch: pytest.
     points = body.draw("volume", 4000, np.random.default_rng(0))
     assert np.ptp(points[:, 2]) == pytest.approx(100.0, rel=0.01)
     assert len(np.unique(points[:, :2], axis=0)) < 300
+
+
+def extent(found) -> np.ndarray:
+    (body,) = found
+    return np.ptp(body.mesh.corners, axis=0)
+
+
+SLAB = box_mesh((0, 0, 0), (2, 3, 8))
+
+
+@pytest.mark.parametrize(
+    ("name", "data"),
+    [
+        ("a.ply", ply(SLAB)),
+        ("a.stl", stl(SLAB)),
+        ("a.obj", obj(SLAB)),
+        ("a.glb", glb(SLAB, (0, 0, 0))),
+    ],
+)
+def test_every_format_stands_upright_as_modellers_write_it(name: str, data: bytes) -> None:
+    source = Model((name,), None, None, None, 0.0)
+    assert extent(model_bodies(source, {name: data}, "volume")) == pytest.approx([2, 3, 8])
+
+
+@pytest.mark.parametrize(("up", "size"), [("x", [3, 8, 2]), ("y", [2, 8, 3]), ("z", [2, 3, 8])])
+def test_the_axis_that_points_up_can_be_said_and_nothing_is_mirrored(up: str, size: list[float]) -> None:
+    source = Model(("a.ply",), None, None, None, 0.0, up=up)  # type: ignore[arg-type]
+    found = model_bodies(source, {"a.ply": ply(SLAB)}, "volume")
+    assert extent(found) == pytest.approx(size)
+    corners = found[0].mesh.corners[found[0].mesh.triangles]  # type: ignore[index, union-attr]
+    volume = np.linalg.det(corners).sum() / 6
+    assert volume == pytest.approx(48.0)  # negative where the triangles were turned inside out
+
+
+def test_units_scale_a_model_about_its_origin_or_to_its_place() -> None:
+    files = {"a.stl": stl(box_mesh((0, 0, 30_000), (2000, 3000, 8000)))}
+    free = model_bodies(Model(("a.stl",), None, None, None, 0.0, 1e-3), files, "volume")
+    assert extent(free) == pytest.approx([2, 3, 8])
+    assert free[0].mesh.corners[:, 2].mean() == pytest.approx(30.0)  # type: ignore[index, union-attr]
+    put = model_bodies(Model(("a.stl",), None, (0, 0, 50.0), None, 0.0, 1e-3), files, "volume")
+    assert put[0].mesh.corners[:, 2].mean() == pytest.approx(50.0)  # type: ignore[index, union-attr]
+
+
+def test_meshes_of_a_scene_stand_where_its_nodes_place_them() -> None:
+    files = {"a.glb": glb(SLAB, (0, 0, 10), (20, 0, 10))}
+    source = Model(("a.glb",), None, None, None, 0.0)
+    (body,) = model_bodies(source, files, "volume")  # type: ignore[misc]
+    assert body.mesh.corners.min(axis=0) == pytest.approx([-1, -1.5, 6])
+    assert body.mesh.corners.max(axis=0) == pytest.approx([21, 1.5, 14])
+
+
+def test_a_scene_that_multiplies_its_meshes_without_end_is_refused() -> None:
+    files = {"a.glb": glb(BALL, *[(float(k), 0.0, 0.0) for k in range(2000)])}
+    found = fault(files)
+    assert found.code == "D050"
+    assert "corners" in found.notes[0]
+
+
+def test_numbers_that_a_glb_promises_and_does_not_hold_are_refused() -> None:
+    header = {
+        "asset": {"version": "2.0"},
+        "accessors": [{"componentType": 5126, "count": 10**12, "type": "VEC3"}],
+    }
+    found = read_model("a.glb", chunks(json.dumps(header).encode(), b""))
+    assert isinstance(found, Unreadable)
+    assert "promises" in found.note
+
+
+@pytest.mark.parametrize("data", [b"", b"glTF", b"glTF" + bytes(60), chunks(b"[]", b""), chunks(b"{", b"")])
+def test_a_broken_glb_is_told(data: bytes) -> None:
+    assert isinstance(read_model("a.glb", data), Unreadable)

@@ -123,7 +123,7 @@ def test_holds_beyond_the_endurance() -> None:
 def test_animations_count_their_periods(tmp_path: Path) -> None:
     for i in range(4):
         (tmp_path / f"{i}.ply").write_text("ply")
-    found = resolve(show("{model: {files: '*.ply', period: 2}, hold: 1}", SPHERE), tmp_path)
+    found = resolve(show("{model: {files: '*.ply', period: 2, units: m}, hold: 1}", SPHERE), tmp_path)
     assert least_display(found.displays[0], found.fleets[0].limits) == 3 * 2 + 1 + 4
 
 

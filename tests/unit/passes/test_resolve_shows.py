@@ -146,22 +146,22 @@ def test_animations_are_sorted_as_people_count(tmp_path: Path) -> None:
         names, 1.0, (0.0, 0.0, 30.0), 20.0, pytest.approx(pi / 2)
     )
     assert found.files == tuple((name, name.removeprefix("walk/").encode()) for name in names)
-    short = show().split("    frames:")[0] + "    frames: {files: 'walk/w?.ply', period: 2}\n"
+    short = show().split("    frames:")[0] + "    frames: {files: 'walk/w?.ply', period: 2, units: m}\n"
     (picture,) = resolve(short, tmp_path).displays[0].pictures
     assert picture.source == Model(names[:2], 2.0, None, None, 0.0)
     assert picture.path == ("shots", 0, "frames")
-    literal = show("{model: {files: 'walk/x[1].ply'}}")
+    literal = show("{model: {files: 'walk/x[1].ply', units: m}}")
     assert [name for name, _ in resolve(literal, tmp_path).files] == ["walk/x[1].ply"]
 
 
 def test_several_files_need_a_period(tmp_path: Path) -> None:
     for i in range(3):
         (tmp_path / f"{i}.obj").write_text("v 0 0 0")
-    text = show("{model: {files: '*.obj'}}")
+    text = show("{model: {files: '*.obj', units: m}}")
     d = only(text, tmp_path)
     assert (d.code, marked(d, text)) == ("D010", "'*.obj'")
     assert d.notes == ("`*.obj` matches 3 files, `0.obj` to `2.obj`",)
-    assert len(resolve(show("{model: {files: 0.obj}}"), tmp_path).files) == 1
+    assert len(resolve(show("{model: {files: 0.obj, units: m}}"), tmp_path).files) == 1
 
 
 def test_no_pattern_leaves_the_folder(tmp_path: Path) -> None:
@@ -173,7 +173,9 @@ def test_no_pattern_leaves_the_folder(tmp_path: Path) -> None:
     (inside / "up").symlink_to(outside)
 
     def codes(pattern: str) -> list[str]:
-        return [d.code for d in faults(show(f"{{model: {{files: '{pattern}', period: 1}}}}"), inside)]
+        return [
+            d.code for d in faults(show(f"{{model: {{files: '{pattern}', period: 1, units: m}}}}"), inside)
+        ]
 
     assert codes("*.ply") == ["N010"]
     assert codes("up/*.ply") == ["N008"]
@@ -188,13 +190,13 @@ def test_too_much_to_read_is_not_read(tmp_path: Path) -> None:
     with (tmp_path / "huge.ply").open("wb") as stream:
         stream.truncate(1_000_000_000)
     (tmp_path / "empty.ply").write_text("")
-    d = only(show("{model: {files: huge.ply}}"), tmp_path)
+    d = only(show("{model: {files: huge.ply, units: m}}"), tmp_path)
     assert (d.code, "1000.0 MB" in d.message) == ("N009", True)
-    assert "empty" in only(show("{model: {files: empty.ply}}"), tmp_path).message
+    assert "empty" in only(show("{model: {files: empty.ply, units: m}}"), tmp_path).message
     for i in range(5):
         with (tmp_path / f"part{i}.stl").open("wb") as stream:
             stream.truncate(60_000_000)
-    d = only(show("{model: {files: 'part*.stl', period: 1}}"), tmp_path)
+    d = only(show("{model: {files: 'part*.stl', period: 1, units: m}}"), tmp_path)
     assert (d.code, "more than 256 MB" in d.message) == ("N009", True)
 
 
@@ -277,3 +279,19 @@ def test_a_rise_ends_where_one_may_fly() -> None:
     assert (d.code, d.help) == ("D007", "write `rise: 10.25 m` or more")
     assert marked(d, text, 1) == "sky"
     assert faults(text.replace("separation: 2", "separation: 2, rise: 10.25")) == []
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "stl"])
+def test_a_model_whose_size_nobody_says_is_told_with_what_says_it(tmp_path: Path, ending: str) -> None:
+    (tmp_path / f"a.{ending}").write_bytes(b"solid")
+    fault = only(show(f"{{model: {{files: a.{ending}, center: [0, 0, 40]}}}}"), tmp_path)
+    assert fault.code == "D025"
+    for word in ("units: m", "height: 10"):
+        assert "D025" not in [
+            d.code for d in faults(show(f"{{model: {{files: a.{ending}, {word}}}}}"), tmp_path)
+        ]
+
+
+def test_a_glb_needs_no_units(tmp_path: Path) -> None:
+    (tmp_path / "a.glb").write_bytes(b"glTF")
+    assert [d.code for d in faults(show("{model: {files: a.glb, center: [0, 0, 40]}}"), tmp_path)] == []
