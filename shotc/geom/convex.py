@@ -16,6 +16,9 @@ BoolArray = NDArray[np.bool_]
 _TURN = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
 # Normals to try for points inside a solid, which have no closest point to be pushed away from.
 WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)]), [[0.0, 0.0, 1.0]]])
+_UP = np.array([0.0, 0.0, 1.0])
+TOUCHES = 1e-9  # metres from a solid at which a point is in it
+CLOSE = 1e-3  # share of a distance that a gap may fall short of it to be as wide as any
 GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 
@@ -94,29 +97,26 @@ def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]
     per cent of the true distance (alternating projections on the sets, best normal kept). A negative
     one says how deep the set reaches in.
     """
-    at = hulls.mean(axis=1)
-    best_gap = np.full(len(hulls), -np.inf)
-    best = np.zeros((len(hulls), 3))
-    for direction in WAYS_OUT:
-        n = np.tile(direction, (len(hulls), 1))
-        best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
-    starts = [at, *np.moveaxis(hulls, 1, 0)]
+    starts = np.concatenate([hulls.mean(axis=1, keepdims=True), hulls], axis=1)
     if hulls.shape[1] == 2:  # projections converge slowly along a chord; its nearest point is known
-        starts.append(_nearest_on_segments(part, hulls[:, 0], hulls[:, 1]))
-    for start in starts:
-        n, gap = _plane_at(part, hulls, start)
-        best, best_gap = _better(best, best_gap, n, gap)
+        nearest = _nearest_on_segments(part, hulls[:, 0], hulls[:, 1])
+        starts = np.concatenate([starts, nearest[:, None]], axis=1)
+    ways_out = np.broadcast_to(WAYS_OUT, (len(hulls), *WAYS_OUT.shape))
+    towards, _ = _away(part, starts)
+    best, best_gap = _widest(part, hulls, np.concatenate([ways_out, towards], axis=1))
     at = np.take_along_axis(hulls, distances(part, hulls).argmin(axis=1)[:, None, None], axis=1)[:, 0]
     for _ in range(rounds):
-        foot = closest_points(part, at)
-        n, gap = _plane_at(part, hulls, at)
-        best, best_gap = _better(best, best_gap, n, gap)
+        n, far = _away(part, at)
+        best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
+        # No plane has a wider gap than the distance of two points; from one inside no way leads on.
+        if ((best_gap >= (1.0 - CLOSE) * far) | (far <= TOUCHES)).all():
+            break
         # Frank-Wolfe step: towards the point of the hull that lies deepest along the normal.
         deepest = np.einsum("nmd,nd->nm", hulls, n).argmin(axis=1)
         vertex = np.take_along_axis(hulls, deepest[:, None, None], axis=1)[:, 0]
         step = vertex - at
         length2 = np.maximum((step**2).sum(axis=1), 1e-18)
-        x = np.clip(((foot - at) * step).sum(axis=1) / length2, 0.0, 1.0)
+        x = np.clip(-far * (n * step).sum(axis=1) / length2, 0.0, 1.0)
         at = at + x[:, None] * step
     return best, best_gap
 
@@ -126,11 +126,20 @@ def gaps(part: Solid, hulls: Array, normals: Array) -> Array:
     return np.asarray(np.einsum("nmd,nd->nm", hulls, normals).min(axis=1) - support(part, normals))
 
 
-def _plane_at(part: Solid, hulls: Array, at: Array) -> tuple[Array, Array]:
-    away = at - closest_points(part, at)
-    length = np.linalg.norm(away, axis=1, keepdims=True)
-    n = np.where(length > 1e-9, away / np.maximum(length, 1e-9), np.array([0.0, 0.0, 1.0]))
-    return n, gaps(part, hulls, n)
+def _away(part: Solid, p: Array) -> tuple[Array, Array]:
+    """Return unit directions from a solid to points (..., 3), upwards from inside, and how far; (...)."""
+    away = p - closest_points(part, p)
+    far = np.linalg.norm(away, axis=-1)
+    outside = (far > TOUCHES)[..., None]
+    return np.where(outside, away / np.maximum(far, TOUCHES)[..., None], _UP), far
+
+
+def _widest(part: Solid, hulls: Array, normals: Array) -> tuple[Array, Array]:
+    """Return, of several unit normals (N, K, 3), the one with the widest gap to each set, and that gap."""
+    least = np.einsum("nmd,nkd->nkm", hulls, normals).min(axis=2) - support(part, normals)
+    k = least.argmax(axis=1)
+    each = np.arange(len(hulls))
+    return normals[each, k], least[each, k]
 
 
 def _better(best: Array, best_gap: Array, n: Array, gap: Array) -> tuple[Array, Array]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import View, aim_at
+from shotc.geom.camera import View
+from shotc.geom.pieces import Mask
 from shotc.geom.track_array import places as track_places
 from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone, MissionIR
@@ -43,6 +44,7 @@ def looker_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float
 
 ROUNDS = 12  # of Gauss and Newton, from a good first guess
 NUDGE = 1e-6  # rad
+VERTICAL = 1e-9  # share of a distance that is over ground: with less a ray has no yaw
 MOST = 0.2  # rad of a step
 
 
@@ -77,15 +79,37 @@ def aims_at(looker: Looker, times: Array, places: Array) -> Array:
 
 
 def _aim(mission: MissionIR, drone: Drone, subject: PlacedSubject, times: Array, places: Array) -> Array:
-    """Return the aim at one subject, shape (M, 2)."""
-    target = mission.target(subject.target)
-    uv = subject.reference or (0.0, 0.0)
-    found = np.zeros((len(times), 2))
-    last = (0.0, 0.0)
-    for i, t in enumerate(times):
-        x, y, z = (c - p for c, p in zip(target.at(float(t)), places[i], strict=True))
-        last = aim_at((x, y, z), uv, drone.hfov, drone.aspect, last[0]) or last
-        found[i] = last
+    """Return the aim at one subject, shape (M, 2); where no camera has it there, that of the time before.
+
+    ``geom.camera.aim_at`` for many times at once.
+    """
+    offset = _centres(mission, subject, times) - places
+    half = np.tan(drone.hfov / 2)
+    u, v = subject.reference or (0.0, 0.0)
+    ray = np.array([u * half, v * half / drone.aspect, 1.0])  # right, up, forward
+    right, up, forward = ray / np.linalg.norm(ray)
+    length = np.linalg.norm(offset, axis=1)
+    reach, wanted = np.hypot(up, forward), offset[:, 2] / np.maximum(length, 1e-300)
+    lean = np.arctan2(up, forward)
+    rise = np.arctan2(wanted, np.sqrt(np.maximum(0.0, reach**2 - wanted**2)))
+    both = np.stack([rise - lean, np.pi - rise - lean])
+    both = np.arctan2(np.sin(both), np.cos(both))
+    pitch = np.where(np.abs(both[0]) <= np.abs(both[1]), both[0], both[1])
+    along = forward * np.cos(pitch) - up * np.sin(pitch)
+    yaw = np.arctan2(offset[:, 1], offset[:, 0]) + np.arctan2(right, along)
+    found = np.column_stack([np.arctan2(np.sin(yaw), np.cos(yaw)), pitch])
+    none = (length == 0.0) | (np.abs(wanted) > reach)
+    upright = ~none & (np.hypot(offset[:, 0], offset[:, 1]) < VERTICAL * length)
+    return _carried(found, none, upright)
+
+
+def _carried(found: Array, none: Mask, upright: Mask) -> Array:
+    """Return aims with what is missing from the time before: both angles, or the yaw straight up or down."""
+    for missing, columns in ((none, [0, 1]), (upright, [0])):
+        before = np.maximum.accumulate(np.where(missing, -1, np.arange(len(found))))
+        rows = np.flatnonzero(missing)
+        last = np.where(before[rows, None] < 0, 0.0, found[np.maximum(before[rows], 0)])
+        found[rows[:, None], columns] = last[:, columns]
     return found
 
 
