@@ -57,10 +57,10 @@ def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> 
     return Flight(of, of.drone("eye"), track_)
 
 
-def nodding(rate: float) -> Piecewise:
-    """Stand, and pitch down and back at an even rate within the first second, as no motor could."""
+def nodding(rate: float, channel: int = CAM_PITCH) -> Piecewise:
+    """Stand, and turn down (or zoom in) and back evenly within the first second, as no motor could."""
     ends = np.repeat(EYE[None], 4, axis=0)
-    ends[1, CAM_PITCH] -= 0.5 * rate
+    ends[1, channel] -= 0.5 * rate
     ctrl = np.linspace(ends[:-1], ends[1:], 6, axis=1)
     return Piecewise(np.array([0.0, 0.5, 1.0, LENGTH]), ctrl)
 
@@ -112,6 +112,17 @@ def test_up_and_down_count_as_much_as_the_frame_is_wide(limit: float, closed: bo
     middle = Piecewise(np.array([0.0, LENGTH]), np.zeros((1, 6, 2)))
     track = replace(of.track, framing=(Reference("eyes", "post", 0.0, LENGTH, middle),))
     of = replace(of, mission=wide, drone=wide.drone("eye"), track=track)
+    assert errors_close(of, "eyes", "post", ENDS, limit) is closed
+
+
+@pytest.mark.parametrize(("limit", "closed"), [(0.1, False), (0.3, True)])
+def test_a_wide_lens_moves_the_picture_faster_than_a_narrow_one(limit: float, closed: bool) -> None:
+    # At 90 deg what stands four fifths to the side moves twice as fast as near the axis of a long lens.
+    of = flight(nodding(0.3, HFOV))
+    side = Target("post", (20.0, -16.0, 10.0), 0.1, 0.2, ("targets", "post"))
+    there = Piecewise(np.array([0.0, LENGTH]), np.tile([0.8, 0.0], (1, 6, 1)))
+    track = replace(of.track, framing=(Reference("eyes", "post", 0.0, LENGTH, there),))
+    of = replace(of, mission=replace(of.mission, targets=(side,)), track=track)
     assert errors_close(of, "eyes", "post", ENDS, limit) is closed
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.geom.bernstein import quintic_hermite
 from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
 from shotc.ir.limits import Timing
@@ -77,6 +78,26 @@ def test_a_reference_ends_and_begins_where_its_keyframes_want_it(index: int) -> 
     off = claim(ir, "reference off its keyframes")
     assert off.worst == pytest.approx(0.1)
     assert off.time == pytest.approx(22.0 if index == 0 else 52.0)
+
+
+def test_a_reference_goes_no_farther_than_to_the_next_keyframe_s() -> None:
+    # Along the line from (0, 0) to (0.1, 0), but on to (0.3, 0) and back.
+    t = np.array([22.0, 44.5, 48.0, 52.0])
+    u = np.array([[0.0, 0.0], [0.0, 0.0], [0.3, 0.0], [0.1, 0.0]])
+    wanted = quintic_hermite(t, u, np.zeros((4, 2)), np.zeros((4, 2)))
+    framing = replace(PLAN.drones[0].framing[0], reference=wanted)
+    ir = with_track(with_keyframe(4, reference=(0.1, 0.0)), framing=(framing,))
+    off = claim(ir, "reference off its keyframes")
+    assert off.worst == pytest.approx(0.2, abs=1e-4)
+    assert off.time == pytest.approx(48.0)
+
+
+def test_a_target_is_framed_between_all_its_keyframes() -> None:
+    # Between the last two it is not, in 375 frames at 50 Hz.
+    framing = replace(PLAN.drones[0].framing[0], end=44.5)
+    missing = claim(with_track(framing=(framing,)), "frames without their target")
+    assert missing.worst == pytest.approx(375, abs=1)
+    assert not missing.holds
 
 
 def waiting(end: float) -> TrajectoryIR:
