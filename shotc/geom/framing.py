@@ -97,13 +97,11 @@ def points_in_frame(cameras: Cameras, target: Cylinder) -> Mask:
 def hidden(eyes: Array, point: Array, hiding: Sequence[Solid]) -> Mask:
     """Tell from which eyes (M, 3) a solid stands before ``point``, (3,) or one for each eye (M, 3).
 
-    A solid that holds the point, or the eye, hides nothing: one is not looking at it from outside.
+    A solid that holds the point hides it, and one that holds the eye hides nothing.
     """
     blocked = np.zeros(len(eyes), dtype=bool)
     for solid in hiding:
-        outside = signed_distance(solid, np.atleast_2d(point)) > 0
-        if outside.any():
-            blocked |= outside & blocks(solid, eyes, point) & (signed_distance(solid, eyes) > 0)
+        blocked |= blocks(solid, eyes, point) & (signed_distance(solid, eyes) > 0)
     return blocked
 
 

@@ -219,6 +219,7 @@ class Shot(NamedTuple):
         what the ideal is made of
     subjects : whom it frames then
     size : that its target is to have, as in Subject, or None
+    allow : what of ``spec.allow`` it may do untold, by name, by its own word or by that of the rules
     """
 
     id: str
@@ -234,6 +235,7 @@ class Shot(NamedTuple):
     ideal: Ideal | None = None
     subjects: tuple[Subject, ...] = ()
     size: float | None = None
+    allow: tuple[str, ...] = ()
 
 
 class Rules(NamedTuple):

@@ -1,6 +1,7 @@
 """What stands before a target: keep-out zones, the other targets and the other drones, instant by instant.
 
-A sight line goes from the camera to the target's centre. Targets whose cylinders overlap or touch at that
+A sight line goes from the camera to the target's centre; where that is within a zone, the zone hides it.
+Targets whose cylinders overlap or touch at that
 instant are parts of one thing and do not hide each other. A drone is a ball of its radius, in flight and on
 its pad.
 """

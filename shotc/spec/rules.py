@@ -32,7 +32,9 @@ class RulesSpec(Model):
         description="whether drones keep out of each other's pictures; prefer, by the frame, if silent",
     )
     pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
-    allow: Allowed = Field(default=(), description="warnings of film grammar that are not told, by name")
+    allow: Allowed = Field(
+        default=(), description="warnings of film grammar that are not told, by name, or hidden-subject"
+    )
 
 
 class OutputSpec(Model):

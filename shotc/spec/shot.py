@@ -51,7 +51,8 @@ class ShotBase(Model):
     require: Require | None = Field(default=None, description="what the shot promises")
     refine: Refine | None = Field(default=None, description="how refinement is used")
     allow: Allowed = Field(
-        default=(), description="warnings of film grammar that are not told of this shot, by name"
+        default=(),
+        description="warnings of film grammar that are not told of this shot, by name, or hidden-subject",
     )
 
 

@@ -40,7 +40,7 @@ _TWO = _PASSING.replace(
 ).replace("kind: orbit, drone: cam1", "kind: orbit, drone: cam2")
 
 
-_WARNINGS = {11, 12, 16, 18}
+_WARNINGS = {11, 12, 16, 18, 23}
 
 
 def _code(
@@ -218,5 +218,17 @@ CODES: tuple[CodeInfo, ...] = (
         "one of the homes.",
         ("home: [8, -60, 0]", "home: [1, -60, 0]"),
         base=_TWO,
+    ),
+    _code(
+        23,
+        "target-in-zone",
+        "a target stands in a keep-out zone, or comes into it",
+        "Keep-out zones are solid: what is within one is seen by no camera outside of it, and counts as hidden. "
+        "Told where the centre of a target, to which the lines of sight go, stands in a zone, or when and where it "
+        "comes into one before the last shot ends (before the longest endurance, where that is not known). Move "
+        "the target or the zone, or give the zone a shape that leaves the target out. Where a zone is there for "
+        "other reasons and can be looked through, write `allow: [hidden-subject]` in the shots that film the "
+        "target, or under `rules`. See V050.",
+        ("center: [-30, 20], radius: 3, height: [0, 12]", "center: [1, 0], radius: 8, height: [0, 26]"),
     ),
 )

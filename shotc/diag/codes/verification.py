@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Literal
 
 from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._shown import SHOWN
 from shotc.diag.model import Severity
 
 _MISSION = """\
@@ -321,19 +322,6 @@ _FRAMING = (
         severity=Severity.WARNING,
     ),
     _code(
-        31,
-        "target-hidden",
-        (
-            "something stands before a target for a part of its shot",
-            "Another target, a keep-out zone or another drone stands on the line of sight from the camera to the "
-            "centre of the target. Targets whose cylinders overlap or touch, as a lantern in its tower, are parts of one "
-            "thing and do not hide each other. The notes tell what hides it in how many of the frames, and the middle of "
-            "the longest stretch. Film from another side or from higher up. The refiner `ours` goes aside by itself in shots of "
-            "moving targets, as far as that shows more.",
-        ),
-        severity=Severity.WARNING,
-    ),
-    _code(
         32,
         "target-off-its-place",
         (
@@ -397,5 +385,5 @@ _FILE = (
 )
 
 CODES: tuple[CodeInfo, ...] = tuple(
-    sorted((*_LIMITS, *_SPACE, *_FORM, *_FRAMING, *_FILE), key=lambda info: info.code)
+    sorted((*_LIMITS, *_SPACE, *_FORM, *_FRAMING, *_FILE, *SHOWN), key=lambda info: info.code)
 )

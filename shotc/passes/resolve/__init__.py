@@ -24,7 +24,15 @@ from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
 from shotc.passes.resolve.names import check_names, emitters_of, once
 from shotc.passes.resolve.pads import check_pads
-from shotc.passes.resolve.seldom import Show, check_fleets, check_ideals, framed, shown, tracks_of
+from shotc.passes.resolve.seldom import (
+    Show,
+    check_covered,
+    check_fleets,
+    check_ideals,
+    framed,
+    shown,
+    tracks_of,
+)
 from shotc.passes.resolve.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones
@@ -81,7 +89,7 @@ class Resolve:
         faults += framings
         faults += _judged(ir, mission, world, order=not has_errors(faults))
         if not has_errors(faults):
-            faults += check_grammar(mission, allowed(ir.spec))
+            faults += [*check_grammar(mission, allowed(ir.spec)), *check_covered(mission)]
         return Outcome(None if stops(faults) else mission, tuple(faults))
 
     def _shots(self, ir: LoadedMission, world: _World) -> Shots:

@@ -68,6 +68,15 @@ def check_ideals(mission: MissionIR) -> list[Diagnostic]:
     return [fault for shot in clocked for fault in check_ideal(mission, shot)]
 
 
+def check_covered(mission: MissionIR) -> list[Diagnostic]:
+    """Return where targets are within keep-out zones."""
+    if not mission.targets or all(zone.keep == "in" for zone in mission.zones):
+        return []
+    from shotc.passes.resolve.covered import covered
+
+    return list(covered(mission))
+
+
 class Show(NamedTuple):
     """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others.
 

@@ -108,6 +108,7 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         ideal=expansion.ideal,
         subjects=expansion.subjects,
         size=shot.size,
+        allow=tuple(dict.fromkeys((*spec.rules.allow, *shot.allow))),
     )
 
 

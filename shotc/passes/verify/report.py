@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.ir.allow import HIDDEN
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
@@ -81,6 +82,11 @@ UNKNOWN = {
 
 SOFT = {" in frame": "V030", " visible": "V031"}
 
+MOST = 0.5
+"""Share of a shot's frames; a target that is seen in fewer is hidden in most, which is an error."""
+
+_MOSTLY = {"V031": "V050"}
+
 
 def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
     """Turn every broken claim into one diagnostic: an error where it is hard, else a warning."""
@@ -93,8 +99,8 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
             yield _broken(ir, claim, claims)
         else:
             code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)
-            if code is not None and not (code == "V030" and _cropped_on_purpose(ir.keyframes.mission, claim)):
-                yield _lost(ir, claim, code)
+            if code is not None and not _on_purpose(ir.keyframes.mission, claim, code):
+                yield _lost(ir, claim, _MOSTLY.get(code, code) if claim.worst < MOST else code)
 
 
 def rule_of(constraint: str, mission: MissionIR) -> Rule:
@@ -141,13 +147,23 @@ def _side(claim: Claim) -> str:
     return "at most" if claim.upper else "at least"
 
 
-def _cropped_on_purpose(mission: MissionIR, claim: Claim) -> bool:
-    """Tell whether the target of a claim is asked to be larger than the frame."""
+def _on_purpose(mission: MissionIR, claim: Claim, code: str) -> bool:
+    """Tell whether the target of a claim is asked to be larger than the frame, or may be hidden."""
     shot = _shot(mission, claim.shot)
     if not isinstance(shot, Shot):
         return False
+    if code != "V030":
+        return HIDDEN in shot.allow
     asked = next((s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size)
     return asked is not None and asked > 1.0
+
+
+_ASIDE = "film from another side or from higher up, so that nothing stands on the line of sight"
+_LOST_HELP = {
+    "V030": "move or widen the shot there, or state `require: {in_frame: ...}` to have it held",
+    "V031": _ASIDE,
+    "V050": f"{_ASIDE}, or write `allow: [hidden-subject]` in the shot where it is meant",
+}
 
 
 def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
@@ -155,11 +171,7 @@ def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
     target = claim.constraint.rsplit(" ", 2 if code == "V030" else 1)[0]
     state = "not whole in frame" if code == "V030" else "hidden"
     share = f"{100 * (1 - claim.worst):.3g} %"
-    help_ = (
-        "move or widen the shot there, or state `require: {in_frame: ...}` to have it held"
-        if code == "V030"
-        else "film from another side or from higher up, so that nothing stands on the line of sight"
-    )
+    help_ = _LOST_HELP[code]
     by = () if code == "V030" else hidden_by(ir, claim, target)
     return Diagnostic(
         code,

@@ -87,7 +87,7 @@ def test_what_hides_and_what_does_not() -> None:
     wall = box((-15, 0, 10), (2, 20, 20), 0)
     assert list(hidden(eyes, point, [wall])) == [True, False, False, False]  # the last stands inside the wall
     around = Cylinder((0, 0), 4, 0, 12)
-    assert not hidden(eyes, point, [around]).any()  # the zone round the target itself
+    assert hidden(eyes, point, [around]).all()  # nobody looks into it from outside
     assert list(frames(cameras(eyes, [0, pi, 0, 0], [0, 0, 0, 0]), target, [wall]).hidden) == [1, 0, 0, 0]
 
 

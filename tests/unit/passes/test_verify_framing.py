@@ -92,6 +92,29 @@ def test_a_hidden_target_is_a_warning() -> None:
     assert float(told.notes[-1].split()[-2]) == pytest.approx(100 * (1 - share.worst), abs=0.2)
 
 
+def test_a_target_within_a_zone_is_hidden_in_every_frame_and_that_is_an_error_unless_it_is_meant() -> None:
+    hall = Zone("hall", "out", box((0.0, 0.0, 15), (12, 12, 30), 0), ("world", "zones", "hall"))
+    ir = with_mission(zones=(*MISSION.zones, hall))
+    assert claim(ir, "tower visible").worst == 0.0
+    outcome = Verify().run(ir, CONTEXT)
+    assert outcome.value is None
+    (told,) = outcome.diagnostics
+    assert told.code == "V050"
+    assert told.notes[-1] == "zone `hall` hides it in 100 %"
+    meant = replace(MISSION.shots[0], allow=("hidden-subject",))
+    assert codes(with_mission(zones=(*MISSION.zones, hall), shots=(meant,))) == []
+
+
+def test_a_target_hidden_in_just_most_of_the_frames_is_an_error() -> None:
+    """Between hidden for a while, which is told, and hidden in most frames, there is half of them."""
+    found = {}
+    for wide in (10.0, 60.0):
+        screen = Zone("screen", "out", box((10.0, 0.0, 10), (1, wide, 20), 0), ("world", "zones", "screen"))
+        ir = with_mission(zones=(*MISSION.zones, screen))
+        found[claim(ir, "tower visible").worst < 0.5] = codes(ir)
+    assert found == {False: ["V031"], True: ["V050"]}
+
+
 @pytest.mark.parametrize(("beside", "found"), [(8.0, ["V031"]), (6.9, [])])
 def test_a_target_that_overlaps_the_filmed_one_does_not_hide_it(beside: float, found: list[str]) -> None:
     (tower,) = MISSION.targets

@@ -1,0 +1,100 @@
+"""Targets within keep-out zones, which are solid: no camera outside sees them there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.line_of_sight import crosses
+from shotc.geom.solids import Solid
+from shotc.geom.vec import Vec3
+from shotc.ir.allow import HIDDEN
+from shotc.ir.begins import known_start
+from shotc.ir.mission import MissionIR, Shot, Target, Zone
+
+HALVES = 40  # of a stretch of a track, to where it meets a zone
+
+
+class Moment(NamedTuple):
+    """Where a target is at a mission time, metres and seconds."""
+
+    time: float
+    at: Vec3
+
+
+def covered(mission: MissionIR) -> Iterator[Diagnostic]:
+    """Yield every target whose centre stands in a keep-out zone, or comes into it while the mission may fly.
+
+    A target is not told of where every shot that films it says that it may be hidden.
+    """
+    until = _end(mission)
+    for target in mission.targets:
+        filming = [shot for shot in mission.shots if target.name in _filmed(shot)]
+        if filming and all(HIDDEN in shot.allow for shot in filming):
+            continue
+        way = tuple(_way(target, until))
+        for zone in mission.zones:
+            met = None if zone.keep == "in" else first_within(way, zone.solid)
+            if met is not None:
+                yield _told(mission, target, zone, met)
+
+
+def first_within(way: Sequence[Moment], solid: Solid) -> Moment | None:
+    """Return when and where something is within a solid first that goes straight from moment to moment."""
+    for a, b in pairwise(way):
+        if crosses(solid, a.at, b.at):
+            return _entry(solid, a, b)
+    return None
+
+
+def _entry(solid: Solid, a: Moment, b: Moment) -> Moment:
+    """Return where the straight way from one moment to the next meets a solid first."""
+    low, high = 0.0, 1.0
+    if crosses(solid, a.at, a.at):
+        return a
+    for _ in range(HALVES):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if crosses(solid, a.at, _between(a, b, middle).at) else (middle, high)
+    return _between(a, b, high)
+
+
+def _between(a: Moment, b: Moment, share: float) -> Moment:
+    x, y, z = (p + share * (q - p) for p, q in zip(a.at, b.at, strict=True))
+    return Moment(a.time + share * (b.time - a.time), (x, y, z))
+
+
+def _way(target: Target, until: float) -> Iterator[Moment]:
+    """Yield where a target's centre is at the start of the mission, at corners of its way, and at the end."""
+    rows = () if target.track is None else target.track.times
+    yield from (Moment(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < until), until))
+
+
+def _end(mission: MissionIR) -> float:
+    """Return when the last shot has ended, as far as that is known, else the longest time in the air."""
+    ends: list[float] = []
+    for shot in mission.shots:
+        begin, lasts = known_start(mission, shot), shot.timing.duration
+        if begin is None or lasts is None:
+            return max((drone.endurance for drone in mission.drones), default=0.0)
+        ends.append(begin + lasts)
+    return max(ends, default=0.0)
+
+
+def _filmed(shot: Shot) -> set[str | None]:
+    return {shot.subject, *(s.target for s in shot.subjects), *(k.target for k in shot.keyframes)}
+
+
+def _told(mission: MissionIR, target: Target, zone: Zone, met: Moment) -> Diagnostic:
+    place = "({:.2f}, {:.2f}, {:.2f}) m".format(*met.at)
+    comes = met.time > 0.0
+    state = "comes into" if comes else "stands in" if target.track is None else "begins in"
+    where = f"at t = {met.time:.2f} s its centre is at {place}" if comes else f"its centre is at {place}"
+    return Diagnostic(
+        "G023",
+        f"target `{target.name}` {state} keep-out zone `{zone.name}`",
+        (mission.origins.key(target.path), mission.origins.key(zone.path, "the zone")),
+        (f"{where}, within the zone, and no camera outside of it sees it there",),
+        "move the target or the zone; where it is meant, write `allow: [hidden-subject]` in what films it",
+    )
