@@ -239,7 +239,9 @@ def _crane_of(chance: Chance, moves: tuple[str, ...]) -> Draft | None:
     z = [chance.height(), chance.height() if "altitude" in moves else 0.0]
     z[1] = z[1] or z[0]
     near, far = chance.distance(z[0]), chance.distance(z[1])
-    if near is None or far is None:
+    if near is None or far is None or abs(near - far) + abs(z[0] - z[1]) < 1.0:
+        return None
+    if "distance" in moves and near == far:
         return None
     distance = (near, far) if "distance" in moves else (max(near, far),) * 2
     azimuth, shares = chance.dice.whole(0, 359), np.linspace(0.0, 1.0, len(chance.times))

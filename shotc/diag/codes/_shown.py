@@ -1,4 +1,4 @@
-"""V031, V050 and on: what an audience is not shown."""
+"""V031, V050 and on: what an audience is not shown, or not so that it can see it."""
 
 from __future__ import annotations
 
@@ -13,6 +13,20 @@ targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
 drones: {cam: {model: x500, home: [0, -30, 0]}}
 shots:
   - {id: look, kind: static, drone: cam, at: [0, -24, 6], look_at: mast}
+"""
+
+_PAN = """\
+shotc: 1
+mission: pan
+drones: {cam: {model: x500, home: [0, -60, 0]}}
+shots:
+  - id: sweep
+    kind: keyframes
+    drone: cam
+    TIMING
+    keyframes:
+      - {at: [0, -50, 15], heading: 320 deg, pitch: 0 deg}
+      - {at: [4, -50, 15], heading: 20 deg, pitch: 0 deg}
 """
 
 SHOWN: tuple[CodeInfo, ...] = (
@@ -43,6 +57,21 @@ SHOWN: tuple[CodeInfo, ...] = (
         "`allow: [hidden-subject]` in the shot, or under `rules` for the whole mission; then nothing is told.",
         _WALL.replace("EAST", "0"),
         _WALL.replace("EAST", "40"),
+        "plan",
+    ),
+    CodeInfo(
+        "V051",
+        "pan-flown-too-fast",
+        Severity.WARNING,
+        "the camera turns faster than a film can show, as it is flown",
+        "The rule of F005, held to the plan: over any second of the shot, a frame width goes by in 7 s or more, or in "
+        "3 s or more behind a subject that has its place on screen. `check` knows the mean rate between keyframes "
+        "whose time is known; a drone that begins and ends at rest turns faster in between, and most turns have no "
+        "time before they are planned. The note has the number that is flown, and F005 is not told beside it. Take "
+        "more time, turn less, go farther away, or take a wider lens. Where it is meant, write `allow: [fast-pan]` in "
+        "the shot, or under `rules` for the whole mission.",
+        _PAN.replace("TIMING", "pace: brisk"),
+        _PAN.replace("TIMING", "timing: {duration: 20}"),
         "plan",
     ),
 )

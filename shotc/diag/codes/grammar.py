@@ -118,8 +118,9 @@ CODES: tuple[CodeInfo, ...] = (
         "holds the eye, and the surroundings may go by in 3 s, where RED shows its example of plain judder. The rate "
         "is the mean one between keyframes whose time is known, for a drone may turn evenly at best; of a shot on "
         "its own clock it is that over the fastest second. Without a duration nothing is told. Turn less, take more "
-        "time, a wider lens, or a place farther away." + _ALLOW.format("fast-pan"),
+        "time, a wider lens, or a place farther away. What is flown is judged by the same rule (V051)."
+        + _ALLOW.format("fast-pan"),
         _PAN,
         ("duration: 8", "duration: 4"),
-    ),
+    )._replace(exact=("V051",)),
 )

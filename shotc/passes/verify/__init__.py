@@ -23,6 +23,7 @@ from shotc.passes.verify.framing import framing
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
 from shotc.passes.verify.pair import from_fleets, separation
+from shotc.passes.verify.pans import pans
 from shotc.passes.verify.report import report
 from shotc.passes.verify.shape import shape, structure
 from shotc.passes.verify.shots import shots
@@ -75,7 +76,8 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
         *_fleet_claims(ir, ctx),
     ]
     certificate = tuple(claims)
-    return Verdict(certificate, (*_grounded(ir), *report(ir, certificate), *losses(ir, certificate)))
+    seen = (*report(ir, certificate), *losses(ir, certificate), *pans(ir))
+    return Verdict(certificate, (*_grounded(ir), *seen))
 
 
 def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:

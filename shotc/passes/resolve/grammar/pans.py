@@ -1,9 +1,4 @@
-"""Pans: how fast the surroundings go through the picture as the camera turns.
-
-A camera that turns at w rad/s moves what is far away by w / (2 tan(hfov / 2)) frame widths a second, near the
-middle of the frame. At 24 frames a second that judders where a width takes less than 7 s. Where a subject is
-followed it stands still on screen and holds the eye, and the surroundings may go through in 3 s.
-"""
+"""Pans: how fast the surroundings go through the picture as the camera turns, by the rule of ``geom.pan``."""
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
@@ -12,6 +7,7 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.angles import TURN, wrapped
+from shotc.geom.pan import WINDOW, slowest, whose
 from shotc.geom.vec import minus
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
@@ -22,9 +18,6 @@ from shotc.passes.resolve.grammar.sight import begins, sight
 from shotc.passes.resolve.timing import SLACK
 from shotc.rounding import at_least
 
-FREE = 7.0  # seconds a frame width takes at least where nobody is followed
-FOLLOWING = 3.0  # and where the camera follows a subject
-WINDOW = 1.0  # seconds over which a shot on its own clock is judged
 STEPS = 120  # pieces of such a shot at most
 
 
@@ -48,7 +41,7 @@ class Pan(NamedTuple):
     @property
     def least(self) -> float:
         """Return the seconds that the turn has to take at least."""
-        return self.widths * (FREE if self.followed is None else FOLLOWING)
+        return self.widths * slowest(self.followed)
 
 
 def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
@@ -58,8 +51,6 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     if not fast:
         return
     worst = max(fast, key=lambda pan: pan.least / pan.lasts)
-    who = "where nobody is followed" if worst.followed is None else f"behind `{worst.followed}`"
-    least = FREE if worst.followed is None else FOLLOWING
     when = "" if worst.when is None else f" at t = {worst.when:.1f} s"
     label, help_ = lasting(mission, shot), "film it from farther away, or with a wider field of view"
     if worst.when is None:
@@ -69,8 +60,8 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` pans too fast for the eye",
         (label,),
         (
-            f"a frame width goes by in {worst.lasts / worst.widths:.1f} s{when}; {who} it takes {least:.0f} "
-            "s or more, at 24 frames a second, not to judder",
+            f"a frame width goes by in {worst.lasts / worst.widths:.1f} s{when}; {whose(worst.followed)} "
+            f"it takes {slowest(worst.followed):.0f} s or more, at 24 frames a second, not to judder",
         ),
         f"{help_}, or write `allow: [fast-pan]` in it",
     )
