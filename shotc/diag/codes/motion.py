@@ -56,6 +56,32 @@ def _framing(number: int, slug: str, summary: str, explanation: str, *changes: t
     return made._replace(severity=Severity.WARNING if number in _WARNINGS else Severity.ERROR)
 
 
+_KEYED = """\
+shotc: 1
+mission: beside
+targets:
+  runner: {track: {start: [0, 0, 0.9], velocity: [1.5, 0, 0]}, radius: 0.4, height: 1.8}
+drones:
+  cam1: {model: x500, home: [0, -30, 0]}
+shots:
+  - id: round
+    kind: keyframes
+    drone: cam1
+    target: runner
+    timing: {start: 15, duration: 15}
+    keyframes:
+      - {at: {from: target, offset: [-9, 0, 3], turn: course}, look_at: runner}
+      - {at: {from: target, offset: [-9, -9, 3]}, look_at: runner}
+      - {at: {from: target, offset: [-9, 0, 5]}, look_at: runner}
+"""
+
+
+def _keyed(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
+    """Return the code of keyframes of a moving target that only planning finds."""
+    made = slip(f"M{number:03}", slug, summary, explanation, _KEYED, *changes)
+    return made._replace(phase="plan")
+
+
 CODES: tuple[CodeInfo, ...] = (
     _code(
         1,
@@ -172,6 +198,29 @@ CODES: tuple[CodeInfo, ...] = (
         ("kind: lateral", "kind: lead"),
         (" side: left,", ""),
         ("altitude: 4", "altitude: 3"),
+    ),
+    _keyed(
+        15,
+        "keyframes-out-of-reach",
+        "a drone cannot pass the keyframes of a moving target at their times",
+        "Keyframes that the author places bind: the camera is at each of them at its time, in motion, and the drone "
+        "keeps its limits on the way. Here it cannot, though it is fast enough on average. Give the shot more time, "
+        "move the keyframes, or raise the drone's limits.",
+        ("offset: [-9, -9, 3]}, look_at: runner", "offset: [-9, -9, 3]}, look_at: runner, time: 1.5 s"),
+        ("offset: [-9, 0, 5]}, look_at: runner", "offset: [-9, 0, 5]}, look_at: runner, time: 3 s"),
+    ),
+    _keyed(
+        16,
+        "target-elsewhere",
+        "a target is not in the picture of a keyframe when the camera is there",
+        "A keyframe of your own `heading` and `pitch` shows its target where that is when the camera comes there. A "
+        "shot without a `start` begins when its drone is there, and its target has moved on by then. Look at the "
+        "target, or say when the shot starts and frame it for that time.",
+        ("timing: {start: 15, duration: 15}", "timing: {duration: 15}"),
+        (
+            "{at: {from: target, offset: [-9, -9, 3]}, look_at: runner}",
+            "{at: [10, -9, 3], heading: 270 deg, pitch: 0 deg}",
+        ),
     ),
     _code(
         21,

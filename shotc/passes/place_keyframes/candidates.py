@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
-from shotc.geom.camera import aim_at, frustum_margins, view
+from shotc.geom.camera import aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
 from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import Range
 from shotc.ir.mission import Composition
@@ -58,6 +58,17 @@ class Setting(NamedTuple):
         """Return (u, v) of the target's centre under this aim; None behind the camera."""
         u, v, forward = view(aim[0], aim[1], self.hfov, self.aspect).project(self.offset)
         return (u, v) if forward > 0 else None
+
+    def shows(self, aim: Vec2) -> bool:
+        """Tell whether any of the target's outline box is in the frame."""
+        camera = view(aim[0], aim[1], self.hfov, self.aspect)
+        if nearest_depth(camera, self.offset, self.radius, self.height) <= 0:
+            # It reaches past the image plane and has no outline; mirrored at the camera, what lies wholly
+            # outside one side of the frame lies wholly inside of it.
+            x, y, z = self.offset
+            return bool(max(frustum_margins(camera, (-x, -y, -z), self.radius, self.height)) <= 0)
+        left, right, low, high = silhouette_bounds(camera, self.offset, self.radius, self.height)
+        return bool(left < 1 and right > -1 and low < 1 and high > -1)
 
     def direction(self, uv: Vec2) -> Vec3:
         """Return the unit view direction of a screen place: right, up, forward."""

@@ -7,16 +7,19 @@ earliest time there is, and again, by ``placed_at``, for the one at which it beg
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import degrees
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.camera import heading_of
 from shotc.ir.begins import first_start
 from shotc.ir.framed import at_start
-from shotc.ir.keyed import arrivals, is_keyed
+from shotc.ir.keyed import arrivals, is_keyed, settled
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Keyframe, MissionIR, Shot, frozen
-from shotc.passes.place_keyframes import place_shot
+from shotc.passes.place_keyframes import NORTH, explicit_aim, place_shot, setting_of
 from shotc.passes.place_keyframes.faults import Miss, report
 from shotc.passes.place_keyframes.turns import while_following
+from shotc.rounding import at_least, up
 
 
 def placed_at(mission: MissionIR, placed: PlacedShot, start: float) -> PlacedShot:
@@ -25,6 +28,15 @@ def placed_at(mission: MissionIR, placed: PlacedShot, start: float) -> PlacedSho
     if not is_keyed(shot) or shot is placed.shot:
         return placed._replace(shot=shot)
     return placed._replace(shot=shot, keyframes=_placed(mission, shot, start))
+
+
+def slowed(mission: MissionIR, placed: PlacedShot, start: float, times: float) -> PlacedShot:
+    """Return a shot that takes that many times as long, and is at its keyframes that much later."""
+    shot = placed.shot
+    timing = shot.timing._replace(duration=up((shot.timing.duration or 0.0) * times, 1))
+    later = tuple(k if k.time is None else k._replace(time=up(k.time * times, 1)) for k in shot.keyframes)
+    longer = settled(mission, shot._replace(timing=timing, keyframes=later), start)
+    return placed._replace(shot=longer, keyframes=_placed(mission, longer, start))
 
 
 def moments(mission: MissionIR, shot: Shot, start: float) -> tuple[MissionIR, ...]:
@@ -64,6 +76,13 @@ def misplaced(mission: MissionIR, placed: PlacedShot, start: float) -> list[Diag
     """
     shot, then = placed.shot, moments(mission, placed.shot, start)
     open_ = [not is_sure(mission, shot, k) for k in shot.keyframes]
+    unseen = [
+        _unseen(moment, shot, keyframe, start)
+        for keyframe, moment, judged in zip(shot.keyframes, then, open_, strict=True)
+        if judged and _is_unseen(moment, shot, keyframe)
+    ]
+    if unseen:
+        return unseen
     found = _told(shot, then, place_shot(mission, shot, then)[1], open_)
     return [*found, *(while_following(mission, shot.keyframes, placed.keyframes) if any(open_) else [])]
 
@@ -77,6 +96,28 @@ def _told(
         missed = [miss for miss in misses if mine and miss.keyframe is keyframe]
         found += report(moment, shot, missed)
     return list(dict.fromkeys(found))
+
+
+def _is_unseen(moment: MissionIR, shot: Shot, keyframe: Keyframe) -> bool:
+    """Tell whether no part of a keyframe's target is in the picture as the author framed it."""
+    if keyframe.aim is None or keyframe.target is None:
+        return False
+    setting = setting_of(moment, moment.drone(shot.drone), keyframe, NORTH)
+    return not setting.shows(explicit_aim(keyframe.at, keyframe.aim, NORTH))
+
+
+def _unseen(moment: MissionIR, shot: Shot, keyframe: Keyframe, start: float) -> Diagnostic:
+    setting = setting_of(moment, moment.drone(shot.drone), keyframe, NORTH)
+    straight = setting.aim((0.0, 0.0)) or (NORTH, 0.0)
+    right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
+    key = "look_at" if keyframe.heading is None else "heading"
+    return Diagnostic(
+        "M016",
+        f"`{keyframe.target}` is not in the picture of a keyframe of shot `{shot.id}`",
+        (moment.origins.value((*keyframe.path, key)),),
+        (f"the shot begins at {start:.1f} s, so the camera is there when its target is elsewhere",),
+        f"write `look_at: {keyframe.target}`, or `{right}`, and `start: {at_least(start)} s` for the shot",
+    )
 
 
 def _placed(mission: MissionIR, shot: Shot, start: float) -> tuple[PlacedKeyframe, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 from math import acos, degrees, dist, hypot, pi
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import frustum_margins, heading_of, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import heading_of, view
 from shotc.geom.vec import Vec2
 from shotc.ir.begins import first_start
 from shotc.ir.keyed import is_keyed
@@ -84,7 +84,7 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     """Tell a target that the user's framing does not show at all."""
     setting = setting_of(mission, drone, keyframe, aim[0])
     off = degrees(_angle_off(setting, aim))
-    if off < 90.0 and shows(setting, aim):
+    if off < 90.0 and setting.shows(aim):
         return None
     from shotc.passes.place_keyframes.faults import framing_label
 
@@ -107,15 +107,3 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
 def _angle_off(setting: Setting, aim: Vec2) -> float:
     forward = view(aim[0], aim[1], setting.hfov, setting.aspect).to_camera(setting.offset)[2]
     return acos(max(-1.0, min(1.0, forward / max(hypot(*setting.offset), 1e-12))))
-
-
-def shows(setting: Setting, aim: Vec2) -> bool:
-    """Tell whether any of the target's outline box is in the frame."""
-    camera = view(aim[0], aim[1], setting.hfov, setting.aspect)
-    if nearest_depth(camera, setting.offset, setting.radius, setting.height) <= 0:
-        # It reaches past the image plane and has no outline; mirrored at the camera, what lies wholly
-        # outside one side of the frame lies wholly inside of it.
-        x, y, z = setting.offset
-        return bool(max(frustum_margins(camera, (-x, -y, -z), setting.radius, setting.height)) <= 0)
-    left, right, low, high = silhouette_bounds(camera, setting.offset, setting.radius, setting.height)
-    return bool(left < 1 and right > -1 and low < 1 and high > -1)

@@ -45,6 +45,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         *_nearer(mission, shot, drone),
         *_other_side(mission, shot, limit),
         *_longer(mission, shot, worst / limit),
+        *_straight(mission, shot, limit),
         f"raise `limits: {{speed: {faster:.1f} m/s}}` of `{drone.name}` if it flies that",
         *_slower(mission, shot),
     ]
@@ -160,6 +161,17 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
         if start + lasts <= until and _keeps_up(mission, longer, mission.drone(shot.drone).limits.speed):
             yield f"give it `duration: {lasts:.1f} s`"
             return
+
+
+def _straight(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:
+    """Yield keyframes that do not turn with their target, where that is what makes the place fast."""
+    if not any(k.beside is not None and k.beside.turns for k in shot.keyframes):
+        return
+    along = tuple(
+        k if k.beside is None else k._replace(beside=k.beside._replace(turns=False)) for k in shot.keyframes
+    )
+    if _keeps_up(mission, shot._replace(keyframes=along), limit):
+        yield "leave `turn: course` out, which swings the camera round where the target bends"
 
 
 def _slower(mission: MissionIR, shot: Shot) -> Iterator[str]:

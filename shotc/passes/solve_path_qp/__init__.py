@@ -15,12 +15,14 @@ from typing import ClassVar
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.corridor import Room
+from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.corridor.room import flight_room, pad_room
+from shotc.passes.place_keyframes.keyed import misplaced, placed_at
 from shotc.passes.solve_path_qp.clock_faults import outside_track, too_late, way_met
 from shotc.passes.solve_path_qp.faults import (
     cut_framing,
@@ -78,10 +80,21 @@ class SolvePathQp:
             elif planned.legs:
                 legs = tuple(leg for leg in planned.legs if isinstance(leg, Leg))
                 paths.append(DronePath(drone.name, legs))
+        diagnostics += _placed_late(ir, timed)
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
         path = PathIR(ir, tuple(paths), tuple(deviations), tuple(stats), tuple(timed))
         return Outcome(path, tuple(diagnostics))
+
+
+def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]:
+    """Return what is wrong with keyframes whose picture was not known before their shot's start was."""
+    placed, found = {p.shot.id: p for p in ir.shots if is_keyed(p.shot)}, list[Diagnostic]()
+    for leg in (leg for path in timed for leg in path.legs if isinstance(leg, TimedLeg)):
+        if leg.shot in placed:
+            shot = placed_at(ir.mission, placed[leg.shot], leg.start)
+            found += misplaced(ir.mission, shot, leg.start)
+    return found
 
 
 def on_clock(ir: KeyframeIR) -> bool:

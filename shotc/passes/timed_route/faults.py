@@ -6,8 +6,8 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import Deviation
 from shotc.passes.corridor.room import GROUND, named, owner_path
-from shotc.passes.timed_route.shot import NoMotion
-from shotc.rounding import at_least
+from shotc.passes.timed_route.shot import Missed, NoMotion
+from shotc.rounding import at_least, up
 
 
 def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
@@ -30,6 +30,8 @@ def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
 def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagnostic:
     """Say why a shot on its own clock has no motion."""
     label = mission.origins.value((*shot.path, "kind"))
+    if trouble.missed is not None:
+        return _out_of_reach(mission, shot, trouble.missed)
     if not trouble.lacks:
         message = f"no motion was found for the {trouble.what} of shot `{shot.id}`"
         notes: tuple[str, ...] = (f"the solver says: {trouble.status}",)
@@ -45,4 +47,24 @@ def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagn
         labels,
         notes,
         "move the shot or what is in its way by so much",
+    )
+
+
+def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
+    """Say which keyframes the drone cannot pass at their times, and what would let it."""
+    keyframes = [shot.keyframes[i] for i, _ in missed.away] or list(shot.keyframes[:1])
+    labels = tuple(mission.origins.value((*k.path, "at")) for k in dict.fromkeys(keyframes))
+    notes = tuple(f"the nearest motion is {at_least(m)} m from keyframe {i + 1} then" for i, m in missed.away)
+    remedies = ["raise its `limits`", "move them nearer to the way of the target"]
+    if missed.longer is not None:
+        lasts = up((shot.timing.duration or 0.0) * missed.longer, 1)
+        timed = any(k.time for k in shot.keyframes)
+        later = f", and every `time` {missed.longer:g} times as late" if timed else ""
+        remedies.insert(0, f"give the shot `duration: {lasts:.1f} s`{later}")
+    return Diagnostic(
+        "M015",
+        f"drone `{shot.drone}` cannot pass the keyframes of shot `{shot.id}` at their times",
+        labels,
+        notes,
+        ", or ".join(remedies),
     )

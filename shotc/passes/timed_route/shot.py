@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from shotc.geom.runs import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
-from shotc.passes.place_keyframes.keyed import placed_at
+from shotc.passes.place_keyframes.keyed import placed_at, slowed
 from shotc.passes.timed_route.aims import Looker, looker_of
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock, clock_of
@@ -26,6 +27,8 @@ from shotc.solvers.conic import Status
 
 NOTICE = 0.5  # metres off the ideal that are worth telling
 LEFT = 0.1  # metres off that belong to a stretch worth telling
+LONGER = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
+ON_PLACE = 1e-3  # metres
 STEP = 0.1  # seconds between the places that are compared with the ideal
 LIMITS = "the drone's limits"
 PICTURES = "the pictures of other drones"
@@ -48,13 +51,29 @@ class TimedShot:
     stats: tuple[tuple[str, float | str], ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Missed:
+    """Keyframes that a drone cannot pass at their times within its limits.
+
+    away : (index of the keyframe, metres from it) of the motion nearest to the shot's way, the farthest first
+    longer : times as long that the shot and its keyframes' times would do, or None where none was found
+    """
+
+    away: tuple[tuple[int, float], ...]
+    longer: float | None
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class NoMotion:
-    """Why a shot has no motion: the solver's word, and by how much each owner would have to give way."""
+    """Why a shot has no motion: the solver's word, and by how much each owner would have to give way.
+
+    missed : which keyframes are out of reach, where that is why
+    """
 
     status: Status
     lacks: tuple[tuple[str, float], ...]
     what: str = "position"
+    missed: Missed | None = None
 
 
 def timed_shot(
@@ -67,16 +86,12 @@ def timed_shot(
     """
     mission, drone = looker.mission, looker.drone
     placed = placed_at(mission, placed, start)
-    shot, looker = placed.shot, looker_of(mission, drone, placed, start)
-    clock = clock_of(mission, drone, shot, start)
-    near = (*standing(room), *traffic.moving)
-    motions = tuple(evened(m, clock.breaks) for m in near)
-    passing = standing_by(near, clock.breaks)
-    bound = bounds_of(mission, shot, start)
-    task = Task(looker, shot, clock, room, motions, passing, traffic.sights, bound)
+    task = _task(mission, drone, (room, traffic), placed, start)
+    shot, looker, clock = task.shot, task.looker, task.clock
     flown = fly(task)
     if flown.curve is None:
-        return NoMotion(flown.status, _lacks(task, flown))
+        missed = _missed(task, (room, traffic), placed, start) if task.bound else None
+        return NoMotion(flown.status, _lacks(task, flown), missed=missed)
     kept = None if shot.ideal is None else shot.ideal.aim
     turned = turn(Watch(looker, kept), clock, flown.curve)
     if turned.curve is None:
@@ -93,6 +108,32 @@ def timed_shot(
         (f"{shot.id}.qp_status", str(flown.status)),
     )
     return TimedShot(leg, _deviations(task, flown), stats)
+
+
+def _task(
+    mission: MissionIR, drone: Drone, around: tuple[Room, Traffic], placed: PlacedShot, start: float
+) -> Task:
+    """Return what is to be flown; placed : the shot as it is where it begins at ``start``."""
+    shot, (room, traffic) = placed.shot, around
+    clock = clock_of(mission, drone, shot, start)
+    near = (*standing(room), *traffic.moving)
+    motions = tuple(evened(m, clock.breaks) for m in near)
+    looker, bound = looker_of(mission, drone, placed, start), bounds_of(mission, shot, start)
+    return Task(looker, shot, clock, room, motions, standing_by(near, clock.breaks), traffic.sights, bound)
+
+
+def _missed(task: Task, around: tuple[Room, Traffic], placed: PlacedShot, start: float) -> Missed | None:
+    """Return which keyframes are out of reach, or None where the shot cannot be flown without them either."""
+    free = fly(replace(task, free=True)).curve
+    if free is None:
+        return None
+    away = [(b.index, float(np.linalg.norm(free(b.start) - np.array(b.place)))) for b in task.bound]
+    far = tuple(sorted((pair for pair in away if pair[1] > ON_PLACE), key=lambda pair: -pair[1]))
+    for longer in LONGER:
+        slower = slowed(task.mission, placed, start, longer)
+        if fly(_task(task.mission, task.drone, around, slower, start)).curve is not None:
+            return Missed(far, longer)
+    return Missed(far, None)
 
 
 def _lens(looker: Looker, clock: Clock) -> Array:

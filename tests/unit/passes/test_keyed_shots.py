@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 import numpy as np
@@ -220,3 +221,34 @@ class TestChecked:
         shot = "kind: static\n    at: {from: walker, offset: [0, 0, 5]}\n    look_at: walker"
         (fault, *_) = resolved(mission(shot))[1]
         assert fault.labels[0].span.line == 15
+
+
+ZIGZAG = """kind: keyframes
+    target: walker
+    keyframes:
+      - {at: {from: target, offset: [0, -9, 4]}, look_at: walker}
+      - {at: {from: target, offset: [9, -9, 4]}, look_at: walker, time: 1.5}
+      - {at: {from: target, offset: [0, -9, 6]}, look_at: walker, time: 3.0}
+      - {at: {from: target, offset: [0, -9, 6]}, look_at: walker}
+"""
+
+
+class TestRefused:
+    def test_keyframes_out_of_reach_are_told_with_the_times_that_do(self) -> None:
+        done = compiled(ZIGZAG)
+        (fault,) = [d for d in done.diagnostics if d.code == "M015"]
+        assert done.plan is None
+        found = re.match(
+            r"give the shot `duration: ([\d.]+) s`, and every `time` ([\d.]+) times as late", fault.help
+        )
+        assert found is not None
+        lasts, times = float(found[1]), float(found[2])
+        slower = re.sub(r"time: ([\d.]+)", lambda at: f"time: {float(at[1]) * times}", ZIGZAG)
+        planned(slower, f"{{start: 15, duration: {lasts}}}")
+
+    def test_a_target_that_has_moved_on_is_told_with_a_framing_that_does(self) -> None:
+        shot = KEYS.replace("[45, -22, 9], look_at: walker", "[45, -22, 9], heading: 180 deg, pitch: 0 deg")
+        (fault,) = [d for d in compiled(shot, "{duration: 20}").diagnostics if d.code == "M016"]
+        angles, start = re.findall(r"`(heading: [^`]*|start: [^`]*)`", fault.help)
+        mended = KEYS.replace("[45, -22, 9], look_at: walker", f"[45, -22, 9], {angles}")
+        planned(mended, f"{{{start}, duration: 20}}")

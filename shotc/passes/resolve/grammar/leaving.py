@@ -10,7 +10,6 @@ from shotc.geom.vec import minus
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.place_keyframes.candidates import Setting
-from shotc.passes.resolve.framing import shows
 from shotc.passes.resolve.grammar.places import framing
 from shotc.passes.resolve.grammar.sight import begins
 
@@ -62,4 +61,4 @@ def _seen(mission: MissionIR, shot: Shot, name: str, start: float, t: float) -> 
     setting = Setting(
         offset, target.radius, target.height, drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2
     )
-    return shows(setting, shot.ideal.aim)
+    return setting.shows(shot.ideal.aim)
