@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from shotc_casadi import conditions
 from shotc_casadi.conditions import Condition
-from shotc_casadi.problem import Margins, problem
+from shotc_casadi.margins import Margins
+from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem
 from shotc_casadi.refiner import subjects
 from shotc_casadi.stages import Stages, stages
@@ -59,7 +60,7 @@ def task(
 ) -> Problem:
     """The optimal-control problem of a shot on few stages."""
     nodes = nodes_of(of, count)
-    walls = half_spaces(of.room, of.leg.curve, nodes, 0.5)
+    walls = half_spaces(of.room, of.leg.curve, nodes, margins)
     return problem(of, condition, nodes, wishes(of, condition, nodes.s), walls, margins)
 
 

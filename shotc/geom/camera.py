@@ -11,6 +11,9 @@ from typing import Any, NamedTuple
 from shotc.geom.angles import direction
 from shotc.geom.vec import Vec2, Vec3
 
+ROUNDING = 1e-6
+"""Metres out of the frame that are rounding, as in every other limit: a target may touch the frame's edge."""
+
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
 
 

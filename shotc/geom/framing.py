@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import View, frustum_margins, nearest_depth, point_margins, silhouette_bounds
+from shotc.geom.camera import ROUNDING, View, frustum_margins, nearest_depth, point_margins, silhouette_bounds
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.solids_array import blocks, signed_distance
@@ -63,7 +63,7 @@ class Frames:
     @property
     def in_frame(self) -> Mask:
         """Whether the whole silhouette is in the frame."""
-        return np.asarray(self.margin >= 0.0)
+        return np.asarray(self.margin >= -ROUNDING)
 
 
 def frames(cameras: Cameras, target: Cylinder, hiding: Sequence[Solid] = ()) -> Frames:

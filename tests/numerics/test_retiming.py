@@ -293,3 +293,14 @@ def test_the_same_path_gives_the_same_bytes():
     a, b = (time_move(path, (0.0, path.end), CEILING) for _ in range(2))
     assert a.curve.ctrl.tobytes() == b.curve.ctrl.tobytes()
     assert a.curve.breaks.tobytes() == b.curve.breaks.tobytes()
+
+
+def test_places_to_be_passed_are_passed_exactly():
+    path = smooth(7)
+    places = (0.31 * path.end, 0.5 * path.end, 0.8 * path.end)
+    move = time_move(path, (0.0, path.end), CEILING, places)
+    assert set(places) <= set(move.profile.s)
+    for place in places:
+        at = move.curve.breaks[list(move.profile.s).index(place)]
+        assert move.curve(at) == pytest.approx(path(place), abs=1e-12)
+        assert path.derivative()(place) @ move.curve.derivative()(at) > 0

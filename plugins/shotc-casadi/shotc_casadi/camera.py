@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from shotc.plugin_api import Leg, Piecewise
@@ -29,11 +31,21 @@ class NoFit(Exception):
     """No spline comes near the nodes within the gimbal's range."""
 
 
-def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, ends: Array) -> Piecewise:
+class Given(NamedTuple):
+    """Places on the path where the camera's angles bind, both ends among them.
+
+    s : path parameter, shape (K,); angles : yaw and pitch, shape (K, 2)
+    """
+
+    s: Array
+    angles: Array
+
+
+def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, given: Given) -> Piecewise:
     """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline through the changes.
 
     states : shape (N + 1, 16) as in symbols
-    ends : yaw and pitch at the leg's two ends, shape (2, 2), met exactly; so are the positions that bind
+    given : is met exactly; so are the positions that bind
     """
     curve = leg.curve
     assert curve is not None
@@ -41,13 +53,12 @@ def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, ends: Array) -
     base = restrict(curve.channels(0, 1, 2, CAM_YAW, CAM_PITCH), breaks)
     change = states[:, [0, 1, 2, YAW, PITCH]] - base(stages.s)
     pinned = stages.s[stages.pins]
-    outer = np.array([curve.start, curve.end])
-    at_ends = ends - base(outer)[:, 3:]
+    turned = given.angles - base(given.s)[:, 3:]
     low, high = drone.gimbal.pitch
     pitch = base.ctrl[:, :, 4]
     fits = [_fit(breaks, stages, change[:, k], (pinned, np.zeros(len(pinned)))) for k in range(3)]
-    fits.append(_fit(breaks, stages, change[:, 3], (outer, at_ends[:, 0])))
-    fits.append(_fit(breaks, stages, change[:, 4], (outer, at_ends[:, 1]), (low - pitch, high - pitch)))
+    fits.append(_fit(breaks, stages, change[:, 3], (given.s, turned[:, 0])))
+    fits.append(_fit(breaks, stages, change[:, 4], (given.s, turned[:, 1]), (low - pitch, high - pitch)))
     ctrl = base.ctrl + spline(breaks, np.column_stack(fits)).ctrl
     ctrl[:, :, 4] = within(ctrl[:, :, 4], low, high)
     return Piecewise(breaks, ctrl)

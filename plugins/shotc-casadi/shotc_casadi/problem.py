@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 
 import numpy as np
@@ -11,6 +10,7 @@ from scipy.interpolate import make_interp_spline
 from shotc.refiner_api import CAM_PITCH, CAM_YAW, Array
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due
+from shotc_casadi.margins import Margins
 from shotc_casadi.program import Problem
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import (
@@ -35,37 +35,26 @@ from shotc_casadi.symbols import (
 )
 from shotc_casadi.wishes import Subject, Wishes, fields_of_view
 
-# Weights of the cost. Every term is a mean over the nodes or the time, relative to the time of the
-# first guess, so that they mean the same for a shot of 5 s and one of 5 min.
-FRAMING = 1e3  # per rad^2
-VISIBILITY = 1e5  # per squared share of the distance to the target
-AIMING = 10.0  # per rad^2
+# Weights of the cost. Every term is a mean over the nodes or the time, and without dimension: half frames
+# for the picture, lengths as shares of the distance to the target, rates as shares of their limits, times as
+# shares of the shot's. So they mean the same for a person from 5 m and a ship from 500 m, whatever the lens,
+# in 5 s and in 5 min. The unit is the time: a share of the shot's time costs that share. What comes before it
+# is worth more by orders of magnitude: the flight's shape, the target's place on screen, the whole of it in
+# the frame. Who backs off by a share of the distance shrinks the picture by that share, so POSITION_ERROR
+# over VISIBILITY is the share of a crop that remains until the nodes ask for more.
 POSITION_ERROR = 3e3  # per squared share of the distance to the target
+FRAMING = 3e4  # per squared half frame
+VISIBILITY = 1e6  # per squared half frame
+AIMING = 10.0  # per rad^2: where no target is framed, angles are what the author gave
 JERK_SHARE = 1.0  # per squared share of the jerk limit
 ANGULAR_JERK_SHARE = 1.0  # per squared share of what reaches the gimbal's acceleration in a second
 PACE = 0.3  # per squared relative change of a stage's length
-LAG = 10.0  # per squared share of the way to the neighbouring nodes, so that a node is where it says it is
-PIN = 1e4  # per squared share of the distance, or per rad^2, (m/s)^2 ...: values that are given
+LAG = 1e3  # per squared share of the way to the neighbouring nodes, so that a node is where it says it is
+PIN = 1e6  # per squared share of the distance, or half frame: places and angles that are given
+REST = 1e4  # per squared share of the drone's limits: where the drone stands
+TIMED = 1e7  # per squared share of the shot's time: when it is to be where
 KNOTS = 50  # of the motion that is the first guess, besides the places that bind
 SLOWEST, FASTEST = 5.0, 0.2  # bounds on a stage's length against the first guess
-
-
-@dataclass(frozen=True, slots=True)
-class Margins:
-    """What is kept from the limits so that they hold between the nodes, too.
-
-    frame : share of the frame that the target has to fit into
-    room : metres kept from obstacles beyond what the convex path kept
-    limits : share of the drone's and the gimbal's limits that may be used
-    comfort : share kept of the room that the convex path has beyond its clearances
-    hold : factor on the price of leaving the convex path
-    """
-
-    frame: float = 0.97
-    room: float = 0.0
-    limits: float = 1.0
-    comfort: float = 0.5
-    hold: float = 1.0
 
 
 def problem(
@@ -135,7 +124,7 @@ def _parameters(
         "place": wanted.place,
         "half_width": wide,
         "half_height": tall,
-        "frame": np.full(n + 1, margins.frame),
+        "inside": wanted.inside,
         "aim": wanted.aim,
         "state": pinned,
         "state_weight": each * weight,
@@ -157,10 +146,16 @@ def _parameters(
 
 
 def _distance(wanted: Wishes, reference: Array, stages: Stages) -> Array:
-    """Return the distance to the target by which errors are measured, metres, shape (N + 1,)."""
-    if not wanted.framed.any():
-        return np.full(len(stages.s), max(1.0, 0.2 * float(stages.s[-1] - stages.s[0])))
-    return np.asarray(np.maximum(np.linalg.norm(wanted.centre - reference, axis=1), 1.0))
+    """Return the distance to the target by which lengths are measured, metres, shape (N + 1,).
+
+    That of the places that bind, and between them between theirs: how near the reference happens to pass is
+    no reason to keep it there. Where nothing is framed it is a fifth of the path.
+    """
+    pins = stages.pins[wanted.framed[stages.pins] > 0]
+    if not len(pins):
+        return np.full(len(stages.s), 0.2 * float(stages.s[-1] - stages.s[0]))
+    away = np.linalg.norm(wanted.centre[pins] - reference[pins], axis=1)
+    return np.asarray(np.interp(stages.s, stages.s[pins], away))
 
 
 def _planes(walls: Array, margins: Margins) -> Array:
@@ -181,22 +176,31 @@ def _pinned(
     weight = np.zeros_like(value)
     weight[:, POSITION] = (POSITION_ERROR / distance**2)[:, None]
     leg, s = subject.leg, stages.s
-    hard = PIN / distance**2
+    half = fields_of_view(subject, s)[1]
     pins = [int(k) for k in stages.pins]
     rests = [stop.s for stop in leg.stops]
     times = dict(zip(*due(leg), strict=True))
+    shares = _shares(subject)
     for k in pins:
-        weight[k, POSITION] = hard[k] * 100
+        weight[k, POSITION] = PIN / distance[k] ** 2
+        if k in (pins[0], pins[-1]) or wanted.framed[k]:
+            weight[k, [YAW, PITCH]] = PIN / half[k] ** 2
         if _among(s[k], rests):
-            still = [*range(3, 9), YAW_RATE, YAW_ACCELERATION, PITCH_RATE, PITCH_ACCELERATION]
-            value[k, still] = 0.0
-            weight[k, still] = PIN
+            value[k, shares > 0] = 0.0
+            weight[k] += REST * shares**2
         if s[k] in times:
-            value[k, TIME], weight[k, TIME] = times[s[k]], PIN
-    for k in (pins[0], pins[-1]):
-        weight[k, [YAW, PITCH]] = 100 * PIN
+            value[k, TIME], weight[k, TIME] = times[s[k]], TIMED / float(stages.t[-1]) ** 2
     weight[:, POSITION] *= margins.hold
     return value, weight
+
+
+def _shares(subject: Subject) -> Array:
+    """Return one over the limit of every rate and acceleration of the state, 0 for the rest of it."""
+    limits, shares = subject.drone.limits, np.zeros(STATES)
+    shares[VELOCITY], shares[ACCELERATION] = 1.0 / limits.speed, 1.0 / limits.acceleration
+    for index, bound in _turning(subject).items():
+        shares[index] = 1.0 / bound
+    return shares
 
 
 def _among(s: float, places: list[float]) -> bool:
@@ -208,18 +212,23 @@ def _state_bounds(subject: Subject, nodes: int, margins: Margins) -> tuple[Array
     pace = _pace(subject, margins)
     low, high = np.full((nodes, STATES), -inf), np.full((nodes, STATES), inf)
     low[:, 5], high[:, 5] = -pace * limits.descent, pace * limits.climb
+    for index, bound in _turning(subject).items():
+        low[:, index], high[:, index] = -pace * bound, pace * bound
+    low[:, PITCH], high[:, PITCH] = gimbal.pitch
+    return low, high
+
+
+def _turning(subject: Subject) -> dict[int, float]:
+    """Return the limits of the camera's rates and accelerations, by their index in the state."""
+    limits, gimbal = subject.drone.limits, subject.drone.gimbal
     # The camera turns with the body and on its gimbal; only a camera that the body follows has no gimbal.
     own = 0.0 if subject.drone.body == "follow-camera" else 1.0
-    bounds = {
+    return {
         YAW_RATE: limits.yaw_rate + own * gimbal.rate,
         YAW_ACCELERATION: limits.yaw_acceleration + own * gimbal.acceleration,
         PITCH_RATE: gimbal.rate,
         PITCH_ACCELERATION: gimbal.acceleration,
     }
-    for index, bound in bounds.items():
-        low[:, index], high[:, index] = -pace * bound, pace * bound
-    low[:, PITCH], high[:, PITCH] = gimbal.pitch
-    return low, high
 
 
 def _input_bounds(inputs: Array) -> tuple[Array, Array]:

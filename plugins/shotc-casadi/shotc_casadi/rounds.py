@@ -7,20 +7,24 @@ from functools import partial
 from math import inf, nan
 from typing import NamedTuple
 
+import numpy as np
+
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import Array, NoTransit, shortfall
-from shotc_casadi.camera import NoFit, camera
+from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due, unhurried
+from shotc_casadi.frames import asked_again, asked_at_first
 from shotc_casadi.horizon import Solver
-from shotc_casadi.problem import Margins, problem
+from shotc_casadi.margins import Margins, tighter
+from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem, solve
-from shotc_casadi.proof import Check, checked, hopeless, tighter
+from shotc_casadi.proof import Check, checked, hopeless
 from shotc_casadi.solving import SOLVERS, Attempt, Solution, by_one_of
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, YAW
 from shotc_casadi.walls import half_spaces
-from shotc_casadi.wishes import Subject, wishes
+from shotc_casadi.wishes import Subject, Wishes, wishes
 
 ROUNDS = 6
 HOLD_AFTER = 3  # rounds, after which the convex path is all but held: it is known to be clear
@@ -82,15 +86,15 @@ def _refine(
     assert leg.curve is not None
     assert leg.shot is not None
     nodes = stages(leg, subject.placed, subject.drone, count)
-    wanted = wishes(subject, condition, nodes.s)
+    wanted = asked_at_first(subject, nodes, wishes(subject, condition, nodes.s))
     margins = Margins()
     walls = _walls(subject, nodes, margins)
     following = problem(subject, condition, nodes, wanted, walls, margins)
-    ends = following.states[[0, -1]][:, [YAW, PITCH]]
+    given = _given(nodes, wanted, following)
     done: list[_Tried] = []
     for rounds in range(1, ROUNDS + 1):
         attempt = by_one_of(solvers, partial(solve, following))
-        tried = _tried(subject, condition, nodes, following, attempt, ends)
+        tried = _tried(subject, condition, nodes, following, attempt, given)
         helped = not done or tried.check.helped(min(t.check for t in done))
         done.append(tried)
         best = min(done, key=lambda t: t.check)
@@ -98,6 +102,8 @@ def _refine(
             break
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
         walls = _walls(subject, nodes, margins)
+        if tried.check.cropped > 0:
+            wanted = asked_again(subject, nodes, wanted, tried.camera)
         tightened = problem(subject, condition, nodes, wanted, walls, margins)
         following = replace(tightened, states=attempt.solution.states, inputs=attempt.solution.inputs)
     return _result(subject, nodes, done, best), best.check
@@ -107,7 +113,14 @@ def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
     """Return the half-spaces that the nodes are kept in."""
     assert subject.leg.curve is not None
     others = None if subject.beside is None else subject.beside(nodes.s)
-    return half_spaces(subject.room, subject.leg.curve, nodes, margins.comfort, others)
+    return half_spaces(subject.room, subject.leg.curve, nodes, margins, others)
+
+
+def _given(nodes: Stages, wanted: Wishes, task: Problem) -> Given:
+    """Return the angles that bind: at both ends, and at keyframes whose target has its place on screen."""
+    inner = nodes.pins[1:-1]
+    at = np.concatenate([[0], inner[wanted.framed[inner] > 0], [len(nodes.s) - 1]])
+    return Given(nodes.s[at], task.states[at][:, [YAW, PITCH]])
 
 
 class _Tried(NamedTuple):
@@ -125,13 +138,13 @@ def _tried(
     nodes: Stages,
     task: Problem,
     attempt: Attempt,
-    ends: Array,
+    given: Given,
 ) -> _Tried:
     nothing = _Tried(None, Check(inf, inf, inf), task, attempt)
     if attempt.solution.status != "solved":
         return nothing
     try:
-        found = camera(subject.drone, subject.leg, nodes, attempt.solution.states, ends)
+        found = camera(subject.drone, subject.leg, nodes, attempt.solution.states, given)
         return nothing._replace(camera=found, check=checked(subject, condition, found))
     except (NoFit, NoTransit):
         return nothing

@@ -23,6 +23,9 @@ POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
 YAW, YAW_RATE, YAW_ACCELERATION, PITCH, PITCH_RATE, PITCH_ACCELERATION, TIME = range(9, 16)
 JERK, YAW_JERK, PITCH_JERK, LENGTH = slice(0, 3), 3, 4, 5
 
+RIGHT, UP, AHEAD = range(3)  # what _to_camera returns
+EDGES = ((RIGHT, 1), (RIGHT, -1), (UP, 1), (UP, -1))  # left, right, bottom, top: axis, and the way inwards
+
 FIELDS = {
     "centre": 3,
     "radius": 1,
@@ -30,7 +33,7 @@ FIELDS = {
     "place": 2,
     "half_width": 1,
     "half_height": 1,
-    "frame": 1,
+    "inside": 4,
     "aim": 2,
     "state": STATES,
     "state_weight": STATES,
@@ -49,7 +52,7 @@ FIELDS = {
 
 centre, radius, height : the target's cylinder, W, metres
 place : (u, v) wanted of its centre; half_width, half_height : tan of half the fields of view
-frame : share of the frame the target has to fit into
+inside : half frames that the target is to be inside the frame's left, right, bottom and top edge
 aim : yaw and pitch wanted; state : wanted state
 tangent : unit vector along the reference path
 lag, framing, visibility, aiming, state_weight, jerk, angular_jerk, time, pace : weights in the cost
@@ -164,10 +167,15 @@ def _to_camera(d: Any, yaw: Any, pitch: Any) -> tuple[Any, Any, Any]:
 
 
 def _framing(view: tuple[Any, Any, Any], distance: Any, given: dict[str, Any]) -> Any:
-    """Return c_f of Gebhardt and Hilliges, Eq. 3: squared distance of unit rays."""
-    place = given["place"]
-    ray = ca.vertcat(place[0] * given["half_width"], place[1] * given["half_height"], 1)
-    return ca.sumsqr(ca.vertcat(*view) / distance - ray / ca.norm_2(ray))
+    """Return c_f of Gebhardt and Hilliges, Eq. 3: squared distance of unit rays, here in half frames.
+
+    Their axes are divided by half the screen's width and height (the axis ahead by the width), so that what
+    a weight buys does not depend on the lens.
+    """
+    place, wide, tall = given["place"], given["half_width"], given["half_height"]
+    ray = ca.vertcat(place[0] * wide, place[1] * tall, 1)
+    apart = ca.vertcat(*view) / distance - ray / ca.norm_2(ray)
+    return ca.sumsqr(apart / ca.vertcat(wide, tall, wide))
 
 
 def _aiming(x: Any, given: dict[str, Any]) -> Any:
@@ -178,28 +186,22 @@ def _aiming(x: Any, given: dict[str, Any]) -> Any:
 def _cropped(
     visibility: Visibility, x: Any, offset: Any, view: tuple[Any, Any, Any], distance: Any, given: Any
 ) -> Any:
-    """Return c_v: squared lengths, as shares of the distance, by which the target sticks out of the frame."""
-    wide, tall = given["half_width"] * given["frame"], given["half_height"] * given["frame"]
-    across, along = 1 / ca.sqrt(1 + wide**2), 1 / ca.sqrt(1 + tall**2)
-    right, up, forward = view
-    inside = [
-        across * (wide * forward + right),
-        across * (wide * forward - right),
-        along * (tall * forward + up),
-        along * (tall * forward - up),
-    ]
-    if visibility == "silhouette":
-        sin, cos = ca.sin(x[PITCH]), ca.cos(x[PITCH])
-        normals = [wide * across * sin] * 2 + [along * (tall * sin + cos), along * (tall * sin - cos)]
-        gaps = [i - _reach(n, given) for i, n in zip(inside, normals, strict=True)]
-    else:
-        gaps = [
-            across * (wide * f + r) if side == 0 else along * (tall * f + r)
-            for point in _hull_points(offset, given)
-            for r0, u0, f in [_to_camera(point, x[YAW], x[PITCH])]
-            for side, r in ((0, r0), (0, -r0), (1, u0), (1, -u0))
-        ]
-    return sum(ca.fmax(0, -gap / distance) ** 2 for gap in gaps)
+    """Return c_v: squared half frames by which the target is less inside the frame than it is to be.
+
+    How far it is from a plane of the frustum, over what half a frame is at the target's distance.
+    """
+    sin, cos = ca.sin(x[PITCH]), ca.cos(x[PITCH])
+    exact = visibility == "silhouette"
+    points = [view] if exact else [_to_camera(p, x[YAW], x[PITCH]) for p in _hull_points(offset, given)]
+    cost = 0.0
+    for index, (axis, sign) in enumerate(EDGES):
+        half = given["half_height" if axis == UP else "half_width"]
+        normal = ca.sqrt(1 + half**2)
+        reach = _reach((half * sin + (sign * cos if axis == UP else 0)) / normal, given) if exact else 0.0
+        for point in points:
+            gap = half * point[AHEAD] + sign * point[axis] - normal * reach
+            cost += ca.fmax(0, given["inside"][index] - gap / (half * distance)) ** 2
+    return cost
 
 
 def _reach(up: Any, given: dict[str, Any]) -> Any:

@@ -8,9 +8,9 @@ import numpy as np
 
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import Array, IntArray, Room, corridor, kept
+from shotc_casadi.margins import Margins
 from shotc_casadi.stages import Stages
 
-REACH = 8.0  # metres beyond its clearance within which an obstacle counts
 POINTS = 5  # of the reference, whose hull stands for a node and its neighbourhood
 COUNTS = (0, 2, 4, 8, 16)  # how many half-spaces a programme may have, so that few are built
 FREE = -1.0  # slack in metres of a half-space that means nothing
@@ -24,26 +24,26 @@ class NodePlanes(NamedTuple):
 
 
 def half_spaces(
-    room: Room, reference: Piecewise, stages: Stages, share: float, others: NodePlanes | None = None
+    room: Room, reference: Piecewise, stages: Stages, margins: Margins, others: NodePlanes | None = None
 ) -> Array:
     """Return half-spaces n.p >= b that hold near every node, shape (N + 1, M, 4): normal and b.
 
-    share : of the room that the reference has beyond its clearances, kept (see ``corridor``)
+    margins : comfort and reach
     others : half-spaces beside what moves, to hold as well
     The nearest ones of each node; M is the same for all, and rows that mean nothing hold everywhere.
     """
-    s = stages.s
+    s, share = stages.s, margins.comfort
     low = np.concatenate([s[:1], s[:-1]])
     high = np.concatenate([s[1:], s[-1:]])
     hulls = reference(low[:, None] + np.linspace(0.0, 1.0, POINTS) * (high - low)[:, None])[:, :, :3]
     nodes: list[list[tuple[float, Array]]] = [[] for _ in s]
-    planes = corridor(room, hulls, REACH, share)
+    planes = corridor(room, hulls, margins.reach, share)
     rows = np.column_stack([planes.normal, planes.offset])
     for k, row in zip(planes.piece, rows, strict=True):
         nodes[int(k)].append((_slack(hulls[k], row), row))
     for k, hull in enumerate(hulls):
         nodes[k] += [
-            (slack, row) for row in _bounds(room, hull, share) if (slack := _slack(hull, row)) < REACH
+            (slack, row) for row in _bounds(room, hull, share) if (slack := _slack(hull, row)) < margins.reach
         ]
     for k, row in zip(*((), ()) if others is None else others, strict=True):
         nodes[int(k)].append((_slack(hulls[k], row), row))

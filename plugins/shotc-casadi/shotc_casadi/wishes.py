@@ -42,6 +42,7 @@ class Wishes:
 
     centre (N + 1, 3), radius, height, place (N + 1, 2), aim (N + 1, 2) : as in symbols.FIELDS
     framed : where the target is to be at its place; whole : where it is to be in the frame
+    inside : half frames that it is to be inside the left, right, bottom and top edge then, (N + 1, 4)
     """
 
     centre: Array
@@ -51,6 +52,7 @@ class Wishes:
     aim: Array
     framed: Array
     whole: Array
+    inside: Array
 
 
 Beside = Callable[[Array], NodePlanes]
@@ -88,9 +90,9 @@ def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
     assert subject.leg.curve is not None
     angles = _unwrapped([own_angles(subject, k) for _, k in keys], subject.leg.curve(at)[:, CAM_YAW])
     turn = np.column_stack([steady(at, angles[:, i])(s)[:, 0] for i in (0, 1)])
-    nothing = _nothing(subject, s)
+    nothing, edges = _nothing(subject, s), np.zeros((len(s), 4))
     if condition.aims == "angles":
-        return Wishes(*nothing[:4], turn, nothing[5], nothing[6])
+        return Wishes(*nothing[:4], turn, nothing[5], nothing[6], edges)
     points = np.array(
         [
             sight_point(subject.mission, subject.room, k, tuple(a))
@@ -101,7 +103,7 @@ def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
     looked_at = (1 - x) * points[i] + x * points[i + 1]
     _, radius, height, place, _, _, whole = nothing
     aim = _towards(looked_at - _position(subject, s), turn)
-    return Wishes(looked_at, radius, height, place, aim, np.ones(len(s)), whole)
+    return Wishes(looked_at, radius, height, place, aim, np.ones(len(s)), whole, edges)
 
 
 def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float]:
@@ -130,7 +132,7 @@ def _framed(subject: Subject, s: Array) -> Wishes:
         place[here] = (1 - share) * np.array(a.reference) + share * np.array(b.reference)
         framed[here] = 1.0
         whole[here] = 1.0
-    return Wishes(centre, radius, height, place, aim, framed, whole)
+    return Wishes(centre, radius, height, place, aim, framed, whole, np.zeros((len(s), 4)))
 
 
 def _nothing(subject: Subject, s: Array) -> tuple[Array, Array, Array, Array, Array, Array, Array]:

@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from shotc_casadi.camera import NoFit, camera
+from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.symbols import PITCH, YAW
 
 from shotc.ir.path import CAM_PITCH, CAM_YAW
@@ -27,12 +27,16 @@ def moved(of, nodes, *, by=0.3, pitch=0.0):
     return states
 
 
+def at_ends(nodes, states):
+    return Given(nodes.s[[0, -1]], states[[0, -1]][:, [YAW, PITCH]])
+
+
 @pytest.mark.parametrize("make", [arc, walled])
 def test_the_camera_is_smooth_and_exact_where_it_binds(make):
     of, nodes = make(), nodes_of(make(), 100)
     states = moved(of, nodes)
     ends = states[[0, -1]][:, [YAW, PITCH]]
-    found = camera(of.drone, of.leg, nodes, states, ends)
+    found = camera(of.drone, of.leg, nodes, states, at_ends(nodes, states))
     bound = nodes.s[nodes.pins]
     assert found(bound)[:, :3] == pytest.approx(of.leg.curve(bound)[:, :3], abs=1e-9)
     assert found(np.array([found.start, found.end]))[:, 3:] == pytest.approx(ends, abs=1e-9)
@@ -54,7 +58,7 @@ def test_the_camera_keeps_the_gimbals_pitch():
     low = float(of.leg.curve.ctrl[:, :, CAM_PITCH].min())
     top = float(of.leg.curve.ctrl[:, :, CAM_PITCH].max()) + 0.1
     drone = changed(of.drone, gimbal=changed(of.drone.gimbal, pitch=(low, top)))
-    found = camera(drone, of.leg, nodes, states, states[[0, -1]][:, [YAW, PITCH]])
+    found = camera(drone, of.leg, nodes, states, at_ends(nodes, states))
     assert found.ctrl[:, :, 4].max() <= top + 1e-6
     assert found.ctrl[:, :, 4].min() >= low - 1e-6
     assert found.ctrl[:, :, 4].max() == pytest.approx(top, abs=1e-3)
@@ -65,4 +69,4 @@ def test_ends_that_the_gimbal_does_not_reach_are_no_camera():
     states = moved(of, nodes)
     drone = changed(of.drone, gimbal=changed(of.drone.gimbal, pitch=(-0.05, 0.0)))
     with pytest.raises(NoFit):
-        camera(drone, of.leg, nodes, states, states[[0, -1]][:, [YAW, PITCH]])
+        camera(drone, of.leg, nodes, states, at_ends(nodes, states))

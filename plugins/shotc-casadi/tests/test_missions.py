@@ -100,13 +100,25 @@ def test_the_convex_path_crops_what_ours_shows():
 
 
 WALLED = NEAR.replace(
-    "zones: {", "zones: {wall: {keep: out, box: {center: [0, -37.6, 20], size: [30, 6, 40]}}, "
+    "zones: {", "zones: {wall: {keep: out, box: {center: [0, -36, 20], size: [30, 6, 40]}}, "
 )
-"""The camera should step back from the tower, and cannot."""
+"""The camera cannot step back from the tower: it has to rise."""
+LOW = WALLED.replace(
+    "zones: {", "zones: {field: {keep: in, box: {center: [0, 0, 11.5], size: [180, 84, 3]}}, "
+).replace("home: [0, -90, 0]", "home: [-60, -38, 0]")
+"""Nor may it rise."""
+
+
+def test_a_camera_that_cannot_step_back_backs_off_another_way():
+    done = compiled(WALLED)
+    sound(done)
+    assert seen(done.plan).inside.min() > 0.0
+    curve = leg_named(path_of(done)).curve
+    assert curve(np.linspace(curve.start, curve.end, 50))[:, 2].max() > 15.0
 
 
 def test_where_framing_and_a_wall_conflict_the_wall_wins_and_the_loss_is_told():
-    done = compiled(WALLED)
+    done = compiled(LOW)
     assert done.plan is not None
     assert [d.code for d in done.diagnostics] == ["V030"]
     assert all(claim.holds for claim in done.plan.certificate if claim.hard)
@@ -115,9 +127,9 @@ def test_where_framing_and_a_wall_conflict_the_wall_wins_and_the_loss_is_told():
     points = curve(np.linspace(curve.start, curve.end, 150))[:, :3]
     assert min(least_room(path.keyframes.mission, path.keyframes.mission.drones[0], p) for p in points) > 0
     assert dict(path.stats)["s.refine_rounds"] <= ROUNDS
-    found, convex = seen(done.plan), seen(compiled(WALLED, "none").plan)
+    found, convex = seen(done.plan), seen(compiled(LOW, "none").plan)
     assert convex.inside.min() < found.inside.min() < 0.0
-    assert found.off.max() < 1e-3
+    assert found.off.max() < 0.01  # its place on screen yields a little to the whole of it
 
 
 def test_what_the_nodes_do_not_keep_is_tightened_until_it_is_proved(monkeypatch):

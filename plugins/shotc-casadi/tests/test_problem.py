@@ -7,7 +7,7 @@ from math import atan2, sin
 import numpy as np
 import pytest
 from shotc_casadi.conditions import LOOK_AT
-from shotc_casadi.problem import Margins
+from shotc_casadi.margins import Margins
 from shotc_casadi.symbols import FIELDS, PITCH, TIME, YAW
 from shotc_casadi.wishes import wishes
 
@@ -24,10 +24,8 @@ def test_the_first_guess_is_at_rest_at_its_ends_and_on_the_path():
     assert np.isfinite(made.parameters).all()
 
 
-def test_margins_narrow_the_frame_the_limits_and_the_room():
-    plain, tight = task(walled()), task(walled(), margins=Margins(frame=0.9, room=0.2, limits=0.8, hold=5.0))
-    at = dict(zip(FIELDS, np.cumsum([0, *FIELDS.values()]), strict=False))
-    assert set(tight.parameters[:, at["frame"]]) == {0.9}
+def test_margins_narrow_the_limits_and_the_room():
+    plain, tight = task(walled()), task(walled(), margins=Margins(room=0.2, limits=0.8, hold=5.0))
     assert tight.held[1][:2] == pytest.approx(plain.held[1][:2] * 0.8**2)
     assert tight.driven[1] == pytest.approx(plain.driven[1] * 0.8**2)
     assert tight.state_bounds[1][:, 5] == pytest.approx(plain.state_bounds[1][:, 5] * 0.8)

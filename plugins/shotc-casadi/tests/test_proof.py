@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import hypot
+from math import atan, hypot, sin, tan
 
 import numpy as np
 import pytest
 from shotc_casadi.conditions import OURS, OURS_4PT
-from shotc_casadi.problem import Margins
-from shotc_casadi.proof import Check, checked, hopeless, tighter
+from shotc_casadi.margins import FAR, Margins, tighter
+from shotc_casadi.proof import Check, checked, hopeless
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import frustum_margins, view
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from tests.path_scenes import ASPECT, HFOV, TOWER
 from tests.refiner_scenes import arc, walled
+
+# Angles of the frustum's planes to the view: half a frame is their sine from the plane, a metre away.
+HALVES = [atan(tan(HFOV / 2) / by) for by in (1.0, 1.0, ASPECT, ASPECT)]
 
 
 def convex(of):
@@ -47,7 +50,7 @@ def test_a_target_that_sticks_out_between_nodes_is_found():
     for x, y, z, yaw, pitch in found(s):
         d = (-x, -y, 12.0 - z)
         inside = frustum_margins(view(yaw, pitch, HFOV, ASPECT), d, TOWER.radius, TOWER.height)
-        worst = max(worst, -min(inside) / hypot(*d))
+        worst = max(worst, *(-m / (sin(a) * hypot(*d)) for m, a in zip(inside, HALVES, strict=True)))
     assert worst > 0.01
     assert check.cropped == pytest.approx(worst, rel=0.02)
     assert checked(of, OURS_4PT, found).cropped == 0.0  # the paper's four points are no promise
@@ -72,8 +75,11 @@ def test_margins_make_up_for_what_was_open():
     margins = tighter(Margins(), Check(0.1, 0.05, 0.01), hold=True)
     assert margins.room > 0.1
     assert margins.limits < 1 / 1.05
-    assert margins.frame < Margins().frame - 0.01
     assert margins.hold > 1.0
+    # What lacks a metre has met an obstacle that the nodes did not know: it counts before more room is kept.
+    unseen = tighter(Margins(), Check(1.0, 0.0, 0.0), hold=False)
+    assert (unseen.reach, unseen.room) == (FAR, 0.0)
+    assert tighter(unseen, Check(1.0, 0.0, 0.0), hold=False).room > 1.0
     assert tighter(Margins(), Check(0.0, 0.0, 0.0), hold=True) == Margins()
     assert Check(0, 0, 0).holds
     assert not Check(0, 1e-9, 0).holds

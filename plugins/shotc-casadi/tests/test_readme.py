@@ -23,6 +23,8 @@ WEIGHTS = {
     "pace": problem.PACE,
     "lag": problem.LAG,
     "pins": problem.PIN,
+    "rests": problem.REST,
+    "due": problem.TIMED,
     "place": weights.PLACE,
     "given place": weights.PLACED,
     "leash": weights.LEASH,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from shotc_casadi.margins import Margins
 from shotc_casadi.walls import COUNTS, FREE, half_spaces
 
 from shotc.geom.convex import support
@@ -14,7 +15,7 @@ from tests.refiner_scenes import nodes_of, subject, walled
 
 def test_every_half_space_holds_at_its_node_and_parts_it_from_something():
     of, nodes = walled(), nodes_of(walled(), 60)
-    planes = half_spaces(of.room, of.leg.curve, nodes, 0.5)
+    planes = half_spaces(of.room, of.leg.curve, nodes, Margins())
     assert planes.shape[1] in COUNTS[1:]
     p = of.leg.curve(nodes.s)[:, :3]
     real = np.linalg.norm(planes[:, :, :3], axis=2) > 0
@@ -33,7 +34,7 @@ def test_every_half_space_holds_at_its_node_and_parts_it_from_something():
 
 def test_points_of_an_obstacle_break_the_planes_near_it():
     of, nodes = walled(), nodes_of(walled(), 60)
-    planes = half_spaces(of.room, of.leg.curve, nodes, 0.5)
+    planes = half_spaces(of.room, of.leg.curve, nodes, Margins())
     p = of.leg.curve(nodes.s)[:, :3]
     k = int(np.linalg.norm(p[:, :2] - [31.0, -40.0], axis=1).argmin())
     inside = np.array([[x, y, z] for x in (28, 31, 34) for y in (-50, -44, -38) for z in (1.0, 20.0, 39.0)])
@@ -46,4 +47,4 @@ def test_where_nothing_stands_there_is_no_half_space():
         changed(mission(targets=()), rules=changed(mission().rules, ground_clearance=0.0)),
         shot([free(0, (0, -50, 40)), free(1, (40, -50, 40)), free(2, (60, -20, 40))]),
     )
-    assert half_spaces(of.room, of.leg.curve, nodes_of(of), 0.5).shape == (25, 0, 4)
+    assert half_spaces(of.room, of.leg.curve, nodes_of(of), Margins()).shape == (25, 0, 4)

@@ -88,7 +88,8 @@ def fastest_moves(leg: Leg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...]:
     """Return every move of the leg as fast as the ceiling allows."""
     if leg.curve is None:
         return ()
-    return tuple(_timed(leg.curve, span, ceiling) for span in plan.spans)
+    keyframes = tuple(mark.s for mark in leg.marks)
+    return tuple(_timed(leg.curve, span, ceiling, keyframes) for span in plan.spans)
 
 
 # Where shots have their own clock, the legs between them are timed when they are laid out, and again

@@ -85,14 +85,17 @@ class Move:
         return replace(self, profile=self.profile.stretched(factor), curve=curve)
 
 
-def time_move(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> Move:
+def time_move(
+    path: Piecewise, span: tuple[float, float], ceiling: Ceiling, through: tuple[float, ...] = ()
+) -> Move:
     """Return the fastest jerk-bounded move along path(s) over a span of s, from rest to rest.
 
     path : channels ir.path.CHANNELS, at least C2
+    through : places that are passed exactly; between gridpoints quintics may stray a little from the path
     Where the solver gives no profile on any grid, a rough one is slowed until it keeps every limit.
     """
     limits = axes_of(path, span, ceiling)
-    samples, start, topp_time = _opening(path, span, limits)
+    samples, start, topp_time = _opening(path, span, limits, through)
     first = samples, start
     steps, best, last = 0, None, np.inf
     for _ in range(REFINEMENTS + 1):
@@ -124,11 +127,11 @@ def time_move(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> M
 
 
 def _opening(
-    path: Piecewise, span: tuple[float, float], limits: tuple[Axis, ...]
+    path: Piecewise, span: tuple[float, float], limits: tuple[Axis, ...], through: tuple[float, ...]
 ) -> tuple[Samples, Iterate, float]:
     """Return the first grid, what to start from on it, and the fastest time without a jerk limit."""
     rough_s, rough_b = rough_profile(path, *span, limits)
-    grid = lay_grid(path, rough_s, rough_b, np.empty(0))
+    grid = lay_grid(path, rough_s, rough_b, np.array(through))
     samples = sample(path, grid)
     quickest = fastest(topp_limits(samples, limits))
     around = np.interp(grid, rough_s, rough_b)

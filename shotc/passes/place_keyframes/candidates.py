@@ -9,12 +9,13 @@ from collections.abc import Iterable
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
-from shotc.geom.camera import aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import ROUNDING, aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
 from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import Range
 from shotc.ir.mission import Composition
 
-TOUCH = 1e-6  # metres out of the frame, or past the gimbal's stop at the target, that are rounding
+# Metres out of the frame, or past the gimbal's stop at the target: half of what verification lets pass.
+TOUCH = 0.5 * ROUNDING
 TIE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first
 STEPS = 32  # samples of a line where its nearest point is no candidate
 HALVINGS = 40

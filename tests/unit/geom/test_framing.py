@@ -62,6 +62,15 @@ def test_size_and_flags_are_those_of_the_projected_cylinder(pose, radius: float,
         assert bool(found.in_frame[0]) == (edge < 1)
 
 
+def test_a_target_that_touches_the_edge_is_in_the_frame() -> None:
+    target = Cylinder((0, 0), 1, 0, 1)
+    fits = 1 / np.sin(HFOV / 2)
+    away = fits - np.array([-0.01, 0.0, 1e-6, 1e-5])
+    seen = frames(cameras([[-d, 0, 0.5] for d in away], [0.0] * 4, [0.0] * 4, aspect=0.5), target)
+    assert list(seen.in_frame) == [True, True, True, False]
+    assert seen.margin[2] == pytest.approx(-1e-6 * np.sin(HFOV / 2), rel=1e-6)
+
+
 def test_a_target_behind_the_camera_has_no_place_and_no_size() -> None:
     target = Cylinder((0, 0), 1, 0, 4)
     seen = frames(cameras([[-20, 0, 2], [-20, 0, 2]], [0.0, pi], [0.0, 0.0]), target)

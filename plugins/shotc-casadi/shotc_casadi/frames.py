@@ -1,0 +1,108 @@
+"""How far inside the frame a target is, in half frames, and how far inside the nodes ask it to be.
+
+All of it is without dimension: one half frame is half the picture's width or height, whatever the lens, and
+lengths count as shares of the distance to the target. So the same numbers hold for a person from 5 m and a
+ship from 500 m, at 15 and at 110 deg.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import CAM_PITCH, CAM_YAW, ROUNDING, Array, Mask, View, frustum_margins, subdivide
+from shotc_casadi.conditions import OURS
+from shotc_casadi.stages import Stages
+from shotc_casadi.wishes import Subject, Wishes, fields_of_view, wishes
+
+SAMPLES = 6  # a piece
+INSIDE = 0.03  # half frames kept from the edge at first: a squared hinge alone stops slightly outside
+LEAST = (
+    2e-3  # half frames kept from the edge, at least, where the nodes ask for more after a look between them
+)
+OPENING = (
+    0.1  # half frames that are asked for more, per length of path over the distance, away from a keyframe
+)
+MOST = 0.5  # half frames asked for at most
+
+
+def insides(subject: Subject, wanted: Wishes, s: Array, q: Array) -> Array:
+    """Return how far inside each edge of the frame the whole target lies, half frames, shape (M, 4).
+
+    q : camera x, y, z, yaw, pitch at s, shape (M, 5). Order left, right, bottom, top; negative is cropped.
+    The distance from the frustum's plane (``frustum_margins``, exact), divided by what a half frame is
+    at the target's distance. What verification takes for rounding counts as inside.
+    """
+    offset = (wanted.centre - q[:, :3]).T
+    wide, tall = fields_of_view(subject, s)
+    view = View(np.cos(q[:, 3]), np.sin(q[:, 3]), np.cos(q[:, 4]), np.sin(q[:, 4]), wide, tall)
+    metres = frustum_margins(view, (offset[0], offset[1], offset[2]), wanted.radius, wanted.height)
+    away = np.linalg.norm(offset, axis=0)
+    halves = (wide, wide, tall, tall)
+    rows = [(m + ROUNDING) * np.hypot(1.0, h) / (h * away) for m, h in zip(metres, halves, strict=True)]
+    return np.column_stack(rows)
+
+
+def asked_at_first(subject: Subject, nodes: Stages, wanted: Wishes) -> Wishes:
+    """Return wishes whose nodes ask for their target inside the frame by as much as a first solve takes."""
+    return replace(wanted, inside=np.minimum(INSIDE, _allowed(subject, nodes, nodes.s)))
+
+
+def asked_again(subject: Subject, nodes: Stages, wanted: Wishes, camera: Piecewise) -> Wishes:
+    """Return what the nodes ask for after a camera was looked at between them.
+
+    The method of multipliers (Hestenes 1969, Powell 1969) for the hinge: where the target is nearer to an
+    edge than it should be on either side of a node, the node asks for as much more.
+    """
+    s, inside, whole = between_nodes(subject, camera)
+    lacks = np.minimum(LEAST, _allowed(subject, nodes, s)) - inside
+    lacks[~whole] = 0.0
+    cell = np.clip(np.searchsorted(nodes.s, s) - 1, 0, len(nodes.s) - 2)
+    most = np.zeros((len(nodes.s) - 1, 4))
+    np.maximum.at(most, cell, lacks)
+    more = np.maximum(np.vstack([most[:1], most]), np.vstack([most, most[-1:]]))
+    return replace(wanted, inside=np.minimum(wanted.inside + more, np.maximum(MOST, wanted.inside)))
+
+
+def cropped(subject: Subject, camera: Piecewise) -> float:
+    """Return by how much the target sticks out of the frame at worst, half frames; 0 where it is whole."""
+    _, inside, whole = between_nodes(subject, camera)
+    return float(max(0.0, -inside[whole].min(initial=0.0)))
+
+
+class Looked(NamedTuple):
+    """Dense places on the path.
+
+    s : path parameter, shape (M,); inside : as of ``insides``; whole : where the target is to be whole
+    """
+
+    s: Array
+    inside: Array
+    whole: Mask
+
+
+def between_nodes(subject: Subject, camera: Piecewise) -> Looked:
+    """Look at the target of a camera that holds its composition, at dense places."""
+    s: Array = subdivide(camera.breaks, SAMPLES)
+    wanted = wishes(subject, OURS, s)
+    return Looked(s, insides(subject, wanted, s, camera(s)), wanted.whole > 0)
+
+
+def _allowed(subject: Subject, nodes: Stages, s: Array) -> Array:
+    """Return how far inside the keyframes let the target be at s, shape (M, 4).
+
+    A keyframe is passed exactly, however near to the frame's edge its target is; beside it the camera can
+    only back off bit by bit.
+    """
+    curve = subject.leg.curve
+    assert curve is not None
+    pins, q = nodes.s[nodes.pins], curve(nodes.s[nodes.pins])
+    at = wishes(subject, OURS, pins)
+    own = insides(subject, at, pins, q[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])
+    away = np.linalg.norm(at.centre - q[:, :3], axis=1)
+    opened = own + OPENING * (np.abs(s[:, None] - pins) / away)[:, :, None]
+    opened[:, at.whole == 0] = np.inf
+    return np.asarray(opened.min(axis=1))
