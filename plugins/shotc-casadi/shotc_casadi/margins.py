@@ -3,15 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-
-from shotc_casadi.proof import Check
+from typing import NamedTuple
 
 REACH, FAR = 8.0, 200.0  # metres beyond its clearance within which an obstacle counts, at first and then
 SLIGHT = 0.2  # metres lacking that are a bend between the nodes, no obstacle that the problem did not know
 ROOM_STEP = 0.02  # metres added to what was missing
 LIMIT_STEP = 1.2  # times what was missing
 LITTLE = 0.02  # share of the room beyond the clearances that is kept where the picture needs the rest
+GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
 HOLD = 1e5  # more than the picture is worth
+
+
+class Check(NamedTuple):
+    """What is left open, the worst first.
+
+    lack : metres by which clearance is not proved for all s (Bernstein hulls); 0 is proved
+    late : share of a time asked for by which the fastest flight is too slow
+    cropped : the most that the target sticks out of the frame, half frames
+    """
+
+    lack: float
+    late: float
+    cropped: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether nothing is left open."""
+        return max(self) <= 0.0
+
+    def helped(self, before: Check) -> bool:
+        """Tell whether anything that was open has become notably better."""
+        return any(now < GAIN * then for now, then in zip(self, before, strict=True))
 
 
 @dataclass(frozen=True, slots=True)

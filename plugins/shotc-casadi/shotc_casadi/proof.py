@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from shotc.plugin_api import Piecewise
 from shotc.refiner_api import (
     lateness,
@@ -14,34 +12,12 @@ from shotc.refiner_api import (
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due
 from shotc_casadi.frames import cropped
+from shotc_casadi.margins import Check
 from shotc_casadi.wishes import Subject
 
 PROVED = 1e-6  # metres that a proof may lack
-GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
 HOPELESS = 1.1  # times what is asked that a rough profile takes for no bend of the path to make up for it
 AMPLE = 0.8  # share of what is asked that a rough profile may take for it to be met without a closer look
-
-
-class Check(NamedTuple):
-    """What is left open, the worst first.
-
-    lack : metres by which clearance is not proved for all s (Bernstein hulls); 0 is proved
-    late : share of a time asked for by which the fastest flight is too slow
-    cropped : the most that the target sticks out of the frame, half frames
-    """
-
-    lack: float
-    late: float
-    cropped: float
-
-    @property
-    def holds(self) -> bool:
-        """Whether nothing is left open."""
-        return max(self) <= 0.0
-
-    def helped(self, before: Check) -> bool:
-        """Tell whether anything that was open has become notably better."""
-        return any(now < GAIN * then for now, then in zip(self, before, strict=True))
 
 
 def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:

@@ -16,10 +16,10 @@ from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due, unhurried
 from shotc_casadi.frames import asked_again, asked_at_first
 from shotc_casadi.horizon import Solver
-from shotc_casadi.margins import Margins, tighter
+from shotc_casadi.margins import Check, Margins, tighter
 from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem, solve
-from shotc_casadi.proof import Check, checked, hopeless
+from shotc_casadi.proof import checked, hopeless
 from shotc_casadi.solving import SOLVERS, Attempt, Solution, by_one_of
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, YAW

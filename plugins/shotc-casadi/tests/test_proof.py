@@ -8,8 +8,8 @@ from math import atan, hypot, sin, tan
 import numpy as np
 import pytest
 from shotc_casadi.conditions import OURS, OURS_4PT
-from shotc_casadi.margins import FAR, Margins, tighter
-from shotc_casadi.proof import Check, checked, hopeless
+from shotc_casadi.margins import FAR, Check, Margins, tighter
+from shotc_casadi.proof import checked, hopeless
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import frustum_margins, view

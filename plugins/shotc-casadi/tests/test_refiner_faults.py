@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shotc_casadi import program, refiner, rounds
 from shotc_casadi.camera import NoFit
-from shotc_casadi.proof import Check
+from shotc_casadi.margins import Check
 from shotc_casadi.refiner import ANG, LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.rounds import ROUNDS, SOLVERS
 
