@@ -128,9 +128,9 @@ def test_every_phase_keeps_its_time(text: str) -> None:
 def test_nobody_comes_nearer_than_the_separation_where_a_shot_backs_off() -> None:
     alone = shown(ALONE)
     (apart,) = (c for c in plan(BEHIND).certificate if c.constraint == "separation from cam2")
-    assert alone >= shown(BEHIND) > shown(BEHIND, "none") + 0.2
+    assert shown(BEHIND) == alone == 1.0  # it backs off another way, and as far as it takes
+    assert shown(BEHIND, "none") < 0.8
     assert apart.holds
-    assert apart.worst < 4.0  # it is what keeps the camera from backing off farther
     assert refined(BEHIND) == {"fly-past": "yes", "still": "its camera stands still"}
 
 
