@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import degrees, hypot
+from math import ceil, degrees, hypot
 from typing import Any
 
 import numpy as np
@@ -129,7 +129,7 @@ def _asked(
             row["view"] = {"azimuth": f"{azimuth:.0f} deg"}
             if len(subjects) == 1 and dice.chance(0.5):
                 elevation = degrees(np.arctan2(-offset[2], hypot(*offset[:2])))
-                row["view"]["elevation"] = f"{elevation:.0f} deg"
+                row["view"]["elevation"] = f"{ceil(elevation)} deg"
         rows.append(row)
     if any(row.get("size") == 0 for row in rows):
         rows[0].pop("size")

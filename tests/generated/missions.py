@@ -198,6 +198,7 @@ def _going(cast: _Cast, theme: str, one: Camera, mine: list[Take], name: str) ->
         take = framings.take(dice, one, cast.rules, going[:1], (start, lasts), name, timed=timed)
     else:
         named = cast.rules.composition if cast.rules.composition in PLACES else "center"
+        named = "upper-third" if cast.rules.composition == "thirds-lines" else named
         screen = dice.pick(list(PLACES)) if dice.chance(0.2) else named
         chance = moving.Chance(dice, one, going[0], cast.rules, start, lasts, screen)
         take = moving.take(chance, name, timed=timed)

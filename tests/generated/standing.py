@@ -12,7 +12,7 @@ from tests.generated.cameras import Camera
 from tests.generated.dice import Dice
 from tests.generated.optics import FARTHEST, fitting_distance, shows
 from tests.generated.subjects import Subject
-from tests.generated.takes import CENTRE, PLACES, TARGET_ROOM, Array, Rules, Take, bearing, least_time
+from tests.generated.takes import CENTRE, ONE_OF, PLACES, TARGET_ROOM, Array, Rules, Take, bearing, least_time
 
 LONGEST = 90.0  # metres of a shot's way
 AMPLE = 2.0  # times what the way takes at normal pace, that a given duration is at least
@@ -39,8 +39,8 @@ class Corner(NamedTuple):
 
     @property
     def uv(self) -> tuple[float, float]:
-        """Where the mission's composition has the subject, the centre where it leaves a choice."""
-        return PLACES.get(self.rules.composition, CENTRE)
+        """A place where the mission's composition has the subject, the centre where it may."""
+        return ONE_OF.get(self.rules.composition, CENTRE)
 
     def distance(
         self, z: float, uv: tuple[float, float] | None = None, hfov: float | None = None
@@ -257,7 +257,7 @@ def _crane_of(corner: Corner, moves: tuple[str, ...]) -> Draft | None:
         return None
     keys = {
         **_named(corner),
-        "azimuth": f"{way[0]:g} deg",
+        "azimuth": f"{way[0] % 360:g} deg",
         "distance": list(distance) if "distance" in moves else distance[0],
         "altitude": list(z) if "altitude" in moves else z[0],
     }

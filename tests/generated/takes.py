@@ -21,6 +21,9 @@ PLACES = {
     "lower-third": (0.0, -1 / 3),
     "upper-third": (0.0, 1 / 3),
 }
+ONE_OF = {**PLACES, "thirds-lines": PLACES["upper-third"]}
+"""A place on screen of compositions that do not hold the centre."""
+
 GROUND_ROOM = 0.2  # metres over the ground clearance that no shot goes below
 TARGET_ROOM = 1.0  # metres beside the target clearance
 

@@ -19,6 +19,7 @@ from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, shortfalls, sides
+from shotc.passes.timed_route.preferred import costs_little
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
@@ -147,18 +148,25 @@ def fly(task: Task) -> Flown:
     best = _fly(task, ())
     if best.curve is None:
         return best
-    kept = _kept(task, best.curve)
+    plain, kept = best.curve, _kept(task, best.curve)
     for _ in range(LOOKS):
         if kept.worst >= 0.0 or best.curve is None:
             break
         freer = _fly(task, kept.floors)
-        if freer.curve is None:
+        if freer.curve is None or not _worth_it(task, plain, freer.curve):
             break
         later = _kept(task, freer.curve)
         if later.worst <= kept.worst + PROVED:
             break
         best, kept = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
     return best
+
+
+def _worth_it(task: Task, plain: Piecewise, freer: Piecewise) -> bool:
+    """Tell whether pictures may be kept free at what it costs: whatever it takes where that is required."""
+    if task.mission.rules.visibility == "require":
+        return True
+    return costs_little(task.looker, (task.clock.start, task.clock.end), plain, freer)
 
 
 def _kept(task: Task, course: Piecewise) -> Kept:
