@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import isfinite
 
 from shotc import __version__
 from shotc.diag.model import Diagnostic, Label
@@ -17,8 +16,7 @@ from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
 from shotc.passes.verify.advice import REPLAN
 from shotc.passes.verify.asked import Difference, differences, source_differences
-from shotc.passes.verify.claims import TOLERANCE
-from shotc.passes.verify.numbers import told_apart
+from shotc.passes.verify.certificate import certificate_differences
 from shotc.planfile.read import ReadPlan, read_plan
 from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.units import clip
@@ -30,12 +28,6 @@ REPORTED = 10
 
 NOTED = 3
 """Differing claims that are named where another version of shotc wrote the file."""
-
-_VERDICTS = {
-    "holds": ("holds", "is broken"),
-    "hard": ("is required", "is not required"),
-    "upper": ("is bounded above", "is bounded below"),
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +112,7 @@ def told(
 def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> list[Diagnostic]:
     """Report how the written certificate differs: claim by claim, or at once for another shotc's file."""
     same_tool = read.tool == __version__
-    differing = list(_differences(read.certificate, proved, same_tool=same_tool))
+    differing = list(certificate_differences(read.certificate, proved, same_tool=same_tool))
     label = (Label(name, WHOLE_FILE),)
     if read.edited and not differing:
         text = "the mission in this plan is not the one it was planned for"
@@ -136,38 +128,3 @@ def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> l
         more = f"{len(differing) - REPORTED} more claims of the certificate differ"
         found.append(Diagnostic("V040", more, label))
     return found
-
-
-def _differences(written: tuple[Claim, ...], proved: tuple[Claim, ...], *, same_tool: bool) -> Iterator[str]:
-    """Yield how the written certificate differs; another version of shotc may make other claims."""
-    old, new = ({(c.subject, c.shot, c.constraint): c for c in claims} for claims in (written, proved))
-    for key, claim in new.items():
-        where = f"{claim.subject}: {claim.constraint}" + (f" of shot `{claim.shot}`" if claim.shot else "")
-        if key in old:
-            yield from (f"{where}: {text}" for text in _first_difference(old[key], claim))
-        elif same_tool:
-            yield f"{where} is not in the certificate"
-    if same_tool:
-        for subject, _, constraint in old.keys() - new.keys():
-            yield f"{subject}: {constraint} is in the certificate, but follows from nothing in the plan"
-
-
-def _first_difference(written: Claim, proved: Claim) -> Iterator[str]:
-    """Yield the first field in which two claims of one name differ, if any."""
-    for field, name in (("limit", "limit"), ("worst", "worst value")):
-        one, other = getattr(written, field), getattr(proved, field)
-        if not _same(one, other):
-            shown = told_apart(one, other, proved.unit)
-            yield f"the {name} is {shown[0]} in the certificate, {shown[1]} in the plan"
-            return
-    for field, (yes, no) in _VERDICTS.items():
-        one, other = getattr(written, field), getattr(proved, field)
-        if one != other:
-            yield f"it {yes if one else no} by the certificate, and {yes if other else no} by the plan"
-            return
-
-
-def _same(a: float, b: float) -> bool:
-    if not (isfinite(a) and isfinite(b)):
-        return a == b
-    return abs(a - b) <= TOLERANCE * max(1.0, abs(a), abs(b))

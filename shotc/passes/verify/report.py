@@ -57,6 +57,7 @@ RULES = {
     "frames without their target": Rule("V024", help=REPLAN),
     "keyframes without a time": Rule("V024", help=REPLAN),
     "reference off its keyframes": Rule("V024", help=REPLAN),
+    "reference off its composition": Rule("V024", help=REPLAN),
 }
 
 STARTING = {

@@ -156,3 +156,54 @@ def test_a_source_that_cannot_be_read_is_told(wrong: Document) -> None:
     document = json.loads(DATA)
     document["source"].update(wrong)
     assert codes(json.dumps(document).encode()) == {"E003"}
+
+
+def speed(document: Document) -> Document:
+    found: Document = next(c for c in document["certificate"] if c["constraint"] == "speed")
+    return found
+
+
+CERTIFICATES: dict[str, tuple[Edit, str]] = {
+    "the limit": (lambda d: speed(d).update(limit=9.0), "the limit is 9 m/s"),
+    "the value": (lambda d: speed(d).update(worst=7.0), "the worst value is 7 m/s"),
+    "the verdict": (lambda d: speed(d).update(holds=False), "it is broken by the certificate"),
+    "the side": (lambda d: speed(d).update(upper=False), "it is bounded below by the certificate"),
+    "the weight": (lambda d: speed(d).update(hard=False), "it is not required by the certificate"),
+    "the method": (
+        lambda d: speed(d).update(method="sampled"),
+        "it is sampled by the certificate",
+    ),
+    "the time": (lambda d: speed(d).update(time=speed(d)["time"] + 1.0), "it is worst at t = 38"),
+    "no time": (lambda d: speed(d).update(time=None), "it is worst at no time by the certificate"),
+    "the place": (lambda d: speed(d).update(position=[0.0, 0.0, 9.0]), "it is worst at another place"),
+    "no place": (lambda d: speed(d).update(position=None), "it is worst at another place"),
+    "the unit": (lambda d: speed(d).update(unit="km/h"), "it is in `km/h` by the certificate, in `m/s`"),
+    "the line": (lambda d: speed(d).update(path=["drones", "cam1"]), "it is of another line"),
+    "the drones": (lambda d: speed(d).update(drones=["cam1"]), "it is of another line or of other drones"),
+    "a claim twice": (lambda d: d["certificate"].append(speed(d)), "stands 2 times in the certificate"),
+    "a claim less": (lambda d: d["certificate"].remove(speed(d)), "is not in the certificate"),
+    "a claim more": (
+        lambda d: d["certificate"].append(speed(d) | {"constraint": "safety"}),
+        "safety is in the certificate, but follows from nothing in the plan",
+    ),
+    "the order": (lambda d: d["certificate"].reverse(), "are in another order"),
+}
+
+
+@pytest.mark.parametrize("name", CERTIFICATES)
+def test_the_certificate_is_compared_whole(name: str) -> None:
+    edit, said = CERTIFICATES[name]
+    document = json.loads(DATA)
+    edit(document)
+    report = api.verify_plan(json.dumps(document).encode(), "plan.json")
+    assert report.plan is None
+    (found,) = report.diagnostics
+    assert found.code == "V040"
+    assert said in found.message
+
+
+def test_a_claim_that_stands_twice_is_told_of_any_version() -> None:
+    document = json.loads(DATA)
+    document["certificate"].append(speed(document) | {"worst": 1.0})
+    document["tool"]["version"] = "0.0.1"
+    assert codes(json.dumps(document).encode()) == {"V040"}
