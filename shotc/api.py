@@ -18,7 +18,7 @@ from shotc.diag.plugin_faults import plugin_failed
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
-from shotc.lowering import lower_kept, with_autopilot
+from shotc.lowering import lower, lower_kept, with_autopilot
 from shotc.passes.base import Outcome, PassContext, silent
 from shotc.passes.resolve.names import AUTO
 from shotc.pipeline import (
@@ -270,16 +270,37 @@ def _not_made(name: str, fault: Exception | str, code: str) -> Diagnostic:
     return plugin_failed(f"emitter `{name}`", package, fault)
 
 
-def verify_plan(data: bytes, name: str) -> PlanReport:
-    """Prove the plan in the bytes of a plan.json, from them alone; ``name`` is how to show the file."""
+class MissionFile(NamedTuple):
+    """A mission to hold a plan to: its bytes, how to show it, and the folder of the files that it names."""
+
+    data: bytes
+    name: str
+    folder: Path | None
+
+
+def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> PlanReport:
+    """Prove the plan in the bytes of a plan.json, from them alone; ``name`` is how to show the file.
+
+    against : a mission that the plan has to be the plan of, besides the one in it
+    """
     missing = _missing_libraries("reading a plan", ("numpy",))
     if missing:
         return PlanReport(None, (), missing, {})
+    from shotc.passes.verify.file import against as differs_from
     from shotc.passes.verify.file import verify_file
 
     verdict = verify_file(data, name, PassContext(), lower_kept)
     sources = {} if verdict.mission is None else {verdict.mission.name: verdict.mission}
-    return PlanReport(verdict.plan, verdict.certificate, verdict.diagnostics, sources)
+    report = PlanReport(verdict.plan, verdict.certificate, verdict.diagnostics, sources)
+    if against is None or verdict.written is None:
+        return report
+    # A choice of drones that the mission leaves open is the plan's to make.
+    asked = lower(*against, verdict.written.mission.source.chosen)
+    found = differs_from(verdict.written, asked)
+    plan = None if has_errors(found) else report.plan
+    return PlanReport(
+        plan, report.certificate, (*report.diagnostics, *found), {**sources, against.name: asked.file}
+    )
 
 
 def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:

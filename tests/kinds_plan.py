@@ -21,7 +21,7 @@ shots:
   - id: look
     kind: keyframes
     drone: cam1
-    require: {in_frame: 50 %}
+    require: {in_frame: 30 %}
     keyframes:
       - {at: [-40, 10, 12], heading: 200 deg, pitch: -5 deg}
       - {at: [-40, -10, 12], heading: 240 deg, pitch: -5 deg, hold: 2}
@@ -33,8 +33,12 @@ shots:
 
 
 @cache
-def kinds_plan() -> bytes:
-    """Return the plan.json of the mission, on its convex path."""
-    done = api.compile_source(MISSION.encode(), "kinds.yaml", None, api.PlanOptions(refiner="none"))
+def kinds_plan(edits: tuple[tuple[str, str], ...] = ()) -> bytes:
+    """Return the plan.json of the mission, on its convex path; edits : (old, new) in its text."""
+    text = MISSION
+    for old, new in edits:
+        assert old in text
+        text = text.replace(old, new)
+    done = api.compile_source(text.encode(), "kinds.yaml", None, api.PlanOptions(refiner="none"))
     assert done.plan is not None, done.diagnostics
     return api.emit_plan(done.plan, []).artifacts[0].data

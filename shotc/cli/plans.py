@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from shotc.api import PlanReport, verify_plan
+from shotc.api import MissionFile, PlanReport, verify_plan
 from shotc.cli import console
 from shotc.diag.codes.yaml import UNREADABLE_FILE
 from shotc.diag.model import Diagnostic, Label
@@ -17,8 +17,11 @@ from shotc.source.file import WHOLE_FILE
 PlanPath = Annotated[Path, typer.Argument(metavar="PLAN", help="A plan.json, or the folder that holds it.")]
 
 
-def prove(place: Path) -> PlanReport:
-    """Read a plan file and prove it again; where it cannot be read, say so and exit."""
+def prove(place: Path, against: MissionFile | None = None) -> PlanReport:
+    """Read a plan file and prove it again; where it cannot be read, say so and exit.
+
+    against : as of ``api.verify_plan``
+    """
     path = place / "plan.json" if place.is_dir() else place
     try:
         data = path.read_bytes()
@@ -32,7 +35,7 @@ def prove(place: Path) -> PlanReport:
         )
         console.report([fault], {})
         raise typer.Exit(console.EXIT_REJECTED) from None
-    return verify_plan(data, path.as_posix())
+    return verify_plan(data, path.as_posix(), against)
 
 
 def proved(place: Path) -> VerifiedIR:

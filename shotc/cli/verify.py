@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
-from shotc.api import PlanReport
+from shotc.api import MissionFile, PlanReport
 from shotc.cli import console
+from shotc.cli.inputs import read_mission
 from shotc.cli.plans import PlanPath, prove
 
 
@@ -23,15 +24,21 @@ class Format(StrEnum):
 FormatOption = Annotated[Format, typer.Option("--format", help="How to print the certificate.")]
 
 
-def verify(plan: PlanPath, format: FormatOption = Format.TEXT) -> None:
-    """Prove a plan again, trusting nothing but its trajectory and its limits.
+AgainstOption = Annotated[
+    str | None, typer.Option("--against", metavar="MISSION", help="Hold the plan to this mission file, too.")
+]
+
+
+def verify(plan: PlanPath, format: FormatOption = Format.TEXT, against: AgainstOption = None) -> None:
+    """Prove a plan again, trusting nothing but its trajectory and the text of its mission.
 
     Prints the certificate: for every claim what was asked, the worst that happens, when, and how that is
-    known. The exit status is 1 if a claim is broken, or if the file's own certificate says something else.
+    known. The exit status is 1 if a claim is broken, if the plan says something else than its mission or its
+    proof, or with --against if it is not the plan of that file.
 
-    Example: shotc verify out/tower/plan.json
+    Example: shotc verify out/tower/plan.json --against tower.yaml
     """
-    report = prove(plan)
+    report = prove(plan, None if against is None else MissionFile(*read_mission(against)))
     if format is Format.JSON:
         console.out(_document(report))
     else:

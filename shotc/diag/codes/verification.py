@@ -382,6 +382,47 @@ _FILE = (
             "installed package has. Plan the mission again, or install the package.",
         ),
     ),
+    _code(
+        43,
+        "plan-of-another-file",
+        (
+            "the plan is not the plan of the mission that it is held to",
+            "`shotc verify PLAN --against MISSION` holds a plan to a file besides the mission in it: the one that is "
+            "reviewed, so that no plan of an earlier mission is flown. All that the file asks for is compared, its "
+            "tracks and what its displays draw included; comments and the order of keys are free. Plan the file again.",
+        ),
+    ),
+    _code(
+        44,
+        "path-left-untold",
+        (
+            "a shot is flown elsewhere than its kind asks, and the plan does not say so",
+            "A path that a kind generates is an ideal: planning leaves it where something stands in the way, or for "
+            "the picture's sake, and says by how much (`deviations`). No more than that is allowed, half a metre at "
+            "its beginning and its end where nothing is near, and half the distance to the target elsewhere. So an "
+            "orbit of another sweep, the other way round or backwards is none. Plan the mission again.",
+        ),
+    ),
+    _code(
+        45,
+        "camera-off-its-keyframes",
+        (
+            "the camera looks elsewhere at a keyframe than the mission asks",
+            "At a keyframe the lens is the one that is asked for, a camera that frames nothing looks where it is told "
+            "to, and one that goes round goes round as often as it should. Where a target is on screen is told apart (V030, "
+            "V032), and held where the shot says `require`. Plan the mission again.",
+        ),
+    ),
+    _code(
+        46,
+        "promise-not-judged",
+        (
+            "a shot promises what nothing in the plan can be held to",
+            "Every key of `require` has a claim in the certificate. Without a target that is framed, or for "
+            "`screen_error` without a place on screen that is wanted, there is none, and the promise would mean nothing. "
+            "Remove the key, or give the shot a target and a composition.",
+        ),
+    ),
 )
 
 CODES: tuple[CodeInfo, ...] = tuple(

@@ -19,11 +19,13 @@ from shotc.ir.parked import bodies
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.course import course
 from shotc.passes.verify.framing import framing
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
 from shotc.passes.verify.pair import from_fleets, separation
 from shotc.passes.verify.pans import pans
+from shotc.passes.verify.promises import unjudged
 from shotc.passes.verify.report import report
 from shotc.passes.verify.shape import shape, structure
 from shotc.passes.verify.shots import shots
@@ -68,7 +70,8 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     claims: list[Claim] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
-        claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *framing(flight, ir)]
+        claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *course(flight, ir)]
+        claims += framing(flight, ir)
     claims += [
         *separation(flights, on_pads),
         *from_fleets(ir, flights),
@@ -76,8 +79,8 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
         *_fleet_claims(ir, ctx),
     ]
     certificate = tuple(claims)
-    seen = (*report(ir, certificate), *losses(ir, certificate), *pans(ir))
-    return Verdict(certificate, (*_grounded(ir), *seen))
+    found = (*report(ir, certificate), *unjudged(ir, certificate), *losses(ir, certificate), *pans(ir))
+    return Verdict(certificate, (*_grounded(ir), *found))
 
 
 def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:

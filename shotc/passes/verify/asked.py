@@ -20,6 +20,9 @@ FOUND = 1e-6
 APART = frozenset({"origins", "source", "files"})
 """Fields of a mission that are no part of what it asks for."""
 
+WRITTEN = {"promise": "require"}
+"""How a mission writes a field, where that is another word."""
+
 ELSEWHERE = frozenset({"path", "source_sha256"})
 """Fields that say where something is written; another file may say the same elsewhere."""
 
@@ -45,7 +48,7 @@ class _Place(NamedTuple):
     def field(self, name: str) -> "_Place":
         """Return the place of a field."""
         words = f"{self.words}, {name}" if self.words else name
-        return self._replace(words=words, path=(*self.path, name))
+        return self._replace(words=words, path=(*self.path, WRITTEN.get(name, name)))
 
     def item(self, words: str, path: KeyPath) -> "_Place":
         """Return the place of an element that has a name of its own."""

@@ -37,12 +37,14 @@ class FileVerdict:
     plan : the verified plan, or None where it breaks a hard claim or is no plan
     certificate : every claim as proved now, broken ones included
     mission : the text of the mission in the plan, where the plan can be read
+    written : what the plan says of its mission, then
     """
 
     plan: VerifiedIR | None
     certificate: tuple[Claim, ...]
     diagnostics: tuple[Diagnostic, ...]
     mission: SourceFile | None = None
+    written: KeyframeIR | None = None
 
 
 def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileVerdict:
@@ -56,7 +58,7 @@ def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileV
     written = read.trajectory.keyframes
     asked = lower(written.mission.source, written.mission.origins.file)
     if asked.keyframes is None:
-        return FileVerdict(None, (), _not_lowered(read, asked, name), asked.file)
+        return FileVerdict(None, (), _not_lowered(read, asked, name), asked.file, written)
     other = _of_another_mission(read, asked.keyframes)
     # What is said of another mission is judged by itself: its own faults may explain what was done to it.
     ir = read.trajectory if other else replace(read.trajectory, keyframes=asked.keyframes)
@@ -65,7 +67,22 @@ def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileV
     if verdict.certificate:
         diagnostics += _against_the_file(read, verdict.certificate, name)
     plan = None if has_errors(diagnostics) else VerifiedIR(ir, verdict.certificate)
-    return FileVerdict(plan, verdict.certificate, tuple(diagnostics), asked.file)
+    return FileVerdict(plan, verdict.certificate, tuple(diagnostics), asked.file, written)
+
+
+def against(written: KeyframeIR, asked: Lowered) -> list[Diagnostic]:
+    """Report in what a plan is not the plan of a mission that was lowered from a file beside it."""
+    if asked.keyframes is None:
+        text = "this mission cannot be lowered, so no plan can be held to it"
+        fault = Diagnostic("V043", text, (Label(asked.file.name, WHOLE_FILE),), help="mend its faults first")
+        return [fault, *asked.diagnostics]
+    mine, true = dict(written.mission.source.drawn), dict(asked.keyframes.mission.source.drawn)
+    other = (name for name in true if name in mine and mine[name] != true[name])
+    found = [
+        *differences(written, asked.keyframes, same_text=False),
+        *(Difference((), f"`{name}` is another file than the plan draws") for name in other),
+    ]
+    return told(found, asked.keyframes, "V043", ())
 
 
 def _not_lowered(read: ReadPlan, asked: Lowered, name: str) -> tuple[Diagnostic, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isfinite
 
+from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.numbers import enough, told_apart
@@ -51,6 +52,24 @@ def promise_help(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, 
     """Return the promise to write instead, if the language has one, and what else would help."""
     kept = _kept(claim, code, shot, certificate) if isfinite(claim.worst) else ""
     return f"promise `{kept}`, or {_INSTEAD[code]}" if kept else _INSTEAD[code]
+
+
+def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagnostic]:
+    """Report every promise of a flown shot that no claim of the certificate speaks of."""
+    origins = ir.keyframes.mission.origins
+    flown = {p.shot for track in ir.drones for p in track.phases}
+    for shot in (s for s in ir.keyframes.mission.shots if s.id in flown):
+        made = [claim.constraint for claim in certificate if claim.shot == shot.id]
+        for key, code in (("in_frame", "V019"), ("screen_error", "V020"), ("size", "V021")):
+            if getattr(shot.promise, key) is None or any(_ENDS[code] in name for name in made):
+                continue
+            yield Diagnostic(
+                "V046",
+                f"shot `{shot.id}` promises `{key}`, and nothing in the plan can be held to it",
+                (origins.value((*shot.path, "require", key)),),
+                ("no target of the shot is framed, or none has a place on screen",),
+                f"remove `{key}`, or give the shot a target and a composition; then plan the mission again",
+            )
 
 
 def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:

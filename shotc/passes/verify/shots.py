@@ -24,6 +24,9 @@ from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
 ON_TIME = 1e-3
 """Seconds within which a duration, a start or a keyframe's time is met."""
 
+UNTOLD = 1.0
+"""Metres that a shot on its own clock may leave its ideal without a word: planning tells from 0.5 m on."""
+
 ON_PLACE = 1e-3
 """Metres (radians, for the camera) within which a keyframe is met and a hold stands still."""
 
@@ -40,7 +43,7 @@ def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
         if len(flown) == 1:
             yield from _timing(flight, placed.shot, flown[0], ends)
             yield from _keyframes(flight, placed_at(flight.mission, placed, flown[0].start), flown[0])
-            yield from _place(flight, placed.shot, flown[0])
+            yield from _place(flight, ir, placed.shot, flown[0])
 
 
 def _timing(flight: Flight, shot: Shot, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
@@ -64,8 +67,7 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
     for index, keyframe in enumerate(placed.keyframes):
         time = times.get(index)
         if keyframe.placed:
-            which = (placed.shot, index)
-            met += [(_miss(flight, which, phase, t), keyframe) for t in _there(placed, index, time)]
+            met += [(_miss(flight, (placed, index), phase, t), keyframe) for t in _there(placed, index, time)]
         if keyframe.time is not None:
             off = inf if time is None else abs(time - phase.start - keyframe.time)
             late.append((Worst(off, time, "exact"), keyframe))
@@ -82,8 +84,8 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
             yield claim(flight, Limit(name, limit, unit, keyframe.path, shot=placed.shot.id), worst)
 
 
-def _place(flight: Flight, shot: Shot, phase: Phase) -> Iterator[Claim]:
-    """Tell how far a shot of a moving target is from its ideal place, which it may leave."""
+def _place(flight: Flight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterator[Claim]:
+    """Claim that a shot of a moving target leaves its ideal place by no more than the plan says."""
     if shot.ideal is None:
         return
     ticks = clock(flight.mission.rate, phase.end)
@@ -92,7 +94,8 @@ def _place(flight: Flight, shot: Shot, phase: Phase) -> Iterator[Claim]:
     ideal = np.array([ideal_place(flight.mission, begun, phase.start, float(u)) for u in t])
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)
     k = int(np.argmax(away))
-    limit = Limit("distance from its place", inf, "m", shot.path, hard=False, shot=shot.id)
+    said = max((d.distance for d in ir.deviations if d.shot == shot.id), default=0.0)
+    limit = Limit("distance from its place", said + UNTOLD, "m", shot.path, shot=shot.id)
     yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "sampled"))
 
 
@@ -104,11 +107,13 @@ def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | 
     return (time, time + hold)
 
 
-def _miss(flight: Flight, which: tuple[Shot, int], phase: Phase, time: float | None) -> Worst:
+def _miss(flight: Flight, which: tuple[PlacedShot, int], phase: Phase, time: float | None) -> Worst:
     if time is None or not phase.start - ON_TIME <= time <= phase.end + ON_TIME:
         return Worst(inf, None, "exact")
-    shot, index = which
-    away = flight.track.curve(time)[:3] - np.array(place_of(flight.mission, shot.keyframes[index], time))
+    placed, index = which
+    asked = placed.shot.keyframes[index]
+    at = placed.keyframes[index].at if asked.beside is None else place_of(flight.mission, asked, time)
+    away = flight.track.curve(time)[:3] - np.array(at)
     return Worst(float(np.linalg.norm(away)), time, "exact")
 
 

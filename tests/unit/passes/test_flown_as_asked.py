@@ -7,8 +7,12 @@ from typing import Any
 import pytest
 
 from shotc import api
+from shotc.passes.base import PassContext
+from shotc.passes.verify import judge
 from tests.kinds_plan import kinds_plan
+from tests.records import replace
 from tests.resealed import Document, resealed
+from tests.samples import orbit_plan
 
 Edit = Callable[[Document], Any]
 
@@ -40,3 +44,75 @@ def test_a_reference_off_its_composition_is_told(data: bytes) -> None:
     report = api.verify_plan(resealed(document), "plan.json")
     found = next(d for d in report.diagnostics if d.code == "V024")
     assert "reference off its composition" in found.message
+
+
+def flight_of(document: Document, other: bytes) -> None:
+    """Put the flights of another plan into a plan, and how far that one leaves its paths."""
+    source = json.loads(other)
+    document["drones"] = source["drones"]
+    document["deviations"] = source["deviations"]
+
+
+def variant(old: str, new: str) -> bytes:
+    return kinds_plan(((old, new),))
+
+
+OTHERS: dict[str, tuple[str, str, str]] = {
+    "an orbit of -40 deg": ("sweep: -180 deg", "sweep: -40 deg", "V016"),
+    "an orbit of -160 deg": ("sweep: -180 deg", "sweep: -160 deg", "V016"),
+    "the other way round": ("sweep: -180 deg", "sweep: 180 deg", "V044"),
+    "a rise to 15 m": ("altitude: [8, 24]", "altitude: [8, 15]", "V044"),
+    "a rise flown backwards": ("altitude: [8, 24]", "altitude: [24, 8]", "V044"),
+    "a keyframe moved": ("at: [-40, -10, 12]", "at: [-45, -10, 12]", "V016"),
+    "a keyframe left out": ("      - {at: [-30, -30, 14], look_at: tower}\n", "", "V016"),
+    "a hold dropped": (", hold: 2}", "}", "V016"),
+    "another direction": ("heading: 200 deg", "heading: 100 deg", "V045"),
+    "another lens": ("hfov: 60 deg", "hfov: 55 deg", "V045"),
+    "the other side": ("side: left", "side: right", "V044"),
+    "nearer": ("distance: 8", "distance: 5", "V044"),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_flight_of_another_mission_is_refused(data: bytes, name: str) -> None:
+    old, new, code = OTHERS[name]
+    document = json.loads(data)
+    flight_of(document, variant(old, new))
+    assert code in codes(resealed(document))
+
+
+@pytest.mark.parametrize("name", ["the other way round", "a rise to 15 m", "an orbit of -40 deg"])
+def test_what_a_plan_says_of_a_detour_explains_no_other_shot(data: bytes, name: str) -> None:
+    old, new, _ = OTHERS[name]
+    document = json.loads(data)
+    flight_of(document, variant(old, new))
+    document["deviations"] = [
+        {"shot": shot, "distance": 200.0, "s": 0.0, "cause": "zone tree"} for shot in ("round", "rise")
+    ]
+    spread_keyframes(document, "round")
+    assert "V044" in codes(resealed(document))
+
+
+def spread_keyframes(document: Document, shot: str) -> None:
+    """Say that as many keyframes as the mission has are met along a shot, whatever is flown there."""
+    for flown in document["drones"]:
+        for phase in (p for p in flown["phases"] if p["shot"] == shot):
+            asked = next(s for s in document["keyframes"] if s["shot"] == shot)["keyframes"]
+            step = (phase["end"] - phase["start"]) / (len(asked) - 1)
+            times = [phase["start"] + i * step for i in range(len(asked))]
+            others = [k for k in flown["keyframes"] if k["shot"] != shot]
+            told = [{"shot": shot, "index": i, "time": t} for i, t in enumerate(times)]
+            flown["keyframes"] = [*others, *told]
+
+
+def test_a_promise_without_a_claim_is_told() -> None:
+    plain = orbit_plan().trajectory
+    placed = plain.keyframes.shots[0]
+    unframed = tuple(k._replace(target=None, reference=None) for k in placed.keyframes)
+    keyframes = plain.keyframes._replace(shots=(placed._replace(keyframes=unframed),))
+    track = replace(plain.drones[0], framing=())
+    shots = tuple(shot._replace(subject=None) for shot in keyframes.mission.shots)
+    keyframes = keyframes._replace(mission=keyframes.mission._replace(shots=shots))
+    verdict = judge(replace(plain, keyframes=keyframes, drones=(track,)), PassContext())
+    found = [d for d in verdict.diagnostics if d.code == "V046"]
+    assert [d.message.split("`")[3] for d in found] == ["in_frame", "screen_error"]

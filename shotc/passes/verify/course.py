@@ -1,0 +1,180 @@
+"""Whether a shot is flown as its kind asks: along its path, from beginning to end, looking as it should.
+
+Keyframes that a kind generates are an ideal that planning may leave where something stands in the way, or for
+the picture's sake. The plan says how far, and no more is allowed; where nothing is near its ends they bind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import inf, pi
+
+import numpy as np
+
+from shotc.geom.angles import wrapped
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import cut
+from shotc.geom.proof import norm, sup_convex
+from shotc.geom.solids import distance, signed_distance
+from shotc.ir.bodies import cylinder
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim, gap
+from shotc.passes.verify.shots import ON_TIME
+
+UNTOLD = 0.25
+"""Metres that a path may leave generated keyframes without a word: planning tells from 0.1 m on, twice."""
+
+BOW = 0.25
+"""Share of the way between two generated keyframes that a path may bow out between them."""
+
+AT_ENDS = 0.5
+"""Metres within which a generated path begins and ends, where it could."""
+
+NEAR = 1.0
+"""Metres beyond its clearances within which something stands in the way of a keyframe."""
+
+ASIDE = 0.5
+"""Share of the distance to its target by which a free keyframe may be left."""
+
+LENS = 1e-3
+"""Radians within which the field of view at a keyframe is met."""
+
+TURNED = 0.2
+"""Radians by which a camera that frames nothing may look elsewhere at a keyframe."""
+
+AROUND = pi / 2
+"""Radians by which a turn may differ from the one asked for: a whole one more or less is another shot."""
+
+
+def course(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
+    """Claim that this drone's shots of keyframes are flown in order, along their paths, and look as asked."""
+    for placed in ir.keyframes.shots:
+        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
+        if placed.shot.drone != flight.drone.name or len(flown) != 1 or placed.shot.ideal is not None:
+            continue
+        times = [k.time for k in flight.track.keyframes if k.shot == placed.shot.id]
+        yield _in_order(flight, placed, flown[0])
+        if len(times) == len(placed.keyframes) and all(flown[0].start <= t <= flown[0].end for t in times):
+            t = np.array(_times(flight, placed))
+            yield from _along(flight, placed, t, told(ir, placed.shot))
+            yield from _looking(flight, placed, t)
+
+
+def told(ir: TrajectoryIR, shot: Shot) -> float:
+    """Return how far the plan says that a shot leaves its path, metres: round things, and for its picture."""
+    said = sorted((d.distance for d in ir.deviations if d.shot == shot.id), reverse=True)
+    return sum(said[:2])
+
+
+def _times(flight: Flight, placed: PlacedShot) -> list[float]:
+    at = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
+    return [at.get(i, inf) for i in range(len(placed.keyframes))]
+
+
+def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
+    """Claim that each keyframe is met once, in order, the first and the last at the shot's ends."""
+    keyframes = placed.keyframes
+    entries = [k for k in flight.track.keyframes if k.shot == placed.shot.id]
+    times = _times(flight, placed)
+    spans = [(t, t + k.hold) for t, k in zip(times, keyframes, strict=True)]
+    late = [before - start for (_, before), (start, _) in pairwise(spans)]
+    ends = [abs(times[0] - phase.start)]
+    ends += [abs(spans[-1][1] - phase.end)] if len(keyframes) > 1 else []
+    worst = max([*late, *ends]) if len(entries) == len(keyframes) else inf
+    limit = Limit("keyframes out of order", ON_TIME, "s", placed.shot.path, shot=placed.shot.id)
+    return claim(flight, limit, Worst(max(worst, 0.0), None, "exact"))
+
+
+def _along(flight: Flight, placed: PlacedShot, t: Array, said: float) -> Iterator[Claim]:
+    """Claim that a generated path is left by no more than the plan says, its ends where they are blocked."""
+    keyframes, shot = placed.keyframes, placed.shot
+    if any(k.placed for k in keyframes):
+        return
+    at = np.array([k.at for k in keyframes])
+    away = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
+    k = int(away.argmax())
+    worst = Worst(float(away[k]), float(t[k]), "exact")
+    for i in range(len(t) - 1):
+        between = _between(flight, (t[i], t[i + 1]), (at[i], at[i + 1]))
+        worst = between if between.value > worst.value else worst
+    path = Limit("distance from its path", said + UNTOLD, "m", shot.path, shot=shot.id)
+    yield claim(flight, path, worst)
+    free = np.array([_is_free(flight, keyframe) for keyframe in keyframes])
+    ends = [i for i in (0, len(t) - 1) if free[i]]
+    if ends:
+        k = max(ends, key=lambda i: float(away[i]))
+        limit = Limit("distance from its ends", AT_ENDS, "m", shot.path, shot=shot.id)
+        yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "exact"))
+    share = np.where(free, away / np.maximum(_distances(flight.mission, keyframes), 1e-9), 0.0)
+    k = int(share.argmax())
+    limit = Limit("detour where it is free", ASIDE, "of the distance", shot.path, shot=shot.id)
+    yield claim(flight, limit, Worst(float(share[k]), float(t[k]), "exact"))
+
+
+def _between(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array]) -> Worst:
+    """Return how far the flight is from the line between two keyframes, less what it may bow out."""
+    first, along = ends[0], ends[1] - ends[0]
+    length = float(np.linalg.norm(along))
+    if times[1] <= times[0]:
+        return Worst(0.0, times[0])
+
+    def off(points: Array) -> Array:
+        share = np.clip((points - first) @ along / max(length * length, 1e-12), 0.0, 1.0)
+        return norm(points - first - share[..., None] * along)
+
+    found = sup_convex(cut(flight.track.curve.channels(0, 1, 2), *times), off, gap(BOW * length + UNTOLD))
+    return Worst(max(found.proven - BOW * length, 0.0), found.at)
+
+
+def _distances(mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...]) -> Array:
+    return np.array(
+        [
+            inf
+            if k.target is None
+            else float(np.linalg.norm(np.subtract(mission.target(k.target).centre, k.at)))
+            for k in keyframes
+        ]
+    )
+
+
+def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
+    """Tell whether nothing stands near a keyframe, so that nothing explains why it is left."""
+    mission, at, body = flight.mission, keyframe.at, flight.drone.radius + NEAR
+    rules = mission.rules
+    if at[2] < rules.ground_clearance + body:
+        return False
+    for zone in mission.zones:
+        apart = signed_distance(zone.solid, at)
+        if (apart if zone.keep == "out" else -apart) < body:
+            return False
+    standing = [target for target in mission.targets if target.track is None]
+    return all(distance(cylinder(target), at) >= rules.target_clearance + body for target in standing)
+
+
+def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
+    """Claim the lens, the direction and the turns of a shot's keyframes."""
+    keyframes, shot = placed.keyframes, placed.shot
+    pose = flight.track.curve(t)
+    lens = np.abs(pose[:, HFOV] - [k.hfov for k in keyframes])
+    yield _largest(flight, ("lens off its keyframes", LENS, "rad"), shot, (lens, t))
+    unframed = np.array([k.reference is None for k in keyframes])
+    yaw = wrapped(pose[:, CAM_YAW] - [k.yaw for k in keyframes])
+    pitch = pose[:, CAM_PITCH] - [k.pitch for k in keyframes]
+    aside = np.where(unframed, np.hypot(yaw * np.cos(pose[:, CAM_PITCH]), pitch), 0.0)
+    yield _largest(flight, ("direction off its keyframes", TURNED, "rad"), shot, (aside, t))
+    wanted = np.array([np.nan if k.turn is None else k.turn for k in keyframes])
+    turned = np.abs(np.diff(pose[:, CAM_YAW], prepend=pose[0, CAM_YAW]) - wanted)
+    yield _largest(flight, ("turn off its keyframes", AROUND, "rad"), shot, (np.nan_to_num(turned), t))
+
+
+def _largest(flight: Flight, what: tuple[str, float, str], shot: Shot, values: tuple[Array, Array]) -> Claim:
+    found, t = values
+    k = int(found.argmax())
+    name, limit, unit = what
+    wanted = Limit(name, limit, unit, shot.path, shot=shot.id)
+    return claim(flight, wanted, Worst(float(found[k]), float(t[k]), "exact"))

@@ -1,0 +1,128 @@
+"""Edits of plans by seed, mission-changing ones among them: none is accepted that flies another mission.
+
+Whoever edits here knows the format: the seal and the certificate are made anew where they can be.
+"""
+
+import json
+import random
+from collections.abc import Callable
+from contextlib import suppress
+from hashlib import sha256
+from typing import Any
+
+import pytest
+
+from shotc import api
+from tests.kinds_plan import kinds_plan
+from tests.resealed import Document, resealed
+
+FEW, MANY = 10, 2000
+CHANGES = (
+    ("sweep: -180 deg", "sweep: -20 deg"),
+    ("sweep: -180 deg", "sweep: 180 deg"),
+    ("altitude: [8, 24]", "altitude: [8, 15]"),
+    ("altitude: [8, 24]", "altitude: [24, 8]"),
+    ("at: [-40, -10, 12]", "at: [-45, -10, 12]"),
+    (", hold: 2}", "}"),
+    ("heading: 200 deg", "heading: 100 deg"),
+    ("side: left", "side: right"),
+    ("distance: 8", "distance: 5"),
+)
+
+
+def places_in(value: Any, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
+    """Return the paths of all single values."""
+    if not isinstance(value, dict | list):
+        return [path]
+    items = value.items() if isinstance(value, dict) else enumerate(value)
+    return [p for key, item in items for p in places_in(item, (*path, key))]
+
+
+def put(document: Document, path: tuple[str | int, ...], change: Callable[[Any], Any]) -> None:
+    at: Any = document
+    for key in path[:-1]:
+        at = at[key]
+    at[path[-1]] = change(at[path[-1]])
+
+
+def another(chance: random.Random, value: Any) -> Any:
+    """Return another value of the same sort, or now and then of another one."""
+    if chance.random() < 0.1:
+        return chance.choice([None, True, 3, -1.0, "x", [], {}])
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int | float):
+        return chance.choice([value * 1.1 + 0.1, -value - 1.0, value + chance.uniform(1.0, 30.0)])
+    return f"{value}x" if isinstance(value, str) else 1.0
+
+
+def of_a_value(chance: random.Random, document: Document) -> None:
+    """Change one value of what the plan says of its mission."""
+    part = chance.choice(["mission", "keyframes", "source", "origins"])
+    path = (part, *chance.choice(places_in(document[part])))
+    if path != ("source", "file"):
+        put(document, path, lambda value: another(chance, value))
+
+
+def of_the_text(chance: random.Random, document: Document) -> None:
+    """Change the mission's text alone, with its hash."""
+    text = "\n".join(document["source"]["text"])
+    old, new = chance.choice(CHANGES)
+    changed = text.replace(old, new)
+    document["source"].update(text=changed.split("\n"), sha256=sha256(changed.encode()).hexdigest())
+
+
+def of_the_flight(chance: random.Random, document: Document) -> None:
+    """Fly another mission's plan, with or without what that plan says of itself."""
+    other = json.loads(kinds_plan((chance.choice(CHANGES),)))
+    document["drones"] = other["drones"]
+    if chance.random() < 0.5:
+        document.update(mission=other["mission"], keyframes=other["keyframes"])
+    if chance.random() < 0.5:
+        shots = [shot["id"] for shot in document["mission"]["shots"]]
+        document["deviations"] = [
+            {"shot": shot, "distance": 100.0, "s": 0.0, "cause": "zone tree"} for shot in shots
+        ]
+
+
+def of_a_time(chance: random.Random, document: Document) -> None:
+    """Change when a keyframe is said to be met, or a phase to begin; or say less of what is framed."""
+    flown = document["drones"][0]
+    kind = chance.randrange(3)
+    if kind == 0:
+        chance.choice(flown["keyframes"])["time"] += chance.choice([-2.0, 2.0])
+    elif kind == 1:
+        i = chance.randrange(1, len(flown["phases"]))
+        flown["phases"][i]["start"] += 1.0
+        flown["phases"][i - 1]["end"] += 1.0
+    else:
+        flown["keyframes"].remove(chance.choice(flown["keyframes"]))
+
+
+EDITS = (of_a_value, of_a_value, of_a_value, of_the_text, of_the_flight, of_a_time)
+
+
+def refused(seed: int) -> bool:
+    """Tell whether one edit of the plan is refused, or changed nothing."""
+    chance = random.Random(seed)
+    plan = kinds_plan()
+    document = json.loads(plan)
+    EDITS[seed % len(EDITS)](chance, document)
+    if document == json.loads(plan):
+        return True
+    data = json.dumps(document).encode()
+    if chance.random() < 0.5:
+        with suppress(AssertionError):  # where it can be read at all
+            data = resealed(document)
+    report = api.verify_plan(data, "plan.json")
+    assert report.plan is not None or report.diagnostics
+    return report.plan is None
+
+
+def test_no_edit_is_accepted() -> None:
+    assert [seed for seed in range(FEW) if not refused(seed)] == []
+
+
+@pytest.mark.fuzz
+def test_no_edit_of_many_is_accepted() -> None:
+    assert [seed for seed in range(FEW, MANY) if not refused(seed)] == []
