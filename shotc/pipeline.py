@@ -116,15 +116,18 @@ def run_refined(
 ) -> Run:
     """Run passes, and where a refined path is refused that could be flown unrefined, blame its refiner.
 
-    seat : as in ``default_passes``. Where the mission allows it, the unrefined path is flown instead.
+    seat : as in ``default_passes``. Where the mission allows it, the unrefined path is flown instead. Where
+    the refiner gives no path, the later passes judge the unrefined one, and its errors say what came of it.
     """
     from shotc.passes.refine_path import blame, still_true
 
     done = run(passes, value, ctx, stop_after)
     k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), 0)
     outputs: list[Any] = [report.output for report in done.reports]
-    if not k or outputs[k] is None:
+    if not k:
         return done
+    if outputs[k] is None:
+        return _with_convex(done, passes[k + 1 :], outputs[k - 1], ctx)
     convex, refined = outputs[k - 1], outputs[k]
     late = tuple(d for report in done.reports[k + 1 :] for d in report.diagnostics)
     if not has_errors(late):
@@ -142,6 +145,14 @@ def run_refined(
     said = (*early, *verdict.diagnostics, *again.diagnostics)
     flown = Run(again.value, said, (*done.reports[: k + 1], *again.reports))
     return _accounted(flown, seat, (convex, convex))
+
+
+def _with_convex(done: Run, later: Sequence[AnyPass], convex: Any, ctx: PassContext) -> Run:
+    """Return a run that ends at the refiner, whose errors say what becomes of the convex path."""
+    from shotc.passes.refine_path import with_convex
+
+    judged = run(later, convex, ctx)
+    return done._replace(diagnostics=with_convex(convex, done.diagnostics, judged.diagnostics))
 
 
 def _accounted(done: Run, seat: Any, paths: tuple[Any, Any]) -> Run:

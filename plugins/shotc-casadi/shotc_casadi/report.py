@@ -23,33 +23,37 @@ def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
         return fallen_back(path, refined.shot, refined.first, solution)
     if refined.gap is not None:
         return given_up(path, _between(refined, refined.gap, name), solution)
-    return given_up(path, state_of(refined, solution.constraint or MOTION, name), solution)
+    return given_up(path, state_of(refined, solution.constraint, name), solution)
 
 
 def _between(refined: Refined, gap: Gap, name: str) -> SolverState:
     """Return the state of a problem whose solution does not hold between its nodes."""
     k = min(int(np.searchsorted(refined.nodes.s, gap.s)), len(refined.nodes.s) - 1)
     what = "the gimbal's pitch range" if isnan(gap.metres) else "the clearances between stages"
-    return state_of(refined, what, name)._replace(
-        stage=k, s=gap.s, time=float(refined.solution.states[k, TIME]), excess=gap.metres, unit="m"
-    )
+    state = state_of(refined, what, name)
+    if isnan(gap.metres):
+        return state
+    time = float(refined.solution.states[k, TIME])
+    return state._replace(stage=k, s=gap.s, time=time, excess=gap.metres, unit="m")
 
 
 def state_of(refined: Refined, constraint: str, name: str) -> SolverState:
     """Return where the last problem of a shot stood, for a constraint; name : of the refiner."""
     solution = refined.solution
     time = float(solution.states[solution.stage, TIME])
+    worst = bool(constraint) and constraint == solution.constraint
     return SolverState(
         shot=refined.shot,
         refiner=name,
         solver=solution.solver,
-        stage=solution.stage,
+        stage=solution.stage if worst else None,
         stages=len(solution.inputs),
         s=float(refined.nodes.s[solution.stage]),
         time=time if isfinite(time) else None,
         constraint=constraint,
-        excess=solution.residual if constraint == solution.constraint else nan,
+        excess=solution.residual if worst or not constraint else nan,
         unit=UNITS.get(constraint, ""),
+        inner=constraint == MOTION,
     )
 
 

@@ -61,7 +61,8 @@ class Solution:
     """What a solver made of a problem.
 
     status : "solved", "stopped" (at a limit of its own), "infeasible" or "nan"
-    residual : the worst violation of a constraint, in its own unit; stage, constraint : where, which
+    residual : the worst violation of a constraint, in its own unit; stage, constraint : where, which; none is
+        named where all are kept or there are no numbers
     seconds : of the solver alone
     """
 
@@ -153,7 +154,7 @@ def _judged(
         seconds=seconds,
         residual=residual,
         stage=min(worst // task.high, task.stages),
-        constraint=_name(worst, task),
+        constraint=_name(worst, task) if residual >= task.feasible else "",
     )
 
 

@@ -240,7 +240,7 @@ def test_a_solver_that_never_ends_is_left_behind_and_its_shot_named(monkeypatch:
     assert [d.code for d in told] == ["R011"]
     assert "30 s without an end" in told[0].message
     assert "in shot `s`" in told[0].message
-    assert "into the shot" in told[0].notes[0]
+    assert "left no numbers" in told[0].notes[0]  # so there is no stage to name
     assert subject_of(path, "s").leg is of.leg
 
 
@@ -253,7 +253,12 @@ def test_where_the_shot_allows_it_the_guide_is_flown_instead(monkeypatch: pytest
     refused, allowed = compiled(FLYBY), compiled(FLYBY + ", refine: {optional: true}")
     compiled.cache_clear()
     assert refused.plan is None
-    assert [d.code for d in refused.diagnostics] == ["R011"]
+    (told,) = refused.diagnostics
+    assert told.code == "R011"
+    assert "left no numbers" in told.notes[0]
+    assert "the convex path of shot `s` keeps every limit and promise" in told.notes
+    assert "more time" not in told.help
+    assert "let shot `s` fly the convex path by `refine: {optional: true}`" in told.help
     assert allowed.plan is not None
     assert [d.code for d in allowed.diagnostics] == ["R003"]
 

@@ -78,6 +78,21 @@ def test_a_shot_that_no_solver_solves_is_an_error_with_its_stage(monkeypatch, st
     assert np.array_equal(leg(outcome.value, PASS).curve.ctrl, leg(path(), PASS).curve.ctrl)
 
 
+@pytest.mark.parametrize(
+    ("residual", "words"), [(0.0, "no constraint is broken"), (np.nan, "left no numbers")]
+)
+def test_where_nothing_is_known_to_be_broken_no_stage_is_named(monkeypatch, residual, words):
+    only(PASS, monkeypatch)
+    given = {"stage": 0, "constraint": "", "residual": residual}
+    monkeypatch.setattr(rounds, "solve", failing(*SOLVERS, **given))
+    (told,) = refined().diagnostics
+    assert told.code == "R011"
+    assert words in told.notes[0]
+    assert "stage" not in " ".join(told.notes)
+    assert "broken by" not in " ".join(told.notes)
+    assert told.help == ""
+
+
 def test_an_iterate_that_is_no_number_has_no_time(monkeypatch):
     only(PASS, monkeypatch)
 

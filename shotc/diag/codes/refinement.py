@@ -137,10 +137,10 @@ CODES: tuple[CodeInfo, ...] = (
         "solver-stopped-early",
         Severity.ERROR,
         "the refiner's solver stopped before it had a path",
-        "The solver reached its limit of iterations or of time. What it had by then breaks a constraint, so it is not "
-        "used: the stage, its time, the constraint that was worst and by how much are named. A limit that is barely "
-        "met, or keyframes that ask for a sharp turn, make a problem slow. Loosen what is named or add a keyframe "
-        "there, let the shot fly its convex path by `refine: {optional: true}`, or plan with `--refiner none`.",
+        "The solver reached its limit of iterations or of time. What it had by then is not used: it had not settled. "
+        "Where it breaks a constraint, the stage, its time, the constraint that was worst and by how much are named. A "
+        "limit that is barely met, or keyframes that ask for a sharp turn, make a problem slow. A note says whether the "
+        "convex path would do, and how to keep it, by `refine: {optional: true}` in the shot or by `--refiner none`.",
         "",
         "",
         "other",

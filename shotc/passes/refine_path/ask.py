@@ -13,7 +13,7 @@ from shotc.passes.refine_path.child import Failed, TooSlow, refined_within
 from shotc.passes.refine_path.finding import Fault, Finding, own, tell
 from shotc.passes.refine_path.seat import Seat
 
-LONGER = "give it a longer `--deadline`, or plan with `--refiner none`"
+LONGER = "give it a longer `--deadline`"
 
 
 class Answer(NamedTuple):

@@ -16,6 +16,7 @@ from shotc.passes.timed_route.faults import left_place
 OF_THE_CONVEX = ("Q007",)
 """Warnings of what the convex path cannot frame; verification says it of a path that is flown instead."""
 
+KEEP = "plan with `--refiner none`, or let all shots that are refined say `refine: {optional: true}`"
 OF_THE_GUIDE = "M008"
 """The warning of how far a shot on its own clock leaves its place; a refined one leaves it by another way."""
 
@@ -47,7 +48,7 @@ def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ..
                 f"{seat.named} refined a path that can be flown to one that cannot",
                 errors[0].labels,
                 tuple(notes),
-                f"plan with `--refiner none`, or give the refiner more room: {errors[0].help}",
+                f"{KEEP}, or give the refiner more room: {errors[0].help}",
             ),
         ),
     )

@@ -6,7 +6,7 @@ is about, which is how the refine-path pass knows whose convex path to keep wher
 
 from __future__ import annotations
 
-from math import isfinite
+from math import isfinite, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
@@ -16,24 +16,31 @@ from shotc.ir.path import DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.passes.verify.numbers import measure
 
 UNREFINED = "R014"
-NO_HELP = "let this shot fly its convex path by `refine: {optional: true}`, or plan with `--refiner none`"
+EVERYTHING = "all constraints"
+NO_NUMBERS = "the solver left no numbers by which a place or a constraint could be told"
+NOTHING_BROKEN = (
+    "where it stopped no constraint is broken; it had not settled, so nothing there can be loosened"
+)
+STEEP = radians(80.0)  # pitch of a camera that is all but straight above or below what it films
 
 
 class SolverState(NamedTuple):
     """Where the problem of one shot stood when its solver gave up.
 
     shot, refiner, solver : their names
-    stage : index of the worst stage from 0, of ``stages`` intervals; s : its path parameter in metres
+    stage : index of the worst stage from 0, of ``stages`` intervals, None where nothing was broken or the
+        solver left no numbers; s : its path parameter in metres, or mission time of a shot on its own clock
     time : seconds from the shot's first frame, None where the solver had none
-    constraint : what was worst, as people call it ("gimbal pitch rate", "zone tree")
+    constraint : what was worst, as people call it ("gimbal pitch rate", "zone tree"), empty where none is
     excess : by how much it was broken, in ``unit``, in SI and radians; NaN where it is not known
     limit : where the mission writes the limit down; its shot where empty
+    inner : whether the constraint is the solver's own, which no mission can loosen
     """
 
     shot: str
     refiner: str
     solver: str
-    stage: int
+    stage: int | None
     stages: int
     s: float
     time: float | None
@@ -41,6 +48,7 @@ class SolverState(NamedTuple):
     excess: float
     unit: str
     limit: KeyPath = ()
+    inner: bool = False
 
 
 def solver_nan(path: PathIR, state: SolverState) -> Diagnostic:
@@ -50,7 +58,7 @@ def solver_nan(path: PathIR, state: SolverState) -> Diagnostic:
         f"{_who(state)} reached values that are not numbers in shot `{state.shot}`",
         _labels(path, state),
         _notes(path, state),
-        _help(path, state, "bring no keyframe straight above or below a target"),
+        "bring no keyframe straight above or below a target" if _steep(path, state.shot) else "",
     )
 
 
@@ -61,7 +69,7 @@ def stopped_early(path: PathIR, state: SolverState, after: str) -> Diagnostic:
         f"{_who(state)} stopped after {after} in shot `{state.shot}`, before it had a path",
         _labels(path, state),
         _notes(path, state),
-        _help(path, state, "add a keyframe there", loosen=True),
+        _help(path, state, "add a keyframe there"),
     )
 
 
@@ -69,10 +77,10 @@ def impossible(path: PathIR, state: SolverState) -> Diagnostic:
     """Return the error of a problem in which constraints contradict one another near ``state``."""
     return Diagnostic(
         "R012",
-        f"{_who(state)} finds no path for shot `{state.shot}` that keeps {state.constraint}",
+        f"{_who(state)} finds no path for shot `{state.shot}` that keeps {state.constraint or EVERYTHING}",
         _labels(path, state),
         _notes(path, state),
-        _help(path, state, "move the keyframes next to it", loosen=True),
+        _help(path, state, "move the keyframes next to it"),
     )
 
 
@@ -143,13 +151,19 @@ def filmed(path: PathIR, shot: str) -> Leg | TimedLeg:
     raise KeyError(shot)
 
 
-def _help(path: PathIR, state: SolverState, keyframes: str, *, loosen: bool = False) -> str:
-    """Return what to change; keyframes : of a shot that has any."""
+def _help(path: PathIR, state: SolverState, keyframes: str) -> str:
+    """Return what to change, if that is known; keyframes : of a shot that has any."""
+    if state.stage is None:
+        return ""
     clocked = isinstance(filmed(path, state.shot), TimedLeg)
-    remedies = ["give the shot more time" if clocked else keyframes]
-    if loosen and not state.excess <= 0.0:
-        remedies.insert(0, f"loosen {state.constraint}")
-    return f"{', or '.join(remedies)}; or {NO_HELP}"
+    loosen = [] if state.inner or state.excess <= 0.0 else [f"loosen {state.constraint}"]
+    return ", or ".join([*loosen, *([] if clocked else [keyframes])])
+
+
+def _steep(path: PathIR, shot: str) -> bool:
+    """Tell whether a keyframe of a shot is all but straight above or below what it films."""
+    placed = next(p for p in path.keyframes.shots if p.shot.id == shot)
+    return any(abs(keyframe.pitch) > STEEP for keyframe in placed.keyframes)
 
 
 def _who(state: SolverState) -> str:
@@ -166,6 +180,10 @@ def _labels(path: PathIR, state: SolverState) -> tuple[Label, ...]:
 
 
 def _notes(path: PathIR, state: SolverState) -> tuple[str, ...]:
+    if state.stage is None:
+        if state.constraint:
+            return (f"where {state.constraint} is worst is not known",)
+        return (NOTHING_BROKEN if isfinite(state.excess) else NO_NUMBERS,)
     time = "" if state.time is None else f", {state.time:.2f} s into the shot"
     where = (
         f"worst at stage {state.stage} of {state.stages}{time}, {place(filmed(path, state.shot), state.s)}"

@@ -36,17 +36,17 @@ def tell(mission: MissionIR, seat: Seat, found: Finding) -> Fault:
     """Return a finding as the error that the user reads."""
     path = next((shot.path for shot in mission.shots if shot.id == found.shot), None)
     labels = (() if path is None else (mission.origins.key(path, "in this shot"),)) + found.labels
-    help_ = found.help or f"plan with `--refiner none`, and tell the authors of {seat.package}"
+    help_ = found.help or f"tell the authors of {seat.package}"
     return Fault(found.shot, Diagnostic(found.code, f"{seat.named} {found.what}", labels, found.notes, help_))
 
 
 def own(mission: MissionIR, seat: Seat, told: Diagnostic) -> Fault:
     """Return an error of the refiner's own, with the package's name added."""
     note = seat.named
-    return Fault(_shot_of(mission, told), told._replace(notes=(*told.notes, f"told by {note}")))
+    return Fault(shot_of(mission, told), told._replace(notes=(*told.notes, f"told by {note}")))
 
 
-def _shot_of(mission: MissionIR, told: Diagnostic) -> str | None:
+def shot_of(mission: MissionIR, told: Diagnostic) -> str | None:
     """Return the one shot whose key an error labels; the only shot of a mission needs no label."""
     if len(mission.shots) == 1:
         return mission.shots[0].id

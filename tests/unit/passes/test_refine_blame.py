@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shotc import api, plugins
+from shotc.diag.model import Diagnostic
 from shotc.passes.base import Outcome
 from tests.bad_refiners import PASS, ROUND, Odd, along, bumped, text
 
@@ -77,6 +78,45 @@ def test_a_shot_that_was_not_refined_need_not_accept_anything(planned):
 def test_what_no_path_can_meet_is_not_the_refiner_s_fault(planned):
     done = planned(detour, hurried(seconds=7))
     assert [d.code for d in done.diagnostics] == ["T001"]
+
+
+def fails(ir):
+    raise RuntimeError("no luck")
+
+
+def lost(shot):
+    """Refine nothing, and say that a shot has no path."""
+
+    def act(ir):
+        found = next(s for s in ir.keyframes.mission.shots if s.id == shot)
+        label = ir.keyframes.mission.origins.key(found.path)
+        return Outcome(ir, (Diagnostic("R012", "no path", (label,)),))
+
+    return act
+
+
+def test_a_refiner_that_fails_on_a_mission_with_a_good_convex_path_says_so_and_how_to_keep_it(planned):
+    (fault,) = planned(fails, text()).diagnostics
+    assert fault.code == "R001"
+    assert fault.notes[-1] == "the convex path keeps every limit and promise"
+    assert "let all shots fly the convex path by `refine: {optional: true}`" in fault.help
+    assert "--refiner none" in fault.help
+    assert planned(fails, text(PASS, ROUND)).plan is not None
+
+
+def test_a_shot_that_cannot_be_refined_says_that_its_convex_path_is_good_and_what_keeps_it(planned):
+    (fault,) = planned(lost(ROUND), text()).diagnostics
+    assert "the convex path of shot `round` keeps every limit and promise" in fault.notes
+    assert "let shot `round` fly the convex path by `refine: {optional: true}`" in fault.help
+    assert planned(lost(ROUND), text(ROUND)).plan is not None
+
+
+@pytest.mark.parametrize("act", [fails, lost(ROUND)])
+def test_a_convex_path_that_would_not_do_is_not_offered(planned, act):
+    (fault,) = (d for d in planned(act, hurried(seconds=7)).diagnostics if d.code[0] == "R")
+    assert "would not do either: T001" in fault.notes[-1]
+    assert "refine:" not in fault.help
+    assert "--refiner none" not in fault.help
 
 
 STEEP = """\

@@ -59,7 +59,8 @@ def test_a_solver_s_fault_tells_stage_time_place_and_the_worst_constraint(code):
     for word in ("stage 37 of 100", "4.21 s into the shot", f"{at:.1f} m along", "nearest keyframe 2"):
         assert word in told
     assert "gimbal pitch rate was broken by 1.5 deg/s" in told
-    assert "refine: {optional: true}" in fault.help
+    assert ("loosen gimbal pitch rate" in fault.help) is (code != "R010")
+    assert "refine:" not in fault.help  # whether the convex path would do is not known yet
 
 
 @pytest.mark.parametrize("code", WAYS)
@@ -80,6 +81,24 @@ def test_numbers_that_are_not_known_are_not_made_up():
     assert "gimbal pitch rate" in told
     assert "into the shot" not in told
     assert "nan" not in told
+
+
+@pytest.mark.parametrize("code", WAYS)
+def test_where_nothing_is_broken_no_stage_and_no_number_is_told(code):
+    fault = WAYS[code](path(), state(stage=None, constraint="", excess=0.0, limit=()))
+    (told,) = fault.notes
+    assert "no constraint is broken" in told
+    assert "stage" not in told
+    assert fault.help == ""
+
+
+def test_where_there_are_no_numbers_that_is_told():
+    (told,) = solver_nan(path(), state(stage=None, constraint="", excess=nan, time=None)).notes
+    assert "left no numbers" in told
+
+
+def test_what_no_mission_can_loosen_is_not_to_be_loosened():
+    assert impossible(path(), state(inner=True)).help == "move the keyframes next to it"
 
 
 def test_an_announced_fallback_is_a_warning():

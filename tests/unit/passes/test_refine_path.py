@@ -78,7 +78,7 @@ def test_what_a_refiner_does_wrong_is_an_error_that_names_it_and_its_package(act
     assert fault.code == code
     assert "`odd` of package odd-maker" in fault.message
     assert words in " ".join(fault.notes)
-    assert "--refiner none" in fault.help
+    assert "authors of odd-maker" in fault.help
 
 
 @pytest.mark.parametrize(

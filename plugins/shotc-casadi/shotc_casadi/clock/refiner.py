@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import nan
+from math import isfinite
 
 import numpy as np
 
@@ -15,11 +15,11 @@ from shotc.plugin_api import (
     unrefined,
 )
 from shotc.refiner_api import Deviation, TimedLeg, TimedPath, ideal_place, least_out, placed_at
-from shotc_casadi.clock.program import ROWS
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.shown import no_less, past_what_hides
 from shotc_casadi.clock.wishes import ClockSubject
+from shotc_casadi.solving import MOTION
 from shotc_casadi.telling import UNITS, fallen_back, given_up, stats
 
 NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
@@ -139,26 +139,27 @@ def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: st
 def _state(subject: ClockSubject, refined: ClockRefined, name: str) -> SolverState:
     """Return where the problem of a shot that is not refined stood; name : of the refiner."""
     worst, breaks = refined.gap or _worst(refined), refined.breaks
+    known = bool(worst.what) and isfinite(worst.lack)
     return SolverState(
         shot=refined.shot,
         refiner=name,
         solver=refined.solution.solver,
-        stage=int(np.searchsorted(breaks, worst.time)),
+        stage=int(np.searchsorted(breaks, worst.time)) if known else None,
         stages=len(breaks) - 1,
         s=worst.time,
         time=worst.time - subject.leg.start,
         constraint=worst.what,
         excess=worst.lack,
         unit=worst.unit,
+        inner=worst.what == MOTION,
     )
 
 
 def _worst(refined: ClockRefined) -> Gap:
-    """Return the constraint that the solver broke most."""
+    """Return the constraint that the solver broke most, if it broke any."""
     solution = refined.solution
-    what = solution.constraint or ROWS[0]
-    lack = solution.residual if solution.iterations else nan
-    return Gap(float(refined.breaks[solution.stage]), what, lack, UNITS.get(what, ""))
+    what = solution.constraint
+    return Gap(float(refined.breaks[solution.stage]), what, solution.residual, UNITS.get(what, ""))
 
 
 def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:

@@ -1,0 +1,36 @@
+"""What a refiner's error says of the convex path: that it is good and how to keep it, or what it breaks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.path import PathIR
+from shotc.passes.refine_path.finding import shot_of
+
+FAMILY = "R"
+NONE = "plan with `--refiner none`"
+
+
+def with_convex(
+    path: PathIR, said: Iterable[Diagnostic], later: Iterable[Diagnostic]
+) -> tuple[Diagnostic, ...]:
+    """Return what was said, the refiner's errors with what becomes of the convex path.
+
+    path : the convex one; later : all that the passes after refine-path say of it
+    """
+    against = next((d for d in later if has_errors([d])), None)
+    return tuple(_told(path, d, against) if has_errors([d]) and d.code[0] == FAMILY else d for d in said)
+
+
+def _told(path: PathIR, error: Diagnostic, against: Diagnostic | None) -> Diagnostic:
+    shot = shot_of(path.keyframes.mission, error)
+    whose = "the convex path" if shot is None else f"the convex path of shot `{shot}`"
+    if against is not None:
+        note = f"{whose} would not do either: {against.code}: {against.message}"
+        return error._replace(notes=(*error.notes, note), help=against.help or error.help)
+    where = "all shots" if shot is None else f"shot `{shot}`"
+    keep = f"let {where} fly the convex path by `refine: {{optional: true}}`, or {NONE}"
+    note = f"{whose} keeps every limit and promise"
+    return error._replace(notes=(*error.notes, note), help="; or ".join(filter(None, (error.help, keep))))
