@@ -131,6 +131,10 @@ def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:
             yield f"mission.shots[{i}]", f"there is no target `{target}`"
         if shot.ideal is not None:
             yield from _on_clock(shot, targets, f"mission.shots[{i}]")
+    for i, placed in enumerate(ir.keyframes.shots):
+        named = {*(k.target for k in placed.keyframes), *(s.target for s in placed.subjects)}
+        for target in sorted(named - {None, *targets}, key=str):
+            yield f"keyframes[{i}]", f"there is no target `{target}`"
     missing = {shot.id for shot in mission.shots} - {placed.shot.id for placed in ir.keyframes.shots}
     for name in sorted(missing):
         yield "keyframes", f"those of shot `{name}` are missing"

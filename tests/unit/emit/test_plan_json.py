@@ -160,6 +160,7 @@ EDITS: list[tuple[str, Callable[[dict[str, Any]], None], str, str]] = [
     ("unknown target", lambda d: d["drones"][0]["framing"][0].update(target="spire"), "E003", "spire"),
     ("unknown drone", lambda d: d["mission"]["shots"][0].update(drone="cam7"), "E003", "cam7"),
     ("unknown shot", lambda d: d["keyframes"][0].update(shot="other"), "E003", "keyframes[0]"),
+    ("unknown framed", lambda d: d["keyframes"][0]["keyframes"][0].update(target="spire"), "E003", "spire"),
     ("missing keyframes", lambda d: d.update(keyframes=[]), "E003", "half"),
     ("negative limit", lambda d: drone(d)["limits"].update(jerk=-1.0), "E003", "limits.jerk"),
     ("endless rate", lambda d: d["mission"].update(rate=1e9), "E003", "mission.rate"),
