@@ -58,7 +58,7 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
 
 def caption_height(width: float) -> float:
     """Return the height of the caption under a picture in a cell of some width, inches."""
-    return 0.17 + (2 if width > WIDE else 3) * LINE
+    return 0.24 + (3 if width > WIDE else 4) * LINE
 
 
 def clock(seconds: float) -> str:
@@ -152,7 +152,7 @@ def _names(
             bodies.append(seen)
         elif name in targets:
             others.append(seen)
-        labels.append(Label(name, color, place, PICTURE_SIDES, 7.0, bold=False, inside=name not in targets))
+        labels.append(Label(name, color, place, PICTURE_SIDES, 7.5, bold=False, inside=name not in targets))
     write_labels(canvas, inner, labels, [*taken, *bodies], others)
 
 
@@ -160,9 +160,7 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> 
     pose, box = moment.pose, cell.picture
     base = box.y - 0.2
     canvas.disc((box.x + 0.095, base + 0.045), 0.095, INK, "none", 0)
-    canvas.text(
-        box.x + 0.095, base + 0.043, str(moment.number), Type(7, WHITE, True, "center", "center_baseline")
-    )
+    canvas.text(box.x + 0.095, base + 0.043, moment.mark, Type(7.5, WHITE, True, "center", "center_baseline"))
     canvas.text(box.x + 0.26, base, clock(moment.time), Type(9.5, INK, bold=True))
     canvas.text(box.right, base, compass(float(pose[CAM_YAW])), Type(9.5, INK, bold=True, across="right"))
     facts = [f"pitch {round(degrees(pose[CAM_PITCH])):+d}°", f"hfov {degrees(pose[HFOV]):.0f}°"]
@@ -175,8 +173,10 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> 
     rows = [facts] if cell.width > WIDE else [facts[:2], facts[2:]]
     for i, row in enumerate(rows, start=1):
         text = " · ".join(row).replace("-", "−")
-        style = canvas.fitted(text, Type(7.8, QUIET), cell.width)
-        canvas.text(box.x, base - i * LINE, text, style)
+        canvas.write(box.x, base - i * LINE, text, Type(7.8, QUIET), cell.width)
+    if moment.worst:
+        words, style = f"worst: {moment.worst}", Type(7.8, KEEP_OUT, bold=True)
+        canvas.write(box.x, base - (len(rows) + 1) * LINE, words, style, cell.width)
 
 
 def metres(length: float) -> str:

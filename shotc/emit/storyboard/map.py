@@ -195,7 +195,7 @@ def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, taken: list[Box]) -
         canvas.disc((x, y), 0.03, CAMERA, INK, 0.7)
     for moment, spot in zip(board.moments, spots, strict=True):
         canvas.disc(spot, NUMBER, INK, WHITE, 0.8)
-        canvas.text(*spot, str(moment.number), Type(7, WHITE, True, "center", "center_baseline"))
+        canvas.text(*spot, moment.mark, Type(7.5, WHITE, True, "center", "center_baseline"))
 
 
 def _spot(sheet: Sheet, moment: Moment, taken: list[Box]) -> tuple[float, float]:
