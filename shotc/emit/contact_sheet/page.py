@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.emit.audience import ASPECT, Audience, audience
 from shotc.emit.contact_sheet.ground import draw_ground
-from shotc.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards
+from shotc.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
 from shotc.emit.contact_sheet.night import night
 from shotc.emit.palette import FAINT, INK, QUIET, WHITE
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
@@ -139,7 +139,7 @@ def _cell(
     stands = clock(moment.start)
     if moment.end - moment.start >= 1.0:
         stands = f"{clock(moment.start)} to {clock(moment.end)}"
-    text = f"{stands}  ·  {len(board.flight.coef)} drones"
+    text = f"{stands}  ·  {lights(board.flight, moment.time)} of {len(board.flight.coef)} lights"
     canvas.text(box.right, y - 0.19, text, Type(8.5, QUIET, across="right"))
     if moment.way:
         canvas.text(x, y - 0.19, "on the way", Type(8.5, QUIET))

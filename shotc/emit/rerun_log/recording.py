@@ -53,7 +53,6 @@ def recorded(mission: MissionIR, what: str, fill: Callable[[Any], None]) -> byte
 
 
 def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
-    mission = plan.trajectory.keyframes.mission
     bounds = scene_bounds(plan)
     log_world(stream, plan)
     frustum = frustum_length(bounds)
@@ -69,7 +68,7 @@ def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
     alone = plan.trajectory.fleets and not flown
     if alone:
         log_words(stream, plan)
-    layout = show_blueprint(plan, bounds, plots) if alone else blueprint(mission, flown, bounds)
+    layout = show_blueprint(plan, bounds, plots) if alone else blueprint(plan, flown, bounds)
     stream.send_blueprint(layout, make_active=True, make_default=True)
 
 

@@ -9,8 +9,9 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from shotc.emit.rerun_log.layout import camera_view, error_view, panels, world_view
+from shotc.emit.rerun_log.layout import camera_view, error_view, overview, panels, world_view
 from shotc.emit.rerun_log.motion import camera_entity, log_motion
+from shotc.emit.rerun_log.opening import first_stand
 from shotc.emit.rerun_log.recording import frustum_length, recorded
 from shotc.emit.rerun_log.world import log_flights, log_scene, scene_bounds
 from shotc.emit.screen import error_top, percent
@@ -73,7 +74,9 @@ def _blueprint(
     columns = [_column(found, each, len(plans), (end, top)) for each, _ in plans]
     cameras = [_camera(each, drone) for each, _ in plans for drone in found.mission.drones]
     facts = rrb.TextDocumentView(origin="summary", name="In numbers")
-    below = rrb.Horizontal(world_view(bounds, cameras), facts, column_shares=[1.0, 1.4])
+    below = rrb.Horizontal(
+        world_view(first_stand(plans[0][1]) or overview(bounds), cameras), facts, column_shares=[1.0, 1.4]
+    )
     above = min(1.0 / len(columns) + PLOT + 2 * HEAD, MOST)
     whole = rrb.Vertical(rrb.Horizontal(*columns), below, row_shares=[above, 1.0 - above])
     filmed = [(shot.start, shot.end) for each, _ in plans for shot in each.shots]
