@@ -115,10 +115,11 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[st
     ]
     under = rows[0] if len(rows) == 1 else rrb.Tabs(*rows)
     whole = rrb.Vertical(top, under, row_shares=[3.0, 1.0])
-    return rrb.Blueprint(whole, *panels(_span(plan)), auto_layout=False, auto_views=False)
+    return rrb.Blueprint(whole, *panels(shown_span(plan)), auto_layout=False, auto_views=False)
 
 
-def _span(plan: VerifiedIR) -> tuple[float, float] | None:
+def shown_span(plan: VerifiedIR) -> tuple[float, float] | None:
+    """Return when the first picture stands and when the last one is over, seconds, or None without one."""
     shown = [shown for flight in plan.trajectory.fleets for shown in flight.shown]
     if not shown:
         return None

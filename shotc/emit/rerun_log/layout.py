@@ -9,6 +9,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 from rerun.encodings import AbsoluteTimeRange
 
+from shotc.emit.rerun_log.clock import FILMED, MISSION
 from shotc.emit.rerun_log.motion import camera_entity, frame_size
 from shotc.emit.rerun_log.opening import Stand, filmed_span, first_stand
 from shotc.emit.rerun_log.series import Plot
@@ -73,7 +74,7 @@ def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
         part = AbsoluteTimeRange(*(round(end * 1e9) for end in span))
     return (
         rrb.TimePanel(
-            timeline="t",
+            timeline=MISSION if span is None else FILMED,
             playback_speed=1.0,
             play_state="playing",
             loop_mode="all" if part is None else "selection",
