@@ -39,7 +39,7 @@ def standing_too_near(
     path = fleet.path if shown is None else _path(mission, shown)
     share = at_least(fleet.apart.across / max(found.attained, 1e-3))
     larger = f"make the picture {share} times as large, or use fewer drones"
-    change = wider(mission, fleet, fleet.apart.across) if shown is None else larger
+    change = wider(mission, fleet, spacing(fleet.apart)) if shown is None else larger
     return Diagnostic(
         "D085",
         f"two drones of `{fleet.name}` stand {found.attained:.2f} m apart {where}, "

@@ -64,9 +64,15 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
         f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
         (instead,),
         lambda mission, shot: (
-            f"{_what_fits(keyframe, setting, mission, shot)}, or set `composition: keep` to allow cropping"
+            f"{_what_fits(keyframe, setting, mission, shot)}, or {_kept(keyframe, mission)} to allow cropping"
         ),
     )
+
+
+def _kept(keyframe: Keyframe, mission: MissionIR) -> str:
+    """Say how a keyframe keeps its place on screen: its own `frame` counts before its shot's composition."""
+    own = (*keyframe.path, "frame") in mission.origins.values
+    return "write `frame: keep`" if own else "set `composition: keep`"
 
 
 def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:

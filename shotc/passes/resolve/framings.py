@@ -7,6 +7,7 @@ from math import asin, degrees, isnan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.diag.registry import has_errors
 from shotc.geom.viewpoint import Seen, Wanted, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
 from shotc.ir.framed import (
@@ -19,7 +20,16 @@ from shotc.ir.framed import (
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.framing import beyond_gimbal
-from shotc.rounding import at_least, down
+from shotc.passes.resolve.framing_remedies import (
+    for_azimuth,
+    for_elevation,
+    for_free_elevation,
+    for_lens,
+    for_place,
+    for_size,
+    for_size_and_elevation,
+)
+from shotc.rounding import up
 
 OFF_PLACE = 0.05  # half frames
 OFF_SIZE = 0.1  # share of the size asked
@@ -42,14 +52,17 @@ def with_framings(mission: MissionIR) -> tuple[MissionIR, list[Diagnostic]]:
     return mission, faults
 
 
-def check_course(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
-    """Yield what is wrong with a framing; the first fault of a subject is enough."""
+def check_course(mission: MissionIR, course: Course, *, advise: bool = True) -> Iterator[Diagnostic]:
+    """Yield what is wrong with a framing; the first fault of a subject is enough.
+
+    advise : whether to try what would help; a remedy is tried without
+    """
     shot = course.shot
-    near = [fault for s in shot.subjects if (fault := _too_large(mission, shot, s)) is not None]
+    near = [fault for s in shot.subjects if (fault := _too_large(mission, shot, s, advise)) is not None]
     yield from near
     if near:
         return
-    blocked = _blocked(mission, course)
+    blocked = _blocked(mission, course, advise)
     if blocked is not None:
         yield blocked
         return
@@ -57,7 +70,17 @@ def check_course(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
         yield from _together(mission, course)
 
 
-def _too_large(mission: MissionIR, shot: Shot, subject: Subject) -> Diagnostic | None:
+def _fits(mission: MissionIR, shot: Shot) -> bool:
+    """Tell whether a framing can be had as it is asked for."""
+    course = course_of(mission, shot, first_start(mission, shot))
+    return not has_errors(check_course(mission, course, advise=False))
+
+
+def _either(*remedies: Iterator[str], otherwise: str) -> str:
+    return ", or ".join(found for remedy in remedies for found in remedy) or otherwise
+
+
+def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic | None:
     """Tell a size that the subject has not even from as near as its clearance allows."""
     if subject.size is None:
         return None
@@ -77,7 +100,9 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject) -> Diagnostic |
             f"no camera shows `{subject.target}` at its place on screen",
             (mission.origins.value(shot_key(mission, shot, subject, "frame")),),
             ("it would look so steeply up or down that this place cannot be reached without tilting",),
-            "move its place nearer to the middle, or lower the elevation of its view",
+            _either(for_place(_fits, mission, shot, subject), otherwise="lower the elevation of its view")
+            if advise
+            else "",
         )
     labels: tuple[Label, ...] = (mission.origins.value(path),)
     if ("rules", "target_clearance") in mission.origins.values:
@@ -91,20 +116,29 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject) -> Diagnostic |
             f"{drone.radius:.2f} m keep the camera {least:.2f} m from its middle; from there its size is "
             f"{_share(largest)}",
         ),
-        f"ask for {_share(down(largest, 3))} or less, or take a longer lens",
+        _either(
+            for_size(_fits, mission, shot, subject, largest),
+            for_lens(_fits, mission, shot, wanted, (x, y, z)),
+            otherwise=_either(
+                for_size_and_elevation(_fits, mission, shot, subject, subject.size),
+                otherwise="film it from another side",
+            ),
+        )
+        if advise
+        else "",
     )
 
 
-def _blocked(mission: MissionIR, course: Course) -> Diagnostic | None:
+def _blocked(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | None:
     """Tell a view that is underground, out of the gimbal's range, or in something all along."""
     alone = len(course.shot.subjects) == 1
-    fault = (_too_low(mission, course) or _beyond_reach(mission, course)) if alone else None
+    fault = (_too_low(mission, course, advise) or _beyond_reach(mission, course)) if alone else None
     if fault is not None or course.blocked < 1.0 or not _known(mission, course.shot):
         return fault
-    return _without_room(mission, course)
+    return _without_room(mission, course, advise)
 
 
-def _too_low(mission: MissionIR, course: Course) -> Diagnostic | None:
+def _too_low(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | None:
     shot, subject = course.shot, course.shot.subjects[0]
     need = mission.rules.ground_clearance + mission.drone(shot.drone).radius
     z = min(pose[2] for pose in course.poses)
@@ -116,7 +150,16 @@ def _too_low(mission: MissionIR, course: Course) -> Diagnostic | None:
         f"the view of `{subject.target}` puts the camera {where}",
         (_view_label(mission, shot, subject, "elevation"),),
         (f"the ground clearance and the body radius need {need:.2f} m",),
-        f"raise `elevation`{_enough(course, need)}, or leave it out: then it is as low as it may be",
+        _either(
+            for_elevation(_fits, mission, shot, subject, _enough(course, need)),
+            for_free_elevation(_fits, mission, shot, subject),
+            otherwise=_either(
+                for_size_and_elevation(_fits, mission, shot, subject, subject.size or 0.0),
+                otherwise="ask for a smaller size, from farther away",
+            ),
+        )
+        if advise
+        else "",
     )
 
 
@@ -131,39 +174,43 @@ def _beyond_reach(mission: MissionIR, course: Course) -> Diagnostic | None:
     return beyond_gimbal(mission, drone, known, beyond[0])
 
 
-def _without_room(mission: MissionIR, course: Course) -> Diagnostic:
+def _without_room(mission: MissionIR, course: Course, advise: bool) -> Diagnostic:
     shot, drone = course.shot, mission.drone(course.shot.drone)
     subject = shot.subjects[0]
-    asked = next((s for s in shot.subjects if s.view is not None and s.view[1] is not None), subject)
+    asked = next((s for s in shot.subjects if s.view is not None), subject)
     x, y, z = course.poses[0][:3]
     what, name, lack = max(lacks(mission, drone, (x, y, z), course.times[0]), key=lambda found: found[2])
     owner = mission.target(name) if what == "target" else next(z for z in mission.zones if z.name == name)
     free = all(s.view is None or s.view[0] is None for s in shot.subjects)
+    size = mission.origins.value(shot_key(mission, shot, subject, "size"))
+    label = size if free else _view_label(mission, shot, asked, "azimuth")
     return Diagnostic(
         "M032",
         f"the camera of shot `{shot.id}` has no room where it sees `{subject.target}` as asked",
         (
-            _view_label(mission, shot, asked, "azimuth"),
+            label,
             mission.origins.key(owner.path, "what is in its way"),
         ),
         (
             f"it would be at [{x:.1f}, {y:.1f}, {z:.1f}], where {what} `{name}` lacks {lack:.2f} m",
             "it is so all through the shot",
         ),
-        "ask for another size or elevation: no bearing is free"
-        if free
-        else "take another `azimuth`, or leave it out",
+        _either(
+            *(remedy(_fits, mission, shot, asked) for remedy in (for_azimuth, for_elevation)),
+            for_size(_fits, mission, shot, subject, subject.size or 0.0),
+            otherwise="move what is in its way, or film it with another `kind`",
+        )
+        if advise
+        else "",
     )
 
 
-def _enough(course: Course, need: float) -> str:
-    """Say which elevation would do, where the distance stays the same."""
+def _enough(course: Course, need: float) -> float:
+    """Return which elevation would do if the distance stayed the same, degrees; 90 where none would."""
     x, y, z = course.shot.ideal.points[0][1] if course.shot.ideal is not None else (0.0, 0.0, 0.0)
     away = (x * x + y * y + z * z) ** 0.5
     rise = (z + need - min(p[2] for p in course.poses)) / max(away, 1e-9)
-    if rise >= 1.0:
-        return ""
-    return f" to {at_least(degrees(asin(rise)), 0)} deg"
+    return up(degrees(asin(rise)), 0) if rise < 1.0 else 90.0
 
 
 def _view_label(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> Label:

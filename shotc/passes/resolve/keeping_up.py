@@ -8,7 +8,7 @@ is looked at again with the number that is proposed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import hypot, inf
+from math import dist, hypot, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.vec import Vec3
@@ -40,13 +40,12 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     early = f"; the shot begins at {begins[0]:.1f} s at the earliest" if open_ else ""
     wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     window = min(WINDOW, shot.timing.duration or 0.0)
-    faster = up(worst + mission.wind, 1)
     remedies = [
         *_nearer(mission, shot, drone),
         *_other_side(mission, shot, limit),
         *_longer(mission, shot, worst / limit),
         *_straight(mission, shot, limit),
-        f"raise `limits: {{speed: {faster:.1f} m/s}}` of `{drone.name}` if it flies that",
+        f"raise `{_faster(mission, shot, worst, begins[0])}` of `{drone.name}` if it flies that",
         *_slower(mission, shot),
     ]
     yield Diagnostic(
@@ -62,6 +61,35 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         ),
         ", or ".join(remedies),
     )
+
+
+def _faster(mission: MissionIR, shot: Shot, speed: float, start: float) -> str:
+    """Return limits with which the drone keeps up, as they are written.
+
+    An acceleration belongs to them where the place changes its velocity faster than the drone can.
+    """
+    limits = f"speed: {up(speed + mission.wind, 1):.1f} m/s"
+    needed = _hardest(mission, shot, start)
+    if needed > mission.drone(shot.drone).limits.acceleration * (1 + ROUNDING):
+        limits += f", acceleration: {up(needed, 1):.1f} m/s^2"
+    return f"limits: {{{limits}}}"
+
+
+def _hardest(mission: MissionIR, shot: Shot, start: float) -> float:
+    """Return the highest change of the mean velocity from one window to the next, m/s^2.
+
+    A drone that is in its place at the ends of both windows changes its velocity as much within them.
+    """
+    if is_keyed(shot):
+        shot = settled(mission, shot, start)
+    duration = shot.timing.duration or 0.0
+    window = min(WINDOW, duration / 2)
+    found = [0.0]
+    for i in range(STEPS + 1):
+        t = start + (duration - 2 * window) * i / STEPS
+        a, b, c = (ideal_place(mission, shot, start, t + k * window) for k in range(3))
+        found.append(dist([2 * m for m in b], [p + n for p, n in zip(a, c, strict=True)]) / window**2)
+    return max(found)
 
 
 def _begins(mission: MissionIR, shot: Shot) -> tuple[float, ...]:

@@ -49,19 +49,18 @@ def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
     a, b = shot.keyframes[i], shot.keyframes[j]
     start, end = a.time or 0.0, b.time or 0.0
     label = mission.origins.value((*b.path, "time"))
-    if end <= start:
-        labels = (label, mission.origins.value((*a.path, "time"), "the earlier keyframe"))
-        note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s"
-        help_ = f"set it later than {start:.1f} s"
-        return Diagnostic("K001", "keyframe times do not rise", labels, (note,), help_)
     stretch = shot.keyframes[i : j + 1]
     holds = sum(k.hold for k in stretch[:-1])
     least = holds + least_travel([k.at for k in stretch], mission.drone(shot.drone).limits, rests=False)
+    help_ = f"set it later than {at_least(start + least, 1)} s; {EARLIEST}"
+    if end <= start:
+        labels = (label, mission.origins.value((*a.path, "time"), "the earlier keyframe"))
+        note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s"
+        return Diagnostic("K001", "keyframe times do not rise", labels, (note,), help_)
     if end - start >= least - SLACK:
         return None
     note = f"the {length(stretch):.1f} m between them need at least {at_least(least, 1)} s"
     message = f"nobody gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
-    help_ = f"set it later than {at_least(start + least, 1)} s; {EARLIEST}"
     return Diagnostic("K004", message, (label,), (note,), help_)
 
 

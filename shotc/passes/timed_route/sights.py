@@ -19,7 +19,6 @@ from shotc.geom.sight import off_axis, outside
 from shotc.ir.bodies import flying, standing_at
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.preference import prefers_free_pictures
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.solvers.spline_qp import Floors
@@ -54,14 +53,12 @@ class Body:
 class Sights:
     """Whose pictures a drone keeps out of, and whom it keeps out of its own.
 
-    half_angle : as in ``ir.mission.Rules``; preferred : whether they are kept free only by the rule of
-        ``ir.preference``
+    half_angle : as in ``ir.mission.Rules``
     """
 
     watchers: tuple[Watcher, ...] = ()
     bodies: tuple[Body, ...] = ()
     half_angle: float | None = None
-    preferred: bool = False
 
 
 def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTrajectory]) -> Sights:
@@ -76,11 +73,10 @@ def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTraje
         camera = partial(_camera, flight.curve, other.aspect)
         watchers += [Watcher(p.start, p.end, camera) for p in flight.phases if p.shot is not None]
         bodies.append(Body(other.radius, partial(flying, flight.curve)))
-    if not prefers_free_pictures(mission):
+    if mission.rules.visibility == "require":
         # No shot is bent for a pad that is only preferred not to be seen.
         bodies += [Body(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
-    preferred = prefers_free_pictures(mission)
-    return Sights(tuple(watchers), tuple(bodies), mission.rules.half_angle, preferred)
+    return Sights(tuple(watchers), tuple(bodies), mission.rules.half_angle)
 
 
 def _camera(curve: Piecewise, aspect: float, times: Array) -> Cameras:

@@ -22,6 +22,7 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
 from tests.front import clean, placed
+from tests.remedies.apply import remedies
 
 MISSION = """\
 shotc: 1
@@ -239,6 +240,17 @@ def test_what_no_camera_can_have_is_told_at_its_line(
 ) -> None:
     mission = text(*subjects)
     assert underlined(mission, only(mission, code)) == where
+
+
+@pytest.mark.parametrize("rules", ["", "rules: {target_clearance: 3}\n"])
+@pytest.mark.parametrize("view", ["", ", view: {elevation: 0 deg}", ", view: {azimuth: 30 deg}"])
+@pytest.mark.parametrize("size", ["close-up", "1", "0.7"])
+def test_what_lets_a_framing_be_had_does_when_it_is_written(rules: str, view: str, size: str) -> None:
+    """Each remedy of M031 and M032 is written in: no error is left, whatever else the first one hid."""
+    mission = text(f"target: runner, size: {size}{view}").replace("shots:", f"{rules}shots:")
+    for fault in told(mission):
+        for remedy in remedies(mission, fault) if fault.code in ("M031", "M032") else ():
+            assert any(not has_errors(told(mended)) for mended in remedy.missions), remedy.text
 
 
 def test_subjects_too_far_apart_for_their_sizes_are_told_with_the_size_there_is() -> None:

@@ -141,3 +141,13 @@ def test_what_moves_evenly_for_ever_is_told_whenever_the_shot_begins() -> None:
 def test_a_shot_that_keeps_up_if_it_begins_a_little_later_is_left_to_planning() -> None:
     assert not after("start: 7, duration: 2", "after: r, duration: 6")
     assert after("start: 7, duration: 2", "start: 9.1, duration: 6")
+
+
+def test_a_target_that_turns_back_asks_for_acceleration_as_well() -> None:
+    """A drone as fast as its target, but no quicker to turn, overshoots where that turns back."""
+    back = "points: [[0, 0, 0.9], [100, 0, 0.9], [0, 0, 0.9]], speed: 9 m/s"
+    assert re.search(
+        r"raise `limits: {speed: [\d.]+ m/s, acceleration: 9\.9 m/s\^2}`", help_of(LATERAL, track=back)
+    )
+    along = "points: [[0, 0, 0.9], [300, 0, 0.9]], speed: 9 m/s"
+    assert "raise `limits: {speed: 9.0 m/s}`" in help_of(LATERAL, track=along)

@@ -9,6 +9,7 @@ from math import dist, floor, hypot, pi, sin
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.geom.apart import spacing
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
@@ -98,7 +99,8 @@ def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     one, other = fleet.pads[found.one], fleet.pads[found.other]
     away = dist(one, other)
     which = f"pads {found.one + 1} and {found.other + 1} are {away:.2f} m apart"
-    help_ = wider(mission, fleet, max(fleet.apart.across, 2 * fleet.radius))
+    # The separation alone would do on the pads, but not on straight ways between them and the pictures.
+    help_ = wider(mission, fleet, max(spacing(fleet.apart), 2 * fleet.radius))
     if away < 2 * fleet.radius:
         note = f"{which}, and each body has a radius of {fleet.radius:.2f} m"
         message = f"drones of fleet `{fleet.name}` stand inside each other"

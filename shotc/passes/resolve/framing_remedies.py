@@ -1,0 +1,118 @@
+"""What would let a framing be had: sizes, lenses, views and places, each tried before it is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import degrees, radians
+
+from shotc.geom.vec import Vec3
+from shotc.geom.viewpoint import Wanted, lens_for
+from shotc.ir.framed import lens_of
+from shotc.ir.mission import MissionIR, Shot, Subject
+from shotc.rounding import away, down
+
+Fits = Callable[[MissionIR, Shot], bool]
+"""Whether a framing can be had in a mission."""
+
+SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+"""Of a size, a field of view or a place on screen: what is tried, the nearest to what was asked first."""
+TURNS = tuple(sign * d for d in range(10, 181, 10) for sign in (1, -1))  # degrees from the bearing asked
+RISES = tuple(range(5, 86, 5))  # degrees of elevation
+WHOLE = 1.0
+"""The largest size that a mission writes as a number; only a name asks for a cropped target."""
+
+
+def for_size(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float) -> Iterator[str]:
+    """Yield the largest size that can be had, at most ``most``."""
+    for share in SHARES:
+        size = down(share * min(most, WHOLE), 2)
+        if size > 0 and fits(mission, _with(shot, subject, subject._replace(size=size))):
+            yield f"ask for `size: {size:g}` or less"
+            return
+
+
+def for_size_and_elevation(
+    fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float
+) -> Iterator[str]:
+    """Yield the largest size that can be had where the elevation is left out, if it is written."""
+    azimuth, asked = subject.view or (None, None)
+    if asked is None:
+        return
+    free = subject._replace(view=None if azimuth is None else (azimuth, None))
+    for found in for_size(fits, mission, _with(shot, subject, free), free, most):
+        yield f"leave `elevation` out and {found}"
+
+
+def for_lens(fits: Fits, mission: MissionIR, shot: Shot, wanted: Wanted, nearest: Vec3) -> Iterator[str]:
+    """Yield the widest lens with which a subject has its size from no nearer than its clearance.
+
+    nearest : the camera's offset from the subject at its clearance, metres
+    """
+    drone = mission.drone(shot.drone)
+    widest = None if wanted.size is None else lens_for(wanted, lens_of(drone), nearest, wanted.size)
+    camera = (*drone.path, "camera")
+    if widest is None:
+        return
+    if any((*camera, key) in mission.origins.values for key in ("sensor", "focal_length")):
+        yield "take a longer lens"
+        return
+    for share in SHARES:
+        hfov = away(degrees(widest) * share, upper=False, digits=2)
+        lens = drone._replace(hfov=radians(hfov))
+        drones = tuple(lens if d is drone else d for d in mission.drones)
+        if hfov >= 1.0 and fits(mission._replace(drones=drones), shot):
+            yield f"take a longer lens for `{drone.name}`, `camera: {{hfov: {hfov:g} deg}}`"
+            return
+
+
+def for_place(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> Iterator[str]:
+    """Yield the place on screen nearest to the one asked, towards the middle, that can be had."""
+    u, v = subject.composition.points[0]
+    for share in (*SHARES[1:], 0.0):
+        place = (round(share * u, 2) + 0.0, round(share * v, 2) + 0.0)
+        nearer = subject._replace(composition=subject.composition._replace(points=(place,)))
+        if fits(mission, _with(shot, subject, nearer)):
+            yield f"put it at `frame: [{place[0]:g}, {place[1]:g}]`"
+            return
+
+
+def for_elevation(
+    fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, least: float = 0.0
+) -> Iterator[str]:
+    """Yield the lowest elevation of at least so many degrees that can be had."""
+    azimuth, asked = subject.view or (None, None)
+    written = (*subject.path[:-1], "view") in mission.origins.values
+    lowest = round(max(least, -90.0 if asked is None else degrees(asked) + 1.0))
+    for rise in sorted({lowest, *(r for r in RISES if r > lowest)}):
+        if rise < 90 and fits(mission, _with(shot, subject, subject._replace(view=(azimuth, radians(rise))))):
+            yield (
+                f"raise `elevation` to {rise} deg" if written else f"write `view: {{elevation: {rise} deg}}`"
+            )
+            return
+
+
+def for_free_elevation(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> Iterator[str]:
+    """Yield the elevation left out, where it is written and does without."""
+    azimuth, asked = subject.view or (None, None)
+    view = None if azimuth is None else (azimuth, None)
+    if asked is not None and fits(mission, _with(shot, subject, subject._replace(view=view))):
+        yield "leave `elevation` out: then it is as low as it may be"
+
+
+def for_azimuth(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> Iterator[str]:
+    """Yield the nearest other bearing that can be had, and none at all where that can be, too."""
+    azimuth, elevation = subject.view or (None, None)
+    if azimuth is None:
+        return
+    for turn in TURNS:
+        bearing = round(degrees(azimuth) + turn) % 360
+        if fits(mission, _with(shot, subject, subject._replace(view=(radians(bearing), elevation)))):
+            yield f"take `azimuth: {bearing} deg`"
+            break
+    view = None if elevation is None else (None, elevation)
+    if fits(mission, _with(shot, subject, subject._replace(view=view))):
+        yield "leave `azimuth` out"
+
+
+def _with(shot: Shot, old: Subject, new: Subject) -> Shot:
+    return shot._replace(subjects=tuple(new if s is old else s for s in shot.subjects))
