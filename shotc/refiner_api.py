@@ -21,6 +21,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.occlusion import others_of
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath
+from shotc.ir.preference import MOST_MOVED, given_up, prefers_free_pictures
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
@@ -48,6 +49,7 @@ __all__ = [
     "CAM_PITCH",
     "CAM_YAW",
     "HFOV",
+    "MOST_MOVED",
     "ROUNDING",
     "Array",
     "Bound",
@@ -90,6 +92,7 @@ __all__ = [
     "flying",
     "flying_times",
     "frustum_margins",
+    "given_up",
     "ideal_place",
     "kept",
     "lateness",
@@ -103,6 +106,7 @@ __all__ = [
     "parts_of_one",
     "placed_at",
     "places",
+    "prefers_free_pictures",
     "quintic_hermite",
     "rejoined",
     "restrict",

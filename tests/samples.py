@@ -29,6 +29,7 @@ from shotc.ir.origin import OriginMap
 from shotc.ir.phases import Phase
 from shotc.ir.source import MissionSource
 from shotc.ir.trajectory import Claim, DroneTrajectory, KeyframeTime, Reference, TrajectoryIR, VerifiedIR
+from tests.records import replace
 
 CENTER = Composition("center", points=((0.0, 0.0),))
 HFOV = radians(70)
@@ -270,3 +271,17 @@ def _keyframe_times() -> tuple[KeyframeTime, ...]:
 
 def _ease(t: np.ndarray) -> np.ndarray:
     return 10 * t**3 - 15 * t**4 + 6 * t**5
+
+
+def dense_plan(*, placed: bool, count: int = 31) -> VerifiedIR:
+    """The sample plan with many keyframes along its shot."""
+    plan = orbit_plan()
+    trajectory = plan.trajectory
+    (shot,), (flight,) = trajectory.keyframes.shots, trajectory.drones
+    keyframe = replace(shot.keyframes[0], placed=placed)
+    written = replace(shot.shot, keyframes=shot.shot.keyframes[:1] * count)
+    shots = (replace(shot, shot=written, keyframes=(keyframe,) * count),)
+    times = tuple(KeyframeTime("half", i, float(t)) for i, t in enumerate(np.linspace(22, 52, count)))
+    keyframes = replace(trajectory.keyframes, shots=shots)
+    drones = (replace(flight, keyframes=times),)
+    return VerifiedIR(replace(trajectory, keyframes=keyframes, drones=drones), plan.certificate)

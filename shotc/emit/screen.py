@@ -18,6 +18,9 @@ from shotc.rounding import down
 IN_FRAME = " in frame"
 """How the claim ends that tells how much of the time a target is seen whole; before it stands its name."""
 
+SCREEN_ERROR = " screen error"
+"""How the claim ends that tells how far a target is from its place at most."""
+
 TOPS = (0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0)
 """Half frames: where plots of screen errors end. What is farther off is out of the frame by a whole one."""
 
@@ -107,7 +110,7 @@ def certified(
         named = [c for c in claims if c.constraint.endswith(ending) and isfinite(c.worst)]
         return [c for c in named if target in (None, c.constraint.removesuffix(ending))]
 
-    worst = max(said(" screen error"), key=lambda c: c.worst, default=None)
+    worst = max(said(SCREEN_ERROR), key=lambda c: c.worst, default=None)
     small = min((c.worst for c in said(" size smallest")), default=None)
     large = max((c.worst for c in said(" size largest")), default=None)
     return ScreenSummary(

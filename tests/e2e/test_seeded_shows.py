@@ -88,7 +88,7 @@ def animation(rng: np.random.Generator, home: Path, count: int, size: float) -> 
     for k in range(count):
         data = mesh(ball, k / count, size)
         (home / f"frame{k}.{ending}").write_bytes(ply(data) if ending == "ply" else obj(data))
-    return {"files": f"frame*.{ending}"}
+    return {"files": f"frame*.{ending}", "units": "m"}
 
 
 def mesh(ball: bool, share: float, size: float) -> Array:

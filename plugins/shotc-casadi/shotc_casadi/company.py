@@ -14,6 +14,7 @@ import numpy as np
 
 from shotc.plugin_api import Diagnostic, Leg, Outcome, PassContext, PathIR, Piecewise, unrefined
 from shotc.refiner_api import (
+    MOST_MOVED,
     Array,
     FlownShot,
     Looker,
@@ -22,6 +23,7 @@ from shotc.refiner_api import (
     flown_shot,
     least_out,
     leg_time,
+    prefers_free_pictures,
     quintic_hermite,
     rejoined,
     surroundings,
@@ -66,6 +68,7 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
 def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[PathIR, list[Diagnostic]]:
     """Return the path with one shot on a path refined, and what has to be said of it."""
     shot, task, why = subject.placed.shot.id, subject, ""
+    plain: tuple[Refined, PathIR] | None = None  # where nothing but a preference stands against it
     for tries in range(1, TRIES + 2):
         refined = refine_shot(task, condition)
         if refined.camera is None and not why:
@@ -82,12 +85,28 @@ def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[Path
                 task = task._replace(leg=_in_its_time(subject))
                 continue
             against = _against(path, moved, subject)
-            if against is None:
+            if against is None and (plain is None or _near(subject, refined, plain[0])):
                 return _told(path, moved, refined, condition)
-            why = against
+            if against in (None, IN_PICTURE) and prefers_free_pictures(subject.mission):
+                plain = plain or (refined, moved)
+            why = against or IN_PICTURE
         course = path if tries == TRIES else moved
         task = task._replace(beside=_Passing(course, subject, flown_shot(course, shot)).half_spaces)
+    if plain is not None:
+        return _told(path, plain[1], plain[0], condition)
     return path, [unrefined(path, shot, why)]
+
+
+def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:
+    """Tell whether a shot stays as near to another as a preference may move it from that."""
+    assert refined.camera is not None
+    assert plain.camera is not None
+    s = plain.nodes.s
+    before, after = plain.camera(s)[:, :3], refined.camera(s)[:, :3]
+    named = {k.target for k in subject.placed.keyframes if k.target is not None}
+    centres = [np.array(subject.mission.target(name).centre) for name in named]
+    away = np.min([np.linalg.norm(before - centre, axis=1) for centre in centres] or [np.inf], axis=0)
+    return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED * away).all())
 
 
 def _in_its_time(subject: Subject) -> Leg:

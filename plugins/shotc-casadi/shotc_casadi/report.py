@@ -11,7 +11,7 @@ from shotc.refiner_api import Deviation, leg_of
 from shotc_casadi.rounds import Gap, Refined
 from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME
-from shotc_casadi.telling import UNITS, fallen_back, given_up
+from shotc_casadi.telling import UNITS, fallen_back, unsolved
 
 NOTICE = 0.1  # metres off the convex path that are worth telling
 
@@ -22,8 +22,8 @@ def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
     if refined.camera is not None:
         return fallen_back(path, refined.shot, refined.first, solution)
     if refined.gap is not None:
-        return given_up(path, _between(refined, refined.gap, name), solution)
-    return given_up(path, state_of(refined, solution.constraint, name), solution)
+        return unsolved(path, _between(refined, refined.gap, name), solution)
+    return unsolved(path, state_of(refined, solution.constraint, name), solution)
 
 
 def _between(refined: Refined, gap: Gap, name: str) -> SolverState:

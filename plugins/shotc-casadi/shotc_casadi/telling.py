@@ -35,7 +35,7 @@ def fallen_back(path: PathIR, shot: str, first: Solution | None, solution: Solut
     return None if first is None else fallback(path, shot, (first.solver, solution.solver), word(first))
 
 
-def given_up(path: PathIR, state: SolverState, solution: Solution) -> Diagnostic:
+def unsolved(path: PathIR, state: SolverState, solution: Solution) -> Diagnostic:
     """Return the error of a shot that is not refined; a solution has something else against it then."""
     if solution.status == "nan":
         return solver_nan(path, state)

@@ -241,10 +241,10 @@ CODES: tuple[CodeInfo, ...] = (
         "In a picture the drones stand 1.41 times their separation apart (for a cylinder twice), so that straight moves "
         "from one picture to the next keep it all the way. Balls of that size fill no more than 78 % of the room that "
         "they are given (Rogers, 1958), which bounds how many a shape can hold; on a surface, the densest covering "
-        "does. Where this says no, no arrangement would do; where it is silent, `plan` may still find too little room. "
+        "does. Drones for which there is no room stay dark, which `plan` tells (D062); here more than 95 % would. "
         "Make the shape larger, take fewer drones, or a smaller separation.",
         _PASSING,
-        ("radius: 15", "radius: 4"),
+        ("radius: 15", "radius: 40 cm"),
     ),
     slip(
         "D019",

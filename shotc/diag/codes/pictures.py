@@ -101,10 +101,10 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.ERROR,
         "more drones than fit into a picture",
         "So that a fleet can go from picture to picture on straight lines, goals stand sqrt(2) times the separation "
-        "apart. Here so many do not fit into the shape, nor within a part of that distance around it. The numbers of "
+        "apart. Here more than 95 % of the fleet find no place in the shape and would stay dark. The numbers of "
         "the help are found by trying: how many drones would fit, how large the picture would have to be, and at which "
         "separation all of them would fit.",
-        _PASSING.replace("height: 20}", "height: 5}, fill: outline"),
+        _PASSING.replace("height: 20}", "height: 0.2}, fill: outline"),
         _PASSING,
         "plan",
     ),

@@ -8,6 +8,7 @@ import numpy as np
 
 from shotc.emit.audience import flight_of, picture_name
 from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.sampling import light_colors
 from shotc.ir.show import Display
 from shotc.ir.trajectory import VerifiedIR
 
@@ -84,6 +85,11 @@ def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> t
         moments.append(Moment(name, middle, one.start, one.end, tuple(float(t) for t in way), part))
         since = one.end
     return tuple(moments)
+
+
+def lights(flight: FleetTrajectory, time: float) -> int:
+    """Return how many drones of a fleet shine at a time, seconds: those whose colour is not black."""
+    return int((light_colors(flight.lights, np.array([time]))[:, 0].max(axis=-1) > 0).sum())
 
 
 def _evenly(count: int, most: int) -> list[int]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.emit.audience import ASPECT, Audience, audience
 from shotc.emit.contact_sheet.ground import draw_ground
-from shotc.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards
+from shotc.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
 from shotc.emit.contact_sheet.night import night
 from shotc.emit.palette import FAINT, INK, QUIET, WHITE
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
@@ -60,14 +60,13 @@ def _height(board: Board) -> float:
 
 def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:
     mission = plan.trajectory.keyframes.mission
-    title = canvas.fitted(mission.name, Type(26, INK, bold=True), WIDTH - 2 * MARGIN)
-    canvas.text(MARGIN, height - 0.72, mission.name, title)
+    canvas.write(MARGIN, height - 0.72, mission.name, Type(26, INK, bold=True), WIDTH - 2 * MARGIN)
     fleets = ", ".join(f"{len(flight.coef)} drones of {flight.fleet}" for flight in plan.trajectory.fleets)
     pictures = sum(len(display.pictures) for display in mission.displays)
     end = max(float(flight.breaks[-1]) for flight in plan.trajectory.fleets)
     facts = [fleets, f"{pictures} picture{'' if pictures == 1 else 's'}", f"{clock(end)} in the air"]
     text = "   ·   ".join(facts)
-    canvas.text(MARGIN, height - 1.04, text, canvas.fitted(text, Type(11, QUIET), WIDTH - 2 * MARGIN))
+    canvas.write(MARGIN, height - 1.04, text, Type(11, QUIET), WIDTH - 2 * MARGIN)
 
 
 def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: VerifiedIR) -> None:
@@ -89,16 +88,14 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
 
 def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
     base = top - 0.40
-    title = canvas.fitted(board.display.id, Type(15, INK, bold=True), 4.0)
-    canvas.text(MARGIN, base, board.display.id, title)
-    x = MARGIN + canvas.extent(board.display.id, title)[0] + 0.22
+    x = MARGIN + canvas.write(MARGIN, base, board.display.id, Type(15, INK, bold=True), 4.0) + 0.22
     first, last = board.span
     facts = [f"{len(board.flight.coef)} drones of {board.flight.fleet}"]
     facts.append(f"{clock(first)} to {clock(last)} ({last - first:.1f} s)")
     if board.total > len(board.moments):
         facts.append(f"{len(board.moments)} of {board.total} frames")
     text = "  ·  ".join(facts)
-    canvas.text(x, base, text, canvas.fitted(text, Type(9.5, QUIET), 6.0))
+    canvas.write(x, base, text, Type(9.5, QUIET), 6.0)
     whose = "as seen from the viewpoint" if seen.placed else "as seen from the south, for want of a viewpoint"
     away = f"{whose}, {_distance(board, seen):.0f} m away"
     canvas.text(WIDTH - MARGIN, base, away, Type(9.5, QUIET, across="right"))
@@ -131,18 +128,18 @@ def _cell(
     for i, time in enumerate(moment.way):
         box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT), width, SMALL)
         _sky(canvas, box, (board.flight, time), (wide, how[1]))
-        canvas.text(box.x + 0.05, box.y + 0.05, clock(time), Type(6.5, WHITE))
+        canvas.text(box.x + 0.05, box.y + 0.05, clock(time), Type(7.5, WHITE))
     box = Box(x + width + SLIT, y, BIG, HEIGHT)
     _sky(canvas, box, (board.flight, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
     name = (
         moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"
     )
-    canvas.text(box.x, y - 0.19, name, canvas.fitted(name, Type(10, INK, bold=True), 0.55 * BIG))
+    canvas.write(box.x, y - 0.19, name, Type(10, INK, bold=True), 0.55 * BIG)
     stands = clock(moment.start)
     if moment.end - moment.start >= 1.0:
         stands = f"{clock(moment.start)} to {clock(moment.end)}"
-    text = f"{stands}  ·  {len(board.flight.coef)} drones"
+    text = f"{stands}  ·  {lights(board.flight, moment.time)} of {len(board.flight.coef)} lights"
     canvas.text(box.right, y - 0.19, text, Type(8.5, QUIET, across="right"))
     if moment.way:
         canvas.text(x, y - 0.19, "on the way", Type(8.5, QUIET))
@@ -169,4 +166,4 @@ def _scale(canvas: Canvas, box: Box, metres: float) -> None:
     ends = [np.array([[right - width, y], [right, y]])]
     ends += [np.array([[e, y - 0.025], [e, y + 0.025]]) for e in (right - width, right)]
     canvas.lines(ends, (*WHITE, 0.65), 0.9)
-    canvas.text(right - width / 2, y + 0.045, f"{length:g} m", Type(6.5, FAINT, across="center"))
+    canvas.text(right - width / 2, y + 0.045, f"{length:g} m", Type(7.5, FAINT, across="center"))

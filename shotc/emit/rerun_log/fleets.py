@@ -10,7 +10,7 @@ import rerun.blueprint as rrb
 
 from shotc.emit.audience import ASPECT, audience
 from shotc.emit.palette import WHITE, rgba8
-from shotc.emit.rerun_log.layout import panels, plot_view, world_view
+from shotc.emit.rerun_log.layout import overview, panels, plot_view, world_view
 from shotc.emit.rerun_log.motion import log_plot
 from shotc.emit.rerun_log.series import Plot
 from shotc.emit.rerun_log.show import fleet_plots, show_texts
@@ -107,7 +107,7 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[st
     seen = views[0] if len(views) == 1 else rrb.Tabs(*views)
     words = rrb.TextDocumentView(origin="summary", name="Show and certificate")
     right = rrb.Vertical(seen, words, row_shares=[3.0, 2.0])
-    top = rrb.Horizontal(world_view(bounds, []), right, column_shares=[1.0, 1.35])
+    top = rrb.Horizontal(world_view(overview(bounds), []), right, column_shares=[1.0, 1.35])
     end = max(float(flight.breaks[-1]) for flight in plan.trajectory.fleets)
     rows = [
         rrb.Horizontal(*(plot_view(fleet, plot, end) for plot in of), name=f"Motion of {fleet}")
@@ -115,10 +115,11 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[st
     ]
     under = rows[0] if len(rows) == 1 else rrb.Tabs(*rows)
     whole = rrb.Vertical(top, under, row_shares=[3.0, 1.0])
-    return rrb.Blueprint(whole, *panels(_span(plan)), auto_layout=False, auto_views=False)
+    return rrb.Blueprint(whole, *panels(shown_span(plan)), auto_layout=False, auto_views=False)
 
 
-def _span(plan: VerifiedIR) -> tuple[float, float] | None:
+def shown_span(plan: VerifiedIR) -> tuple[float, float] | None:
+    """Return when the first picture stands and when the last one is over, seconds, or None without one."""
     shown = [shown for flight in plan.trajectory.fleets for shown in flight.shown]
     if not shown:
         return None

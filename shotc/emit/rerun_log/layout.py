@@ -9,10 +9,13 @@ import rerun as rr
 import rerun.blueprint as rrb
 from rerun.encodings import AbsoluteTimeRange
 
+from shotc.emit.rerun_log.clock import FILMED, MISSION
 from shotc.emit.rerun_log.motion import camera_entity, frame_size
+from shotc.emit.rerun_log.opening import Stand, filmed_span, first_stand
 from shotc.emit.rerun_log.series import Plot
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.trajectory import VerifiedIR
 
 BACKGROUND = (24, 27, 32, 255)
 TOGETHER = 4  # cameras whose pictures are shown at once
@@ -20,12 +23,13 @@ SKY = (96, 118, 140, 255)
 
 
 def blueprint(
-    mission: MissionIR, flown: dict[str, tuple[float, tuple[Plot, ...]]], bounds: tuple[Array, Array]
+    plan: VerifiedIR, flown: dict[str, tuple[float, tuple[Plot, ...]]], bounds: tuple[Array, Array]
 ) -> Any:
-    """Return the blueprint of a recording.
+    """Return the blueprint of a recording, which opens at the first filmed frame and plays what is filmed.
 
     flown : for every drone its last instant (s) and its plots; bounds : the corners of the scene
     """
+    mission = plan.trajectory.keyframes.mission
     drones = [mission.drone(name) for name in flown]
     cameras = [
         camera_view(mission, drone, camera_entity(drone), f"What {drone.name} sees") for drone in drones
@@ -43,14 +47,14 @@ def blueprint(
     return rrb.Blueprint(
         rrb.Vertical(
             rrb.Horizontal(
-                world_view(bounds, [camera_entity(drone) for drone in drones]),
+                world_view(first_stand(plan) or overview(bounds), [camera_entity(drone) for drone in drones]),
                 right,
                 column_shares=[1.35, 1.0],
             ),
             plots[0] if len(plots) == 1 else rrb.Tabs(*plots),
             row_shares=[2.3, 1.0],
         ),
-        *panels(),
+        *panels(filmed_span(plan)),
         auto_layout=False,
         auto_views=False,
     )
@@ -70,7 +74,7 @@ def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
         part = AbsoluteTimeRange(*(round(end * 1e9) for end in span))
     return (
         rrb.TimePanel(
-            timeline="t",
+            timeline=MISSION if span is None else FILMED,
             playback_speed=1.0,
             play_state="playing",
             loop_mode="all" if part is None else "selection",
@@ -82,12 +86,17 @@ def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
     )
 
 
-def world_view(bounds: tuple[Array, Array], cameras: list[str]) -> Any:
-    """Return the view of the world from outside; cameras : entities whose overlays it leaves out."""
+def overview(bounds: tuple[Array, Array]) -> Stand:
+    """Return from where all of a scene is seen; bounds : its corners."""
     low, high = bounds
     centre = (low + high) / 2
     reach = float(np.linalg.norm(high - low)) * 0.66 + 12.0
-    eye = centre + reach * np.array([-0.62, -0.92, 0.72])
+    x, y, z = (centre + reach * np.array([-0.62, -0.92, 0.72])).tolist()
+    return Stand((x, y, z), (float(centre[0]), float(centre[1]), float(low[2] + 0.3 * (high[2] - low[2]))))
+
+
+def world_view(stand: Stand, cameras: list[str]) -> Any:
+    """Return the view of the world from outside; cameras : entities whose overlays it leaves out."""
     hidden = [f"- /{camera}/screen/**" for camera in cameras]
     return rrb.Spatial3DView(
         origin="world",
@@ -97,8 +106,8 @@ def world_view(bounds: tuple[Array, Array], cameras: list[str]) -> Any:
         line_grid=False,
         eye_controls=rrb.EyeControls3D(
             kind=rrb.Eye3DKind.Orbital,
-            position=eye.tolist(),
-            look_target=[float(centre[0]), float(centre[1]), float(low[2] + 0.3 * (high[2] - low[2]))],
+            position=stand.eye,
+            look_target=stand.look,
             eye_up=[0.0, 0.0, 1.0],
         ),
     )

@@ -10,9 +10,11 @@ from uuid import NAMESPACE_URL, uuid5
 import numpy as np
 import rerun as rr
 
-from shotc.emit.rerun_log.fleets import log_fleets, log_words, show_blueprint
+from shotc.emit.rerun_log.clock import Clocked
+from shotc.emit.rerun_log.fleets import log_fleets, log_words, show_blueprint, shown_span
 from shotc.emit.rerun_log.layout import blueprint
 from shotc.emit.rerun_log.motion import log_motion
+from shotc.emit.rerun_log.opening import filmed_span
 from shotc.emit.rerun_log.text import phase_texts
 from shotc.emit.rerun_log.world import log_world, scene_bounds
 from shotc.geom.bernstein import Array
@@ -52,8 +54,9 @@ def recorded(mission: MissionIR, what: str, fill: Callable[[Any], None]) -> byte
         rr.set_strict_mode(strict)
 
 
-def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
-    mission = plan.trajectory.keyframes.mission
+def _fill(recording: rr.RecordingStream, plan: VerifiedIR) -> None:
+    first = filmed_span(plan) or shown_span(plan)
+    stream = recording if first is None else Clocked(recording, first[0])
     bounds = scene_bounds(plan)
     log_world(stream, plan)
     frustum = frustum_length(bounds)
@@ -69,8 +72,8 @@ def _fill(stream: rr.RecordingStream, plan: VerifiedIR) -> None:
     alone = plan.trajectory.fleets and not flown
     if alone:
         log_words(stream, plan)
-    layout = show_blueprint(plan, bounds, plots) if alone else blueprint(mission, flown, bounds)
-    stream.send_blueprint(layout, make_active=True, make_default=True)
+    layout = show_blueprint(plan, bounds, plots) if alone else blueprint(plan, flown, bounds)
+    recording.send_blueprint(layout, make_active=True, make_default=True)
 
 
 def frustum_length(bounds: tuple[Array, Array]) -> float:

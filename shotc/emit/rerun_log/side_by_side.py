@@ -9,8 +9,10 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from shotc.emit.rerun_log.layout import camera_view, error_view, panels, world_view
+from shotc.emit.rerun_log.clock import Clocked
+from shotc.emit.rerun_log.layout import camera_view, error_view, overview, panels, world_view
 from shotc.emit.rerun_log.motion import camera_entity, log_motion
+from shotc.emit.rerun_log.opening import first_stand
 from shotc.emit.rerun_log.recording import frustum_length, recorded
 from shotc.emit.rerun_log.world import log_flights, log_scene, scene_bounds
 from shotc.emit.screen import error_top, percent
@@ -50,8 +52,9 @@ def record_comparison(found: Comparison, table: str) -> bytes:
     return recorded(found.mission, "compare ", lambda stream: _fill(stream, found, table))
 
 
-def _fill(stream: rr.RecordingStream, found: Comparison, table: str) -> None:
+def _fill(recording: rr.RecordingStream, found: Comparison, table: str) -> None:
     plans = [(each, each.plan) for each in found.conditions if each.plan is not None]
+    stream = Clocked(recording, _filmed(plans)[0])
     corners = [scene_bounds(plan) for _, plan in plans]
     bounds = np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)
     log_scene(stream, plans[0][1])
@@ -61,7 +64,7 @@ def _fill(stream: rr.RecordingStream, found: Comparison, table: str) -> None:
         for flight in plan.trajectory.drones:
             log_motion(below, plan, flight, frustum_length(bounds))
     stream.log("summary", rr.TextDocument(table, media_type="text/markdown"), static=True)
-    stream.send_blueprint(_blueprint(found, plans, bounds), make_active=True, make_default=True)
+    recording.send_blueprint(_blueprint(found, plans, bounds), make_active=True, make_default=True)
 
 
 def _blueprint(
@@ -73,12 +76,18 @@ def _blueprint(
     columns = [_column(found, each, len(plans), (end, top)) for each, _ in plans]
     cameras = [_camera(each, drone) for each, _ in plans for drone in found.mission.drones]
     facts = rrb.TextDocumentView(origin="summary", name="In numbers")
-    below = rrb.Horizontal(world_view(bounds, cameras), facts, column_shares=[1.0, 1.4])
+    below = rrb.Horizontal(
+        world_view(first_stand(plans[0][1]) or overview(bounds), cameras), facts, column_shares=[1.0, 1.4]
+    )
     above = min(1.0 / len(columns) + PLOT + 2 * HEAD, MOST)
     whole = rrb.Vertical(rrb.Horizontal(*columns), below, row_shares=[above, 1.0 - above])
+    return rrb.Blueprint(whole, *panels(_filmed(plans)), auto_layout=False, auto_views=False)
+
+
+def _filmed(plans: list[tuple[Condition, VerifiedIR]]) -> tuple[float, float]:
+    """Return the times of the first and the last frame that any condition films, seconds."""
     filmed = [(shot.start, shot.end) for each, _ in plans for shot in each.shots]
-    span = min(start for start, _ in filmed), max(end for _, end in filmed)
-    return rrb.Blueprint(whole, *panels(span), auto_layout=False, auto_views=False)
+    return min(start for start, _ in filmed), max(end for _, end in filmed)
 
 
 def _column(found: Comparison, each: Condition, count: int, axes: tuple[float, float]) -> Any:

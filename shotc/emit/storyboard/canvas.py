@@ -33,6 +33,14 @@ Color = tuple[float, ...]
 QUICK = 3
 """Effort of compression, of 9."""
 
+LEAST_CAPITAL_PX = 9.0
+"""Height of a capital letter in the smallest text of a page, pixels of the file."""
+
+ELLIPSIS = "…"
+
+CAPITAL = 1493 / 2048
+"""Height of a capital letter of the font, DejaVu Sans, over the size of the text."""
+
 
 @dataclass(frozen=True, slots=True)
 class Box:
@@ -81,6 +89,15 @@ class Type:
     across: str = "left"
     along: str = "baseline"
     halo: Rgb | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Fitted:
+    """A text as it fits into some room: its words, how it is set, and its width in inches."""
+
+    text: str
+    style: Type
+    width: float
 
 
 @contextmanager
@@ -201,10 +218,31 @@ class Canvas:
             width, height, _ = self._agg.get_renderer().get_text_width_height_descent(text, font, False)
         return width / self._figure.dpi, height / self._figure.dpi
 
-    def fitted(self, text: str, style: Type, room: float) -> Type:
-        """Return the style, set smaller if the text would not fit into ``room`` inches otherwise."""
+    @property
+    def least_size(self) -> float:
+        """The smallest size of text that can be read in the file, points."""
+        return LEAST_CAPITAL_PX / CAPITAL * 72.0 / float(self._figure.dpi)
+
+    def fitted(self, text: str, style: Type, room: float) -> Fitted:
+        """Return a text that takes at most ``room`` inches: set smaller, and shortened where that would be
+        too small to be read.
+        """
         width = self.extent(text, style)[0]
-        return style if width <= room else replace(style, size=style.size * 0.99 * max(room, 0.1) / width)
+        if width <= room:
+            return Fitted(text, style, width)
+        size = style.size * 0.99 * max(room, 0.0) / width
+        style = replace(style, size=min(style.size, max(size, self.least_size)))
+        shorter = text
+        while (width := self.extent(shorter, style)[0]) > room and len(shorter) > 1:
+            kept = min(len(shorter) - 2, int(len(shorter) * room / width))
+            shorter = shorter[: max(kept, 0)].rstrip(" ,·") + ELLIPSIS
+        return Fitted(shorter, style, width)
+
+    def write(self, x: float, y: float, text: str, style: Type, room: float) -> float:
+        """Write one line of text in at most ``room`` inches; return the width it takes."""
+        found = self.fitted(text, style, room)
+        self.text(x, y, found.text, found.style)
+        return found.width
 
     def png(self) -> bytes:
         """Return the page as PNG bytes, the same for the same drawing."""

@@ -9,6 +9,7 @@ import numpy as np
 from shotc.emit.screen import ScreenSummary, certified, framed_targets
 from shotc.emit.storyboard.composition import composition_text
 from shotc.emit.storyboard.subjects import Framed, at_keyframe, at_time
+from shotc.emit.storyboard.worst import Worst, worst_framing
 from shotc.geom.bernstein import Array
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
@@ -19,14 +20,18 @@ from shotc.rounding import at_least
 
 MOST_PLACED, MOST_GENERATED = 12, 6
 
+SAME_MOMENT = 0.05
+"""Seconds within which a picture shows the same as another."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moment:
     """One keyframe as it is flown, or a moment of a shot whose keyframes a kind generated.
 
-    number : from 1, of the keyframe in the shot, or of the moment among those shown
+    number : from 1, of the keyframe in the shot, or of the moment among those shown; 0 of neither
     time, hold : seconds; pose : channels, shape (7,)
     framed : its subjects, the foremost first
+    worst : where none of its shot is framed worse, by how much, in words; else ""
     """
 
     number: int
@@ -34,6 +39,16 @@ class Moment:
     pose: Array
     hold: float
     framed: tuple[Framed, ...]
+    worst: str = ""
+
+    @property
+    def mark(self) -> str:
+        """What it is called by in its picture and on the map: its number, or W where it is only the worst."""
+        return str(self.number) if self.number else "W"
+
+    def is_at(self, time: float) -> bool:
+        """Tell whether it shows what is so at a time, seconds."""
+        return self.time - SAME_MOMENT <= time <= self.time + self.hold + SAME_MOMENT
 
     @property
     def targets(self) -> tuple[str, ...]:
@@ -64,6 +79,11 @@ class ShotBoard:
     framing: tuple[tuple[str, ScreenSummary], ...]
     note: str
 
+    @property
+    def numbered(self) -> int:
+        """How many of its moments are keyframes, or chosen for a kind's path."""
+        return sum(moment.number > 0 for moment in self.moments)
+
 
 def shot_boards(plan: VerifiedIR, most_generated: int = MOST_GENERATED) -> tuple[ShotBoard, ...]:
     """Return the boards of all shots in the order they are filmed.
@@ -89,14 +109,6 @@ def _board(
     shot, (start, end) = placed.shot, interval
     times = [k for k in flight.keyframes if k.shot == shot.id]
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
-    # One or two generated keyframes are the whole shot; more only sample a curve.
-    if is_keyed(shot) and by_hand:
-        moments = tuple(_passed(plan, pair, k) for k in _spread(times, MOST_PLACED))
-    elif shot.ideal is None and (by_hand or len(times) <= 2):
-        moments = tuple(_keyframe(plan, pair, k) for k in _spread(times, MOST_PLACED))
-    else:
-        even = np.linspace(start, end, most_generated)
-        moments = tuple(passing(plan, pair, float(t), n) for n, t in enumerate(even, start=1))
     deviations = [d for d in plan.trajectory.deviations if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(
@@ -104,7 +116,7 @@ def _board(
         drone=plan.trajectory.keyframes.mission.drone(flight.drone),
         start=start,
         end=end,
-        moments=moments,
+        moments=_moments(plan, pair, interval, most_generated),
         total=len(times) if times and by_hand else None,
         path=flight.curve(np.linspace(start, end, 200))[:, :3],
         flight=flight.curve(np.linspace(flight.curve.start, flight.curve.end, 600))[:, :3],
@@ -117,6 +129,40 @@ def _board(
         if worst is None
         else f"leaves its ideal by up to {at_least(worst.distance, 1)} m: {worst.cause}",
     )
+
+
+def _moments(
+    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], interval: Vec2, most_generated: int
+) -> tuple[Moment, ...]:
+    """Return the moments of a shot in the order of time, its worst among them."""
+    placed, flight = pair
+    times = [k for k in flight.keyframes if k.shot == placed.shot.id]
+    by_hand = all(keyframe.placed for keyframe in placed.keyframes)
+    worst = worst_framing(plan, flight, placed.shot.id)
+    # One or two generated keyframes are the whole shot; more only sample a curve.
+    if is_keyed(placed.shot) and by_hand:
+        return _with(plan, pair, [_passed(plan, pair, k) for k in _spread(times, MOST_PLACED)], worst)
+    if placed.shot.ideal is None and (by_hand or len(times) <= 2):
+        return _with(plan, pair, [_keyframe(plan, pair, k) for k in _spread(times, MOST_PLACED)], worst)
+
+    even = np.linspace(*interval, most_generated)
+    shown = [passing(plan, pair, float(t), n) for n, t in enumerate(even, start=1)]
+    if worst is not None and not any(moment.is_at(worst.time) for moment in shown):
+        nearest = 1 + int(np.argmin(np.abs(even[1:-1] - worst.time)))
+        shown[nearest] = passing(plan, pair, worst.time, nearest + 1)
+    return _with(plan, pair, shown, worst)
+
+
+def _with(
+    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], moments: list[Moment], worst: Worst | None
+) -> tuple[Moment, ...]:
+    """Return moments with the worst one marked, which joins them where none of them shows it."""
+    if worst is None:
+        return tuple(moments)
+    if not any(moment.is_at(worst.time) for moment in moments):
+        moments = sorted([*moments, passing(plan, pair, worst.time, 0)], key=lambda moment: moment.time)
+    first = next(i for i, moment in enumerate(moments) if moment.is_at(worst.time))
+    return tuple(replace(m, worst=worst.words) if i == first else m for i, m in enumerate(moments))
 
 
 def _spread(times: list[KeyframeTime], most: int) -> list[KeyframeTime]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, hypot
 
 import numpy as np
 
@@ -22,6 +22,9 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 
 LINE = 0.165
 """Height of a line of a caption, inches."""
+
+DOT, LEAST_UNDER_DOT = 0.038, 0.2
+"""Radius of the dot on a subject, and how wide or high one is that is seen under it, inches."""
 
 WIDE = 2.3
 """Narrower cells than this set the facts of a caption in two lines, inches."""
@@ -48,17 +51,19 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
     for composition in dict.fromkeys(subject.composition for subject in moment.framed):
         _composition(canvas, shown, composition)
     taken: list[Box] = []
+    seen = {name: place for name, _, place in name_places(shown, mission)}
     for subject in moment.framed:
-        taken += _marks(canvas, shown, subject, shown.offset(mission.target(subject.target)))
+        offset = shown.offset(mission.target(subject.target))
+        taken += _marks(canvas, shown, subject, offset, seen.get(subject.target))
     taken += _faults(canvas, box, moment.framed)
-    _names(canvas, shown, mission, moment.targets, taken)
+    lost = _names(canvas, shown, mission, moment.targets, taken)
     canvas.polygons([box.outline()], "none", INK, 0.8)
-    _caption(canvas, cell, moment, mission)
+    _caption(canvas, cell, moment, mission, lost)
 
 
 def caption_height(width: float) -> float:
     """Return the height of the caption under a picture in a cell of some width, inches."""
-    return 0.17 + (2 if width > WIDE else 3) * LINE
+    return 0.24 + (3 if width > WIDE else 4) * LINE
 
 
 def clock(seconds: float) -> str:
@@ -85,8 +90,11 @@ def _composition(canvas: Canvas, shown: Picture, composition: Composition) -> No
         canvas.disc((float(x), float(y)), 0.032, (*WHITE, 0.9), (*INK, 0.55), 0.5)
 
 
-def _marks(canvas: Canvas, shown: Picture, subject: Framed, offset: Vec3) -> list[Box]:
-    """Draw where a subject is wanted and where it is; return the room that takes."""
+def _marks(canvas: Canvas, shown: Picture, subject: Framed, offset: Vec3, body: Box | None) -> list[Box]:
+    """Draw where a subject is wanted and where it is; return the room that takes.
+
+    body : the rectangle of what is seen of it, or None
+    """
     taken: list[Box] = []
     if subject.reference is not None:
         if subject.asked is not None and subject.is_moved:
@@ -97,9 +105,22 @@ def _marks(canvas: Canvas, shown: Picture, subject: Framed, offset: Vec3) -> lis
         taken.append(Box(x - 0.13, y - 0.13, 0.26, 0.26))
     u, v, depth = shown.camera.project(offset)
     if depth > 0 and max(abs(u), abs(v)) <= 1:
-        x, y = shown.place(np.array([u, v]))
-        canvas.disc((float(x), float(y)), 0.038, WHITE, INK, 0.9)
+        x, y = (float(c) for c in shown.place(np.array([u, v])))
+        taken.append(_actual(canvas, (x, y), body))
     return taken
+
+
+def _actual(canvas: Canvas, at: Vec2, body: Box | None) -> Box:
+    """Mark where a subject is: by a dot on it, or by a ring about one that the dot would cover."""
+    if body is None or max(body.width, body.height) >= LEAST_UNDER_DOT:
+        canvas.disc(at, DOT, WHITE, INK, 0.9)
+        return Box(at[0] - DOT, at[1] - DOT, 2 * DOT, 2 * DOT)
+    reach = max(hypot(body.width, body.height) / 2 + 0.03, 2 * DOT)
+    turn = np.linspace(0, 2 * np.pi, 41)
+    ring = np.stack([at[0] + reach * np.cos(turn), at[1] + reach * np.sin(turn)], axis=-1)
+    canvas.lines([ring], (*INK, 0.8), 2.2)
+    canvas.lines([ring], WHITE, 1.2)
+    return Box(at[0] - reach, at[1] - reach, 2 * reach, 2 * reach)
 
 
 def _cross(canvas: Canvas, shown: Picture, at: Vec2) -> Vec2:
@@ -137,32 +158,30 @@ def _faults(canvas: Canvas, box: Box, framed: Sequence[Framed]) -> list[Box]:
 
 def _names(
     canvas: Canvas, shown: Picture, mission: MissionIR, subjects: Sequence[str], taken: list[Box]
-) -> None:
-    """Write the names of what is seen, the subjects' first, none across a subject."""
+) -> list[str]:
+    """Write the names of what is seen, the subjects' first, none on a target; return those without room."""
     box = shown.box
     inner = Box(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
     things = sorted(name_places(shown, mission), key=lambda thing: thing[0] not in subjects)
     targets = {target.name for target in mission.targets}
-    labels, bodies, others = [], [], []
+    labels, bodies = [], []
     for name, color, seen in things:
         place = seen
         if name in subjects:
             for mark in (mark for mark in taken if mark.meets(seen)):
                 place = place.with_box(mark)
+        if name in targets:
             bodies.append(seen)
-        elif name in targets:
-            others.append(seen)
-        labels.append(Label(name, color, place, PICTURE_SIDES, 7.0, bold=False, inside=name not in targets))
-    write_labels(canvas, inner, labels, [*taken, *bodies], others)
+        labels.append(Label(name, color, place, PICTURE_SIDES, 7.5, bold=False, inside=name not in targets))
+    return write_labels(canvas, inner, labels, [*taken, *bodies])
 
 
-def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> None:
+def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, lost: Sequence[str]) -> None:
+    """Write what is true at a moment; lost : names of things in the picture that have no room in it."""
     pose, box = moment.pose, cell.picture
     base = box.y - 0.2
     canvas.disc((box.x + 0.095, base + 0.045), 0.095, INK, "none", 0)
-    canvas.text(
-        box.x + 0.095, base + 0.043, str(moment.number), Type(7, WHITE, True, "center", "center_baseline")
-    )
+    canvas.text(box.x + 0.095, base + 0.043, moment.mark, Type(7.5, WHITE, True, "center", "center_baseline"))
     canvas.text(box.x + 0.26, base, clock(moment.time), Type(9.5, INK, bold=True))
     canvas.text(box.right, base, compass(float(pose[CAM_YAW])), Type(9.5, INK, bold=True, across="right"))
     facts = [f"pitch {round(degrees(pose[CAM_PITCH])):+d}°", f"hfov {degrees(pose[HFOV]):.0f}°"]
@@ -175,8 +194,13 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR) -> 
     rows = [facts] if cell.width > WIDE else [facts[:2], facts[2:]]
     for i, row in enumerate(rows, start=1):
         text = " · ".join(row).replace("-", "−")
-        style = canvas.fitted(text, Type(7.8, QUIET), cell.width)
-        canvas.text(box.x, base - i * LINE, text, style)
+        canvas.write(box.x, base - i * LINE, text, Type(7.8, QUIET), cell.width)
+    x, y = box.x, base - (len(rows) + 1) * LINE
+    if moment.worst:
+        words, style = f"worst: {moment.worst}", Type(7.8, KEEP_OUT, bold=True)
+        x += canvas.write(x, y, words, style, cell.width) + 0.1
+    if lost:
+        canvas.write(x, y, f"also seen: {', '.join(lost)}", Type(7.8, QUIET), box.x + cell.width - x)
 
 
 def metres(length: float) -> str:

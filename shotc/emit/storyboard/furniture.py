@@ -71,7 +71,7 @@ def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
 
 def height_marks(canvas: Canvas, sheet: Sheet) -> list[Box]:
     """Write heights along the right edge of a side view, away from the camera; return the room they take."""
-    box, style = sheet.box, Type(7.0, QUIET, across="right", along="center_baseline")
+    box, style = sheet.box, Type(7.5, QUIET, across="right", along="center_baseline")
     step = max(1.0, round_length(0.75 / sheet.inches))
     middle = sheet.centre[1]
     most = box.height / 2 / sheet.inches

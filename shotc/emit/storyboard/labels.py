@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from shotc.emit.palette import WHITE, Rgb
 from shotc.emit.storyboard.canvas import Box, Canvas, Type
 
 GAP = 0.05
 """Between a thing and its name, and between a name and everything else, inches."""
+
+STEP = 0.04
+"""Between the places that are tried for a label that finds none beside its thing, inches."""
 
 FLUSH = ("over from", "over to", "under from", "under to")
 MAP_SIDES = ("under", "over", "left", "right", *FLUSH, "over left", "over right", "on")
@@ -33,18 +38,62 @@ class Label:
 
 def write_labels(
     canvas: Canvas, inner: Box, labels: Iterable[Label], taken: Sequence[Box], avoid: Sequence[Box] = ()
-) -> None:
-    """Write labels inside a rectangle, the first ones first; one that finds no room is left out.
+) -> list[str]:
+    """Write labels inside a rectangle, the first ones first; return the names that found no room.
 
+    A label stands beside its thing, or else in the nearest free place, with a line to its thing.
     taken : where none may stand; avoid : where none stands that has a choice
     """
-    full = list(taken)
+    full, lost = list(taken), []
     for label in labels:
         style = Type(label.size, label.color, label.bold, "center", "bottom", halo=WHITE)
-        room = free_room(canvas.extent(label.text, style), inner, label, (full, avoid))
-        if room is not None:
-            canvas.text(room.x + room.width / 2, room.y, label.text, style)
-            full.append(room)
+        size = canvas.extent(label.text, style)
+        room = free_room(size, inner, label, (full, avoid))
+        if room is None and (room := nearest_room(size, inner, label.thing, full)) is not None:
+            leader(canvas, room, label.thing, label.color)
+        if room is None:
+            lost.append(label.text)
+            continue
+        canvas.text(room.x + room.width / 2, room.y, label.text, style)
+        full.append(room)
+    return lost
+
+
+def nearest_room(
+    size: tuple[float, float], inner: Box, thing: Box, taken: Sequence[Box], gap: float = GAP
+) -> Box | None:
+    """Return the free place of some size that is nearest to a thing, or None; gap : to what is taken."""
+    width, height = size
+    across = np.arange(inner.x, inner.right - width + 1e-9, STEP)
+    up = np.arange(inner.y, inner.top - height + 1e-9, STEP)
+    x, y = (axis.ravel() for axis in np.meshgrid(across, up))
+    free = np.ones(len(x), dtype=np.bool_)
+    for other in taken:
+        clear = (x >= other.right + gap) | (x + width <= other.x - gap)
+        free &= clear | (y >= other.top + gap) | (y + height <= other.y - gap)
+    if not free.any():
+        return None
+    off = np.hypot(
+        np.maximum(np.maximum(thing.x - (x + width), x - thing.right), 0.0),
+        np.maximum(np.maximum(thing.y - (y + height), y - thing.top), 0.0),
+    )
+    # Of places equally near, the one that is most in line with the thing.
+    off += 1e-3 * np.hypot(x + width / 2 - _middle(thing)[0], y + height / 2 - _middle(thing)[1])
+    best = int(np.argmin(np.where(free, off, np.inf)))
+    return Box(float(x[best]), float(y[best]), width, height)
+
+
+def leader(canvas: Canvas, room: Box, thing: Box, color: Rgb) -> None:
+    """Draw the line from a label to its thing, from the point nearest to it to that thing's edge."""
+    x, y = _middle(thing)
+    start = min(max(x, room.x), room.right), min(max(y, room.y), room.top)
+    end = min(max(start[0], thing.x), thing.right), min(max(start[1], thing.y), thing.top)
+    canvas.lines([np.array([start, end])], (*WHITE, 0.9), 2.0)
+    canvas.lines([np.array([start, end])], color, 0.8)
+
+
+def _middle(box: Box) -> tuple[float, float]:
+    return box.x + box.width / 2, box.y + box.height / 2
 
 
 def free_room(

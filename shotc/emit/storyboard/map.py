@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan, cos, pi, sin, tan
+from math import cos, pi, sin
 
 import numpy as np
 
@@ -23,10 +23,11 @@ from shotc.emit.palette import (
 from shotc.emit.storyboard.canvas import Box, Canvas, Type
 from shotc.emit.storyboard.content import Moment, ShotBoard, standing
 from shotc.emit.storyboard.furniture import height_marks, north_arrow, round_length, scale_bar, view_name
-from shotc.emit.storyboard.labels import Label, write_labels
+from shotc.emit.storyboard.labels import Label, nearest_room, write_labels
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.geom.bernstein import Array
-from shotc.geom.solids import Cylinder
+from shotc.geom.camera import view
+from shotc.geom.solids import Cylinder, convex_hull
 from shotc.ir.bodies import cylinder
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
@@ -39,7 +40,10 @@ MOST_SQUARES = 20
 
 
 def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, grid: float) -> None:
-    """Draw the map of one shot into ``box``; grid is the width of a ground square in its pictures, metres."""
+    """Draw the map of one shot into ``box``; grid is the width of a ground square in its pictures, metres.
+
+    Names that find no room on it are written under it.
+    """
     whole, mission = mission, standing(mission, board)
     sheet = sheet_of(box, board, mission)
     step = _step(sheet, grid)
@@ -49,11 +53,14 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     for moment in board.moments:
         _frustum(canvas, sheet, moment, board.drone.aspect)
     _tracks(canvas, sheet, board, whole)
+    _path(canvas, sheet, board, mission)
     _targets(canvas, sheet, mission)
-    _path(canvas, sheet, board)
     taken = _furniture(canvas, sheet, (board, step), mission)
-    _numbers(canvas, sheet, board, taken)
-    _names(canvas, sheet, board, mission, taken)
+    _numbers(canvas, sheet, board, mission, taken)
+    lost = _names(canvas, sheet, board, mission, taken)
+    if lost:
+        words = f"also here: {', '.join(lost)}"
+        canvas.write(box.x, box.y - 0.15, words, Type(7.5, QUIET), box.width)
     canvas.polygons([box.outline()], "none", INK, 0.8)
 
 
@@ -127,27 +134,34 @@ def _body(sheet: Sheet, target: Target) -> Array:
 
 
 def _frustum(canvas: Canvas, sheet: Sheet, moment: Moment, aspect: float) -> None:
-    """Draw what the camera sees: the fan of its width on a plan, of its height in a side view."""
+    """Draw which way the camera sees: the outline of the nearest part of its field of view."""
     reach = min(0.75, 0.3 * sheet.box.height) / sheet.inches
-    yaw, pitch, half = float(moment.pose[CAM_YAW]), float(moment.pose[CAM_PITCH]), moment.pose[HFOV] / 2
-    if sheet.is_plan:
-        rays = [(cos(a), sin(a), 0.0) for a in np.linspace(yaw - half, yaw + half, 13)]
-    else:
-        half = atan(tan(half) / aspect)
-        tilts = np.linspace(pitch - half, pitch + half, 13)
-        rays = [(cos(a) * cos(yaw), cos(a) * sin(yaw), sin(a)) for a in tilts]
-    fan = np.concatenate([moment.pose[None, :3], moment.pose[:3] + reach * np.array(rays)])
-    canvas.polygons([sheet.place(fan)], (*CAMERA, 0.20), (*CAMERA, 0.75), 0.6, sheet.box)
+    yaw, pitch, half = (float(moment.pose[c]) for c in (CAM_YAW, CAM_PITCH, HFOV))
+    seen = view(yaw, pitch, half, aspect)
+    side = np.linspace(-1.0, 1.0, 9)
+    edge = np.ones(9)
+    u = np.concatenate([side, edge, side, -edge]) * seen.half_width
+    v = np.concatenate([edge, side, -edge, side]) * seen.half_height
+    ahead = np.array([cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), sin(pitch)])
+    right = np.array([sin(yaw), -cos(yaw), 0.0])
+    rays = ahead + u[:, None] * right + v[:, None] * np.cross(right, ahead)
+    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+    fan = sheet.place(np.concatenate([moment.pose[None, :3], moment.pose[:3] + reach * rays]))
+    outline = np.array(convex_hull(tuple((float(x), float(y)) for x, y in fan)))
+    canvas.polygons([outline], (*CAMERA, 0.20), (*CAMERA, 0.75), 0.6, sheet.box)
 
 
-def _path(canvas: Canvas, sheet: Sheet, board: ShotBoard) -> None:
+def _path(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) -> None:
     strip = sheet.place(board.path)
     canvas.lines([strip], INK, 2.6, sheet.box)
     canvas.lines([strip], CAMERA, 1.6, sheet.box)
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(strip, axis=0), axis=1))])
     if length[-1] < 0.6:
         return
-    marks = np.array([sheet.place(m.pose[:3]) for m in board.moments])
+    marks = np.array(
+        [sheet.place(m.pose[:3]) for m in board.moments]
+        + [sheet.place(np.array(target.centre)) for target in mission.targets]
+    )
     for share in (0.3, 0.8):
         at = _clear_of(strip, marks, int(np.searchsorted(length, share * length[-1])))
         step = strip[at] - strip[max(at - 2, 0)]
@@ -183,10 +197,12 @@ def _furniture(canvas: Canvas, sheet: Sheet, what: tuple[ShotBoard, float], miss
     return [*taken, scale_bar(canvas, sheet, step, content + taken)]
 
 
-def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, taken: list[Box]) -> None:
+def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> None:
+    """Write the frames' numbers where the camera is, or beside it: none on a target or another number."""
+    bodies = [seen for t in mission.targets if (seen := sheet.visible(_body(sheet, t))) is not None]
     spots = []
     for moment in board.moments:
-        spot = _spot(sheet, moment, taken)
+        spot = _spot(sheet, moment, [*taken, *bodies])
         taken.append(_square(np.array(spot), NUMBER))
         spots.append(spot)
     for moment, spot in zip(board.moments, spots, strict=True):
@@ -195,7 +211,7 @@ def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, taken: list[Box]) -
         canvas.disc((x, y), 0.03, CAMERA, INK, 0.7)
     for moment, spot in zip(board.moments, spots, strict=True):
         canvas.disc(spot, NUMBER, INK, WHITE, 0.8)
-        canvas.text(*spot, str(moment.number), Type(7, WHITE, True, "center", "center_baseline"))
+        canvas.text(*spot, moment.mark, Type(7.5, WHITE, True, "center", "center_baseline"))
 
 
 def _spot(sheet: Sheet, moment: Moment, taken: list[Box]) -> tuple[float, float]:
@@ -204,21 +220,26 @@ def _spot(sheet: Sheet, moment: Moment, taken: list[Box]) -> tuple[float, float]
     back = float(moment.pose[CAM_YAW]) + pi if sheet.is_plan else pi
     ways = [(away, back + turn) for away in (0.24, 0.42) for turn in (0.0, 0.9, -0.9, 1.8, -1.8, 2.7)]
     spots = [(x, y)] + [(x + r * cos(a), y + r * sin(a)) for r, a in ways]
-    free = (s for s in spots if not any(_square(np.array(s), NUMBER).meets(other) for other in taken))
-    return next(free, (x, y))
+    rooms = (_square(np.array(s), NUMBER) for s in spots)
+    free = (r for r in rooms if sheet.box.holds(r) and not any(r.meets(other) for other in taken))
+    place = _square(np.array((x, y)), 0.0)
+    room = next(free, None) or nearest_room((2 * NUMBER, 2 * NUMBER), sheet.box, place, taken, 0.0)
+    return (x, y) if room is None else (room.x + NUMBER, room.y + NUMBER)
 
 
 def _square(at: Array, half: float) -> Box:
     return Box(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)
 
 
-def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> None:
+def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> list[str]:
+    """Write the names of what is on the map; return those that find no room."""
     labels = []
     for target in {t.name: t for t in mission.targets}.values():
         seen = sheet.visible(_body(sheet, target))
         if seen is not None:
             labels.append(Label(target.name, shade(SUBJECT, 0.75), seen))
-    bodies = [label.thing for label in labels]
+    named = len(labels)
+    bodies = [seen for t in mission.targets if (seen := sheet.visible(_body(sheet, t))) is not None]
     pad = _square(sheet.place(np.array(board.drone.home)), 0.055)
     if sheet.box.holds(pad):
         canvas.polygons([pad.outline()], WHITE, INK, 1.0)
@@ -231,5 +252,5 @@ def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, t
     inner = Box(sheet.box.x + 0.03, sheet.box.y + 0.03, sheet.box.width - 0.06, sheet.box.height - 0.06)
     lines = [_square(at, 0.03) for at in sheet.place(board.path[::2])]
     # Names may stand on a zone, but not on one so small that it would be lost under them.
-    small = [label.thing for label in labels[len(bodies) :] if label.thing.height < 0.6]
-    write_labels(canvas, inner, labels, [*taken, *bodies], [*lines, *small])
+    small = [label.thing for label in labels[named:] if label.thing.height < 0.6]
+    return write_labels(canvas, inner, labels, [*taken, *bodies], [*lines, *small])

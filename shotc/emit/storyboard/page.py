@@ -107,8 +107,7 @@ def _heading(
 ) -> None:
     mission = plan.trajectory.keyframes.mission
     legend = _legend(canvas, height - 1.08, _entries(plan, boards), grid)
-    title = canvas.fitted(mission.name, Type(26, INK, bold=True), legend - 0.4 - MARGIN)
-    canvas.text(MARGIN, height - 0.76, mission.name, title)
+    canvas.write(MARGIN, height - 0.76, mission.name, Type(26, INK, bold=True), legend - 0.4 - MARGIN)
     total = max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
     filmed = sum(board.end - board.start for board in boards)
     drones = ", ".join(f"{d.name} ({d.model})" for d in mission.drones)
@@ -122,7 +121,7 @@ def _heading(
     if camera is not None:
         facts.append(f"camera {degrees(camera.hfov):.0f}° hfov, {_ratio(camera.aspect)}")
     text = "   ·   ".join(facts)
-    canvas.text(MARGIN, height - 1.08, text, canvas.fitted(text, Type(11, QUIET), WIDTH - 2 * MARGIN))
+    canvas.write(MARGIN, height - 1.08, text, Type(11, QUIET), WIDTH - 2 * MARGIN)
 
 
 def _ratio(aspect: float) -> str:
@@ -216,15 +215,11 @@ def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
     base = top - band_height(board) + 0.20
     end = min((_told(canvas, base, i, board) for i in range(len(board.framing))), default=WIDTH - MARGIN)
     end -= 0.25
-    title = canvas.fitted(board.shot.id, Type(15, INK, bold=True), 4.0)
-    canvas.text(MARGIN, base, board.shot.id, title)
-    x = MARGIN + canvas.extent(board.shot.id, title)[0] + 0.22
+    x = MARGIN + canvas.write(MARGIN, base, board.shot.id, Type(15, INK, bold=True), 4.0) + 0.22
     text = "  ·  ".join(_facts(board))
-    quiet = canvas.fitted(text, Type(9.5, QUIET), end - x - (2.8 if board.note else 0.0))
-    canvas.text(x, base, text, quiet)
+    x += canvas.write(x, base, text, Type(9.5, QUIET), end - x - (2.8 if board.note else 0.0))
     if board.note:
-        x += canvas.extent(text, quiet)[0] + 0.25
-        canvas.text(x, base, board.note, canvas.fitted(board.note, Type(9.5, KEEP_OUT), end - x))
+        canvas.write(x + 0.25, base, board.note, Type(9.5, KEEP_OUT), end - x - 0.25)
 
 
 def _told(canvas: Canvas, base: float, i: int, board: ShotBoard) -> float:
@@ -246,8 +241,8 @@ def _facts(board: ShotBoard) -> list[str]:
     facts += [f"composition {board.composition}"] if board.composition else []
     if board.total is None and len(board.moments) > 1:
         facts.append(f"{len(board.moments)} moments")
-    elif board.total is not None and board.total > len(board.moments):
-        facts.append(f"{len(board.moments)} of {board.total} keyframes")
+    elif board.total is not None and board.total > board.numbered:
+        facts.append(f"{board.numbered} of {board.total} keyframes")
     return facts
 
 
@@ -267,7 +262,7 @@ def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
     whole, lost = certified(certificate), not_promised(certificate)
     parts = []
     if whole.error is not None and whole.time is not None:
-        parts.append(f"Worst screen error {whole.error:.3f} ({whole.shot}, {clock(whole.time)})")
+        parts.append(f"Worst screen error {at_least(whole.error, 3)} ({whole.shot}, {clock(whole.time)})")
     if lost:
         parts.append(f"not promised: {', '.join(lost)}")
     elif whole.in_frame is not None:
@@ -276,7 +271,7 @@ def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
     bold = Type(10, INK, bold=True, across="right")
     canvas.text(WIDTH - MARGIN, 0.42, proof, bold)
     room = WIDTH - 2 * MARGIN - canvas.extent(proof, bold)[0] - 0.3
-    canvas.text(MARGIN, 0.42, text, canvas.fitted(text, Type(10, INK), room))
+    canvas.write(MARGIN, 0.42, text, Type(10, INK), room)
 
 
 def headline(certificate: tuple[Claim, ...]) -> str:

@@ -62,12 +62,12 @@ def _page(found: Comparison, dpi: float) -> bytes:
     width = 2 * MARGIN + max(count, 2) * (CELL + GAP) - GAP
     height = HEADING + sum(heights) + 0.2
     canvas = Canvas(width, height, dpi)
-    canvas.text(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True))
+    canvas.write(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN)
     told = (
         "every refiner's worst frame (amber below), and its screen error over the shot, in half frames; "
         "shaded where the target is not whole in the frame"
     )
-    canvas.text(MARGIN, height - 0.95, told, canvas.fitted(told, Type(10, QUIET), width - 2 * MARGIN))
+    canvas.write(MARGIN, height - 0.95, told, Type(10, QUIET), width - 2 * MARGIN)
     top = height - HEADING
     for shot, size, used in zip(mission.shots, sizes, heights, strict=True):
         canvas.lines([np.array([[MARGIN, top], [width - MARGIN, top]])], FAINT, 0.8)
@@ -92,8 +92,7 @@ def _shot(canvas: Canvas, found: Comparison, shot: Shot, first: Panel) -> None:
     for i, (each, there) in enumerate(zip(found.conditions, flown, strict=True)):
         panel = Panel(first.left + i * (CELL + GAP), first.top, first.picture)
         name = f"{each.refiner}, {shot.id}" if several else each.refiner
-        style = canvas.fitted(name, Type(13, INK, bold=True), CELL)
-        canvas.text(panel.left, panel.top - 0.3, name, style)
+        canvas.write(panel.left, panel.top - 0.3, name, Type(13, INK, bold=True), CELL)
         if there is None or each.plan is None:
             _no_plan(canvas, each, panel)
         else:
@@ -112,8 +111,7 @@ def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what
     draw_error(canvas, plot, shot, (moment.time, top))
     for i, text in enumerate(_facts(shot.score)):
         lost = i == 1 and shot.score.in_frame not in (None, 1.0)
-        style = canvas.fitted(text, Type(8.5, KEEP_OUT if lost else INK), CELL)
-        canvas.text(panel.left, plot.y - 0.36 - i * 0.17, text, style)
+        canvas.write(panel.left, plot.y - 0.36 - i * 0.17, text, Type(8.5, KEEP_OUT if lost else INK), CELL)
 
 
 def _moment(plan: VerifiedIR, shot: FlownShot, number: int) -> Moment:

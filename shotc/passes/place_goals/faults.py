@@ -90,7 +90,7 @@ def too_many(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies)
 
 
 def too_dark(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, number: int) -> Diagnostic:
-    """Warn of drones for which a flat picture has no room, and whose lights are off."""
+    """Warn of drones for which a picture has no room, and whose lights are off."""
     dark, full = len(fleet.pads) - number, len(fleet.pads)
     message = f"{dark} of {full} drones find no room in the picture and stay dark, behind it"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))

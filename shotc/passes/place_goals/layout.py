@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,19 +13,23 @@ from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Lettering, Picture
 from shotc.passes.place_goals.body import Body, Fill
+from shotc.passes.place_goals.dark import dark_places
 from shotc.passes.place_goals.faults import no_points, too_few_points, viewpoint_inside
 from shotc.passes.place_goals.flat import FlatBody
 from shotc.passes.place_goals.letters import lights_needed
-from shotc.passes.place_goals.lit import Lit, Strokes, on_strokes
+from shotc.passes.place_goals.lit import Lit, Strokes, all_lit, lit, on_strokes
 from shotc.passes.place_goals.model import MeshBody
 from shotc.passes.place_goals.solids import SolidBody
-from shotc.passes.place_goals.spaced import Placed, Setting, placed, spaced
+from shotc.passes.place_goals.spaced import Placed, Setting, placed, spaced, what_fits
+from shotc.passes.resolve.show.fit import MOST_DARK
 
 DENSE, THIN = 40, 20
 """Points a goal: of few goals, and of more than ``MANY``, where the tessellation costs most."""
 MANY = 2000
 LEAST_POINTS, LEAST_FLAT = 2000, 10_000
 """Points of any picture; of a flat one, where a light beside a stroke is seen."""
+FEWER = 1.06
+"""Factor from one number of lights that is tried to the next."""
 AS_MANY = 0.9
 """Share of the lights that the inside of a text holds with which its outline reads better."""
 
@@ -47,10 +51,6 @@ class Task:
         return self.display.pictures[self.index]
 
 
-Light = Callable[[Strokes], Lit | None]
-"""How a flat picture is lit: with all drones or not at all, or with as many as find room."""
-
-
 class Layout(NamedTuple):
     """Goals of all frames as placed, and as spaced: None from the first frame on that they do not fit."""
 
@@ -64,19 +64,22 @@ class Layout(NamedTuple):
         return min(0 if frame is None else frame.number for frame in self.spaced)
 
 
-def laid_out(task: Task, setting: Setting, bodies: Sequence[Body], light: Light) -> Layout | Diagnostic:
-    """Return the goals of all frames; of a text without a ``fill`` where it reads best."""
+def laid_out(task: Task, setting: Setting, bodies: Sequence[Body], *, dark: bool) -> Layout | Diagnostic:
+    """Return the goals of all frames; of a text without a ``fill`` where it reads best.
+
+    dark : whether drones for which there is no room may stay dark
+    """
     fill = task.picture.fill
     if fill != "legible":
-        return _filled(task, setting, bodies, fill, light)
-    inside = _filled(task, setting, bodies, "volume", light)
+        return _filled(task, setting, bodies, fill, dark=dark)
+    inside = _filled(task, setting, bodies, "volume", dark=dark)
     flat = bodies[0]
     source = task.picture.source
     if not isinstance(flat, FlatBody) or not isinstance(source, Lettering):
         return inside
     if isinstance(inside, Diagnostic) or setting.number < lights_needed(source, flat, "outline"):
         return inside
-    outline = _filled(task, setting, bodies, "outline", light)
+    outline = _filled(task, setting, bodies, "outline", dark=dark)
     if isinstance(outline, Diagnostic):
         return inside
     few = inside.bright == setting.number or outline.bright < AS_MANY * max(1, inside.bright)
@@ -84,15 +87,50 @@ def laid_out(task: Task, setting: Setting, bodies: Sequence[Body], light: Light)
 
 
 def _filled(
-    task: Task, setting: Setting, bodies: Sequence[Body], fill: Fill, light: Light
+    task: Task, setting: Setting, bodies: Sequence[Body], fill: Fill, *, dark: bool
 ) -> Layout | Diagnostic:
     goals = _placed(task, setting, bodies, fill)
     if isinstance(goals, Diagnostic):
         return goals
+    layout = _apart(setting, bodies, (fill, goals), dark=dark)
+    if dark and None in layout.spaced and not any(isinstance(body, FlatBody) for body in bodies):
+        return _partly_lit(task, setting, bodies, (fill, goals)) or layout
+    return layout
+
+
+def _partly_lit(
+    task: Task, setting: Setting, bodies: Sequence[Body], what: tuple[Fill, Sequence[Placed]]
+) -> Layout | None:
+    """Return the goals of as many drones as find room in every frame, the others dark behind it, or None."""
+    fill, goals = what
+    number = min(what_fits(setting, frame).number for frame in goals)
+    while number >= max(1.0, (1.0 - MOST_DARK) * setting.number):
+        few = replace(setting, number=number)
+        shown = _placed(task, few, bodies, fill)
+        layout = None if isinstance(shown, Diagnostic) else _apart(few, bodies, (fill, shown), dark=False)
+        if layout is not None and None not in layout.spaced:
+            lit = [_with_dark(frame, setting) for frame in layout.spaced if frame is not None]
+            return None if None in lit else layout._replace(spaced=tuple(lit))
+        number = int(number / FEWER)
+    return None
+
+
+def _with_dark(frame: Lit, setting: Setting) -> Lit | None:
+    """Return the goals of a frame with places for all other drones, or None where there is no room."""
+    behind = dark_places(frame.points, setting.number - frame.number, setting)
+    return None if behind is None else Lit(np.concatenate([frame.points, behind]), frame.number)
+
+
+def _apart(
+    setting: Setting, bodies: Sequence[Body], what: tuple[Fill, Sequence[Placed]], *, dark: bool
+) -> Layout:
+    """Return the goals of all frames moved apart, up to the first frame in which they do not fit."""
+    fill, goals = what
     apart: list[Lit | None] = []
     for body, frame in zip(bodies, goals, strict=True):
         if isinstance(body, FlatBody):
-            apart.append(light(Strokes(body, fill, frame, setting)))
+            strokes = Strokes(body, fill, frame, setting)
+            apart.append(lit(strokes) if dark else all_lit(strokes))
         else:
             points = spaced(setting, frame)
             apart.append(None if points is None else Lit(points, len(points)))

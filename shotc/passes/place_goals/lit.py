@@ -11,19 +11,17 @@ from shotc.geom.bernstein import Array
 from shotc.geom.centroids import centroids
 from shotc.geom.push_along import push_along, thinned
 from shotc.passes.place_goals.body import Fill
+from shotc.passes.place_goals.dark import BEHIND, dark_places
 from shotc.passes.place_goals.edges import along_edges
 from shotc.passes.place_goals.flat import FlatBody
 from shotc.passes.place_goals.spaced import Placed, Setting
+from shotc.passes.resolve.show.fit import MOST_DARK
 
 SLACKS = (0.1, 0.2)
 """Shares of the spacing by which a light may be off its stroke. The second, at which letters look uneven,
 is for where it gives all lights room."""
-BEHIND = 1.001
-"""Distance of dark drones from the picture, in spacings."""
 NEARLY = 50
 """One in so many lights more is not looked for."""
-DARK = 0.5
-"""Share of a fleet that may stay dark."""
 
 
 class Lit(NamedTuple):
@@ -50,14 +48,14 @@ def all_lit(strokes: Strokes) -> Lit | None:
 def lit(strokes: Strokes) -> Lit | None:
     """Return goals apart on the picture's strokes, as many as find room there, the others behind it.
 
-    None : for more than ``DARK`` of them there is none, or none behind either
+    None : for more than ``MOST_DARK`` of them there is none, or none behind either
     """
     found = all_lit(strokes)
     if found is not None:
         return found
     shown = strokes.placed(strokes.most())
     spare = strokes.setting.number - len(shown)
-    dark = None if spare > DARK * strokes.setting.number else _behind(strokes, shown, spare)
+    dark = None if spare > MOST_DARK * strokes.setting.number else _behind(strokes, shown, spare)
     return None if dark is None else Lit(np.concatenate([shown, dark]), len(shown))
 
 
@@ -142,4 +140,6 @@ def _behind(strokes: Strokes, shown: Array, spare: int) -> Array | None:
         evenly = np.unique(np.linspace(0, len(places) - 1, min(spare, len(places))).round().astype(np.intp))
         found.append(places[evenly])
         spare -= len(evenly)
-    return None if spare else np.concatenate(found)
+    if not spare:
+        return np.concatenate(found)
+    return dark_places(shown, spare + sum(map(len, found)), setting)

@@ -16,7 +16,6 @@ from shotc.passes.place_goals.faults import in_the_way, of_source, too_dark, too
 from shotc.passes.place_goals.flat import FlatBody
 from shotc.passes.place_goals.layout import Layout, Task, laid_out
 from shotc.passes.place_goals.letters import lights_needed, too_few_lights, too_small
-from shotc.passes.place_goals.lit import all_lit, lit
 from shotc.passes.place_goals.remedies import Fits, Remedies, remedies
 from shotc.passes.place_goals.sources import bodies_of
 from shotc.passes.place_goals.spaced import Placed, Setting, what_fits
@@ -37,7 +36,7 @@ def draw_picture(task: Task, setting: Setting) -> Drawn:
     bodies = bodies_of(task.picture, task.files)
     if isinstance(bodies, SourceFault):
         return Drawn((), (of_source(task.mission, task.picture, bodies),))
-    layout = laid_out(task, setting, bodies, lit)
+    layout = laid_out(task, setting, bodies, dark=True)
     if isinstance(layout, Diagnostic):
         return Drawn((), (layout,))
     shown = [goals.shown for goals in layout.placed]
@@ -97,7 +96,7 @@ def _trying(task: Task, setting: Setting) -> Fits:
         changed = replace(task, display=task.display._replace(pictures=tuple(pictures)))
         asked = replace(setting, number=number, least=setting.least * share)
         bodies = bodies_of(picture, task.files)
-        layout = bodies if isinstance(bodies, SourceFault) else laid_out(changed, asked, bodies, all_lit)
+        layout = bodies if isinstance(bodies, SourceFault) else laid_out(changed, asked, bodies, dark=False)
         return isinstance(layout, Layout) and layout.bright == number
 
     return fits

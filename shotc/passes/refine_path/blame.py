@@ -11,7 +11,7 @@ from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.finding import Fault
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept, same
-from shotc.passes.timed_route.faults import left_place
+from shotc.passes.timed_route.faults import left_places
 
 OF_THE_CONVEX = ("Q007",)
 """Warnings of what the convex path cannot frame; verification says it of a path that is flown instead."""
@@ -71,7 +71,7 @@ def still_true(paths: tuple[PathIR, PathIR], said: tuple[Diagnostic, ...]) -> tu
         or (d.code == OF_THE_GUIDE and _of(mission, d) in refined)
     }
     guided = {_of(mission, d) for d in said if id(d) in told and d.code == OF_THE_GUIDE}
-    anew = [left_place(mission, d) for d in after.deviations if d.shot in guided]
+    anew = left_places(mission, (d for d in after.deviations if d.shot in guided))
     return (*(d for d in said if id(d) not in told), *anew)
 
 

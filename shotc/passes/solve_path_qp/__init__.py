@@ -37,7 +37,7 @@ from shotc.passes.solve_path_qp.on_clock import Itinerary
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
 from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate, Trouble
-from shotc.passes.timed_route.faults import left_place, stopped_on_clock
+from shotc.passes.timed_route.faults import left_places, stopped_on_clock
 from shotc.passes.timed_route.moving import moving_targets
 from shotc.passes.timed_route.others import other_drones
 from shotc.passes.timed_route.shot import NoMotion, Traffic
@@ -215,7 +215,7 @@ def _on_clock(
         return _stopped(*warnings, _told(mission, flight, None, trouble))
     curved = [s for s in shots if isinstance(s, ShotCurve)]
     on_paths = {s.shot.shot.id for s in curved}
-    left = tuple(left_place(mission, d) for d in itinerary.deviations if d.shot not in on_paths)
+    left = left_places(mission, (d for d in itinerary.deviations if d.shot not in on_paths))
     deviations = (*(d for s in curved for d in s.deviations), *itinerary.deviations)
     stats = (*(x for s in curved for x in s.stats), *itinerary.stats)
     return _Planned(tuple(itinerary.legs), deviations, stats, (*warnings, *left))

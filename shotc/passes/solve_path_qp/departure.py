@@ -19,6 +19,7 @@ from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Leg
+from shotc.ir.preference import LONGEST_WAIT
 from shotc.passes.parameterize_time.estimate import leg_motion
 from shotc.passes.timed_route.moving import Moving
 from shotc.passes.timed_route.shot import Traffic
@@ -94,7 +95,7 @@ def choose(
     for legs in ways:
         for way in _tries(mission, drone, traffic, legs, span, then):
             in_time = span[1] is None or way.end <= span[1]
-            if way.clear and way.unseen >= 0.0 and (in_time or not tried):
+            if way.clear and _unseen(traffic, way, span) >= 0.0 and (in_time or not tried):
                 return way
             tried.append(way)
         if not traffic.moving:
@@ -102,9 +103,21 @@ def choose(
     due = inf if span[1] is None else span[1]
 
     def worth(way: Way) -> tuple[bool, float, float, float]:
-        return way.met is None, -max(0.0, way.end - due), min(way.room, COMFORT), way.unseen
+        unseen = _unseen(traffic, way, span)
+        return way.met is None, -max(0.0, way.end - due), min(way.room, COMFORT), unseen
 
     return max(tried, key=worth, default=None)
+
+
+def _unseen(traffic: Traffic, way: Way, span: tuple[float, float | None]) -> float:
+    """Return how far a way is out of pictures, metres, where that counts; span : as in ``choose``.
+
+    A preference that is not met counts for nothing, nor one that is for which what follows waits too long.
+    """
+    if not traffic.sights.preferred:
+        return way.unseen
+    waits = (way.legs[0].start or 0.0) - span[0] if span[1] is None and way.legs else 0.0
+    return 0.0 if way.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
 
 
 def _tries(

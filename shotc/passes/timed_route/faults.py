@@ -2,28 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import Deviation
 from shotc.passes.corridor.room import GROUND, named, owner_path
-from shotc.passes.timed_route.shot import Missed, NoMotion
+from shotc.passes.timed_route.shot import PICTURES, Missed, NoMotion
 from shotc.rounding import at_least, up
 
+TOLD = 5  # stretches of a shot that are told one by one
+SILENT = "rules: {mutual_visibility: {strength: off}}"
 
-def left_place(mission: MissionIR, deviation: Deviation) -> Diagnostic:
-    """Warn of a stretch on which a shot leaves its place beside its target."""
-    shot = next(s for s in mission.shots if s.id == deviation.shot)
-    labels: tuple[Label, ...] = (mission.origins.value((*shot.path, "kind")),)
-    named_cause = deviation.cause == GROUND or deviation.cause.startswith(("zone ", "target ", "drone "))
-    if named_cause:
-        labels = (*labels, mission.origins.key(owner_path(mission, deviation.cause), "what stands there"))
-    cause = named(deviation.cause) if named_cause else deviation.cause
+
+def left_places(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Diagnostic, ...]:
+    """Warn, once a shot, of the stretches on which it leaves its place beside its target."""
+    every = tuple(deviations)
+    return tuple(
+        _left_place(mission, [d for d in every if d.shot == shot])
+        for shot in dict.fromkeys(d.shot for d in every)
+    )
+
+
+def _left_place(mission: MissionIR, stretches: list[Deviation]) -> Diagnostic:
+    worst = max(stretches, key=lambda d: d.distance)
+    shot = next(s for s in mission.shots if s.id == worst.shot)
+    labels: list[Label] = [mission.origins.value((*shot.path, "kind"))]
+    causes = []
+    for cause in dict.fromkeys(d.cause for d in (worst, *stretches)):
+        stands = cause == GROUND or cause.startswith(("zone ", "target ", "drone "))
+        if stands:
+            labels.append(mission.origins.key(owner_path(mission, cause), "what stands there"))
+        causes.append(named(cause) if stands else cause)
+    notes = [f"what stands against it: {', '.join(causes)}, and that it is flown smoothly"]
+    if len(stretches) > 1:
+        often = ", ".join(f"{d.distance:.2f} m at t = {d.s:.1f} s" for d in stretches[:TOLD])
+        more = f" and {len(stretches) - TOLD} more" if len(stretches) > TOLD else ""
+        notes.append(f"on {len(stretches)} stretches: {often}{more}")
     return Diagnostic(
         "M008",
-        f"shot `{shot.id}` leaves its place by {deviation.distance:.2f} m at t = {deviation.s:.1f} s",
-        labels,
-        (f"what stands against it: {cause}, and that it is flown smoothly",),
-        "give the shot more room, or the drone higher limits",
+        f"shot `{shot.id}` leaves its place by {worst.distance:.2f} m at t = {worst.s:.1f} s",
+        tuple(labels),
+        tuple(notes),
+        "give the shot more room, or the drone higher limits"
+        + (f", or let drones be seen by `{SILENT}`" if PICTURES in causes else ""),
     )
 
 

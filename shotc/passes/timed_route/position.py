@@ -15,11 +15,12 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, is_keyed, place_of
 from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.preference import Price, prefers_free_pictures
 from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, shortfalls, sides
-from shotc.passes.timed_route.preferred import costs_little
+from shotc.passes.timed_route.preferred import cost
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_qp import (
@@ -132,7 +133,7 @@ class Flown:
     """The position over mission time, or why there is none.
 
     objective : m^2 s; rounds : programmes solved
-    freed : whether it gives way to keep pictures free
+    freed : whether it gives way to keep pictures free; given_up : what that would cost, where it does not
     """
 
     curve: Piecewise | None
@@ -141,32 +142,35 @@ class Flown:
     rounds: int
     relaxation: Relaxation | None = None
     freed: bool = False
+    given_up: Price | None = None
 
 
 def fly(task: Task) -> Flown:
-    """Return the position curve of a shot, proved clear by its hulls, out of pictures as far as it can be."""
-    best = _fly(task, ())
-    if best.curve is None:
-        return best
-    plain, kept = best.curve, _kept(task, best.curve)
+    """Return the position curve of a shot, proved clear by its hulls, out of pictures as far as it can be.
+
+    As if nobody looked, where that is only preferred and takes more than a preference may, or does not do.
+    """
+    plain = best = _fly(task, ())
+    if plain.curve is None:
+        return plain
+    kept = _kept(task, plain.curve)
     for _ in range(LOOKS):
         if kept.worst >= 0.0 or best.curve is None:
             break
         freer = _fly(task, kept.floors)
-        if freer.curve is None or not _worth_it(task, plain, freer.curve):
+        if freer.curve is None:
             break
         later = _kept(task, freer.curve)
         if later.worst <= kept.worst + PROVED:
             break
         best, kept = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
-    return best
-
-
-def _worth_it(task: Task, plain: Piecewise, freer: Piecewise) -> bool:
-    """Tell whether pictures may be kept free at what it costs: whatever it takes where that is required."""
-    if task.mission.rules.visibility == "require":
-        return True
-    return costs_little(task.looker, (task.clock.start, task.clock.end), plain, freer)
+    if not prefers_free_pictures(task.mission) or best.curve is None:
+        return best
+    span, free = (task.clock.start, task.clock.end), kept.worst >= 0.0
+    price = cost(task.looker, span, plain.curve, best.curve)
+    if free and price.little:
+        return best
+    return replace(plain, rounds=best.rounds, given_up=Price(price.moved, price.share, free))
 
 
 def _kept(task: Task, course: Piecewise) -> Kept:

@@ -1,10 +1,12 @@
 """What it may cost a shot that drones are only preferred to keep out of each other's pictures.
 
-A preference moves a camera by at most half its distance to whom it films, and crops nobody whom the
-shot would show whole. Where it takes more, the shot stays as it is, and V033 tells who is in its picture.
+By ``ir.preference`` it moves a camera by at most a share of its distance to whom it films, and crops nobody
+whom the shot would show whole. Where that does not free the pictures the shot stays as it is.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,15 +16,32 @@ from shotc.geom.pieces import Mask
 from shotc.geom.track_array import places as track_places
 from shotc.ir.bodies import cylinder
 from shotc.ir.mission import Target
+from shotc.ir.preference import MOST_MOVED, UNWATCHED
 from shotc.passes.timed_route.aims import Looker, aims_at
 
-MOST = 0.5  # of the distance to the nearest of whom a shot films, that a preference moves its camera
-ALONE = 1.0  # metres, where a shot films nobody
 STEP = 0.1  # seconds between the moments that are looked at
 
 
-def costs_little(looker: Looker, span: tuple[float, float], plain: Piecewise, freer: Piecewise) -> bool:
-    """Tell whether a course that keeps pictures free stays near the plain one, and shows as much.
+@dataclass(frozen=True, slots=True)
+class Cost:
+    """What a preference takes from a shot, where it takes the largest share of what it may.
+
+    moved : metres from the place without it; share : the same over the distance from whom it films
+    crops : whether somebody is cropped whom the shot would show whole
+    """
+
+    moved: float
+    share: float
+    crops: bool
+
+    @property
+    def little(self) -> bool:
+        """Whether the rule allows it."""
+        return self.share <= MOST_MOVED and not self.crops
+
+
+def cost(looker: Looker, span: tuple[float, float], plain: Piecewise, freer: Piecewise) -> Cost:
+    """Return what a course that keeps pictures free costs against the plain one.
 
     span : of the film, seconds
     """
@@ -30,12 +49,12 @@ def costs_little(looker: Looker, span: tuple[float, float], plain: Piecewise, fr
     before, after = plain(times)[:, :3], freer(times)[:, :3]
     targets = [looker.mission.target(s.target) for s in looker.subjects]
     far = [np.linalg.norm(_places(target, times) - before, axis=1) for target in targets]
-    most = MOST * np.min(far, axis=0) if far else np.full(len(times), ALONE)
-    if (np.linalg.norm(after - before, axis=1) > most).any():
-        return False
-    return not any(
-        (_whole(looker, t, times, before) & ~_whole(looker, t, times, after)).any() for t in targets
-    )
+    away = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
+    moved = np.linalg.norm(after - before, axis=1)
+    share = moved / np.maximum(away, STEP)
+    k = int(share.argmax())
+    crops = any((_whole(looker, t, times, before) & ~_whole(looker, t, times, after)).any() for t in targets)
+    return Cost(float(moved[k]), float(share[k]), bool(crops))
 
 
 def _whole(looker: Looker, target: Target, times: Array, places: Array) -> Mask:

@@ -15,6 +15,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
+from shotc.ir.preference import noted
 from shotc.passes.place_keyframes.keyed import placed_at, slowed
 from shotc.passes.timed_route.aims import Looker, looker_of
 from shotc.passes.timed_route.camera import Watch, turn
@@ -101,11 +102,12 @@ def timed_shot(
     keyed, marks = looker.keyed, marks_of(placed, start)
     framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.spans()
     leg = TimedLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, marks)
-    stats = (
+    stats: tuple[tuple[str, float | str], ...] = (
         (f"{shot.id}.pieces", float(len(curve.ctrl))),
         (f"{shot.id}.qp_objective", flown.objective),
         (f"{shot.id}.qp_rounds", float(flown.rounds)),
         (f"{shot.id}.qp_status", str(flown.status)),
+        *(() if flown.given_up is None else noted(shot.id, flown.given_up)),
     )
     return TimedShot(leg, _deviations(task, flown), stats)
 

@@ -19,6 +19,7 @@ from shotc.geom.sight import off_axis, outside
 from shotc.ir.bodies import flying, standing_at
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.preference import prefers_free_pictures
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.solvers.spline_qp import Floors
@@ -53,12 +54,14 @@ class Body:
 class Sights:
     """Whose pictures a drone keeps out of, and whom it keeps out of its own.
 
-    half_angle : as in ``ir.mission.Rules``
+    half_angle : as in ``ir.mission.Rules``; preferred : whether they are kept free only by the rule of
+        ``ir.preference``
     """
 
     watchers: tuple[Watcher, ...] = ()
     bodies: tuple[Body, ...] = ()
     half_angle: float | None = None
+    preferred: bool = False
 
 
 def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTrajectory]) -> Sights:
@@ -73,10 +76,11 @@ def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTraje
         camera = partial(_camera, flight.curve, other.aspect)
         watchers += [Watcher(p.start, p.end, camera) for p in flight.phases if p.shot is not None]
         bodies.append(Body(other.radius, partial(flying, flight.curve)))
-    if mission.rules.visibility == "require":
+    if not prefers_free_pictures(mission):
         # No shot is bent for a pad that is only preferred not to be seen.
         bodies += [Body(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
-    return Sights(tuple(watchers), tuple(bodies), mission.rules.half_angle)
+    preferred = prefers_free_pictures(mission)
+    return Sights(tuple(watchers), tuple(bodies), mission.rules.half_angle, preferred)
 
 
 def _camera(curve: Piecewise, aspect: float, times: Array) -> Cameras:

@@ -98,18 +98,34 @@ _MOSTLY = {"V031": "V050"}
 
 
 def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
-    """Turn every broken claim into one diagnostic: an error where it is hard, else a warning."""
+    """Turn every broken claim into one diagnostic: an error where it is hard, else a warning.
+
+    What is preferred of the drones' pictures is told once a shot.
+    """
     for claim in claims:
         if claim.holds:
             continue
         if claim.constraint.endswith(SEEN):
-            yield sighted(ir, claim)
+            seen = _seen_with(claim, claims)
+            if claim is seen[0]:
+                yield sighted(ir, seen)
         elif claim.hard:
             yield _broken(ir, claim, claims)
         else:
             code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)
             if code is not None and not _on_purpose(ir.keyframes.mission, claim, code):
                 yield _lost(ir, claim, _MOSTLY.get(code, code) if claim.worst < MOST else code)
+
+
+def _seen_with(claim: Claim, claims: tuple[Claim, ...]) -> tuple[Claim, ...]:
+    """Return the broken claims that are told in one with a claim that another drone is out of a picture."""
+    if claim.hard:
+        return (claim,)
+    return tuple(
+        c
+        for c in claims
+        if not c.holds and not c.hard and c.constraint.endswith(SEEN) and c.shot == claim.shot
+    )
 
 
 def rule_of(constraint: str, mission: MissionIR) -> Rule:

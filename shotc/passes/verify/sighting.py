@@ -10,12 +10,15 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
+from shotc.ir.preference import MOST_MOVED, Price, given_up, prefers_free_pictures
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.numbers import measure, told_apart
 from shotc.passes.verify.sight import ENDING, PATH, Sight, ticks
+from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"
+NOTICE = 0.1  # metres that a shot would have been moved by, that are worth telling
 
 _DOING = {
     "takeoff": "taking off",
@@ -25,21 +28,57 @@ _DOING = {
 }
 
 
-def sighted(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
-    """Report a claim that another drone is out of the picture, and that is broken."""
-    mission = ir.keyframes.mission
-    name = claim.constraint.removesuffix(ENDING)
-    film, other = (next(t for t in bodies(ir) if t.drone == who) for who in (claim.subject, name))
+def sighted(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Diagnostic:
+    """Report broken claims that other drones are out of the picture of one shot."""
+    mission, claim = ir.keyframes.mission, min(claims, key=lambda c: c.worst)
+    names = [c.constraint.removesuffix(ENDING) for c in claims]
+    tracks = {t.drone: t for t in bodies(ir)}
+    film = tracks[claim.subject]
     phase = next(p for p in film.phases if p.shot == claim.shot)
     cone = mission.rules.half_angle
     where = "in the picture of" if cone is None else f"within {measure(cone, 'rad')} of the optical axis of"
+    notes: list[str] = []
+    for name, one in zip(names, claims, strict=True):
+        whose = f"{name} " if len(claims) > 1 else ""
+        notes += [whose + note for note in _notes(Sight(mission, film, tracks[name]), one, phase)]
+    notes += _given_up(ir, phase, [tracks[name] for name in names])
+    who = f"{_listed(names)} {'is' if len(names) == 1 else 'are'}"
     return Diagnostic(
         HARD if claim.hard else SOFT,
-        f"{name} is {where} {claim.subject} in shot `{claim.shot}`",
+        f"{who} {where} {claim.subject} in shot `{claim.shot}`",
         tuple(_labels(mission, claim)),
-        tuple(_notes(Sight(mission, film, other), claim, phase)),
-        _help(mission, claim, other),
+        tuple(notes),
+        _help(mission, claim, tracks[claim.constraint.removesuffix(ENDING)]),
     )
+
+
+def _listed(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def _given_up(ir: TrajectoryIR, phase: Phase, others: list[DroneTrajectory]) -> Iterator[str]:
+    """Tell which of the shots concerned do not keep the picture of one free, and what that would cost."""
+    if not prefers_free_pictures(ir.keyframes.mission):
+        return
+    meanwhile = (p.shot for other in others for p in other.phases if _overlap(p, phase))
+    for shot in dict.fromkeys(s for s in (phase.shot, *meanwhile) if s is not None):
+        price = given_up(ir.stats, shot)
+        if price is not None:
+            yield f"the preference is given up for shot `{shot}`: {_price(price)}"
+
+
+def _price(price: Price) -> str:
+    if price.moved < NOTICE:
+        return "no place near its own keeps the drones' pictures free"
+    far = f"{at_least(price.moved)} m, {100 * price.share:.0f} % of its distance from what it films"
+    if not price.suffices:
+        return f"to move it by {far}, would not keep the drones' pictures free either"
+    most = f"moves it by at most {100 * MOST_MOVED:g} %" if price.share > MOST_MOVED else "crops no subject"
+    return f"to keep the drones' pictures free would move it by {far}, and a preference {most}"
+
+
+def _overlap(a: Phase, b: Phase) -> bool:
+    return a.start < b.end and b.start < a.end
 
 
 def _labels(mission: MissionIR, claim: Claim) -> Iterator[Label]:
@@ -104,4 +143,7 @@ def _help(mission: MissionIR, claim: Claim, other: DroneTrajectory) -> str:
     )
     if claim.hard:
         return f"{move}, or set `rules: {{mutual_visibility: {{strength: prefer}}}}` to be told only"
-    return f"{move}; `rules: {{mutual_visibility: {{strength: off}}}}` judges nothing"
+    return (
+        f"{move}; `rules: {{mutual_visibility: {{strength: require}}}}` has them kept out whatever it takes, "
+        "`strength: off` judges nothing"
+    )

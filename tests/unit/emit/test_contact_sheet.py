@@ -9,12 +9,13 @@ from PIL import Image
 
 from shotc.emit.audience import ASPECT, audience
 from shotc.emit.contact_sheet import EMITTER
-from shotc.emit.contact_sheet.moments import MOST, boards
+from shotc.emit.contact_sheet.moments import MOST, boards, lights
 from shotc.emit.contact_sheet.night import night
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Shown
 from shotc.ir.trajectory import VerifiedIR
 from tests import sky
+from tests.drawn import texts
 from tests.records import replace
 from tests.samples import orbit_plan
 
@@ -109,3 +110,16 @@ def test_no_fleet_no_sheet() -> None:
     emission = EMITTER.emit(orbit_plan())
     assert emission.artifacts == ()
     assert len(emission.notes) == 1
+
+
+def test_a_picture_counts_the_lights_that_shine() -> None:
+    plan = sky.plan()
+    flight = plan.trajectory.fleets[0]
+    colors = flight.lights.colors.copy()
+    colors[:17] = 0
+    dark = replace(flight, lights=replace(flight.lights, colors=colors))
+    assert lights(flight, 27.5) == len(flight.coef)
+    assert lights(dark, 27.5) == len(flight.coef) - 17
+    with texts() as found:
+        EMITTER.emit(replace(plan, trajectory=replace(plan.trajectory, fleets=(dark,))))
+    assert sum(t.text.endswith(f"{len(flight.coef) - 17} of {len(flight.coef)} lights") for t in found) == 2

@@ -12,7 +12,9 @@ import pytest
 from rerun.chunk import RrdReader
 
 from shotc.emit.rerun_log import EMITTER
+from shotc.emit.rerun_log.layout import panels
 from shotc.emit.rerun_log.motion import camera_quaternions
+from shotc.emit.rerun_log.opening import filmed_span, first_stand
 from shotc.emit.rerun_log.series import clearance_plot, motion_plots, sample_times
 from shotc.emit.rerun_log.text import certificate_text, phase_texts, quantity
 from shotc.emit.rerun_log.world import solid_mesh
@@ -45,7 +47,7 @@ def columns(path: Path) -> dict[str, list[Any]]:
     for chunk in RrdReader(path).stream().to_chunks():
         batch = chunk.to_record_batch()
         for name, values in zip(batch.schema.names, batch.columns, strict=True):
-            plain = values.cast("int64") if name == "t" else values
+            plain = values.cast("int64") if name in ("t", "filmed") else values
             found.setdefault(f"{chunk.entity_path}:{name}", []).extend(plain.to_pylist())
     return found
 
@@ -89,13 +91,38 @@ ENTITIES = {
 }
 
 
-def test_the_recording_holds_every_entity_on_one_timeline(rrd: Path) -> None:
+def test_the_recording_holds_every_entity(rrd: Path) -> None:
     schema = RrdReader(rrd).store().schema()
     known = {(c.entity_path, c.component) for c in schema.component_columns()}
     assert set(ENTITIES.items()) <= known
-    assert [c.name for c in schema.index_columns()] == ["t"]
+    assert {c.name for c in schema.index_columns()} == {"t", "filmed"}
     # Keep-in zones have no volume: one would hide everything in them.
     assert "/world/zones/field/volume" not in {entity for entity, _ in known}
+
+
+def test_the_timeline_that_opens_begins_at_the_first_filmed_frame(rrd: Path) -> None:
+    rows = 0
+    for chunk in RrdReader(rrd).stream().to_chunks():
+        batch = chunk.to_record_batch()
+        if "t" in batch.schema.names:
+            t, filmed = (np.array(batch.column(n).cast("int64").to_pylist()) for n in ("t", "filmed"))
+            np.testing.assert_array_equal(filmed, np.maximum(t, 22_000_000_000))
+            rows += len(t)
+    assert rows > 1000
+    assert panels((22.0, 52.0))[0].timeline == "filmed"
+
+
+def test_a_recording_opens_with_the_camera_and_its_subject_in_view() -> None:
+    plan = orbit_plan()
+    assert filmed_span(plan) == (22.0, 52.0)
+    stand = first_stand(plan)
+    assert stand is not None
+    ahead = np.subtract(stand.look, stand.eye)
+    ahead /= np.linalg.norm(ahead)
+    (flight,) = plan.trajectory.drones
+    for point in (flight.curve(22.0)[:3], (0.0, 0.0, 0.0), (0.0, 0.0, 24.0)):
+        to = np.subtract(point, stand.eye)
+        assert np.degrees(np.arccos(to @ ahead / np.linalg.norm(to))) < 27.5, "the viewer's lens sees 55 deg"
 
 
 def test_the_recording_has_one_active_layout(rrd: Path) -> None:

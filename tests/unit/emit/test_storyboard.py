@@ -18,23 +18,9 @@ from shotc.emit.storyboard.scene import painting_order
 from shotc.emit.storyboard.sheet import outline, sheet_of
 from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Composition
-from shotc.ir.trajectory import Claim, KeyframeTime, VerifiedIR
+from shotc.ir.trajectory import Claim, VerifiedIR
 from tests.records import replace
-from tests.samples import orbit_plan
-
-
-def dense_plan(*, placed: bool, count: int = 31) -> VerifiedIR:
-    """The sample plan with many keyframes along its shot."""
-    plan = orbit_plan()
-    trajectory = plan.trajectory
-    (shot,), (flight,) = trajectory.keyframes.shots, trajectory.drones
-    keyframe = replace(shot.keyframes[0], placed=placed)
-    written = replace(shot.shot, keyframes=shot.shot.keyframes[:1] * count)
-    shots = (replace(shot, shot=written, keyframes=(keyframe,) * count),)
-    times = tuple(KeyframeTime("half", i, float(t)) for i, t in enumerate(np.linspace(22, 52, count)))
-    keyframes = replace(trajectory.keyframes, shots=shots)
-    drones = (replace(flight, keyframes=times),)
-    return VerifiedIR(replace(trajectory, keyframes=keyframes, drones=drones), plan.certificate)
+from tests.samples import dense_plan, orbit_plan
 
 
 def size_of(png: bytes) -> tuple[int, int]:
@@ -136,10 +122,22 @@ def test_text_is_as_wide_as_measured() -> None:
         small, large = canvas.extent("a longer text", Type(8.0)), canvas.extent("a longer text", Type(16.0))
         assert large[0] == pytest.approx(2 * small[0], rel=0.03)
         assert canvas.extent("$x_1$", Type(9.0))[0] > canvas.extent("x1", Type(9.0))[0]
-        fitted = canvas.fitted("a longer text", Type(16.0), 0.7)
-        assert canvas.extent("a longer text", fitted)[0] == pytest.approx(0.7, rel=0.05)
-        assert canvas.extent("a longer text", fitted)[0] <= 0.7
-        assert canvas.fitted("short", Type(8.0), 3.0).size == 8.0
+        fitted = canvas.fitted("a longer text", Type(16.0), 1.1)
+        assert fitted.text == "a longer text"
+        assert fitted.width == canvas.extent("a longer text", fitted.style)[0]
+        assert 1.04 < fitted.width <= 1.1
+        assert canvas.fitted("short", Type(8.0), 3.0).style.size == 8.0
+
+
+@pytest.mark.parametrize("room", [1.0, 0.5, 0.3, 0.0])
+def test_a_text_without_room_is_shortened_before_it_is_too_small_to_be_read(room: float) -> None:
+    with house_style():
+        canvas = Canvas(4.0, 1.0, DPI)
+        found = canvas.fitted("all that there is to be said", Type(11.0), room)
+        assert found.style.size == canvas.least_size
+        assert found.text.endswith("…")
+        assert found.width <= max(room, canvas.extent("…", found.style)[0])
+        assert canvas.fitted("low", Type(5.0), 0.1).style.size == 5.0
 
 
 def test_boxes() -> None:

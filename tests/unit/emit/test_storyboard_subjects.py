@@ -34,6 +34,8 @@ def marks(monkeypatch: pytest.MonkeyPatch, plan: VerifiedIR) -> tuple[list[Vec2]
     def lines(self, strips, color, *rest, **more):
         if color == CAMERA:
             crosses.append(tuple(2 * strips[-1][:-1].mean(axis=0) / size - 1))
+        if color == WHITE:  # the ring about one that a dot would cover
+            dots.append(tuple(2 * strips[-1][:-1].mean(axis=0) / size - 1))
         real[0](self, strips, color, *rest, **more)
 
     def disc(self, at, radius, face, edge, width):

@@ -170,9 +170,9 @@ def test_a_point_cloud_is_its_points() -> None:
 
 def test_too_many_drones_and_what_would_do() -> None:
     tight = Sphere(MIDDLE, 5.0)
-    fault = fault_of(show(display(picture(tight)), fleet(200)))
-    assert fault.code == "D056"
-    number = int(fault.message.rsplit("about ", 1)[1].split()[0])
+    (fault,) = PlaceGoals().run(show(display(picture(tight)), fleet(200)), PassContext()).diagnostics
+    assert fault.code == "D062"
+    number = int(fault.help.split("use ")[1].split()[0])
     radius = float(fault.help.split("radius: ")[1].split("`")[0])
     level, upright = (float(fault.help.split(word)[1].split(" m")[0]) for word in ("`separation` of ", "m, "))
     assert number < 200
@@ -180,10 +180,40 @@ def test_too_many_drones_and_what_would_do() -> None:
     goals_of(show(display(picture(Sphere(MIDDLE, 1.1 * radius))), fleet(200)))
     less = Apart("ellipsoid", 0.9 * level, 0.9 * upright, 0.15)
     goals_of(show(display(picture(tight)), fleet(200, less)))
-    assert (
-        PlaceGoals().run(show(display(picture(tight)), fleet(round(1.4 * number))), PassContext()).value
-        is None
-    )
+    more = PlaceGoals().run(show(display(picture(tight)), fleet(round(1.4 * number))), PassContext())
+    assert [d.code for d in more.diagnostics] == ["D062"]
+
+
+def apart_enough(points, of) -> bool:
+    """Tell whether goals are as far apart as straight moves need."""
+    scaled = points * np.array([1.0, 1.0, stretch(of)])
+    return bool(pdist(scaled).min() >= spacing(of) * (1 - 1e-9))
+
+
+@pytest.mark.parametrize("viewpoint", [None, (0.0, -200.0, 2.0)])
+def test_drones_without_room_stay_dark_behind_the_outline_of_a_cube(viewpoint) -> None:
+    cube = Box(MIDDLE, (24.0, 24.0, 24.0), 0.0)
+    shown = display(picture(cube, fill="outline"))._replace(viewpoint=viewpoint)
+    crowd = fleet(400)
+    done = PlaceGoals().run(show(shown, crowd), PassContext())
+    assert [d.code for d in done.diagnostics] == ["D062"]
+    (frame,) = done.value.fleets[0].frames
+    dark = (frame.colors == 0).all(axis=1)
+    assert f"{dark.sum()} of 400 drones" in done.diagnostics[0].message
+    assert 0 < dark.sum() < 380
+    assert apart_enough(frame.points, crowd.apart)
+    # Behind is beyond the picture, as the audience looks at it; North without one.
+    assert frame.points[dark][:, 1].min() > frame.points[~dark][:, 1].max() + 1.0
+
+
+def test_of_an_animation_the_same_drones_stay_dark_in_every_frame() -> None:
+    files = {f"w{k}.ply": ply(sphere_mesh(5.0 + 0.5 * k, 12)) for k in range(3)}
+    model = Model(tuple(files), 2.0, MIDDLE, None, 0.0)
+    done = PlaceGoals().run(show(display(picture(model)), fleet(200), files=files), PassContext())
+    assert "D062" in [d.code for d in done.diagnostics]
+    dark = [(frame.colors == 0).all(axis=1) for frame in done.value.fleets[0].frames]
+    assert all((one == dark[0]).all() for one in dark)
+    assert dark[0].any()
 
 
 def test_too_few_drones_are_warned_of() -> None:

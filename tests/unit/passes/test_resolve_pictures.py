@@ -25,10 +25,10 @@ def test_a_picture_in_the_ground_is_told_once() -> None:
 @pytest.mark.parametrize(
     ("shape", "sizes", "z"),
     [
-        ("sphere", "radius: 1", 40),
-        ("sphere", "radius: 1", 4),
-        ("cube", "size: 1.5", 40),
-        ("torus", "radius: 1, tube: 0.4", 40),
+        ("sphere", "radius: 0.3", 40),
+        ("sphere", "radius: 0.3", 4),
+        ("cube", "size: 0.4", 40),
+        ("torus", "radius: 0.3, tube: 0.1", 40),
     ],
 )
 def test_what_is_said_of_a_size_is_enough_and_over_the_ground(shape: str, sizes: str, z: int) -> None:

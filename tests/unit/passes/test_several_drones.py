@@ -130,7 +130,7 @@ def pairs() -> list[tuple[str, str]]:
 def test_drones_keep_out_of_each_others_pictures_both_ways() -> None:
     off = planned(SIDE + PASS + TAIL)
     assert max(seen_share(off, a, b) for a, b in pairs()) > 0.5
-    kept = planned(SIDE + PASS + TAIL, HEAD.replace('"off"', "prefer"))
+    kept = planned(SIDE + PASS + TAIL, HEAD.replace('"off"', "require"))
     assert max(seen_share(kept, a, b) for a, b in pairs()) == 0.0
     assert nearest(kept) >= 3.0 - 1e-6
 

@@ -67,6 +67,18 @@ def test_a_silent_mission_prefers_and_warns_of_either_direction() -> None:
     assert "strength: off" in first.help
 
 
+def test_all_who_are_preferred_not_to_be_seen_in_a_shot_are_told_in_one() -> None:
+    third = "  three: {model: x500, home: [0, 5, 0]}\nRULES"
+    text = PAIR.replace("RULES", third).replace("PLACE", "0, 30").replace("HEADING", "0")
+    seen = "  - {id: more, kind: static, drone: three, at: [4, 25, 9], heading: 0 deg, pitch: 0 deg,\n"
+    text = text.replace("RULES", "") + seen + "     timing: {start: 40, duration: 5}}\n"
+    found = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    said = told(found)
+    assert said[0].message == "three and two are in the picture of one in shot `look`"
+    assert {note.split()[0] for note in said[0].notes} >= {"two", "three"}
+    assert len({d.message.partition(" in shot ")[2] for d in said}) == len(said)
+
+
 def test_one_may_see_the_other_alone() -> None:
     assert [d.message for d in told(planned(BEFORE))] == ["two is in the picture of one in shot `look`"]
 

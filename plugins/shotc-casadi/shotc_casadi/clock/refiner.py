@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,13 +15,22 @@ from shotc.plugin_api import (
     SolverState,
     unrefined,
 )
-from shotc.refiner_api import Deviation, TimedLeg, TimedPath, ideal_place, least_out, placed_at
+from shotc.refiner_api import (
+    Deviation,
+    TimedLeg,
+    TimedPath,
+    given_up,
+    ideal_place,
+    least_out,
+    placed_at,
+    prefers_free_pictures,
+)
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.shown import no_less, past_what_hides
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.solving import MOTION
-from shotc_casadi.telling import UNITS, fallen_back, given_up, stats
+from shotc_casadi.telling import UNITS, fallen_back, stats, unsolved
 
 NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
 STEP = 0.1  # seconds between the places that are compared with it
@@ -51,26 +61,51 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
 def refine_one(path: PathIR, shot: str, name: str) -> tuple[PathIR, list[Diagnostic]]:
     """Return the path with one shot on its own clock refined, and what has to be said of it."""
     subject = subject_of(path, shot)
-    refined = refine_clock(subject)
+    found = _tried(path, subject, name, unseen=given_up(path.stats, shot) is None)
+    if found.why == IN_PICTURE and prefers_free_pictures(subject.mission):
+        found = _tried(path, subject, name, unseen=False)
+    said = found.said
+    if said is None and found.refined.leg is None:
+        said = unrefined(path, shot, found.why)
+    stats = (*found.path.stats, *_stats(found.refined))
+    return replace(found.path, stats=stats), [] if said is None else [said]
+
+
+class _Tried(NamedTuple):
+    """A shot refined: the path with it, or why it stays as it was; said : of its solver, if anything."""
+
+    refined: ClockRefined
+    path: PathIR
+    why: str
+    said: Diagnostic | None
+
+
+def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool) -> _Tried:
+    """Refine a shot; unseen : whether the drones' pictures are to be kept free."""
+    refined = refine_clock(subject, unseen=unseen)
     said = _report(path, subject, refined, name)
     new, why = refined.leg, GUIDE_BETTER
     if new is not None and subject.together and not no_less(subject, subject.leg, new):
         refined, why = replace(refined, leg=None), SHOWS_LESS
     if refined.leg is not None:
         why = IN_PICTURE
-    refined, moved = _taken(path, refined, past_what_hides(subject, refined))
-    if said is None and refined.leg is None:
-        said = unrefined(path, shot, why)
-    return replace(moved, stats=(*moved.stats, *_stats(refined))), [] if said is None else [said]
+    freed = past_what_hides(subject, refined, unseen=unseen)
+    taken, moved = _taken(path, refined, freed, unseen=unseen)
+    return _Tried(taken, moved, why, said)
 
 
-def _taken(path: PathIR, plain: ClockRefined, freed: ClockRefined | None) -> tuple[ClockRefined, PathIR]:
-    """Return the first of a shot's refinements that keeps the drones' pictures free, and the path with it."""
+def _taken(
+    path: PathIR, plain: ClockRefined, freed: ClockRefined | None, *, unseen: bool
+) -> tuple[ClockRefined, PathIR]:
+    """Return the first of a shot's refinements that may be flown, and the path with it.
+
+    unseen : whether it has to keep the drones' pictures free, or not to come deeper into them
+    """
     for one in (freed, plain):
         if one is None or one.leg is None:
             continue
         moved = with_leg(path, one.leg, CALM if one is plain else SIGHT)
-        if least_out(moved) >= min(OUT, least_out(path)):
+        if not unseen or least_out(moved) >= min(OUT, least_out(path)):
             return one, moved
     return replace(plain, leg=None), path
 
@@ -133,7 +168,7 @@ def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: st
         return fallen_back(path, refined.shot, refined.first, solution)
     if refined.gap is None and solution.status == "solved":
         return None
-    return given_up(path, _state(subject, refined, name), solution)
+    return unsolved(path, _state(subject, refined, name), solution)
 
 
 def _state(subject: ClockSubject, refined: ClockRefined, name: str) -> SolverState:

@@ -74,6 +74,7 @@ class _Shot:
     """What stays from round to round.
 
     screens, bodies : what to look past, and what to keep away from; shown : whether each node is in the film
+    unseen : as in ``refine_clock``
     """
 
     subject: ClockSubject
@@ -82,6 +83,7 @@ class _Shot:
     around: Surroundings
     bodies: tuple[Body, ...]
     shown: Mask
+    unseen: bool
 
     @property
     def guide(self) -> Piecewise:
@@ -120,12 +122,18 @@ class _Round:
     ended: bool = False
 
 
-def refine_clock(subject: ClockSubject, screens: tuple[Screen, ...] = ()) -> ClockRefined:
-    """Refine one shot; screens : what it is to look past."""
+def refine_clock(
+    subject: ClockSubject, screens: tuple[Screen, ...] = (), *, unseen: bool = True
+) -> ClockRefined:
+    """Refine one shot.
+
+    screens : what it is to look past
+    unseen : whether it stays as far out of the drones' pictures as its guide
+    """
     breaks = breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
     shown = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
-    shot = _Shot(subject, screens, breaks, around, bodies_of(around, breaks), shown)
+    shot = _Shot(subject, screens, breaks, around, bodies_of(around, breaks), shown, unseen)
     now = _begun(shot)
     while not now.ended and now.rounds < ROUNDS:
         now = _next(shot, now)
@@ -167,6 +175,8 @@ def _planes(shot: _Shot, now: _Round) -> Planes:
     """Return the half-spaces about the course of a round."""
     subject, leg = shot.subject, shot.subject.leg
     planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, SHARE), now.wanted, now.over)
+    if not shot.unseen:
+        return planes
     return planes.and_also(shot.around.free(subject.looker, (leg.start, leg.end), now.course))
 
 

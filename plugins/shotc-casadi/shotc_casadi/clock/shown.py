@@ -29,10 +29,13 @@ class Shown(NamedTuple):
     off: float
 
 
-def past_what_hides(subject: ClockSubject, plain: ClockRefined) -> ClockRefined | None:
+def past_what_hides(
+    subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True
+) -> ClockRefined | None:
     """Return a shot refined so that more of its subjects is seen than in a plain refinement, or None.
 
-    Where the author gave the places they stay; what the shot promises is kept, or is broken no further.
+    unseen : as in ``refine_clock``. Where the author gave the places they stay;
+    what the shot promises is kept, or is broken no further.
     """
     ideal = subject.placed.shot.ideal
     failed = plain.solution.status != "solved" or plain.gap is not None
@@ -41,7 +44,7 @@ def past_what_hides(subject: ClockSubject, plain: ClockRefined) -> ClockRefined 
     before = plain.leg or subject.leg
     if _hidden(subject, before) <= GAIN:
         return None
-    found = refine_clock(subject, screens_of(subject, plain.breaks))
+    found = refine_clock(subject, screens_of(subject, plain.breaks), unseen=unseen)
     if found.leg is None:
         return None
     better = _hidden(subject, found.leg) < _hidden(subject, before) - GAIN

@@ -13,6 +13,8 @@ from shotc.geom.apart import spacing, stretch
 from shotc.ir.show import Apart, Box, Picture, Sphere, Torus
 from shotc.passes.resolve.show.sizes import resized
 
+MOST_DARK = 0.95
+"""Share of a fleet that may stay dark in a picture, since it has no room for more."""
 ROGERS = 0.7797
 """Most of a truncated Voronoi cell that its ball fills, in space (Rogers 1958)."""
 TRUNCATED = sqrt(1.5)

@@ -11,7 +11,7 @@ from shotc.geom.solids import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
-from shotc.passes.resolve.show.fit import growth, most_drones
+from shotc.passes.resolve.show.fit import MOST_DARK, growth, most_drones
 from shotc.passes.resolve.show.places import centre_label, key_of, word_of
 from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
 from shotc.passes.resolve.show.sizes import enlarged, size_words
@@ -52,8 +52,8 @@ def _viewed(mission: MissionIR, display: Display, fleet: Fleet, picture: Picture
 def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Diagnostic]:
     """Refuse a shape that cannot hold the fleet at its spacing, however the drones are put into it."""
     most, count = most_drones(picture, fleet.apart), len(fleet.pads)
-    if count <= most + ROUNDING:
-        return
+    if (1.0 - MOST_DARK) * count <= most + ROUNDING:
+        return  # those for which there is no room stay dark; planning tells how many
     where = "on" if picture.fill == "surface" else "in"
     word = word_of(picture)
     notes = (

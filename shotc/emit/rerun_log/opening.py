@@ -1,0 +1,94 @@
+"""How the recording opens: at the first filmed frame, with the camera and its subjects in view."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, pi, radians, sin
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.bodies import moved
+from shotc.ir.mission import MissionIR
+from shotc.ir.occlusion import hiders
+from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.ir.sampling import SAME_TIME
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+
+HEADINGS = 8
+"""From so many sides the scene is looked at until nothing stands before a subject."""
+
+ELEVATION = radians(33.0)
+"""Of the eye over what it looks at."""
+
+AWAY = 2.6
+"""Distance of the eye in radii of what it looks at; the viewer's lens of 55 deg takes 2.2."""
+
+NEAREST = 6.0
+"""Metres added to that distance."""
+
+AHEAD = 10.0
+"""How far ahead of it a camera without a subject is taken to look, metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """From where the world is seen, and what is in the middle, p_W in metres."""
+
+    eye: tuple[float, float, float]
+    look: tuple[float, float, float]
+
+
+def filmed_span(plan: VerifiedIR) -> tuple[float, float] | None:
+    """Return the times of the first and the last filmed frame, seconds, or None where nothing is filmed."""
+    phases = [p for flight in plan.trajectory.drones for p in flight.phases if p.shot is not None]
+    return (min(p.start for p in phases), max(p.end for p in phases)) if phases else None
+
+
+def first_stand(plan: VerifiedIR) -> Stand | None:
+    """Return from where the first filmed frame's camera and subjects are seen, or None without a frame."""
+    span = filmed_span(plan)
+    if span is None:
+        return None
+    time = span[0]
+    filming = [f for f in plan.trajectory.drones if any(p.shot and p.start == time for p in f.phases)]
+    flight = filming[0]
+    mission = plan.trajectory.keyframes.mission
+    subjects = [f.target for f in flight.framing if f.start - SAME_TIME <= time <= f.end + SAME_TIME]
+    subjects = list(dict.fromkeys(subjects))
+    points = np.concatenate([_camera(flight, time, ahead=not subjects), *_bodies(mission, subjects, time)])
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, away = (low + high) / 2, AWAY * float(np.linalg.norm(high - low)) / 2 + NEAREST
+    eyes = [middle + away * _toward(k) for k in range(HEADINGS)]
+    covered = [_covered(mission, subjects, eye, time) for eye in eyes]
+    x, y, z = eyes[int(np.argmin(covered))].tolist()
+    return Stand((x, y, z), (float(middle[0]), float(middle[1]), float(middle[2])))
+
+
+def _toward(k: int) -> Array:
+    """Return the direction of the k-th eye: the first is in the south-west, where the light comes from."""
+    turn = radians(236.0) + 2 * pi * k / HEADINGS
+    return np.array([cos(ELEVATION) * cos(turn), cos(ELEVATION) * sin(turn), sin(ELEVATION)])
+
+
+def _camera(flight: DroneTrajectory, time: float, *, ahead: bool) -> Array:
+    pose = flight.curve(time)
+    yaw, pitch = float(pose[CAM_YAW]), float(pose[CAM_PITCH])
+    way = np.array([cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), sin(pitch)])
+    return np.array([pose[:3], pose[:3] + (AHEAD if ahead else 0.0) * way])
+
+
+def _bodies(mission: MissionIR, subjects: list[str], time: float) -> list[Array]:
+    found = []
+    for name in subjects:
+        target = mission.target(name)
+        centre = np.array(target.centre) + moved(target, np.array([time]))[0]
+        reach = np.array([target.radius, target.radius, target.height / 2])
+        found.append(np.array([centre - reach, centre + reach]))
+    return found
+
+
+def _covered(mission: MissionIR, subjects: list[str], eye: Array, time: float) -> int:
+    """Return how many things stand between an eye and the subjects."""
+    at, when = eye[None, :], np.array([time])
+    return sum(bool(hides[0]) for name in subjects for _, hides in hiders(mission, (), name, at, when))

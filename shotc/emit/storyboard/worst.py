@@ -1,0 +1,62 @@
+"""The moment of a shot whose framing is worst, as the certificate tells it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from shotc.emit.screen import IN_FRAME, SCREEN_ERROR
+from shotc.ir.sampling import seen
+from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
+from shotc.rounding import at_least, at_most
+
+
+@dataclass(frozen=True, slots=True)
+class Worst:
+    """When a shot is framed worst, seconds, and by how much, in words."""
+
+    time: float
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Edge:
+    """How far inside the frame a whole target is where that is least, metres, and when, seconds."""
+
+    margin: float
+    time: float
+    target: str
+
+
+def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> Worst | None:
+    """Return the worst moment of a shot, or None where the certificate tells nothing of its framing.
+
+    That is where a target is cropped most; where none is, where one is farthest from its place; where
+    none has a place, where one is nearest to the edge of the frame.
+    """
+    claims = [c for c in plan.certificate if c.shot == shot and c.time is not None]
+    whole = [c for c in claims if c.constraint.endswith(IN_FRAME)]
+    off = max((c for c in claims if c.constraint.endswith(SCREEN_ERROR)), key=lambda c: c.worst, default=None)
+    several = len(whole) > 1
+    if off is not None and off.time is not None and all(c.worst >= 1.0 for c in whole):
+        name = f"{off.constraint.removesuffix(SCREEN_ERROR)} " if several else ""
+        told = f"screen error {at_least(off.worst, 3)}" if isfinite(off.worst) else "behind the camera"
+        return Worst(off.time, name + told)
+    least = min((_edge(plan, flight, c) for c in whole), key=lambda edge: edge.margin, default=None)
+    if least is None:
+        return None
+    name = f"{least.target} " if several else ""
+    told = (
+        f"{at_least(-least.margin, 2)} m out of the frame"
+        if least.margin < 0.0
+        else f"{at_most(least.margin, 2)} m from the frame's edge"
+    )
+    return Worst(least.time, name + told)
+
+
+def _edge(plan: VerifiedIR, flight: DroneTrajectory, claim: Claim) -> _Edge:
+    target, time = claim.constraint.removesuffix(IN_FRAME), claim.time or 0.0
+    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]))
+    return _Edge(float(frames.margin[0]), time, target)
