@@ -179,6 +179,7 @@ def production(say: Callable[[str], None]) -> Table:
         tuple(rows),
         (
             "imported by `shotc import multidrone` and planned without a refiner",
+            "the originals are not part of this repository: without them this table is not made",
             "film and time in the air are sums over the drones; a minute is one in the air",
             "the time is that of the process once its libraries are loaded",
         ),
