@@ -9,7 +9,9 @@ import pytest
 
 from shotc.cli.summary import WIDTH, summary
 from shotc.emit.plan_json import EMITTER
+from shotc.ir.lowered import Lowered
 from shotc.ir.trajectory import VerifiedIR
+from shotc.source.file import SourceFile
 from tests.cli.conftest import Run
 from tests.fleets import PADS, display, fleet, mission, plan
 
@@ -21,9 +23,16 @@ def written(folder: Path, made: VerifiedIR) -> Path:
     return path
 
 
+def lowered(made: VerifiedIR) -> Lowered:
+    return Lowered(made.trajectory.keyframes, (), SourceFile("show.yaml", ""))
+
+
 @pytest.fixture
-def show(tmp_path: Path) -> Path:
-    return written(tmp_path / "out", plan())
+def show(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A plan made by hand; the mission that it would be lowered from is the one that it was made with."""
+    made = plan()
+    monkeypatch.setattr("shotc.api.lower_kept", lambda _source, _name: lowered(made))
+    return written(tmp_path / "out", made)
 
 
 def test_verify_names_the_worst_drone_of_every_claim(run: Run, show: Path) -> None:
@@ -69,17 +78,21 @@ def test_verify_tells_which_drones_come_too_near(run: Run, show: Path) -> None:
 def test_emit_writes_the_table_and_says_what_is_for_cameras(run: Run, show: Path) -> None:
     before = show.read_bytes()
     done = run("emit", str(show), "--emit", "csv,mavlink,storyboard", "-o", "tables")
-    assert done.code == 0
+    assert done.code == 1
+    assert done.err.count("error[E114]") == 2
     assert sorted(path.name for path in Path("tables").iterdir()) == ["framing.csv", "trajectory.csv"]
     assert "warning[E110]" in done.err
     assert show.read_bytes() == before
 
 
-def test_diff_of_shows(run: Run, show: Path, tmp_path: Path) -> None:
+def test_diff_of_shows(run: Run, show: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     same = run("diff", str(show), str(show))
     assert "the certificates say the same" in same.out
     assert "same path" in same.out
-    fewer = written(tmp_path / "fewer", plan(mission(fleets=(fleet(PADS[:3]),))))
+    few = plan(mission(fleets=(fleet(PADS[:3]),)))
+    fewer = written(tmp_path / "fewer", few)
+    in_turn = iter([lowered(plan()), lowered(few)])
+    monkeypatch.setattr("shotc.api.lower_kept", lambda _source, _name: next(in_turn))
     done = run("diff", str(show), str(fewer))
     assert done.code == 0
     assert "swarm  4 -> 3  46.00 s" in done.out

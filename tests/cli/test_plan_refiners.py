@@ -207,7 +207,7 @@ def test_a_refiner_in_time_makes_the_same_plan_in_its_own_process(
 ) -> None:
     lines = ("import os, sys; print('solving', os.getpid())",
              "from tests.bad_refiners import along, bumped",
-             "return Outcome(bumped(path, 'round', along(2, 0.3)))")  # fmt: skip
+             "return Outcome(bumped(path, 'round', along(2, 0.2)))")  # fmt: skip
     install("odd", *lines)
     out = yard.parent / "out"
     assert plan(run, yard, "--refiner", "odd").code == 0

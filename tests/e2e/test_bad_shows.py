@@ -55,7 +55,7 @@ BAD = {
     "frame sizes": Bad("walk*", "grow*", "D053", "grow*"),
     "no time": Bad("period: 2", "period: 0", "S U", "period: 0"),
     "no period": Bad(", period: 2", "", "D010", "walk*"),
-    "more drones than fit": Bad("radius: 12", "radius: 1.2", "D018 D056", "radius: 1.2}"),
+    "more drones than fit": Bad("radius: 12", "radius: 0.2", "D018 D056", "radius: 0.2}"),
     "viewpoint inside": Bad("[0, -100, 2]", "[0, -5, 40]", "D013", "viewpoint"),
     "dense layout": Bad("spacing: 4", "spacing: 0.8", "D001", "spacing"),
     "script": Bad("good.svg", "script.svg", "D022", "script.svg"),

@@ -89,7 +89,8 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
     table, names = made.parameters.copy(), list(symbols.FIELDS)
     for name, value in (("touch", touch), ("field", field)):
         column = sum(symbols.FIELDS[other] for other in names[: names.index(name)])
-        table[:, column] = value if name == "touch" else value * np.append(np.diff(breaks), 0.0)
+        each = value if name == "touch" else value * np.append(np.diff(breaks), 0.0)
+        table[:, column] = made.unit * each
     return replace(made, parameters=table), body
 
 

@@ -77,14 +77,19 @@ def _times(flight: Flight, placed: PlacedShot) -> list[float]:
 
 
 def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
-    """Claim that each keyframe is met once, in order, the first and the last at the shot's ends."""
+    """Claim that each keyframe is met once, in order, the first and the last at the shot's ends.
+
+    One whose time the mission fixes is not bound to an end: the camera may stand before it, or after it.
+    """
     keyframes = placed.keyframes
     entries = [k for k in flight.track.keyframes if k.shot == placed.shot.id]
     times = _times(flight, placed)
     spans = [(t, t + k.hold) for t, k in zip(times, keyframes, strict=True)]
     late = [before - start for (_, before), (start, _) in pairwise(spans)]
-    ends = [abs(times[0] - phase.start)]
-    ends += [abs(spans[-1][1] - phase.end)] if len(keyframes) > 1 else []
+    ends = [abs(times[0] - phase.start)] if keyframes[0].time is None else [phase.start - times[0]]
+    if len(keyframes) > 1:
+        beyond = spans[-1][1] - phase.end
+        ends.append(abs(beyond) if keyframes[-1].time is None else beyond)
     worst = max([*late, *ends]) if len(entries) == len(keyframes) else inf
     limit = Limit("keyframes out of order", ON_TIME, "s", placed.shot.path, shot=placed.shot.id)
     return claim(flight, limit, Worst(max(worst, 0.0), None, "exact"))

@@ -59,7 +59,7 @@ def test_frames_without_a_wanted_place_have_no_error_but_are_frames():
 
 
 def test_both_shares_in_frame_are_counted_apart():
-    found = score([trace([0] * 4, [1.0, 0.0, -1e-9, -3.0], [1, 1, 1, 0])], 0.0, 1.0)
+    found = score([trace([0] * 4, [1.0, 0.0, -1e-5, -3.0], [1, 1, 1, 0])], 0.0, 1.0)
     assert found.in_frame == 0.5
     assert found.in_frame_four_points == 0.75
 

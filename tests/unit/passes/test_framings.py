@@ -288,7 +288,8 @@ def test_a_view_into_a_zone_is_told_and_a_free_one_goes_beside_it() -> None:
     found = only(mission, "M032")
     assert underlined(mission, found) == "180 deg"
     assert "hall" in found.notes[0]
-    assert told(text("target: tower, size: 0.6", world=world)) == []
+    free = told(text("target: tower, size: 0.6", world=world))
+    assert [d.code for d in free] == ["G023"] * 2  # who walks comes into the hall
 
 
 def test_a_view_that_the_gimbal_does_not_reach_is_told() -> None:
