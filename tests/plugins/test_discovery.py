@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
-
 import pytest
 
 from shotc import plugins
 from shotc.requirements import install_line
-from tests.distributions import KIND, lay
+from tests.distributions import KIND
 
 MODULE = """
 class Sample:
@@ -18,20 +16,6 @@ class Sample:
 
 PLUGIN = Sample()
 """
-
-
-@pytest.fixture
-def install(tmp_path, monkeypatch):
-    """Lay a distribution with one emitter, or another plugin, on sys.path."""
-
-    def laid(distribution: str, entry: str, body: str, group: str = "emitters") -> None:
-        lay(tmp_path, distribution, entry, body, group)
-        monkeypatch.delitem(sys.modules, distribution.replace("-", "_"), raising=False)
-
-    monkeypatch.syspath_prepend(str(tmp_path))
-    plugins.forget()
-    yield laid
-    plugins.forget()
 
 
 def test_a_third_party_emitter_is_found_and_named_with_its_package(install):

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import sys
-
 import pytest
 
 from shotc import plugins
 from shotc.api import PlanOptions, compile_source, emit_plan
 from shotc.checking import check_source
-from tests.distributions import KIND, lay
+from tests.distributions import KIND
 from tests.samples import orbit_plan
 
 MISSION = """\
@@ -35,20 +33,6 @@ PLUGIN = Made()
 """
 
 
-@pytest.fixture
-def install(tmp_path, monkeypatch):
-    """Lay a distribution with one plugin on sys.path."""
-
-    def laid(distribution: str, body: str, group: str, entry: str = "sample") -> None:
-        lay(tmp_path, distribution, entry, body, group)
-        monkeypatch.delitem(sys.modules, distribution.replace("-", "_"), raising=False)
-
-    monkeypatch.syspath_prepend(str(tmp_path))
-    plugins.forget()
-    yield laid
-    plugins.forget()
-
-
 def checked(mission):
     return check_source(mission.encode(), "m.yaml", None).diagnostics
 
@@ -68,7 +52,7 @@ def checked(mission):
     ids=["raises", "none", "list", "nothing", "nan"],
 )
 def test_a_kind_at_fault_is_named_with_its_package_on_the_line_of_the_shot(install, body, said):
-    install("kind-maker", KIND.format(body=body), "kinds")
+    install("kind-maker", "sample", KIND.format(body=body), "kinds")
     (fault,) = checked(OF_A_SAMPLE)
     assert fault.code == "P008"
     assert "kind `sample` of package kind-maker" in fault.message
@@ -78,13 +62,13 @@ def test_a_kind_at_fault_is_named_with_its_package_on_the_line_of_the_shot(insta
 
 
 def test_the_place_in_the_code_of_the_kind_is_told(install):
-    install("kind-maker", KIND.format(body="raise KeyError('lens')"), "kinds")
+    install("kind-maker", "sample", KIND.format(body="raise KeyError('lens')"), "kinds")
     (fault,) = checked(OF_A_SAMPLE)
     assert any("in expand, line" in note and "module kind_maker" in note for note in fault.notes)
 
 
 def test_a_kind_that_cannot_be_imported_fails_only_the_missions_that_use_it(install):
-    install("broken-maker", "raise RuntimeError('no such camera')", "kinds")
+    install("broken-maker", "sample", "raise RuntimeError('no such camera')", "kinds")
     assert checked(MISSION) == ()
     (fault,) = checked(OF_A_SAMPLE)
     assert fault.code == "P002"
@@ -92,7 +76,7 @@ def test_a_kind_that_cannot_be_imported_fails_only_the_missions_that_use_it(inst
 
 
 def test_an_emitter_that_cannot_be_imported_fails_only_who_asks_for_it(install):
-    install("broken-maker", "raise RuntimeError('no such file')", "emitters")
+    install("broken-maker", "sample", "raise RuntimeError('no such file')", "emitters")
     assert emit_plan(orbit_plan(), ["csv"]).diagnostics == ()
     made = emit_plan(orbit_plan(), ["csv", "sample"])
     assert [d.code for d in made.diagnostics] == ["P002"]
@@ -111,7 +95,7 @@ def test_an_emitter_that_cannot_be_imported_fails_only_who_asks_for_it(install):
     ids=["raises", "bytes", "outside", "text", "library"],
 )
 def test_an_emitter_at_fault_is_named_and_the_others_are_written(install, body, said):
-    install("file-maker", EMITTER.format(body=body), "emitters")
+    install("file-maker", "sample", EMITTER.format(body=body), "emitters")
     made = emit_plan(orbit_plan(), ["sample", "csv"])
     (fault,) = made.diagnostics
     assert fault.code == "P008"
