@@ -14,7 +14,7 @@ from shotc_casadi.clock.angles import turning
 from shotc_casadi.clock.problem import STAGES, breaks_of, guess, problem
 from shotc_casadi.clock.proof import astray, gap_in
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
-from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, refine_clock
+from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, ClockRefined, refine_clock
 from shotc_casadi.clock.wishes import ClockSubject, motion, steepest, wishes
 from shotc_casadi.patience import Endless
 from shotc_casadi.solving import Solution
@@ -227,6 +227,19 @@ def test_ipopt_is_the_fallback_and_it_is_told(monkeypatch: pytest.MonkeyPatch) -
     assert [d.code for d in told] == ["R013"]
     assert subject_of(path, "s").leg is not of.leg
     assert dict(path.stats)["s.refine_solver"] == "ipopt"
+
+
+def test_a_shot_that_may_be_flown_as_refined_is_refined_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    of, asked = subject(compiled(FLYBY)), []
+
+    def counted(what: ClockSubject, **given: bool) -> ClockRefined:
+        asked.append(given["unseen"])
+        return refine_clock(what, **given)
+
+    monkeypatch.setattr("shotc_casadi.clock.refiner.refine_clock", counted)
+    path, _ = refine_clocks(of.path, PassContext(), "ours")
+    assert subject_of(path, "s").leg is not of.leg
+    assert asked == [True]
 
 
 def test_a_solver_that_never_ends_is_left_behind_and_its_shot_named(monkeypatch: pytest.MonkeyPatch) -> None:

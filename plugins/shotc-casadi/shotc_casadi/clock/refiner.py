@@ -62,7 +62,7 @@ def refine_one(path: PathIR, shot: str, name: str) -> tuple[PathIR, list[Diagnos
     """Return the path with one shot on its own clock refined, and what has to be said of it."""
     subject = subject_of(path, shot)
     found = _tried(path, subject, name, unseen=given_up(path.stats, shot) is None)
-    if found.why == IN_PICTURE and prefers_free_pictures(subject.mission):
+    if found.refined.leg is None and found.why == IN_PICTURE and prefers_free_pictures(subject.mission):
         found = _tried(path, subject, name, unseen=False)
     said = found.said
     if said is None and found.refined.leg is None:
