@@ -1,0 +1,142 @@
+"""V019 to V033: what the proof finds in the picture: promises, targets cropped, drones that are seen."""
+
+from __future__ import annotations
+
+from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._verified import verified
+from shotc.diag.model import Severity
+
+_MISSION = """\
+shotc: 1
+mission: mast
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -30, 0]}}
+shots:
+  - id: look
+    kind: keyframes
+    drone: cam
+    target: mast
+    require: {PROMISE}
+    keyframes:
+      - {at: [-24, SOUTH, 6], look_at: mast}
+      - {at: [24, SOUTH, 6], look_at: mast}
+"""
+
+
+def _promise(promise: str, south: int = -20) -> str:
+    return _MISSION.replace("PROMISE", promise).replace("SOUTH", str(south))
+
+
+_PAIR = """\
+shotc: 1
+mission: pair
+drones:
+  one: {model: x500, home: [0, -40, 0]}
+  two: {model: x500, home: [8, -40, 0]}
+rules: {mutual_visibility: {strength: STRENGTH}}
+shots:
+  - {id: look, kind: static, drone: one, at: [0, -30, 9], heading: 0 deg, pitch: 0 deg,
+     timing: {start: 40, duration: 5}}
+  - {id: see, kind: static, drone: two, at: [PLACE, 9], heading: HEADING deg, pitch: 0 deg,
+     timing: {start: 40, duration: 5}}
+"""
+_FACING, _ABREAST = ("0, 30", "180"), ("12, -30", "0")
+
+
+def _pair(strength: str, where: tuple[str, str]) -> str:
+    return _PAIR.replace("STRENGTH", strength).replace("PLACE", where[0]).replace("HEADING", where[1])
+
+
+FRAMED: tuple[CodeInfo, ...] = (
+    verified(
+        19,
+        "in-frame-promise-broken",
+        (
+            "a shot shows its whole target less often than it promises",
+            "`require: {in_frame: ...}` promises the share of frames in which the whole silhouette of the target's "
+            "cylinder is inside the frame. The worst frame is named. Move back or widen the field of view there, "
+            "slow the shot down, or promise less.",
+        ),
+        (_promise("in_frame: 100 %", -8), _promise("in_frame: 100 %")),
+    ),
+    verified(
+        20,
+        "screen-error-promise-broken",
+        (
+            "a target strays farther from its place on screen than the shot promises",
+            "`require: {screen_error: ...}` promises the largest distance between the projected centre of the "
+            "target and its reference, in screen units of half a frame. Add a keyframe where the error is largest, "
+            "slow the shot down, or promise less.",
+        ),
+        (_promise("screen_error: 0.00001"), _promise("screen_error: 0.05")),
+    ),
+    verified(
+        21,
+        "size-promise-broken",
+        (
+            "a target is smaller or larger on screen than the shot promises",
+            "`require: {size: [low, high]}` promises the projected height of the target over the height of the "
+            "frame. Change the distance or the field of view where the worst frame is, or the promise.",
+        ),
+        (_promise("size: [0.9, 1.0]"), _promise("size: [0.1, 0.9]")),
+    ),
+    verified(
+        24,
+        "promise-without-framing",
+        (
+            "a shot promises something of a target that the plan does not frame as its keyframes say",
+            "A promise is judged where the plan frames the target, against the reference in the plan. Between two "
+            "keyframes of one target it has to be framed all the time, and the reference has to lead from the one "
+            "keyframe's place on screen to the other's. A plan where it does not was edited or damaged.",
+        ),
+    ),
+    verified(
+        25,
+        "drone-in-required-picture",
+        (
+            "a drone is in another one's picture, and the mission requires that none is",
+            "With `rules: {mutual_visibility: {strength: require}}` the body sphere of every other drone stays "
+            "outside of the frame of a drone that films, beyond one of its edges or behind the camera, or outside "
+            "of the cone about the optical axis where `half_angle` is given. That counts in all phases of the other "
+            "drone, also on its pad, and also where a target or a zone would hide it. It is proved between frames, "
+            "too. Film at another time or from another side, or prefer it only.",
+        ),
+        (_pair("require", _FACING), _pair("require", _ABREAST)),
+    ),
+    verified(
+        30,
+        "target-cropped",
+        (
+            "a target is not whole in the frame for a part of its shot",
+            "The shot promises nothing, so this is a warning. The worst frame is named: move back or widen the "
+            "field of view there. State `require: {in_frame: 100 %}` to have the shot held to it.",
+        ),
+        severity=Severity.WARNING,
+    ),
+    verified(
+        32,
+        "target-off-its-place",
+        (
+            "a target strays far from its place on screen, and the shot promises nothing of it",
+            "Where the composition and a limit conflict, the limit wins: the drone keeps its clearances and the gimbal "
+            "its range and rates, and the target leaves its place. This is told from a twentieth of half a frame on, "
+            "once a shot, with the worst frame, its time, and what of the gimbal and of the space around is at its "
+            "limit there. Loosen that or move the keyframes beside it. State `require: {screen_error: ...}` to have "
+            "the shot held to it; then it is an error. A shot without a composition is not judged.",
+        ),
+        severity=Severity.WARNING,
+    ),
+    verified(
+        33,
+        "drone-in-picture",
+        (
+            "a drone is in another one's picture",
+            "The plan keeps drones out of each other's pictures where it can, unless the mission says otherwise; "
+            "here it could not. The first frame that shows the drone, the worst one and the share of the shot are "
+            "told. Film at another time or from another side. `rules: {mutual_visibility: {strength: require}}` "
+            "makes it an error, `strength: off` has it not judged. See V025 for what counts as in the picture.",
+        ),
+        (_pair("prefer", _FACING), _pair("prefer", _ABREAST)),
+        severity=Severity.WARNING,
+    ),
+)

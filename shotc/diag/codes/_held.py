@@ -1,0 +1,82 @@
+"""V040 to V046: what a plan's file says, held to its own trajectory and to its mission."""
+
+from __future__ import annotations
+
+from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._verified import verified
+
+HELD: tuple[CodeInfo, ...] = (
+    verified(
+        40,
+        "certificate-differs",
+        (
+            "the certificate in the plan is not what the plan proves",
+            "`shotc verify` proves every claim again from the trajectory and the limits in the file. Where a value, "
+            "a limit or a claim in its certificate differs, something in the file was edited: the certificate, the "
+            "trajectory or a limit. A file that another version of shotc wrote may differ in many claims, which is told "
+            "at once. The proof that counts is the new one; plan the mission again.",
+        ),
+    ),
+    verified(
+        41,
+        "plan-of-another-mission",
+        (
+            "the plan says another thing of its mission than the mission itself",
+            "A plan holds the text of its mission and the tables that it names. `shotc verify` lowers them again, as "
+            "`check` does, and holds the plan to all that comes of it: shots, keyframes, holds, times, places on screen, "
+            "targets, drones, limits, zones. Here what the plan says differs, so the file was edited, or another version "
+            "of shotc wrote it. Plan the mission again.",
+        ),
+    ),
+    verified(
+        42,
+        "plan-without-its-mission",
+        (
+            "the mission of a plan cannot be lowered again",
+            "What a plan is to do follows from its mission alone, so a plan without one proves nothing: one that an "
+            "earlier version of shotc wrote, one whose text or tables were cut out, one with a kind of shot that no "
+            "installed package has. Plan the mission again, or install the package.",
+        ),
+    ),
+    verified(
+        43,
+        "plan-of-another-file",
+        (
+            "the plan is not the plan of the mission that it is held to",
+            "`shotc verify PLAN --against MISSION` holds a plan to a file besides the mission in it: the one that is "
+            "reviewed, so that no plan of an earlier mission is flown. All that the file asks for is compared, its "
+            "tracks and what its displays draw included; comments and the order of keys are free. Plan the file again.",
+        ),
+    ),
+    verified(
+        44,
+        "path-left-untold",
+        (
+            "a shot is flown elsewhere than its kind asks, and the plan does not say so",
+            "A path that a kind generates is an ideal: planning leaves it where something stands in the way, or for "
+            "the picture's sake, and says by how much (`deviations`). No more than that is allowed, half a metre at "
+            "its beginning and its end where nothing is near, and half the distance to the target elsewhere. So an "
+            "orbit of another sweep, the other way round or backwards is none. Plan the mission again.",
+        ),
+    ),
+    verified(
+        45,
+        "camera-off-its-keyframes",
+        (
+            "the camera looks elsewhere at a keyframe than the mission asks",
+            "At a keyframe the lens is the one that is asked for, a camera that frames nothing looks where it is told "
+            "to, and one that goes round goes round as often as it should. Where a target is on screen is told apart (V030, "
+            "V032), and held where the shot says `require`. Plan the mission again.",
+        ),
+    ),
+    verified(
+        46,
+        "promise-not-judged",
+        (
+            "a shot promises what nothing in the plan can be held to",
+            "Every key of `require` has a claim in the certificate. Without a target that is framed, or for "
+            "`screen_error` without a place on screen that is wanted, there is none, and the promise would mean nothing. "
+            "Remove the key, or give the shot a target and a composition.",
+        ),
+    ),
+)
