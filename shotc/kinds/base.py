@@ -202,6 +202,10 @@ class Scene(NamedTuple):
         }
         return Keyframe(at=at, target=target, **{**values, **changes})
 
+    def written(self) -> tuple[str, ...]:
+        """Return the keys of the shot that the mission gives, in their order."""
+        return tuple(str(path[-1]) for path in self.origins.keys if path[:-1] == self.path)
+
     def fault(
         self, code: str, message: str, help: str, *path: str | int, notes: tuple[str, ...] = ()
     ) -> Diagnostic:

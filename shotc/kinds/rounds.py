@@ -12,6 +12,7 @@ from shotc.ir.mission import Ideal, Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.kinds.moving import evenly, timed
 from shotc.spec.shot import ShotBase
+from shotc.spec.words import each
 
 Span = tuple[float, float]
 
@@ -68,8 +69,16 @@ def filmed(shot: ShotBase, scene: Scene, target: Target, points: list[Vec3], tur
             return timed(shot, scene, Ideal("target", target.name, evenly(points)))
         return Expansion.of(scene.keyframe(p, shot.target) for p in points)
     how = f"give `{turn}` an angle such as `180 deg`" if turn else "give what is to move as [from, to]"
-    message = f"nothing moves in this {shot.kind}"
-    return Expansion.of([scene.fault("K010", message, f"{how}, or use `kind: static`", turn or "kind")])
+    if target.track is None:
+        how += f", or {_standing(shot, scene, points[0])}"
+    return Expansion.of([scene.fault("K010", f"nothing moves in this {shot.kind}", how, turn or "kind")])
+
+
+def _standing(shot: ShotBase, scene: Scene, at: Vec3) -> str:
+    """Say which keys make it a shot of a camera that stands, and which ones they replace."""
+    place = ", ".join(f"{c + 0.0:.2f}" for c in at)
+    own = [key for key in scene.written() if key not in ShotBase.model_fields]
+    return f"write `kind: static, at: [{place}], look_at: {shot.target}` in place of {each(own)}"
 
 
 def _between(span: Span, t: float) -> float:

@@ -1,6 +1,6 @@
 """Top-down: the camera looks straight down on the target, at rest or drifting."""
 
-from math import atan2, hypot, pi
+from math import atan2, hypot, inf, pi, tan
 from typing import Literal
 
 from pydantic import Field
@@ -55,7 +55,7 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     above = (x, y, shot.altitude)
     if not drifts:
         return Expansion.of([scene.keyframe(above, shot.target, hold=lasts, **fixed)])
-    fault = _too_fast(shot, scene, lasts)
+    fault = _too_fast(shot, scene, target, lasts)
     if fault is not None:
         return Expansion.of([fault])
     return Expansion.of(
@@ -63,7 +63,7 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     )
 
 
-def _too_fast(shot: TopDownShot, scene: Scene, duration: float) -> Diagnostic | None:
+def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) -> Diagnostic | None:
     """Return what is wrong with a drift that no drone averages from rest to rest.
 
     A longer shot would drift farther, so this is no fault of its timing.
@@ -77,17 +77,31 @@ def _too_fast(shot: TopDownShot, scene: Scene, duration: float) -> Diagnostic | 
     ):
         most = _mean_speed(speed, limits.acceleration, duration)
         if speed > 0 and drift > most:  # wind that leaves no speed is told elsewhere
+            notes = [
+                f"from rest to rest in {duration:.1f} s, at up to {speed:.2f} m/s and "
+                f"{limits.acceleration:.2f} m/s^2, it averages {most:.2f} m/s at most"
+            ]
+            seen = _seen(shot, scene, target) / duration if way == "across" else most
+            if seen < most:
+                notes.append(f"from so high it drifts off its target at more than {at_most(seen)} m/s")
             return scene.fault(
                 "K012",
                 f"drone `{shot.drone}` cannot drift {drift:.2f} m/s {way}",
-                f"drift less than {at_most(most)} m/s, or raise the drone's limits",
+                f"drift less than {at_most(min(most, seen))} m/s, or raise the drone's limits",
                 "drift",
-                notes=(
-                    f"from rest to rest in {duration:.1f} s, at up to {speed:.2f} m/s and "
-                    f"{limits.acceleration:.2f} m/s^2, it averages {most:.2f} m/s at most",
-                ),
+                notes=tuple(notes),
             )
     return None
+
+
+def _seen(shot: TopDownShot, scene: Scene, target: Target) -> float:
+    """Return how far from above its target the camera sees its middle, metres.
+
+    It looks straight down, the top of the picture along the drift, unless a composition tilts it.
+    """
+    if shot.composition is not None:
+        return inf
+    return max(0.0, shot.altitude - target.centre[2]) * tan(scene.drone.hfov / 2) / scene.drone.aspect
 
 
 def _mean_speed(speed: float, acceleration: float, duration: float) -> float:

@@ -130,7 +130,7 @@ class Model(BaseModel):
         if not isinstance(data, dict):
             raise _no_mapping(data, cls.keys())
         known = cls.keys()
-        details = [_empty(key) for key, value in data.items() if value is None and key in known]
+        details = [_empty(key, known[key]) for key, value in data.items() if value is None and key in known]
         details += [detail for rule in cls.exclusive for detail in rule.conflicts(data)]
         lacks = [lack for rule in cls.exclusive for lack in rule.lacks(data)]
         try:
@@ -226,8 +226,9 @@ def _few(detail: InitErrorDetails, known: Mapping[str, FieldInfo]) -> InitErrorD
     return _detail((key,), "wrong-length", message, f"give {known[key].description}")
 
 
-def _empty(key: str) -> InitErrorDetails:
-    return _detail((key,), "empty-value", f"`{key}` has no value", f"write its value, or remove `{key}`")
+def _empty(key: str, field: FieldInfo) -> InitErrorDetails:
+    help_ = "write its value" if field.is_required() else f"write its value, or remove `{key}`"
+    return _detail((key,), "empty-value", f"`{key}` has no value", help_)
 
 
 def _missing(key: str, field: FieldInfo) -> Lack:

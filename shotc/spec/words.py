@@ -69,6 +69,12 @@ def elsewhere(key: str, known: Collection[str]) -> str:
     return "" if key in known else _ELSEWHERE.get(key, "")
 
 
+def each(names: Iterable[str]) -> str:
+    """Write names in backticks, the last one after `and`."""
+    words = [f"`{name}`" for name in names]
+    return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
+
+
 def _alike(word: str, other: str) -> bool:
     """Tell whether two words are one but for their case, or one a part of the other."""
     short, long = sorted((word, other), key=len)

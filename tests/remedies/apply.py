@@ -184,7 +184,12 @@ def settings(text: str, scene: Scene) -> Iterator[dict[str, Any]]:
         yield scene.root | {"shots": shots}
     places = list(around(scene, text))
     first = [place for place in places if at(scene.root, (*place, next(iter(new)))) is not MISSING]
+    replaced = re.findall(r"`([a-z_]+)`", text.partition(" in place of ")[2])
     for place in (*first, *(place for place in places if place not in first)):
+        if replaced:
+            held = {key: what for key, what in at(scene.root, place).items() if key not in replaced}
+            yield put(without(scene.root, place) if place else {}, place, held | new)
+            continue
         yield put(scene.root, place, new)
         if any(key in AGAINST for key in new):
             others = {other for key in new for other in AGAINST.get(key, ())} - set(new)

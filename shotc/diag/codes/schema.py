@@ -64,7 +64,7 @@ CODES: tuple[CodeInfo, ...] = (
         "A key is written down and nothing after its colon, or an explicit null. Whether its default is "
         "meant or something was forgotten cannot be told. Write the value, or remove the key.",
         LOOK,
-        ("home: [0, -60, 0]", "home: null"),
+        ("wind: 3 m/s", "wind: null"),
     ),
     slip(
         "S007",

@@ -16,6 +16,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR, frozen
+from shotc.spec.words import each
 
 LOOKS = 40  # stretches of a shot on its own clock
 OFF = 0.1  # share of the size asked that is worth telling
@@ -55,8 +56,20 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
             "how far away the camera is, other numbers of the shot say",
             _instead(mission, worst, asked),
         ),
-        "change those numbers or the lens, leave `size` out, or use `kind: framing`",
+        f"change those numbers or the lens, or leave `size` out{_framed(mission, placed, asked)}",
     )
+
+
+def _framed(mission: MissionIR, placed: PlacedShot, asked: float) -> str:
+    """Say how the camera goes where the target has its size, if that is one target's, for a given time."""
+    shot, written = placed.shot, mission.origins.keys
+    names = {subject.target for subject in placed.subjects} | {k.target for k in placed.keyframes} - {None}
+    if len(names) > 1 or shot.timing.duration is None:
+        return ""
+    kept = ("id", "kind", "drone", "timing", "pace", "require", "refine", "allow")
+    own = [str(path[-1]) for path in written if path[:-1] == shot.path and path[-1] not in kept]
+    subject = f"{{target: {names.pop()}, size: {asked:.3g}}}"
+    return f", or write `kind: framing, subjects: [{subject}]` in place of {each(own)}"
 
 
 def _instead(mission: MissionIR, look: Look, asked: float) -> str:

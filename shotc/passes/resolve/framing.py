@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from math import acos, degrees, dist, hypot, pi
+from math import acos, degrees, dist, hypot, pi, tan
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import heading_of, view
@@ -14,6 +14,7 @@ from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.place_keyframes import explicit_aim, setting_of
 from shotc.passes.place_keyframes.candidates import Setting
+from shotc.rounding import at_least, at_most
 
 SAME = 1e-3  # metres within which a camera looks at its own place
 
@@ -92,7 +93,7 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
     remedy = f"write `look_at: {keyframe.target}`, or `{right}`"
     if not keyframe.placed:
-        remedy = "drift less far, or fly higher"
+        remedy = _less_drift(setting, keyframe)
     label = (framing_label(mission, keyframe),)
     if off >= 90.0:
         note = f"it is {off:.0f} deg away from where the camera looks"
@@ -102,6 +103,16 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
         "no part of it is in the picture"
     )
     return Diagnostic("G009", f"target `{keyframe.target}` is out of the frame", label, (note,), remedy)
+
+
+def _less_drift(setting: Setting, keyframe: Keyframe) -> str:
+    """Say how far a camera that looks straight down drifts, and from how high, with its target in view."""
+    below, aside = -setting.offset[2], hypot(*setting.offset[:2])
+    half = tan(setting.hfov / 2) / setting.aspect
+    if below <= 0:
+        return "drift less far, or fly higher"
+    high = keyframe.at[2] + aside / half - below
+    return f"drift {at_most(below * half)} m or less in all, or write `altitude: {at_least(high, 1)}` or more"
 
 
 def _angle_off(setting: Setting, aim: Vec2) -> float:

@@ -16,7 +16,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move, obstacles_of
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
 from shotc.rounding import at_least
 
 if TYPE_CHECKING:
@@ -137,9 +137,15 @@ def blocked(
         yield Diagnostic("G016", message, labels, notes, help_)
         return
     notes = (*notes, *_from_sea(mission, worst.at[2], obstacle))
-    help_ = free if ideal else free_move(mission, drone, worst.at, obstacle) or "move it to a free place"
+    help_ = free if ideal else _move_out(mission, shot, worst, obstacle)
     message = f"{_what(shot, worst)} {obstacle.relation(worst.at)}"
     yield Diagnostic(_CODES[obstacle.role], message, labels, notes, help_)
+
+
+def _move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obstacle) -> str:
+    from shotc.passes.resolve.move_out import move_out
+
+    return move_out(mission, shot, keyframe, obstacle)
 
 
 def _changes(mission: MissionIR, shot: Shot) -> list[Change]:

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import combinations
-from math import dist, inf
+from math import atan2, cos, dist, inf, radians, sin, sqrt
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, move, obstacles_of, outward
+from shotc.passes.resolve.obstacles import NUDGE, ROUNDING, Obstacle, move, obstacles_of, outward
+from shotc.rounding import at_least
+
+ROUND = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
+"""Degrees from straight on in which a place round another home is looked for, nearest first."""
 
 
 def check_homes(mission: MissionIR) -> list[Diagnostic]:
@@ -56,9 +60,30 @@ def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
             mission.origins.value((*one.path, "home"), "the other home"),
         )
         note = f"they are {away:.2f} m apart; `rules.separation` asks for {least:.2f} m, centre to centre"
-        help_ = f"move one of them by {least - away:.2f} m"
+        help_ = _apart(mission, other, one) or f"move one of them by {at_least(least - away)} m"
         message = f"the homes of `{one.name}` and `{other.name}` are too near"
         yield Diagnostic("G019", message, labels, (note,), help_)
+
+
+def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
+    """Propose the nearest home at the separation from another one that is free of everything.
+
+    Tried are the way straight on from the other home, and others round it.
+    """
+    least, (x, y, z) = mission.rules.separation, standing.home
+    straight = atan2(moved.home[1] - y, moved.home[0] - x)
+    others = [drone.home for drone in mission.drones if drone.name != moved.name]
+    reach = sqrt(max(0.0, least**2 - (moved.home[2] - z) ** 2)) + NUDGE
+    for turn in ROUND:
+        way = straight + radians(turn)
+        place = outward(standing.home, (x + reach * cos(way), y + reach * sin(way), z))
+        place = (place[0], place[1], moved.home[2])
+        there = moved._replace(home=place)
+        if any(dist(place, home) < least - ROUNDING for home in others):
+            continue
+        if all(_obstructed(mission, there, o) is None for o in obstacles_of(mission, there)):
+            return move(moved.home, place).replace("move it", f"move `{moved.name}`", 1)
+    return ""
 
 
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[str, str] | None:

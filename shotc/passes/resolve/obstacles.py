@@ -61,9 +61,9 @@ class Obstacle(NamedTuple):
         """Give the numbers: how deep or how close ``p`` is, and how much room it needs."""
         clear = self._clear(p)
         if self.role == "in":
-            where = f"{-clear:.2f} m outside" if clear <= 0 else f"{clear:.2f} m from its border"
+            where = f"{abs(clear):.2f} m outside" if clear <= 0 else f"{clear:.2f} m from its border"
         else:
-            where = f"{-clear:.2f} m deep in it" if clear <= 0 else f"{clear:.2f} m away from it"
+            where = f"{abs(clear):.2f} m deep in it" if clear <= 0 else f"{clear:.2f} m away from it"
         clearance = self.room - radius
         need = f"the body radius of {radius:.2f} m"
         if clearance > 0:

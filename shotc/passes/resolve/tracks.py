@@ -20,6 +20,7 @@ from shotc.spec.presets import TOP_SPEED
 from shotc.spec.tracks import TrackSpec
 
 SAME = 1e-6  # metres within which two points are one
+FEW = 12  # times that are written out in a help
 
 
 class Tracks(NamedTuple):
@@ -93,6 +94,16 @@ def _steady(points: list[Vec3], speed: float, origins: OriginMap, path: KeyPath)
     return Track(tuple(times), tuple(kept))
 
 
+def _in_order(times: tuple[float, ...], i: int) -> str:
+    """Say what makes times rise of which one is no later than the one before it."""
+    if i + 1 < len(times) and times[i + 1] > times[i - 1]:
+        return f"set it to {(times[i - 1] + times[i + 1]) / 2:g} s, between its neighbours"
+    ordered = sorted(times)
+    if len(times) <= FEW and all(a < b for a, b in pairwise(ordered)):
+        return f"write `times: [{', '.join(f'{t:g}' for t in ordered)}]`"
+    return f"set it later than {times[i - 1]:g} s"
+
+
 def _timed(
     points: list[Vec3], times: tuple[float, ...], origins: OriginMap, path: KeyPath
 ) -> Track | Diagnostic:
@@ -104,6 +115,6 @@ def _timed(
         if after <= before:
             label = origins.value((*path, "times", i + 1))
             note = f"{after:g} s comes after {before:g} s"
-            help_ = f"set it later than {before:g} s"
+            help_ = _in_order(times, i + 1)
             return Diagnostic("M001", "the times of the track do not rise", (label,), (note,), help_)
     return Track(times, tuple(points), since=times[0])

@@ -15,7 +15,8 @@ _KEYS = ("azimuth", "start_azimuth")
 def to_the_side(mission: MissionIR, after: Shot, left: Sight, right: Sight, apart: float) -> str:
     """Propose where a shot begins at least ``apart`` rad from the view before, at its height and distance.
 
-    Empty where the heights leave no such place: from high above, all sides look alike.
+    Empty where the heights leave no such place, for from high above all sides look alike, and where no key of
+    the shot's kind says an azimuth.
     """
     found = _azimuth(left.offset, right.offset, apart)
     if found is None:
@@ -24,9 +25,9 @@ def to_the_side(mission: MissionIR, after: Shot, left: Sight, right: Sight, apar
     if after.keyframes and after.keyframes[0].placed:
         return f"begin `{after.id}` at {_place(right, found)}"
     key = next((key for key in _KEYS if (*after.path, key) in mission.origins.values), None)
-    if key is None or after.ideal is not None:
+    if after.ideal is not None and after.kind == "framing":
         return f"begin `{after.id}` at an azimuth of {azimuth} from `{right.names[0]}`"
-    return f"write `{key}: {azimuth}`"
+    return "" if key is None or after.ideal is not None else f"write `{key}: {azimuth}`"
 
 
 def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
-from math import acos, degrees, dist, hypot, radians
+from math import acos, degrees, dist, hypot, radians, sqrt
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.flown_order import flown_order
@@ -17,6 +17,7 @@ from shotc.passes.resolve.grammar.aside import to_the_side
 from shotc.passes.resolve.grammar.line import check_line
 from shotc.passes.resolve.grammar.places import placing
 from shotc.passes.resolve.grammar.sight import Sight, sight
+from shotc.rounding import at_least, at_most
 
 APART = radians(30.0)  # between two views of one subject, for a cut to look meant: the 30-degree rule
 ALIKE = 1.5  # one subject over the other on screen, below which their size is about the same
@@ -56,7 +57,10 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
         return None
     change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
     aside = to_the_side(mission, after, left, right, APART)
-    ways = [aside, "begin it"] if aside else [f"begin `{after.id}`"]
+    ways = [aside] if aside else []
+    ways += _as_far(mission, after, right, ratio) or [
+        f"begin {'it' if aside else f'`{after.id}`'} much nearer or much farther away"
+    ]
     return Diagnostic(
         "F002",
         f"the cut from `{before.id}` to `{after.id}` makes `{left.names[0]}` jump",
@@ -65,8 +69,27 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
             f"it is seen from {int(degrees(angle))} deg to the side, {change}; a cut wants 30 deg or more, "
             f"or a size that changes {ALIKE:.1f} times",
         ),
-        f"{', '.join(ways)} much nearer or much farther away, or write `allow: [jump-cut]` in it",
+        f"{', or '.join(ways)}, or write `allow: [jump-cut]` in it",
     )
+
+
+def _as_far(mission: MissionIR, after: Shot, right: Sight, ratio: float) -> list[str]:
+    """Say the distances at which the size of the subject changes enough, of a shot that is told its own.
+
+    ratio : how many times as large it is after the cut
+    """
+    path = (*after.path, "distance")
+    if path not in mission.origins.values or (*path, 0) in mission.origins.values:
+        return []
+    x, y, z = right.offset
+    away = hypot(x, y, z)
+    target = mission.target(right.names[0])
+    near, far = away * ratio / ALIKE, away * ratio * ALIKE
+    clear = target.radius + mission.rules.target_clearance + mission.drone(after.drone).radius
+    found = [f"write `distance: {at_least(sqrt(far * far - z * z), 1)}` or more"]
+    if near > hypot(clear, z):
+        found.insert(0, f"write `distance: {at_most(sqrt(near * near - z * z), 1)}` or less")
+    return found
 
 
 def between(left: Sight, right: Sight) -> float:

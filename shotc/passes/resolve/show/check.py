@@ -37,5 +37,5 @@ def _idle(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
             label = mission.origins.key(fleet.path)
             message = f"fleet `{fleet.name}` shows nothing"
             note = "it stays on its pads, and others keep clear of it"
-            help_ = f"add a shot of `kind: display` with `fleet: {fleet.name}`, or remove it"
+            help_ = "remove it, or name it as the `fleet` of a display"
             yield Diagnostic("D023", message, (label,), (note,), help_)

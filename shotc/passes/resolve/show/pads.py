@@ -16,7 +16,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet
 from shotc.passes.resolve.home import take_off_room
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
-from shotc.rounding import at_least
+from shotc.rounding import at_least, up
 
 _AROUND = tuple(product((-1, 0, 1), repeat=3))
 UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
@@ -142,8 +142,11 @@ def _place(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
     return mission.origins.value(next(written, path), text)
 
 
-def _too_near(mission: MissionIR, one: Fleet, other: Fleet) -> Diagnostic | None:
-    """Say which pads of two fleets are nearer than the wider separation of the two."""
+def _too_near(mission: MissionIR, one: Fleet, other: Fleet, *, advise: bool = True) -> Diagnostic | None:
+    """Say which pads of two fleets are nearer than the wider separation of the two.
+
+    advise : whether to look for another place
+    """
     apart = max((one.apart, other.apart), key=lambda a: a.across)
     reach = apart.across
     cells: dict[Cell, list[int]] = defaultdict(list)
@@ -156,8 +159,43 @@ def _too_near(mission: MissionIR, one: Fleet, other: Fleet) -> Diagnostic | None
             labels = (_place(mission, other), _place(mission, one, "the other fleet"))
             which = f"pad {near[1] + 1} of `{one.name}` and pad {j + 1} of `{other.name}`"
             note = f"{which} are {near[0]:.2f} m apart; {_asked(apart)} is asked for"
-            return Diagnostic("D005", message, labels, (note,), "move one of the fleets")
+            help_ = _moved(mission, one, other) if advise else ""
+            return Diagnostic("D005", message, labels, (note,), help_)
     return None
+
+
+def _moved(mission: MissionIR, one: Fleet, other: Fleet) -> str:
+    return _beside(mission, one, other) or _beside(mission, other, one) or "move one of the fleets"
+
+
+def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
+    """Propose the shortest way along a grid axis to where a fleet is clear of all; empty if none is."""
+    reach = max(standing.apart.across, moved.apart.across)
+    ways: list[tuple[float, int, str]] = []
+    for axis, (back, on) in enumerate((("west", "east"), ("south", "north"))):
+        low, high = min(p[axis] for p in standing.pads), max(p[axis] for p in standing.pads)
+        first, last = min(p[axis] for p in moved.pads), max(p[axis] for p in moved.pads)
+        ways += [(up(high + reach - first), axis, on), (-up(last + reach - low), axis, back)]
+    for by, axis, way in sorted(ways, key=lambda found: abs(found[0])):
+        x, y = (by, 0.0) if axis == 0 else (0.0, by)
+        there = moved._replace(pads=tuple((px + x, py + y, pz) for px, py, pz in moved.pads))
+        others = [fleet for fleet in mission.fleets if fleet.name != moved.name]
+        if not any(_too_near(mission, fleet, there, advise=False) for fleet in others) and not any(
+            _placed(mission, there)
+        ):
+            return f"move `{moved.name}` {abs(by):.2f} m {way}{_anchored(mission, moved, there)}"
+    return ""
+
+
+def _anchored(mission: MissionIR, fleet: Fleet, there: Fleet) -> str:
+    """Say what to write for a layout that is moved; nothing for one from a file."""
+    path = (*fleet.path, "layout")
+    if (*path, "grid") in mission.origins.keys:
+        return f", to `origin: [{', '.join(f'{c + 0.0:.2f}' for c in there.pads[0])}]`"
+    if (*path, "circle") in mission.origins.keys and len(there.pads) > 1:
+        middle = (sum(p[i] for p in there.pads) / len(there.pads) for i in range(3))
+        return f", to `center: [{', '.join(f'{c + 0.0:.2f}' for c in middle)}]`"
+    return ""
 
 
 def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:

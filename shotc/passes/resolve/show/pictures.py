@@ -14,8 +14,8 @@ from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
 from shotc.passes.resolve.show.fit import MOST_DARK, growth, most_drones
 from shotc.passes.resolve.show.places import centre_label, key_of, word_of
 from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
-from shotc.passes.resolve.show.sizes import enlarged, size_words
-from shotc.rounding import at_least
+from shotc.passes.resolve.show.sizes import enlarged, resized, size_words
+from shotc.rounding import at_least, down
 
 
 def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
@@ -88,7 +88,8 @@ def _too_low(
     )
     message = f"this {word_of(picture)} reaches too low: down to {where}"
     label = (centre_label(mission, picture),)
-    yield Diagnostic("D014", message, label, (note,), f"raise its centre by {at_least(floor_ - low)} m")
+    up = float(at_least(floor_ - low))
+    yield Diagnostic("D014", message, label, (note,), f"raise its centre by {up:.2f} m{_to(picture, up)}")
 
 
 def _against(
@@ -132,7 +133,7 @@ def _inside(
             f"{fleet.radius:.2f} m, from {bottom:.2f} to {top:.2f}"
         )
         message = f"this {word} reaches out of the heights of keep-in zone `{zone.name}`"
-        yield Diagnostic("D015", message, labels, (note,), _fitted(low, high, bottom, top))
+        yield Diagnostic("D015", message, labels, (note,), _fitted(picture, (low, high), (bottom, top)))
         return
     walls = zone.solid._replace(bottom=-inf, top=inf)
     rooms = [-signed_distance(walls, ball.centre) - ball.radius for ball in shape]
@@ -151,10 +152,25 @@ def _inside(
     )
 
 
-def _fitted(low: float, high: float, bottom: float, top: float) -> str:
-    """Say how a shape comes between two heights."""
+def _fitted(picture: Picture, reach: tuple[float, float], room: tuple[float, float]) -> str:
+    """Say how a shape that reaches from one height to another comes between two others, metres."""
+    (low, high), (bottom, top) = reach, room
     if high - low > top - bottom:
-        return f"make it {at_least(high - low - (top - bottom))} m lower, or the zone higher"
-    return (
-        f"raise it by {at_least(bottom - low)} m" if low < bottom else f"lower it by {at_least(high - top)} m"
-    )
+        factor = (top - bottom) / (high - low)
+        smaller = resized(picture.source, lambda metres: down(metres * factor, 1))
+        by = (bottom + top - low - high) / 2
+        return (
+            f"make it {at_least(high - low - (top - bottom))} m lower "
+            f"(`{size_words(smaller, smaller)}`){_to(picture, by)}, or the zone higher"
+        )
+    if low < bottom:
+        by = float(at_least(bottom - low))
+        return f"raise it by {by:.2f} m{_to(picture, by)}"
+    by = float(at_least(high - top))
+    return f"lower it by {by:.2f} m{_to(picture, -by)}"
+
+
+def _to(picture: Picture, by: float) -> str:
+    """Say the height of a picture's centre once it is moved up, metres; nothing where it has none."""
+    centre = picture.source.centre
+    return "" if centre is None else f", to z = {round(centre[2] + by, 2):.2f}"

@@ -1,0 +1,53 @@
+"""Where a keyframe in an obstacle may go: to a place free of everything that shows its target whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import dist
+
+from shotc.geom.vec import Vec3
+from shotc.ir.mission import Keyframe, MissionIR, Shot
+from shotc.passes.place_keyframes import place_shot
+from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_place, move, obstacles_of, outward
+
+STEP = 1.1  # times the distance to the target, from one place that is tried to the next
+TRIES = 40  # of them on each way
+
+
+def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obstacle) -> str:
+    """Return in words the move to the nearest place that will do; to a free one where none shows the target.
+
+    Tried are the ways out of the obstacle, and on from there straight away from the target.
+    """
+    p, drone = keyframe.at, mission.drone(shot.drone)
+    free = free_place(mission, drone, p, obstacle)
+    if keyframe.target is None or (free is not None and _shown(mission, shot, keyframe, free)):
+        return "move it to a free place" if free is None else move(p, free)
+    around, floor = obstacles_of(mission, drone), mission.rules.ground_clearance + drone.radius
+    centre = mission.target(keyframe.target).centre
+    found: list[Vec3] = []
+    for way in obstacle.ways_out(p):
+        for q in _farther(centre, way):
+            place = outward(p, q)
+            if place[2] < floor - ROUNDING or any(o.lack(place) > ROUNDING for o in around):
+                continue
+            if _shown(mission, shot, keyframe, place):
+                found.append(place)
+                break
+    if not found:
+        return "move it to a free place" if free is None else move(p, free)
+    best = min(found, key=lambda place: dist(p, place))
+    return f"{move(p, best)}, from where `{keyframe.target}` fits into the frame"
+
+
+def _farther(centre: Vec3, place: Vec3) -> Iterator[Vec3]:
+    """Yield a place and others behind it, seen from a target, at its height and straight back."""
+    for i in range(TRIES):
+        x, y, z = (c + (p - c) * STEP**i for c, p in zip(centre, place, strict=True))
+        yield (x, y, place[2])
+        yield (x, y, z)
+
+
+def _shown(mission: MissionIR, shot: Shot, keyframe: Keyframe, at: Vec3) -> bool:
+    """Tell whether the target is on its composition set from a place."""
+    return not place_shot(mission, shot._replace(keyframes=(keyframe._replace(at=at),)))[1]
