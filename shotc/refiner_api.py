@@ -9,7 +9,7 @@ from shotc.geom import viewpoint
 from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
-from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, nearest_depth, silhouette_bounds
+from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins
 from shotc.geom.convex import bounded, distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
@@ -101,7 +101,6 @@ __all__ = [
     "leg_time",
     "looker_of",
     "moved",
-    "nearest_depth",
     "others_of",
     "parts_of_one",
     "placed_at",
@@ -113,7 +112,6 @@ __all__ = [
     "rough_times",
     "seen",
     "shortfall",
-    "silhouette_bounds",
     "smoother",
     "spline",
     "steady",

@@ -8,8 +8,8 @@ from math import isfinite
 from shotc.cli.table import clock, table
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.numbers import measure, told_apart
+from shotc.passes.verify.sight import OUT_OF_PICTURE
 
-OUT = " out of the picture"
 WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}
 HEADING = ("", "claim", "asked", "worst", "at", "known by")
 
@@ -37,7 +37,7 @@ def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
 
 def _values(claim: Claim) -> tuple[str, str, str]:
     """Return what a claim is about, what is asked, and the worst that happens."""
-    if claim.constraint.endswith(OUT) and claim.unit == "m" and isfinite(claim.worst):
+    if claim.constraint.endswith(OUT_OF_PICTURE) and claim.unit == "m" and isfinite(claim.worst):
         side = "outside" if claim.worst >= 0.0 else "inside"
         return claim.constraint, "outside the frame", f"{measure(abs(claim.worst), 'm')} {side}"
     worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)

@@ -8,7 +8,6 @@ from pathlib import Path
 from textwrap import wrap
 
 from shotc.cli.centred import centred
-from shotc.cli.certificate import OUT
 from shotc.cli.fleet_summary import display_rows, headline, nearest
 from shotc.cli.table import clock, table
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
@@ -16,6 +15,7 @@ from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
+from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.rounding import at_least, at_most, away
 
 WIDTH = 100
@@ -143,7 +143,7 @@ def _closest(claims: Sequence[Claim]) -> list[str]:
         and isfinite(c.worst)
         and isfinite(c.limit)
         and not c.constraint.startswith("separation")
-        and not c.constraint.endswith(OUT)
+        and not c.constraint.endswith(OUT_OF_PICTURE)
     ]
     near.sort(key=lambda c: c.worst - c.limit)
     several = len({c.subject for c in claims}) > 1
@@ -185,9 +185,9 @@ def _pictures(plan: VerifiedIR) -> str:
     angle = rules.half_angle
     where = "in the picture" if angle is None else f"within {degrees(angle):.3g} deg of the axis"
     seen = [
-        f"{c.constraint.removesuffix(OUT)} is {where} of {c.subject} (shot {c.shot})"
+        f"{c.constraint.removesuffix(OUT_OF_PICTURE)} is {where} of {c.subject} (shot {c.shot})"
         for c in plan.certificate
-        if c.constraint.endswith(OUT) and not c.holds
+        if c.constraint.endswith(OUT_OF_PICTURE) and not c.holds
     ]
     return ", ".join(seen) or f"none is {where} of another"
 

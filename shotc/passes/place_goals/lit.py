@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.centroids import centroids
 from shotc.geom.push_along import push_along, thinned
 from shotc.passes.place_goals.body import Fill
-from shotc.passes.place_goals.dark import BEHIND, dark_places
+from shotc.passes.place_goals.dark import dark_places
 from shotc.passes.place_goals.edges import along_edges
 from shotc.passes.place_goals.flat import FlatBody
 from shotc.passes.place_goals.spaced import Placed, Setting
@@ -55,7 +55,9 @@ def lit(strokes: Strokes) -> Lit | None:
         return found
     shown = strokes.placed(strokes.most())
     spare = strokes.setting.number - len(shown)
-    dark = None if spare > MOST_DARK * strokes.setting.number else _behind(strokes, shown, spare)
+    if spare > MOST_DARK * strokes.setting.number:
+        return None
+    dark = dark_places(shown, spare, strokes.setting, strokes.body.axes[1])
     return None if dark is None else Lit(np.concatenate([shown, dark]), len(shown))
 
 
@@ -125,21 +127,3 @@ class Strokes:
     def _held(self, before: Array, after: Array) -> Array:
         held = self.setting.room.hold(self.placed(before), self.placed(after))
         return np.asarray(self.body.flat(held) * self.scale)
-
-
-def _behind(strokes: Strokes, shown: Array, spare: int) -> Array | None:
-    """Return places for dark drones, away from the audience before towards it, each behind a light."""
-    body, setting = strokes.body, strokes.setting
-    away = body.axes[1]
-    if setting.viewpoint is not None and (body.centre - setting.viewpoint) @ away < 0:
-        away = -away
-    found = []
-    for side in (away, -away):
-        places = shown + BEHIND * setting.least * side
-        places = places[setting.room.lack(places) <= 0]
-        evenly = np.unique(np.linspace(0, len(places) - 1, min(spare, len(places))).round().astype(np.intp))
-        found.append(places[evenly])
-        spare -= len(evenly)
-    if not spare:
-        return np.concatenate(found)
-    return dark_places(shown, spare + sum(map(len, found)), setting)

@@ -16,7 +16,7 @@ from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
-from shotc.passes.verify.sight import ENDING as SEEN
+from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.sighting import sighted
 
 RULES = {
@@ -105,7 +105,7 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
     for claim in claims:
         if claim.holds:
             continue
-        if claim.constraint.endswith(SEEN):
+        if claim.constraint.endswith(OUT_OF_PICTURE):
             seen = _seen_with(claim, claims)
             if claim is seen[0]:
                 yield sighted(ir, seen)
@@ -124,7 +124,7 @@ def _seen_with(claim: Claim, claims: tuple[Claim, ...]) -> tuple[Claim, ...]:
     return tuple(
         c
         for c in claims
-        if not c.holds and not c.hard and c.constraint.endswith(SEEN) and c.shot == claim.shot
+        if not c.holds and not c.hard and c.constraint.endswith(OUT_OF_PICTURE) and c.shot == claim.shot
     )
 
 

@@ -24,7 +24,8 @@ from shotc.ir.sampling import SAME_TIME, cameras, clock
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, slack
 
-ENDING = " out of the picture"
+OUT_OF_PICTURE = " out of the picture"
+"""What the name of such a claim ends with, after the other drone's."""
 
 PATH = ("rules", "mutual_visibility")
 
@@ -56,7 +57,7 @@ def _claim(flight: Flight, other: Flight, phase: Phase) -> Claim:
     rules = flight.mission.rules
     cone = rules.half_angle is not None
     limit = Limit(
-        f"{other.drone.name}{ENDING}",
+        f"{other.drone.name}{OUT_OF_PICTURE}",
         rules.half_angle or 0.0,
         "rad" if cone else "m",
         (*PATH, "half_angle") if cone else PATH,

@@ -14,7 +14,7 @@ from shotc.ir.preference import MOST_MOVED, Price, given_up, prefers_free_pictur
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.numbers import measure, told_apart
-from shotc.passes.verify.sight import ENDING, PATH, Sight, ticks
+from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight, ticks
 from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"
@@ -31,7 +31,7 @@ _DOING = {
 def sighted(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Diagnostic:
     """Report broken claims that other drones are out of the picture of one shot."""
     mission, claim = ir.keyframes.mission, min(claims, key=lambda c: c.worst)
-    names = [c.constraint.removesuffix(ENDING) for c in claims]
+    names = [c.constraint.removesuffix(OUT_OF_PICTURE) for c in claims]
     tracks = {t.drone: t for t in bodies(ir)}
     film = tracks[claim.subject]
     phase = next(p for p in film.phases if p.shot == claim.shot)
@@ -48,7 +48,7 @@ def sighted(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Diagnostic:
         f"{who} {where} {claim.subject} in shot `{claim.shot}`",
         tuple(_labels(mission, claim)),
         tuple(notes),
-        _help(mission, claim, tracks[claim.constraint.removesuffix(ENDING)]),
+        _help(mission, claim, tracks[claim.constraint.removesuffix(OUT_OF_PICTURE)]),
     )
 
 

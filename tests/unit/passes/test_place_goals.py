@@ -13,7 +13,7 @@ from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes.pictures import CODES
 from shotc.diag.model import Diagnostic
 from shotc.geom.apart import spacing, stretch
-from shotc.geom.solids import Cylinder
+from shotc.geom.solids import Cylinder, box
 from shotc.ir.fleet import GoalIR
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import Zone
@@ -204,6 +204,19 @@ def test_drones_without_room_stay_dark_behind_the_outline_of_a_cube(viewpoint) -
     assert apart_enough(frame.points, crowd.apart)
     # Behind is beyond the picture, as the audience looks at it; North without one.
     assert frame.points[dark][:, 1].min() > frame.points[~dark][:, 1].max() + 1.0
+
+
+def test_dark_drones_of_a_solid_stand_in_front_where_there_is_no_room_behind() -> None:
+    """As those of a flat picture do: one rule places both."""
+    cube = Box(MIDDLE, (24.0, 24.0, 24.0), 0.0)
+    wall = Zone("wall", "out", box((0.0, 22.0, 60.0), (300.0, 16.0, 90.0), 0.0), ("world", "zones", "wall"))
+    crowd = fleet(300)
+    shown = display(picture(cube, fill="outline"))
+    (frame,) = goals_of(show(shown, crowd, (wall,))).fleets[0].frames
+    dark = (frame.colors == 0).all(axis=1)
+    assert 0 < dark.sum() < 280
+    assert (frame.points[dark][:, 1] < frame.points[~dark][:, 1].min() - 1.0).any()
+    assert apart_enough(frame.points, crowd.apart)
 
 
 def test_of_an_animation_the_same_drones_stay_dark_in_every_frame() -> None:
