@@ -21,7 +21,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.occlusion import others_of
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath
-from shotc.ir.preference import MOST_MOVED, given_up, prefers_free_pictures
+from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.corridor.room import flight_room
@@ -51,6 +51,7 @@ __all__ = [
     "HFOV",
     "MOST_MOVED",
     "ROUNDING",
+    "UNWATCHED",
     "Array",
     "Bound",
     "Clock",

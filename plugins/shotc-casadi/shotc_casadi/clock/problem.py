@@ -113,7 +113,7 @@ def problem(
         inputs,
         _bounds(subject, breaks, sizes, share),
         least,
-        (np.full(2, -inf), np.array([speed, acceleration])),
+        (np.full(3, -inf), np.array([speed, acceleration, 1.0])),
         (low, high),
     )
 
@@ -153,6 +153,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
         "ideal": wanted.ideal,
         "place": binds * near * _shared(np.where(filmed, 1.0, weights.FAINT) * length),
         "leash": np.full(n + 1, near / weights.LEASH**2),
+        "near": wanted.reach**-2.0,
         "target": wanted.target,
         "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
         "turn": turn if wanted.watches else np.zeros((n + 1, 6)),

@@ -16,7 +16,8 @@ from shotc_casadi.solving import Instance, Solution, solved
 TOLERANCE = 1e-5
 IN_UNITS = 1e-2  # the same, where the cost is in a unit of the problem's own
 FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
-ROWS = ("speed", "acceleration", "jerk", "speed", "climb and descent")
+HELD = ("speed", "acceleration", "distance from its place")
+ROWS = (*HELD, "jerk", "speed", "climb and descent")
 
 
 def solve(task: ClockProblem, solver: Solver) -> Solution:
@@ -51,7 +52,7 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
     u = np.zeros((len(inputs), sizes.inputs))
     u[:, : sizes.moves] = inputs[:, : sizes.moves]
     rows = np.array(made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[2])
-    lack = np.maximum(-rows[2 + sizes.limits + POINTS * sizes.planes :].T, 0.0)
+    lack = np.maximum(-rows[len(HELD) + sizes.limits + POINTS * sizes.planes :].T, 0.0)
     if sizes.screens:
         u[:, sizes.moves] = lack[:, : sizes.screens].max(axis=1)
     if sizes.bodies:
@@ -65,7 +66,7 @@ def _named(sizes: Sizes, row: int) -> str:
     """Return what people call a row of held and driven constraints."""
     if row < len(ROWS):
         return ROWS[row]
-    row -= 2
+    row -= len(HELD)
     if row < sizes.limits:
         return "the gimbal's pitch"
     row -= sizes.limits + POINTS * sizes.planes

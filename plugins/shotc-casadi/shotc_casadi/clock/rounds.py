@@ -145,7 +145,7 @@ def _begun(shot: _Shot) -> _Round:
     subject, guide = shot.subject, shot.guide
     wanted = wishes(subject, shot.breaks)
     over = () if subject.together else passes(subject, shot.breaks, wanted)
-    first = led_past(led(guide, wanted, over), wanted, shot.screens, shot.shown)
+    first = led_past(led(guide, over), wanted, shot.screens, shot.shown)
     course = first if shot.screens else guide
     return _Round(wanted, course, shot.guess(first), over, aside=bool(over or shot.screens))
 

@@ -94,7 +94,8 @@ def _screens(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Screen
 def looked_past(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array, filmed: Mask) -> ClockWishes:
     """Return the wishes with the ellipsoids that come near the lines of sight from ``eyes`` (N + 1, 3).
 
-    Those that came near before stay. filmed : whether each node is in the film
+    Those that came near before stay, and the camera goes as far from its place as it takes.
+    filmed : whether each node is in the film
     """
     if not screens:
         return wanted
@@ -111,7 +112,7 @@ def looked_past(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array, fil
         for i, j in enumerate(np.flatnonzero(near[:, k])):
             screen = screens[int(j)]
             past[k, i] = [*screen.scale.T.ravel(), *screen.centres[k], 1.0, *points[k, screen.before]]
-    return replace(wanted, past=past, near=near)
+    return replace(wanted, past=past, near=near, reach=np.full(len(eyes), np.inf))
 
 
 def covered(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array) -> Array:

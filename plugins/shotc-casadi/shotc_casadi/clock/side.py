@@ -19,6 +19,8 @@ from shotc_casadi.clock.wishes import ClockSubject, ClockWishes
 NEAR = 0.35  # of the usual distance: passes over ground that are nearer are held to their side
 ASIDE = 0.3  # metres that the camera keeps to its side
 LED = 0.3  # of the usual distance by which the guess is led aside
+LEAST = 0.15  # metres: who may not go as far aside passes on no side
+SIDESTEP = 0.5  # of how far the camera may go aside from its guide, by which it is kept or led aside at most
 HELD = 1.0  # seconds before and after the nearest place, at which the side is held
 ALONG = 0.1  # of a direction: what is less across is along
 SPREAD = 2.0  # seconds to either side over which it is
@@ -27,21 +29,27 @@ SPREAD = 2.0  # seconds to either side over which it is
 class Pass(NamedTuple):
     """A way over a target: the stages near it, when it is nearest, and the side to keep there (M, 3), level.
 
-    least : index among the stages of the nearest one
+    aside : metres beyond the target's axis to keep there, (M,)
+    least : index among the stages of the nearest one; led : metres that the first guess goes aside there
     """
 
     stages: NDArray[np.intp]
     time: float
     sides: Array
+    aside: Array
     least: int
+    led: float
 
 
 def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> tuple[Pass, ...]:
-    """Return the ways over the target, in their order."""
+    """Return the ways over the target that have room on their side, in their order."""
     leg = subject.leg
     if not wanted.watches:
         return ()
-    relative = leg.curve(breaks)[:, :2] - wanted.target[:, :2]
+    guide = leg.curve(breaks)[:, :3]
+    relative = guide[:, :2] - wanted.target[:, :2]
+    off = np.linalg.norm(guide - wanted.ideal, axis=1)
+    free = SIDESTEP * np.sqrt(np.maximum(wanted.reach**2 - off**2, 0.0))
     distance = np.linalg.norm(relative, axis=1)
     filmed = (breaks >= leg.start) & (breaks < leg.end)
     near = np.flatnonzero((distance < NEAR * wanted.usual) & filmed)
@@ -53,8 +61,14 @@ def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> tuple[P
         stages = run[np.abs(breaks[run] - breaks[nearest]) <= HELD]
         yaw = float(leg.curve(breaks[nearest])[CAM_YAW])
         sides = _across(np.gradient(relative, breaks, axis=0)[stages], -np.array([np.cos(yaw), np.sin(yaw)]))
+        aside = np.minimum(ASIDE, np.einsum("md,md->m", relative[stages], sides) + free[stages])
         least = int(np.flatnonzero(stages == nearest)[0])
-        found.append(Pass(stages, float(breaks[nearest]), np.column_stack([sides, 0 * sides[:, 0]]), least))
+        if aside[least] >= LEAST:
+            level, far = (
+                np.column_stack([sides, 0 * sides[:, 0]]),
+                min(LED * wanted.usual, float(free[nearest])),
+            )
+            found.append(Pass(stages, float(breaks[nearest]), level, aside, least, far))
     return tuple(found)
 
 
@@ -69,20 +83,20 @@ def _across(way: Array, away: Array) -> Array:
 
 def held(planes: Planes, wanted: ClockWishes, over: Sequence[Pass]) -> Planes:
     """Return half-spaces with those that keep the nodes near a target on their side."""
-    for stages, _, sides, _ in over:
-        target = wanted.target[:, :3]
-        ends = [np.einsum("md,md->m", target[k], sides) + ASIDE for k in (stages, stages + 1)]
-        planes = planes.and_also(Planes(stages, sides, np.column_stack(ends)))
+    target = wanted.target[:, :3]
+    for one in over:
+        ends = [np.einsum("md,md->m", target[k], one.sides) + one.aside for k in (one.stages, one.stages + 1)]
+        planes = planes.and_also(Planes(one.stages, one.sides, np.column_stack(ends)))
     return planes
 
 
-def led(curve: Piecewise, wanted: ClockWishes, over: Sequence[Pass]) -> Piecewise:
+def led(curve: Piecewise, over: Sequence[Pass]) -> Piecewise:
     """Return the guide led aside where it goes over its target, smoothly; its ends stay."""
     values = [curve(curve.breaks), *(curve.derivative(order)(curve.breaks) for order in (1, 2))]
     for one in over:
         spread = min(SPREAD, one.time - curve.start, curve.end - one.time)
         x = np.clip((curve.breaks - one.time) / spread, -1.0, 1.0)
-        bump = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 3 * (LED * wanted.usual)
+        bump = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 3 * one.led
         for order in range(3):
             shape = bump.deriv(order)(x) if order else bump(x)
             values[order] = values[order] + (shape / spread**order)[:, None] * one.sides[one.least]

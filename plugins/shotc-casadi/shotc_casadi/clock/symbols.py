@@ -71,6 +71,7 @@ FIELDS = {
     "ideal": 3,
     "place": 1,
     "leash": 1,
+    "near": 1,
     "target": 12,
     "jerk": 1,
     "turn": 6,
@@ -89,6 +90,7 @@ subject, LINE numbers each, what is kept away from, BODY numbers each, and sever
 length : seconds
 ideal : where the camera would be, W, metres; place : weight of the squared distance to it
 leash : 1/m^2, by which that weight grows with the squared distance
+near : 1/m^2, one over the square of how far the camera may be from there; 0 where as far as it takes
 target : its position, velocity, acceleration and jerk; of several subjects their middle's
 jerk : weight of the camera's squared jerk
 turn : weights of the squares of the ray's yaw and pitch rate, acceleration and jerk, as in ``Turning``; of
@@ -104,11 +106,12 @@ picture : weight of how several subjects appear; lens : tan of half the fields o
 def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> Stage:
     """Return a stage with that many half-spaces to stay in, ellipsoids to look past and out of, and subjects.
 
-    held is horizontal speed squared and acceleration squared. driven is jerk squared; of the velocity's
-    middle control point the horizontal square and the climb; for one subject, what is left of the gimbal's
-    pitch range below and above, metres; then, for each half-space, the slack of the position's control
-    points, metres; then, for each ellipsoid, by how much less than the input says it hides a subject, or
-    how far the place is out of it beyond what the input says.
+    held is horizontal speed squared, acceleration squared, and the squared distance to the ideal place, over
+    that of how far the camera may be. driven is jerk squared; of the velocity's middle control point the
+    horizontal square and the climb; for one subject, what is left of the gimbal's pitch range below and
+    above, metres; then, for each half-space, the slack of the position's control points, metres; then, for
+    each ellipsoid, by how much less than the input says it hides a subject, or how far the place is out of
+    it beyond what the input says.
     """
     sizes = Sizes(planes, screens, bodies, subjects)
     z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(*sizes))
@@ -147,7 +150,7 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
         ca.vertcat(moved, *aimed.moved),
         node=given["place"] * off * (1 + given["leash"] * off) + aimed.node,
         passing=h * passing,
-        held=ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a)),
+        held=ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a), given["near"] * off),
         driven=driven,
         node_roots=ca.vertcat(*reached),
         passing_roots=ca.sqrt(h * given["turn"]) * aimed.turned,

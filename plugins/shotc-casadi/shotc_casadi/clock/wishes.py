@@ -9,6 +9,8 @@ import numpy as np
 
 from shotc.plugin_api import MissionIR, PathIR
 from shotc.refiner_api import (
+    MOST_MOVED,
+    UNWATCHED,
     Array,
     Bound,
     Drone,
@@ -32,6 +34,9 @@ STEEPEST = tan(89.0 * pi / 180)
 KEPT = 0.05  # of the usual distance: a guide that is farther off a framing's place does not keep it
 STEEP = 0.15  # of a line of sight that is level, below which it is as good as straight down
 NEAREST = 1.0  # metres: least distance that counts as usual
+PREFERRED = 0.98 * MOST_MOVED  # of a distance: between two nodes a camera may be a little farther off
+LOOKS = 8  # at an ideal, a stage
+INNER = 0.005  # metres that it may be farther off than its guide: a constraint needs an interior
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,6 +93,7 @@ class ClockWishes:
     """One row a node.
 
     ideal (N + 1, 3), target (N + 1, 12) : as in symbols.FIELDS
+    reach : metres that the camera may be off the ideal place, (N + 1,), inf where as far as it takes
     usual : distance to the target in the film, metres; watches : whether anything is filmed
     placed : whether the author gave the places; yields : whether the guide cannot keep a framing's
     centres : of all that is to be seen, (N + 1, J, 3), W, metres
@@ -98,6 +104,7 @@ class ClockWishes:
 
     ideal: Array
     target: Array
+    reach: Array
     usual: float
     watches: bool
     placed: bool
@@ -117,24 +124,55 @@ class ClockWishes:
 
 def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     """Return what a shot wants at mission times t, shape (N + 1,)."""
-    ideal = np.array(
-        [ideal_place(subject.mission, subject.placed.shot, subject.leg.start, float(u)) for u in t]
-    )
+    ideal = _ideal_at(subject, t)
     watched, shot, n = subject.watched, subject.placed.shot, len(t)
     keyed = subject.looker.keyed is not None
     placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
     centres = seen_at(subject, t)
     shown = pictured(subject.mission, subject.framed, centres)
     nothing = (centres, shown, np.zeros((n, 0, LINE)), np.zeros((n, 0, BODY)))
+    reach = _reach(subject, t, ideal)
     if watched is None or (keyed and _over(subject, centres, ideal)):
         away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((n, 9))])
-        return ClockWishes(ideal, away, 100.0, False, placed, False, *nothing)
+        return ClockWishes(ideal, away, reach, 100.0, False, placed, False, *nothing)
     target = np.mean([motion(subject.mission, one.target, t) for one in subject.framed], axis=0)
     filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
     usual = max(NEAREST, float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1))))
     off = np.linalg.norm(subject.leg.curve(t)[filmed, :3] - ideal[filmed], axis=1).max()
     yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT * usual)
-    return ClockWishes(ideal, target, usual, True, placed, yields, *nothing)
+    return ClockWishes(ideal, target, reach, usual, True, placed, yields, *nothing)
+
+
+def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
+    """Return how far a camera may be from its ideal place at times, metres, (N + 1,).
+
+    What is not promised is a preference, and costs a camera a share of its distance from what it films; where
+    the guide has to be farther off, as much as that. As far as it takes goes a shot that promises what its
+    subject looks like, one with a picture of several, and one led by keyframes, between which nobody asked
+    for a place. Between two of the times the ideal may bend away.
+    """
+    leg, promise, n = subject.leg, subject.placed.shot.promise, len(t) - 1
+    promised = promise.in_frame is not None or promise.screen_error is not None
+    if promised or subject.together or subject.looker.keyed is not None:
+        return np.full(n + 1, np.inf)
+    share = np.arange(LOOKS)[:, None] / LOOKS
+    times = (t[:-1] + share * np.diff(t)).ravel()
+    between = _ideal_at(subject, times)
+    straight = (ideal[:-1] + share[:, :, None] * np.diff(ideal, axis=0)).reshape(-1, 3)
+    away = np.linalg.norm(seen_at(subject, times) - between[:, None], axis=2)
+    far = away.min(axis=1) if subject.framed else UNWATCHED
+    free = PREFERRED * far - np.linalg.norm(between - straight, axis=1)
+    stages = np.where((times >= leg.start) & (times < leg.end), free, np.inf).reshape(LOOKS, n).min(axis=0)
+    guide = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1) + INNER
+    film = (t >= leg.start) & (t <= leg.end)
+    nearest = np.minimum(np.append(stages, np.inf), np.append(np.inf, stages))
+    return np.where(film, np.maximum(nearest, guide), np.inf)
+
+
+def _ideal_at(subject: ClockSubject, t: Array) -> Array:
+    """Return the ideal places at mission times, shape (M, 3), W, metres."""
+    shot, start = subject.placed.shot, subject.leg.start
+    return np.array([ideal_place(subject.mission, shot, start, float(u)) for u in t])
 
 
 def followed(placed: PlacedShot, keyed: Keyed) -> PlacedSubject | None:

@@ -1,0 +1,102 @@
+"""How far a shot on its own clock leaves its place: as far as a preference may, or as a promise takes."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from shotc_casadi.clock.problem import breaks_of
+from shotc_casadi.clock.refiner import subject_of
+from shotc_casadi.clock.wishes import ClockSubject, wishes
+
+from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.ir.preference import MOST_MOVED
+from shotc.refiner_api import ideal_place
+
+MISSION = """\
+shotc: 1
+mission: low
+targets:
+  walker: {{track: {{start: [0, 0, 0.9], velocity: [1.5, 0, 0]}}, radius: 0.4, height: 1.8}}
+drones:
+  cam1: {{model: x500, home: [20, -20, 0], gimbal: {{rate: 45 deg/s}}}}
+shots:
+  - {{id: s, drone: cam1, target: walker, timing: {{start: 20, duration: 12}}, {shot}}}
+"""
+LOW = "kind: flyby, behind: 10, ahead: 10, altitude: 3"
+FLYBY = MISSION.format(shot=LOW)
+PROMISED = MISSION.format(shot=f"{LOW}, require: {{in_frame: 100 %}}")
+ROUNDING = 0.01  # metres
+
+
+@cache
+def compiled(text: str, refiner: str = "ours") -> Compilation:
+    return compile_source(text.encode(), "low.yaml", None, PlanOptions(refiner=refiner))
+
+
+def subject(text: str, step: str = "refine-path") -> ClockSubject:
+    path = next(report.output for report in compiled(text).reports if report.name == step)
+    return subject_of(path, "s")
+
+
+def in_frame(text: str, refiner: str = "ours") -> float:
+    plan = compiled(text, refiner).plan
+    assert plan is not None
+    return next(c.worst for c in plan.certificate if c.constraint == "walker in frame")
+
+
+def flown(of: ClockSubject) -> tuple[np.ndarray, np.ndarray]:
+    """The distances from the ideal place in the film, and those of that place from the target, metres."""
+    t = np.linspace(of.leg.start, of.leg.end, 4001)
+    ideal = np.array([ideal_place(of.mission, of.placed.shot, of.leg.start, float(u)) for u in t])
+    target = np.array([of.mission.target("walker").at(float(u)) for u in t])
+    place = of.leg.curve(t)[:, :3]
+    return np.linalg.norm(place - ideal, axis=1), np.linalg.norm(target - ideal, axis=1)
+
+
+@pytest.mark.parametrize("altitude", ["3", "3.4", "5"])
+def test_where_nothing_is_promised_a_camera_stays_as_near_to_its_place_as_a_preference_keeps_it(
+    altitude: str,
+) -> None:
+    text = FLYBY.replace("altitude: 3", f"altitude: {altitude}")
+    (guide, far), (ours, _) = (flown(subject(text, step)) for step in ("solve-path-qp", "refine-path"))
+    assert (ours <= np.maximum(MOST_MOVED * far, guide + ROUNDING)).all()
+    assert ours.max() > guide.max() + 0.1
+    assert dict(subject(text).path.stats)["s.refine_status"] == "solved"
+
+
+@pytest.mark.parametrize(("altitude", "least"), [("3", 0.97), ("3.4", 1.0)])
+def test_a_walker_whom_the_gimbal_cannot_follow_is_kept_in_more_frames(altitude: str, least: float) -> None:
+    text = FLYBY.replace("altitude: 3", f"altitude: {altitude}")
+    # At 3 m the walker's clearance leaves next to no room.
+    assert in_frame(text, "none") < 0.97
+    assert in_frame(text) >= least
+
+
+def test_what_is_promised_is_kept_at_any_distance() -> None:
+    assert compiled(PROMISED, "none").plan is None
+    assert in_frame(PROMISED) == 1.0
+    ours, far = flown(subject(PROMISED))
+    assert (ours > MOST_MOVED * far).any()
+
+
+@pytest.mark.parametrize(
+    "shot",
+    [
+        f"{LOW}, require: {{in_frame: 90 %}}",
+        f"{LOW}, require: {{screen_error: 0.2}}",
+        "kind: keyframes, keyframes: [{at: {from: target, offset: [-8, 0, 3]}, look_at: walker}, "
+        "{at: {from: target, offset: [8, 4, 3]}, look_at: walker}]",
+    ],
+)
+def test_promises_and_keyframes_bind_instead(shot: str) -> None:
+    of = subject(MISSION.format(shot=shot), "solve-path-qp")
+    assert np.isinf(wishes(of, breaks_of(of)).reach).all()
+
+
+def test_the_ways_into_and_out_of_the_film_are_free() -> None:
+    of = subject(FLYBY, "solve-path-qp")
+    breaks = breaks_of(of)
+    film = (breaks >= of.leg.start) & (breaks <= of.leg.end)
+    assert (np.isfinite(wishes(of, breaks).reach) == film).all()
