@@ -60,10 +60,13 @@ class ConeRows:
         self._cones.append((kind, dim, cones))
         self._count += dim * cones
 
-    def solve(self, cost: Array, tolerance: float, squares: Array | None = None) -> tuple[Status, Array]:
-        """Minimise cost.x + sum of squares x^2 / 2; returns the status and x (meaningless unless SOLVED)."""
+    def solve(self, cost: Array, tolerance: float, hessian: Any = None) -> tuple[Status, Array]:
+        """Minimise cost.x + x.hessian.x / 2; returns the status and x (meaningless unless SOLVED).
+
+        hessian : a sparse matrix, or an array that is the diagonal of one; None for a linear cost
+        """
         import clarabel
-        from scipy.sparse import csc_matrix, diags_array
+        from scipy.sparse import csc_matrix, diags_array, triu
 
         shape = (self._count, self.unknowns)
         places = (np.concatenate(self._rows), np.concatenate(self._cols))
@@ -80,8 +83,9 @@ class ConeRows:
         settings.max_threads = 1
         settings.presolve_enable = False
         settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
-        bent = csc_matrix(diags_array(np.zeros(self.unknowns) if squares is None else squares))
-        solver = clarabel.DefaultSolver(bent, cost, lhs, np.concatenate(self._constants), cones, settings)
+        bent = np.zeros(self.unknowns) if hessian is None else hessian
+        square = diags_array(bent, format="csc") if isinstance(bent, np.ndarray) else triu(bent, format="csc")
+        solver = clarabel.DefaultSolver(square, cost, lhs, np.concatenate(self._constants), cones, settings)
         solution = solver.solve()
         return _STATUS.get(str(solution.status), Status.FAILED), np.asarray(solution.x)
 

@@ -14,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, value_rows
 from shotc.solvers.conic import Status, solve
-from shotc.solvers.spline_qp import scalar_map
+from shotc.solvers.spline_problem import scalar_map
 
 TOUCH = 3e-7  # a third of what verification lets a limit be missed by
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import cvxpy as cp
 import numpy as np
 import pytest
 from scipy.interpolate import make_interp_spline
@@ -10,16 +13,9 @@ from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, s
 from shotc.solvers import spline_qp
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
-from shotc.solvers.spline_qp import (
-    Cones,
-    Equalities,
-    Floors,
-    Goal,
-    SplineProblem,
-    minimise,
-    relax,
-    scalar_map,
-)
+from shotc.solvers.spline_problem import Cones, Equalities, Floors, Goal, SplineProblem, centred, scalar_map
+from shotc.solvers.spline_qp import minimise
+from shotc.solvers.spline_relax import relax
 
 
 def waypoints(count_, seed=0, step=10.0):
@@ -102,14 +98,14 @@ def test_bounds_that_do_not_bite_need_no_programme(monkeypatch):
         bounded(0.95 * fast, low - 0.1),
         bounded(fast, low + 0.1),
     )
-    programme, asked = spline_qp._programme, []
-    monkeypatch.setattr(spline_qp, "_programme", lambda q: asked.append(q) or programme(q))
+    programme, asked = spline_qp.programme, []
+    monkeypatch.setattr(spline_qp, "programme", lambda q: asked.append(q) or programme(q))
     found, reference = minimise(wide), programme(wide)
     assert not asked
     assert found.objective == pytest.approx(reference.objective, rel=1e-7)
     assert found.excess == 0.0
     centre = wide.equalities.value.mean(axis=0)
-    assert np.abs(found.coef - centre - programme(spline_qp._moved(wide, -centre)).coef).max() < 1e-5
+    assert np.abs(found.coef - centre - programme(centred(wide, centre)).coef).max() < 1e-5
     for tight in (slow, high):
         asked.clear()
         minimise(tight)
@@ -172,6 +168,65 @@ def test_priced_cones_bend_the_path_towards_the_limit_and_never_stop_it():
     assert np.maximum(soft - bound, 0).sum() < 0.8 * np.maximum(sharp - bound, 0).sum()
     assert tight.objective >= loose.objective - 1e-6
     assert bent(1e-3)[1].coef is not None
+
+
+def modelled(problem):
+    """The least cost of a problem, modelled in cvxpy: goals, and the price of what leaves its bounds."""
+    x = cp.Variable((problem.size, 3))
+    rows = [scalar_map(problem.equalities.rows, problem.size) @ x == problem.equalities.value]
+    for f in problem.floors:
+        along = cp.sum(cp.multiply(scalar_map(f.rows, problem.size) @ x, f.normal), axis=1)
+        rows += [along >= f.offset]
+    cost = 0.0
+    for g in problem.goals:
+        off = scalar_map(g.rows, problem.size) @ x - g.value
+        cost += cp.sum_squares(off[:, list(g.axes)])
+    for c in problem.cones:
+        length = cp.norm((scalar_map(c.rows, problem.size) @ x)[:, list(c.axes)] - c.centre, axis=1)
+        if c.price is None:
+            rows.append(length <= c.bound)
+        else:
+            cost += c.price @ cp.pos(length - c.bound)
+    programme = cp.Problem(cp.Minimize(cost), rows)
+    programme.solve(solver=cp.CLARABEL, tol_feas=1e-9, tol_gap_rel=1e-9, tol_gap_abs=1e-9)
+    return programme.value, x.value
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_optimum_is_the_one_that_a_modelling_layer_finds(seed):
+    """Half-spaces, hard and priced norms of one, two and three components, and goals of some components."""
+    p, s = waypoints(6, seed=seed)
+    breaks, free = least_jerk(p, s)
+    course = spline(breaks, minimise(free).coef)
+    owner = {"owner": np.zeros(6 * len(course.ctrl), dtype=np.intp)}
+    values = control_rows(breaks)
+    size, middle = len(values.piece), p.mean(axis=0)
+    reach = np.linalg.norm(course.ctrl[:, :, :2] - middle[:2], axis=2).max()
+    inside = max(0.97 * reach, 1.001 * np.linalg.norm(p[:, :2] - middle[:2], axis=1).max())
+    ceiling = 0.5 * (course.ctrl[:, :, 2].max() + p[:, 2].max())
+    bent, fast = control_rows(breaks, 2), control_rows(breaks, 1)
+    most = np.linalg.norm(bent.apply(minimise(free).coef), axis=1).max()
+    steep = np.abs(fast.apply(minimise(free).coef)[:, 2]).max()
+
+    def cone(rows, axes, centre, bound, price):
+        count = len(rows.piece)
+        cost = None if price is None else np.full(count, price)
+        zero = np.zeros(count, dtype=np.intp)
+        return Cones(rows, axes, np.tile(centre, (count, 1)), np.full(count, bound), cost, zero)
+
+    cones = (
+        cone(values, (0, 1), middle[:2], inside, None),
+        cone(bent, (0, 1, 2), np.zeros(3), 0.8 * most, 1e3),
+        cone(fast, (2,), np.full(1, 0.1), 0.9 * steep, 1e2),
+    )
+    pull = Goal(value_rows(breaks, s[1:3]), p[1:3] + 1.0, (0, 2))
+    down = Floors(values, np.tile([0.0, 0.0, -1.0], (size, 1)), np.full(size, -ceiling), **owner)
+    problem = replace(free, goals=(*free.goals, pull), floors=(down,), cones=cones)
+    found, (cost, coef) = minimise(problem), modelled(problem)
+    assert found.status is Status.SOLVED
+    assert found.objective + found.excess == pytest.approx(cost, rel=1e-6, abs=1e-6)
+    assert found.excess > 1e-3
+    assert np.abs(spline(breaks, found.coef).ctrl - spline(breaks, coef).ctrl).max() < 1e-3
 
 
 def test_the_least_give_way_is_the_distance_that_is_missing():

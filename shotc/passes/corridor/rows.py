@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray, Rows, control_rows
 from shotc.geom.corridor import Planes, Room, corridor, kept
-from shotc.solvers.spline_qp import Cones, Floors, SplineProblem
+from shotc.solvers.spline_problem import Cones, Floors, SplineProblem
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -27,16 +27,9 @@ from shotc.geom.corridor import Room, shortfall
 from shotc.ir.limits import Limits
 from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_qp import (
-    Cones,
-    Equalities,
-    Goal,
-    Relaxation,
-    SplineProblem,
-    SplineSolution,
-    minimise,
-    relax,
-)
+from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
+from shotc.solvers.spline_qp import SplineSolution, minimise
+from shotc.solvers.spline_relax import Relaxation, relax
 
 PIECES = 3  # per straight stretch of the polyline
 PULL = 100.0  # weight of a generated keyframe that does not bind, against the energy in m^2

@@ -15,7 +15,8 @@ from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.position import NEARLY, at_rest
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_qp import Equalities, Floors, Goal, SplineProblem, minimise
+from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
+from shotc.solvers.spline_qp import minimise
 
 SAMPLES = 4  # of the aim, a piece
 FAINT = 1e-2  # weight of the aim beyond the film's ends, against that in the film

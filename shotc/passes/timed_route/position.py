@@ -23,17 +23,9 @@ from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, shortfa
 from shotc.passes.timed_route.preferred import cost
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_qp import (
-    Cones,
-    Equalities,
-    Floors,
-    Goal,
-    Relaxation,
-    SplineProblem,
-    SplineSolution,
-    minimise,
-    relax,
-)
+from shotc.solvers.spline_problem import Cones, Equalities, Floors, Goal, SplineProblem
+from shotc.solvers.spline_qp import SplineSolution, minimise
+from shotc.solvers.spline_relax import Relaxation, relax
 
 SMOOTH = 0.5  # seconds: shorter wiggles of the ideal are smoothed away
 SAMPLES = 3  # of the ideal, a piece

@@ -22,7 +22,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.preference import prefers_free_pictures
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.timed_route.aims import Looker, aims_at
-from shotc.solvers.spline_qp import Floors
+from shotc.solvers.spline_problem import Floors
 
 MARGIN = 0.3  # metres that a body is kept out of a picture by
 NEAR = 4.0  # metres out of a picture beyond which nothing is asked

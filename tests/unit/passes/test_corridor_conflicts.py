@@ -14,7 +14,7 @@ from shotc.passes.solve_path_qp.faults import failure
 from shotc.passes.solve_path_qp.position import Solved, Stretch, solve_stretch
 from shotc.passes.solve_path_qp.shots import Stuck
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_qp import Relaxation
+from shotc.solvers.spline_relax import Relaxation
 from tests.path_scenes import FIELD, block, free, inside, legs, mission, out, planned, shot, solve
 from tests.records import replace
 

@@ -1,0 +1,104 @@
+"""What is asked of a spline in three dimensions: goals, equalities, half-spaces and norm bounds.
+
+Arrays in, arrays out. The unknown is a curve on one set of knots; everything that is asked of it is a set of
+``Rows`` of its coefficients. ``spline_qp`` finds the best curve, ``spline_relax`` what stands in its way.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import DEGREE, IntArray, Rows
+
+EVERY = (0, 1, 2)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Goal:
+    """A term of the objective: sum over rows of |rows - value|^2 over ``axes``; value of shape (R, 3)."""
+
+    rows: Rows
+    value: Array
+    axes: tuple[int, ...] = EVERY
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equalities:
+    """Rows that are to equal ``value``, shape (K, 3)."""
+
+    rows: Rows
+    value: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Floors:
+    """Rows whose component along ``normal``, shape (R, 3), is at least ``offset``, shape (R,).
+
+    owner : shape (R,), an index of whom the row belongs to; it only matters to ``relax``
+    """
+
+    rows: Rows
+    normal: Array
+    offset: Array
+    owner: IntArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cones:
+    """Norm bounds |rows[axes] - centre| <= bound, as a second-order cone each.
+
+    axes   : the components that count
+    centre : shape (R, len(axes)); bound : shape (R,)
+    price  : shape (R,), cost of each unit above the bound; None where the bound is hard
+    owner  : shape (R,), as in Floors
+    """
+
+    rows: Rows
+    axes: tuple[int, ...]
+    centre: Array
+    bound: Array
+    price: Array | None
+    owner: IntArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SplineProblem:
+    """All of it; ``size`` is the number of coefficients per component."""
+
+    size: int
+    goals: tuple[Goal, ...]
+    equalities: Equalities
+    floors: tuple[Floors, ...] = ()
+    cones: tuple[Cones, ...] = ()
+
+
+def centred(problem: SplineProblem, about: Array) -> SplineProblem:
+    """Return a problem with a place, shape (3,), as its origin: numbers stay small wherever in W it lies.
+
+    Coefficients move as the curve does; rows of values weigh them by 1 in sum, derivatives by 0.
+    """
+
+    def shift(rows: Rows) -> Array:
+        return np.asarray(rows.weight.sum(axis=1)[:, None] * -about)
+
+    return SplineProblem(
+        problem.size,
+        tuple(replace(g, value=g.value + shift(g.rows)) for g in problem.goals),
+        Equalities(problem.equalities.rows, problem.equalities.value + shift(problem.equalities.rows)),
+        tuple(replace(f, offset=f.offset + (shift(f.rows) * f.normal).sum(axis=1)) for f in problem.floors),
+        tuple(replace(c, centre=c.centre + shift(c.rows)[:, list(c.axes)]) for c in problem.cones),
+    )
+
+
+def scalar_map(rows: Rows, size: int) -> Any:
+    """Return the rows as a sparse matrix over one component's coefficients, shape (R, size)."""
+    from scipy.sparse import csr_matrix
+
+    count = len(rows.piece)
+    columns = rows.piece[:, None] + np.arange(DEGREE + 1)
+    pointer = np.arange(0, (DEGREE + 1) * count + 1, DEGREE + 1)
+    return csr_matrix((rows.weight.ravel(), columns.ravel(), pointer), shape=(count, size))
