@@ -97,6 +97,18 @@ def control_rows(breaks: Array, order: int = 0) -> Rows:
     return Rows(np.repeat(np.arange(pieces), points), maps.reshape(pieces * points, DEGREE + 1))
 
 
+def hull_rows(breaks: Array, order: int) -> Rows:
+    """Return the rows of ``control_rows``, without those that a piece shares with the one before it.
+
+    order : at most 4, up to which the derivatives of two pieces meet
+    """
+    rows = control_rows(breaks, order)
+    points = DEGREE + 1 - order
+    own = np.arange(len(rows.piece)) % points > 0
+    own[0] = True
+    return Rows(rows.piece[own], rows.weight[own])
+
+
 def energy_rows(breaks: Array, order: int) -> Rows:
     """Return rows whose sum of squares is the integral of the squared derivative of that order.
 

@@ -36,9 +36,10 @@ class SplineSolution:
     excess: float
 
 
-def minimise(problem: SplineProblem) -> SplineSolution:
+def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     """Return the curve of least energy under all constraints.
 
+    unit : of the objective, m^2: the solver leaves 1e-8 of it, or of what is larger
     Where no bound bites, that is one linear solve, and no programme. A solution that misses an
     equality by more than MISS is none: its status is FAILED.
     """
@@ -47,10 +48,10 @@ def minimise(problem: SplineProblem) -> SplineSolution:
     coef = _unbounded(problem)
     if coef is not None:
         return SplineSolution(Status.SOLVED, coef + centre, _energy(problem, coef), 0.0)
-    found = programme(problem)
-    if found.coef is None and (unit := _dearest(problem)) > 1.0:
+    found = programme(problem, unit)
+    if found.coef is None and (dear := _dearest(problem)) > unit:
         # Costs of many orders above the constraints pass for a certificate that there is no solution.
-        found = programme(problem, unit)
+        found = programme(problem, dear)
     return found if found.coef is None else replace(found, coef=found.coef + centre)
 
 
@@ -102,12 +103,12 @@ def _energy(problem: SplineProblem, coef: Array) -> float:
 
 
 def _dearest(problem: SplineProblem) -> float:
-    """Return the highest price of a unit above a bound, at least 1."""
-    return max([1.0, *(float(cone.price.max()) for cone in problem.cones if cone.price is not None)])
+    """Return the highest price of a unit above a bound, 0 where none has one."""
+    return max([0.0, *(float(cone.price.max()) for cone in problem.cones if cone.price is not None)])
 
 
 def programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
-    """Solve with the objective measured in ``unit`` m^2, which changes only the arithmetic."""
+    """Solve with the objective measured in ``unit`` m^2, of which some is left."""
     priced = [cone for cone in problem.cones if cone.price is not None]
     slacks = sum(len(cone.bound) for cone in priced)
     rows = ConeRows(3 * problem.size + slacks)

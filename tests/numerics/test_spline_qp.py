@@ -99,7 +99,7 @@ def test_bounds_that_do_not_bite_need_no_programme(monkeypatch):
         bounded(fast, low + 0.1),
     )
     programme, asked = spline_qp.programme, []
-    monkeypatch.setattr(spline_qp, "programme", lambda q: asked.append(q) or programme(q))
+    monkeypatch.setattr(spline_qp, "programme", lambda q, unit: asked.append(q) or programme(q, unit))
     found, reference = minimise(wide), programme(wide)
     assert not asked
     assert found.objective == pytest.approx(reference.objective, rel=1e-7)

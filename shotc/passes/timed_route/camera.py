@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, value_rows
+from shotc.geom.bspline import Rows, control_rows, count, energy_rows, hull_rows, spline, value_rows
 from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone
 from shotc.passes.timed_route.aims import Looker, aims_at
@@ -23,6 +23,7 @@ FAINT = 1e-2  # weight of the aim beyond the film's ends, against that in the fi
 SMOOTH = (0.12, 0.12, 0.6)  # seconds below which wiggles of the camera's yaw, its pitch and the body vanish
 FOLLOW = 0.05  # weight of the body's wish against the camera's aim
 LEVEL = 0.5  # m/s below which a motion has no course
+UNIT = 1e-4  # rad^2 s: what the cost of turning is measured in, for one of 0.1 rad is a large one
 YAW, PITCH, BODY = range(3)
 
 
@@ -65,7 +66,7 @@ def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
     goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(breaks)
     problem = SplineProblem(count(breaks), goals, _ends(watch, breaks), _bounds(drone, breaks), ())
-    solved = minimise(problem)
+    solved = minimise(problem, UNIT)
     if solved.coef is None:
         return Turned(None, solved.status)
     coef = solved.coef.copy()
@@ -154,7 +155,7 @@ def _bounds(drone: Drone, breaks: Array) -> tuple[Floors, ...]:
     found = []
 
     def keep(order: int, along: tuple[float, float, float], low: float, high: float) -> None:
-        rows = control_rows(breaks, order)
+        rows = hull_rows(breaks, order)
         number = len(rows.piece)
         normal = np.tile(np.array(along), (number, 1))
         owner = np.zeros(number, dtype=np.intp)

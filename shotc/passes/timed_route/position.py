@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
+from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, hull_rows, spline, value_rows
 from shotc.geom.corridor import Room, shortfall
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, is_keyed, place_of
@@ -317,13 +317,13 @@ def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
         (2, (0, 1, 2), limits.acceleration),
         (3, (0, 1, 2), limits.jerk),
     ):
-        rows = control_rows(breaks, order)
+        rows = hull_rows(breaks, order)
         number = len(rows.piece)
         owner = np.zeros(number, dtype=np.intp)
         cones.append(
             Cones(rows, axes, np.zeros((number, len(axes))), np.full(number, NEARLY * bound), None, owner)
         )
-    up = control_rows(breaks, 1)
+    up = hull_rows(breaks, 1)
     middle = 0.5 * NEARLY * (limits.climb - limits.descent)
     half = 0.5 * NEARLY * (limits.climb + limits.descent)
     number = len(up.piece)

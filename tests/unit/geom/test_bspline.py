@@ -17,6 +17,7 @@ from shotc.geom.bspline import (
     count,
     energy_rows,
     greville,
+    hull_rows,
     restrict,
     spline,
     subdivide,
@@ -61,6 +62,15 @@ def test_rows_give_the_control_points_of_derivatives(order):
     coef, _ = sample(breaks)
     rows = control_rows(breaks, order).apply(coef)
     assert rows == pytest.approx(spline(breaks, coef).derivative(order).ctrl.reshape(-1, 3))
+
+
+@pytest.mark.parametrize("order", range(5))
+def test_what_two_pieces_share_is_in_the_hull_once(order):
+    breaks = breaks_of([1.0, 0.3, 2.0, 5.0])
+    coef, _ = sample(breaks)
+    every, once = control_rows(breaks, order).apply(coef), hull_rows(breaks, order).apply(coef)
+    assert len(once) == len(every) - 3
+    assert all(np.abs(once - point).max(axis=1).min() < 1e-9 * np.abs(every).max() for point in every)
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])
