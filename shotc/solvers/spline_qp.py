@@ -45,20 +45,42 @@ def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     """
     centre = problem.equalities.value.mean(axis=0)
     problem = centred(problem, centre)
-    coef = _unbounded(problem)
-    if coef is not None:
-        return SplineSolution(Status.SOLVED, coef + centre, _energy(problem, coef), 0.0)
-    found = programme(problem, unit)
+    free = _unbounded(problem)
+    if free is not None and _keeps(problem, free):
+        return SplineSolution(Status.SOLVED, free + centre, _energy(problem, free), 0.0)
+    left = problem if free is None else _leaving(problem, free)
+    found = programme(left, unit)
     if found.coef is None and (dear := _dearest(problem)) > unit:
         # Costs of many orders above the constraints pass for a certificate that there is no solution.
-        found = programme(problem, dear)
-    return found if found.coef is None else replace(found, coef=found.coef + centre)
+        found = programme(left, dear)
+    if found.coef is None:
+        return found
+    coef = found.coef if free is None else free + found.coef
+    return replace(found, coef=coef + centre, objective=_energy(problem, coef))
+
+
+def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
+    """Return the problem of by how much the best curve leaves the one without bounds: its numbers are small.
+
+    What it costs more is the sum of squares of that alone, for along the equalities ``free`` has no slope.
+    """
+
+    def of(rows: Rows, axes: tuple[int, ...] = EVERY) -> Array:
+        return rows.apply(free)[:, list(axes)]
+
+    return SplineProblem(
+        problem.size,
+        tuple(replace(g, value=np.zeros_like(g.value)) for g in problem.goals),
+        replace(problem.equalities, value=np.zeros_like(problem.equalities.value)),
+        tuple(replace(f, offset=f.offset - (of(f.rows) * f.normal).sum(axis=1)) for f in problem.floors),
+        tuple(replace(c, centre=c.centre - of(c.rows, c.axes)) for c in problem.cones),
+    )
 
 
 def _unbounded(problem: SplineProblem) -> Array | None:
-    """Return the curve of least energy through the equalities, or None where it breaks a bound.
+    """Return the curve of least energy through the equalities, or None where there is not one.
 
-    One that breaks none, soft ones included, is the optimum of the whole problem.
+    Where it breaks no bound, soft ones included, it is the optimum of the whole problem.
     """
     from scipy.sparse import bmat, vstack
     from scipy.sparse.linalg import splu
@@ -80,7 +102,7 @@ def _unbounded(problem: SplineProblem) -> Array | None:
         except RuntimeError:  # singular: goals and equalities leave a direction free
             return None
         coef[:, alike] = solved[: problem.size]
-    return coef if _keeps(problem, coef) else None
+    return coef if np.isfinite(coef).all() else None
 
 
 def _keeps(problem: SplineProblem, coef: Array) -> bool:
