@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 from math import radians
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,14 +12,16 @@ import pytest
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise
+from shotc.geom.camera import View, frustum_margins, point_margins
 from shotc.ir.path import Leg, Mark
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
 from tests.papers import page
+from tests.papers import shown as shown_module
 from tests.papers.framing import one, quality, solve_times
 from tests.papers.missions import ASPECT, HFOV, convex_path, keyframes_of, missions
 from tests.papers.report import Section, Table, html, markdown, text
-from tests.papers.shown import percentile, shown, wanted
+from tests.papers.shown import Lens, four_points, percentile, shown, wanted
 
 TABLE = Table("Times", ("name", "s"), (("a < b", "1"), ("c", "20")), ("a note",), b"PNG")
 
@@ -96,6 +100,39 @@ def test_what_is_wanted_is_the_keyframes_own_at_the_marks_and_half_of_each_half_
     _, radius, _, place = wanted(mission, keyframes, leg, np.array([0.0, 5.0, 10.0]))
     assert place == pytest.approx(np.array([[-1 / 3, 0.2], [0.0, 0.1], [1 / 3, 0.0]]))
     assert radius == pytest.approx(mission.target(keyframes[0].target).radius)
+
+
+def test_what_is_shown_is_measured_by_code_of_its_own() -> None:
+    tree = ast.parse(Path(str(shown_module.__file__)).read_text(encoding="utf-8"))
+    for_types = [
+        node for node in ast.walk(tree) if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)
+    ]
+    typed = {id(node) for block in for_types for node in ast.walk(block)}
+    imports = [n for n in ast.walk(tree) if isinstance(n, ast.Import | ast.ImportFrom) and id(n) not in typed]
+    assert not [n for n in imports if "shotc" in ast.unparse(n) or "tests" in ast.unparse(n)]
+
+
+def test_it_agrees_with_the_compilers_camera() -> None:
+    """Of random cameras and cylinders: the place on screen, the exact outline and the paper's four points."""
+    dice = np.random.default_rng(3)
+    states = np.zeros((400, 7))
+    states[:, :3] = dice.uniform(-30, 30, (400, 3))
+    states[:, 3:5] = dice.uniform((-4, -1.2), (4, 1.2), (400, 2))
+    states[:, 6] = dice.uniform(0.3, 1.9, 400)
+    offset = dice.uniform(-60, 60, (400, 3))
+    radius, height = dice.uniform(0.1, 8, 400), dice.uniform(0.1, 20, 400)
+    lens = Lens.of(states, ASPECT)
+    yaw, pitch, wide = states[:, 3], states[:, 4], np.tan(states[:, 6] / 2)
+    ours = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), wide, wide / ASPECT)
+    x, y, z = offset.T
+    u, v, depth = ours.project((x, y, z))
+    screen, ahead = lens.project(offset)
+    assert ahead == pytest.approx(depth, abs=1e-9)
+    assert screen[depth > 1] == pytest.approx(np.stack([u, v], axis=1)[depth > 1], abs=1e-9)
+    exact = np.min(frustum_margins(ours, (x, y, z), radius, height), axis=0)
+    assert lens.inside(offset, radius, height) == pytest.approx(exact, abs=1e-9)
+    four = np.min([lens.inside(point) for point in four_points(offset, radius, height)], axis=0)
+    assert four == pytest.approx(np.min(point_margins(ours, (x, y, z), radius, height), axis=0), abs=1e-9)
 
 
 def test_a_percentile_is_one_of_the_values():
