@@ -29,7 +29,7 @@ OUT_OF_PICTURE = " out of the picture"
 
 PATH = ("rules", "mutual_visibility")
 
-NARROW = 0.01
+NARROW = 1e-3
 """Share of the distance from the limit to which the worst value is closed."""
 
 ROUNDS = 40
@@ -97,15 +97,15 @@ def ticks(mission: MissionIR, phase: Phase) -> Array:
 
 
 def _worst(sight: Sight, times: Array, limit: float) -> Worst:
-    """Return the least value between the first time and the last: proved, or as met where it is broken."""
+    """Return the least value between the first time and the last: proved, or as met where no proof closes."""
     landed = sight.other.curve.end
     if times[0] < landed < times[-1]:
         times = np.union1d(times, [landed])
     found = infimum(sight, times, limit)
-    if found.proven >= limit - slack(limit):
-        return Worst(found.proven, found.at, "bounded")
     closed = found.proven >= found.attained - _gap(found.attained, limit)
-    return Worst(found.attained, found.at, "bounded" if closed else "sampled")
+    if closed or found.proven >= limit - slack(limit):
+        return Worst(found.proven, found.at, "bounded")
+    return Worst(found.attained, found.at, "sampled")
 
 
 def infimum(sight: Sight, times: Array, limit: float) -> Bound:

@@ -120,6 +120,18 @@ def test_what_holds_is_proved_between_samples() -> None:
     assert least * 0.98 <= found.worst <= least
 
 
+@pytest.mark.parametrize("visibility", ["require", "prefer"])
+def test_a_claim_that_is_broken_tells_a_proved_bound_too(visibility: str) -> None:
+    """What is called bounded is nowhere worse, whether it holds or not."""
+    weave = through([0.0, 3.3, 6.1, LENGTH], [at(20, 30, 10), at(24, -3, 12), at(18, 5, 7), at(20, -30, 10)])
+    eye, bird = film("eye", still(EYE)), unfilmed("bird", weave)
+    (found,) = claims(mission(rate=2.0, visibility=visibility), eye, bird)
+    dense = float(Sight(mission(), eye, bird).out(np.linspace(0.0, LENGTH, 200_001)).min())
+    assert not found.holds
+    assert found.method == "bounded"
+    assert dense - 0.002 * abs(dense) <= found.worst <= dense
+
+
 def test_what_is_proved_is_below_and_what_is_attained_is_met() -> None:
     spin = through([0.0, LENGTH], [EYE, EYE + np.array([0, 0, 5, 2.0, -0.4, 0, -0.3])])
     sight = Sight(mission(), film("eye", spin), unfilmed("bird", still(at(-3.0, 25.0, 12.0))))
