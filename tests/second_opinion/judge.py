@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.second_opinion import asked, framing, measures, rules, sight, tables
+from tests.second_opinion import asked, framing, measures, reflight, rules, sight, tables
 from tests.second_opinion.case import Case, Finding, Findings
 
 
@@ -29,6 +29,7 @@ def findings(case: Case) -> Findings:
         framing.promises(case),
         framing.frames_asked(case),
         sight.company(case),
+        reflight.reflights(case),
     ]
     for check in checks:
         yield from check

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from tests.second_opinion.case import Case
 from tests.second_opinion.compiled import case_of
 from tests.second_opinion.judge import findings, judge
 from tests.second_opinion.mission import Mission
+from tests.second_opinion.reflight import reflights
 
 FOLDER = Path(__file__).parent
 Plan = dict[str, Any]
@@ -245,6 +247,66 @@ ASKED = {
 @pytest.mark.parametrize("rule", ASKED)
 def test_a_plan_of_another_mission_is_seen(case: Case, rule: str) -> None:
     assert sees(asked(case, *ASKED[rule]), rule)
+
+
+def item(command: int, slot: int, by: float) -> Edit:
+    """Change a parameter of all items of one command."""
+
+    def edit(plan: Plan) -> None:
+        found = [i["params"] for i in plan["mission"]["items"] if i["command"] == command]
+        assert found
+        for params in found:
+            params[slot] += by
+
+    return edit
+
+
+def other_command(old: int, new: int) -> Edit:
+    def edit(plan: Plan) -> None:
+        next(i for i in plan["mission"]["items"] if i["command"] == old)["command"] = new
+
+    return edit
+
+
+def halfway_aside(plan: Plan) -> None:
+    waypoints = [i for i in plan["mission"]["items"] if i["command"] == 16]
+    waypoints[len(waypoints) // 2]["params"][5] += 2e-5
+
+
+MISSION_FILES = {
+    "plan beside the way": halfway_aside,
+    "way beside the plan": halfway_aside,
+    "heading in the film": item(16, 3, 20.0),
+    "picture in the film": item(195, 6, 9.0),
+    "recordings": other_command(2500, 2501),
+    "commands": other_command(21, 20),
+    "home": lambda plan: plan["mission"]["plannedHomePosition"].__setitem__(2, 409.0),
+    "items": lambda plan: plan["mission"]["items"].pop(1),
+    "flown seconds of film": item(178, 1, -1.5),
+    "place in the film": item(16, 6, 30.0),
+}
+
+
+@pytest.mark.parametrize("rule", MISSION_FILES)
+def test_a_mission_file_that_flies_otherwise_is_seen(case: Case, rule: str) -> None:
+    file = json.loads(case.files["cam1.plan"])
+    MISSION_FILES[rule](file)
+    found = Case(case.mission, {**case.files, "cam1.plan": json.dumps(file).encode()}, case.notes)
+    assert rule in {finding.rule for finding in reflights(found)}
+
+
+def test_a_note_that_says_less_than_is_true_is_seen(case: Case) -> None:
+    """The heading, the position and the film's seconds of a file are those that its note says."""
+    (note,) = (n for n in case.notes if "cam1.plan" in n)
+    for old, new, rule in (
+        (r"position within [\d.]+", "position within 0.00", "plan beside the way"),
+        (r"heading within [\d.]+", "heading within 0.0", "heading in the film"),
+        (r"take about \d+", "take about 10", "flown seconds of film"),
+    ):
+        untrue = re.sub(old, new, note)
+        assert untrue != note
+        rules = {f.rule for f in reflights(Case(case.mission, case.files, (untrue,)))}
+        assert rule in rules
 
 
 def test_shots_in_another_order_are_seen(case: Case) -> None:
