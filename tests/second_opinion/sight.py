@@ -87,10 +87,10 @@ def company(case: Case) -> Findings:
 
 
 def _claimed(phase: Phase, claim: dict[str, Any], found: tuple[float, float | None]) -> Findings:
-    """What is proved of every instant is nowhere worse, and nothing is said to be far worse than it is."""
+    """What is proved of every instant is nowhere worse, nor far better where there is a body in the picture."""
     worst, (value, time) = float(claim["worst"]), found
     beyond = claim["method"] == "bounded" and value < worst - 1e-6
-    if beyond or value - worst > MISSED + LOOSE * abs(worst):
+    if beyond or (worst < 0 and value - worst > MISSED + LOOSE * abs(worst)):
         yield Finding(f"claimed {claim['constraint']}", str(phase.shot), value, worst, time)
 
 
