@@ -87,7 +87,7 @@ def company(case: Case) -> Findings:
 
 
 def _claimed(phase: Phase, claim: dict[str, Any], found: tuple[float, float | None]) -> Findings:
-    """What is proved of every instant is nowhere worse, nor far better where there is a body in the picture."""
+    """What is proved of every instant is nowhere worse, nor far better where a body is in the picture."""
     worst, (value, time) = float(claim["worst"]), found
     beyond = claim["method"] == "bounded" and value < worst - 1e-6
     if beyond or (worst < 0 and value - worst > MISSED + LOOSE * abs(worst)):
