@@ -76,12 +76,12 @@ def spline(breaks: Array, coef: Array) -> Piecewise:
     return Piecewise(breaks, np.einsum("pij,pjd->pid", extraction(breaks), coef[index]))
 
 
-def value_rows(breaks: Array, at: Array) -> Rows:
-    """Return rows that evaluate the spline at parameters of shape (R,)."""
+def value_rows(breaks: Array, at: Array, order: int = 0) -> Rows:
+    """Return rows that evaluate the spline, or its derivative of that order, at parameters of shape (R,)."""
     piece = np.clip(np.searchsorted(breaks, at, side="right") - 1, 0, len(breaks) - 2)
     x = (at - breaks[piece]) / (breaks[piece + 1] - breaks[piece])
-    basis = bernstein_basis(DEGREE, x)
-    return Rows(piece, np.einsum("rk,rkj->rj", basis, extraction(breaks)[piece]))
+    basis = bernstein_basis(DEGREE - order, x)
+    return Rows(piece, np.einsum("rk,rkj->rj", basis, _points(breaks, order)[piece]))
 
 
 def control_rows(breaks: Array, order: int = 0) -> Rows:
@@ -89,12 +89,18 @@ def control_rows(breaks: Array, order: int = 0) -> Rows:
 
     There are 6 - order of them a piece.
     """
+    maps = _points(breaks, order)
+    pieces, points, _ = maps.shape
+    return Rows(np.repeat(np.arange(pieces), points), maps.reshape(pieces * points, DEGREE + 1))
+
+
+def _points(breaks: Array, order: int) -> Array:
+    """Return by pieces what makes the Bernstein points of a derivative of coefficients, (P, 6 - order, 6)."""
     maps = extraction(breaks)
     widths = np.diff(breaks)[:, None, None]
     for _ in range(order):
         maps = np.diff(maps, axis=1) * (maps.shape[1] - 1) / widths
-    pieces, points, _ = maps.shape
-    return Rows(np.repeat(np.arange(pieces), points), maps.reshape(pieces * points, DEGREE + 1))
+    return maps
 
 
 def hull_rows(breaks: Array, order: int) -> Rows:

@@ -27,6 +27,7 @@ class Fit:
     anchor_at, anchor : shape (K,), places where the value binds (no two at one place)
     stiffness : (rate, third) weights of the integrals of psi'^2 and psi'''^2, numbers or one a piece
     low, high : bounds on every Bernstein point, shape (P, 6) each, or None
+    slope_at, slope : shape (L,), places where the derivative binds; None where nowhere
     """
 
     breaks: Array
@@ -38,6 +39,8 @@ class Fit:
     stiffness: tuple[float | Array, float | Array]
     low: Array | None = None
     high: Array | None = None
+    slope_at: Array | None = None
+    slope: Array | None = None
 
 
 def fit(task: Fit) -> tuple[Status, Array]:
@@ -84,11 +87,22 @@ def _unbounded(task: Fit) -> Array:
     matrix, wanted = _least_squares(task)
     size = matrix.shape[1]
     normal = matrix.T @ matrix
-    if not len(task.anchor):
+    anchors, bound = _anchors(task, size)
+    if not len(bound):
         return np.asarray(spsolve(normal.tocsc(), matrix.T @ wanted))
-    anchors = scalar_map(value_rows(task.breaks, task.anchor_at), size)
     system = bmat([[normal, anchors.T], [anchors, None]], format="csc")
-    return np.asarray(spsolve(system, np.concatenate([matrix.T @ wanted, task.anchor]))[:size])
+    return np.asarray(spsolve(system, np.concatenate([matrix.T @ wanted, bound]))[:size])
+
+
+def _anchors(task: Fit, size: int) -> tuple[Any, Array]:
+    """Return a matrix whose products with coefficients are what binds, and the values that it binds to."""
+    from scipy.sparse import vstack
+
+    values = scalar_map(value_rows(task.breaks, task.anchor_at), size)
+    if task.slope_at is None or task.slope is None:
+        return values, task.anchor
+    slopes = scalar_map(value_rows(task.breaks, task.slope_at, 1), size)
+    return vstack([values, slopes], format="csr"), np.concatenate([task.anchor, task.slope])
 
 
 def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
@@ -104,8 +118,9 @@ def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
     assert task.high is not None
     at = points @ free
     constraints = [points @ change >= task.low.ravel() - at, points @ change <= task.high.ravel() - at]
-    if len(task.anchor):
-        constraints.append(scalar_map(value_rows(task.breaks, task.anchor_at), size) @ change == 0.0)
+    anchors, bound = _anchors(task, size)
+    if len(bound):
+        constraints.append(anchors @ change == 0.0)
     programme = cp.Problem(cp.Minimize(cp.sum_squares(matrix @ change)), constraints)
     status = solve(programme)
     if change.value is None or status not in {Status.SOLVED, Status.INACCURATE}:

@@ -282,6 +282,19 @@ def test_a_fit_without_bounds_is_the_exact_quadratic_optimum():
         assert cost(coef + step) >= cost(coef) - 1e-12
 
 
+@pytest.mark.parametrize("bounded", [False, True])
+def test_slopes_that_bind_are_met(bounded):
+    breaks, at = np.linspace(0, 10, 9), np.linspace(0.1, 9.9, 60)
+    edge = np.full((8, 6), 0.9 if bounded else 10.0)
+    anchors, slopes = np.array([0.0, 4.0, 10.0]), np.array([4.0, 7.0])
+    task = Fit(breaks, at, np.sin(at), np.ones(60), anchors, 0 * anchors, (1e-6, 1e-8), -edge, edge)
+    status, coef = fit(replace(task, slope_at=slopes, slope=np.array([0.3, -0.1])))
+    assert status is Status.SOLVED
+    assert value_rows(breaks, anchors).apply(coef[:, None])[:, 0] == pytest.approx(0 * anchors, abs=1e-6)
+    assert value_rows(breaks, slopes, 1).apply(coef[:, None])[:, 0] == pytest.approx([0.3, -0.1], abs=1e-6)
+    assert np.abs(control_rows(breaks).apply(coef[:, None])).max() <= edge.max() + 1e-6
+
+
 def test_bounds_hold_on_every_control_point():
     breaks = np.linspace(0, 10, 11)
     at = np.linspace(0, 10, 80)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -32,13 +33,16 @@ class NoFit(Exception):
 
 
 class Given(NamedTuple):
-    """Places on the path where the camera's angles bind, both ends among them.
+    """Places on the path where the camera's angles bind, both ends among them, and others where slopes do.
 
     s : path parameter, shape (K,); angles : yaw and pitch, shape (K, 2)
+    through : path parameter, shape (L,); slopes : x, y, z, yaw, pitch by path parameter there, shape (L, 5)
     """
 
     s: Array
     angles: Array
+    through: Array = np.zeros(0)
+    slopes: Array = np.zeros((0, 5))
 
 
 def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, given: Given) -> Piecewise:
@@ -54,11 +58,15 @@ def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, given: Given) 
     change = states[:, [0, 1, 2, YAW, PITCH]] - base(stages.s)
     pinned = stages.s[stages.pins]
     turned = given.angles - base(given.s)[:, 3:]
-    low, high = drone.gimbal.pitch
-    pitch = base.ctrl[:, :, 4]
-    fits = [_fit(breaks, stages, change[:, k], (pinned, np.zeros(len(pinned)))) for k in range(3)]
-    fits.append(_fit(breaks, stages, change[:, 3], (given.s, turned[:, 0])))
-    fits.append(_fit(breaks, stages, change[:, 4], (given.s, turned[:, 1]), (low - pitch, high - pitch)))
+    slopes = given.slopes - base.derivative()(given.through)
+    anchors = [(pinned, np.zeros(len(pinned)))] * 3 + [(given.s, turned[:, k]) for k in (0, 1)]
+    tasks = [
+        replace(_task(breaks, stages, change[:, k], *anchors[k]), slope_at=given.through, slope=slopes[:, k])
+        for k in range(5)
+    ]
+    (low, high), pitch = drone.gimbal.pitch, base.ctrl[:, :, 4]
+    tasks[4] = replace(tasks[4], low=low - pitch, high=high - pitch)
+    fits = [_fitted(task) for task in tasks]
     ctrl = base.ctrl + spline(breaks, np.column_stack(fits)).ctrl
     ctrl[:, :, 4] = within(ctrl[:, :, 4], low, high)
     return Piecewise(breaks, ctrl)
@@ -72,20 +80,16 @@ def _breaks(convex: Array, stages: Stages) -> Array:
     return np.append(np.concatenate(pieces), convex[-1])
 
 
-def _fit(
-    breaks: Array,
-    stages: Stages,
-    value: Array,
-    anchors: tuple[Array, Array],
-    bounds: tuple[Array, Array] | None = None,
-) -> Array:
-    """Fit one channel; nodes weigh by the stretch of path that they stand for."""
+def _task(breaks: Array, stages: Stages, value: Array, at: Array, anchor: Array) -> Fit:
+    """Return the fit of one channel; nodes weigh by the stretch of path that they stand for."""
     s = stages.s
-    width = np.gradient(s)
     spacing = float(s[-1] - s[0]) / max(len(stages.pins) - 1, 1)
     stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
-    low, high = (None, None) if bounds is None else bounds
-    status, coef = fit(Fit(breaks, s, value, width / spacing, *anchors, stiff, low, high))
+    return Fit(breaks, s, value, np.gradient(s) / spacing, at, anchor, stiff)
+
+
+def _fitted(task: Fit) -> Array:
+    status, coef = fit(task)
     if status not in {Status.SOLVED, Status.INACCURATE}:
         raise NoFit
     return coef

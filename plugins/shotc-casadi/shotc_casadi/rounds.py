@@ -14,6 +14,7 @@ from shotc.refiner_api import Array, NoTransit, shortfall
 from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due, unhurried
+from shotc_casadi.edges import level_beside
 from shotc_casadi.frames import asked_again, asked_at_first
 from shotc_casadi.horizon import Solver
 from shotc_casadi.margins import Check, Margins, tighter
@@ -145,9 +146,24 @@ def _tried(
         return nothing
     try:
         found = camera(subject.drone, subject.leg, nodes, attempt.solution.states, given)
-        return nothing._replace(camera=found, check=checked(subject, condition, found))
+        tried = nothing._replace(camera=found, check=checked(subject, condition, found))
     except (NoFit, NoTransit):
         return nothing
+    if condition.visibility != "silhouette":
+        return tried
+    level = level_beside(subject, nodes, found, given)
+    return tried if not len(level.through) else _leveled(subject, condition, tried, (nodes, level))
+
+
+def _leveled(subject: Subject, condition: Condition, tried: _Tried, to: tuple[Stages, Given]) -> _Tried:
+    """Return a round with a camera that crops nothing beside keyframes, where that is no worse elsewhere."""
+    nodes, given = to
+    try:
+        found = camera(subject.drone, subject.leg, nodes, tried.attempt.solution.states, given)
+        check = checked(subject, condition, found)
+    except (NoFit, NoTransit):
+        return tried
+    return tried if check > tried.check else tried._replace(camera=found, check=check)
 
 
 def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:

@@ -7,8 +7,13 @@ from math import cos, radians, sin, tan
 import numpy as np
 import pytest
 from shotc_casadi import frames
+from shotc_casadi.camera import Given, camera
 from shotc_casadi.conditions import OURS
+from shotc_casadi.edges import level_beside
 from shotc_casadi.frames import LEAST, asked_again, asked_at_first, between_nodes, cropped, insides
+from shotc_casadi.margins import Margins
+from shotc_casadi.problem import problem
+from shotc_casadi.symbols import PITCH, YAW
 from shotc_casadi.wishes import wishes
 
 from shotc.diag.registry import has_errors
@@ -60,9 +65,10 @@ def test_a_target_stays_whole_through_any_lens(hfov, of, shape):
     assert seen(done.plan, count=300).inside.min() > 0.0
 
 
+@pytest.mark.parametrize("turns", [1, 2])
 @pytest.mark.parametrize("hfov", [20, 70])
-def test_a_promise_is_kept_between_keyframes_at_which_the_target_just_fits(hfov):
-    done = compiled(quarter(hfov, 1.0))
+def test_a_promise_is_kept_between_keyframes_at_which_the_target_just_fits(hfov, turns):
+    done = compiled(quarter(hfov, 1.0, turns=turns))
     assert not has_errors(done.diagnostics), [d.message for d in done.diagnostics]
     (claim,) = (c for c in done.plan.certificate if c.constraint == "it in frame")
     assert claim.worst == 1.0
@@ -100,6 +106,45 @@ def test_nodes_ask_for_as_much_more_as_was_cropped_beside_them():
     assert more.max() == pytest.approx(min(lack + LEAST, frames.MOST - first.inside.max()), rel=1e-6)
     dense = between_nodes(of, out)
     assert (more[:, dense.inside.min(axis=0) > LEAST] == 0.0).all()
+
+
+def touching(of):
+    """The same shot of a target that just fits into the frame at each of its keyframes."""
+    nodes = nodes_of(of)
+    tower = of.mission.targets[0]
+
+    def least(height):
+        made = of._replace(mission=of.mission._replace(targets=(tower._replace(height=height),)))
+        s = nodes.s[nodes.pins]
+        return insides(made, wishes(made, OURS, s), s, turned(made, 0.0)(s)).min(), made
+
+    low, high = 1.0, 200.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if least(middle)[0] > 0.0 else (low, middle)
+    return least(low)[1], nodes
+
+
+def test_a_camera_goes_level_through_keyframes_at_which_the_target_touches_the_edge():
+    of, nodes = touching(arc())
+    task = problem(of, OURS, nodes, wishes(of, OURS, nodes.s), np.zeros((len(nodes.s), 0, 4)), Margins())
+    states = task.states.copy()
+    states[:, :2] *= 1.0 + 0.02 * np.sin(nodes.s / 7.0)[:, None]
+    states[nodes.pins] = task.states[nodes.pins]
+    given = Given(nodes.s[nodes.pins], states[nodes.pins][:, [YAW, PITCH]])
+    plain = camera(of.drone, of.leg, nodes, states, given)
+    level = level_beside(of, nodes, plain, given)
+    assert len(level.through) > 0
+    found = camera(of.drone, of.leg, nodes, states, level)
+    assert found.derivative()(level.through) == pytest.approx(level.slopes, abs=1e-9)
+    pins = nodes.s[nodes.pins]
+    assert found(pins) == pytest.approx(plain(pins), abs=1e-9)
+    for k, s in enumerate(pins):
+        beside = np.clip(s + np.array([-0.02, 0.02]), pins[0], pins[-1])
+        before, after = (insides(of, wishes(of, OURS, beside), beside, q(beside)) for q in (plain, found))
+        assert after.min() > -1e-6
+        assert before.min() < -1e-5 or k in (0, len(pins) - 1)
+    assert len(level_beside(of, nodes, found, given).through) == 0
 
 
 def test_beside_a_keyframe_at_the_edge_nodes_ask_for_what_backing_off_can_give():

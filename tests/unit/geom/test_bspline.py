@@ -61,7 +61,10 @@ def test_rows_give_the_control_points_of_derivatives(order):
     breaks = breaks_of([1.0, 0.3, 2.0, 5.0])
     coef, _ = sample(breaks)
     rows = control_rows(breaks, order).apply(coef)
-    assert rows == pytest.approx(spline(breaks, coef).derivative(order).ctrl.reshape(-1, 3))
+    derivative = spline(breaks, coef).derivative(order)
+    assert rows == pytest.approx(derivative.ctrl.reshape(-1, 3))
+    s = np.linspace(0, breaks[-1], 30)
+    assert value_rows(breaks, s, order).apply(coef) == pytest.approx(derivative(s), rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.parametrize("order", range(5))

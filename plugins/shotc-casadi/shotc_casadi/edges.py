@@ -1,0 +1,60 @@
+"""Keyframes at which a target touches the frame's edge, and a camera that crops nothing beside them.
+
+How far inside the frame the target is has its least value there. So its slope along the path is zero where
+the camera flies through, and does not fall where it begins. The nodes cannot see that: what is lost in the
+first instants after a keyframe is less than they weigh.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.plugin_api import Piecewise
+from shotc.refiner_api import Array
+from shotc_casadi.camera import Given
+from shotc_casadi.conditions import OURS
+from shotc_casadi.frames import LEAST, insides
+from shotc_casadi.stages import Stages
+from shotc_casadi.wishes import Subject, fields_of_view, wishes
+
+STEP = 1e-5  # of the distance to the target, and of half a frame, over which slopes are measured
+SLIGHT = 1e-7  # half frames lost over a way as long as the distance, which are none
+
+
+def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Given) -> Given:
+    """Return what binds a camera, with how it goes through keyframes at which its target touches an edge.
+
+    Where it would crop it beside one, as little is changed as does: in shares of the distance, half frames.
+    """
+    s = nodes.s[nodes.pins]
+    q, wanted = camera(s), wishes(subject, OURS, s)
+    inside = insides(subject, wanted, s, q)
+    away = np.linalg.norm(wanted.centre - q[:, :3], axis=1)
+    half = fields_of_view(subject, s)[1]
+    rate, found = camera.derivative()(s), []
+    for k in np.flatnonzero((wanted.whole > 0) & (inside.min(axis=1) < LEAST)):
+        touches = inside[k] < LEAST
+        slope = _along(subject, camera, float(s[k]), STEP * float(away[k]))[touches]
+        # What it gains before the first keyframe, or after the last, nobody sees.
+        lost = slope if 0 < k < len(s) - 1 else np.minimum(slope, 0.0) if k == 0 else np.maximum(slope, 0.0)
+        if np.abs(lost).max() * away[k] > SLIGHT:
+            unit = np.array([*[away[k]] * 3, half[k], half[k]])
+            by = _by_pose(subject, float(s[k]), q[k], STEP * unit)[touches] / STEP
+            rate[k] -= unit * np.linalg.lstsq(by, lost, rcond=None)[0]
+            found.append(int(k))
+    return given._replace(through=s[found], slopes=rate[found])
+
+
+def _along(subject: Subject, camera: Piecewise, s: float, step: float) -> Array:
+    """Return by how much per metre of path a target comes inside each edge, half frames, (4,)."""
+    at = np.clip(np.array([s - step, s + step]), camera.start, camera.end)
+    before, after = insides(subject, wishes(subject, OURS, at), at, camera(at))
+    return np.asarray((after - before) / (at[1] - at[0]))
+
+
+def _by_pose(subject: Subject, s: float, q: Array, steps: Array) -> Array:
+    """Return by how much a target comes inside each edge where a number of a pose takes its step, (4, 5)."""
+    poses = np.concatenate([q + np.diag(steps), q - np.diag(steps)])
+    at = np.full(len(poses), s)
+    after, before = np.split(insides(subject, wishes(subject, OURS, at), at, poses), 2)
+    return np.asarray(0.5 * (after - before).T)
