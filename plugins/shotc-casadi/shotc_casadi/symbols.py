@@ -113,7 +113,7 @@ def stage(visibility: Visibility, planes: int) -> Stage:
         + given["lag"] * ca.dot(given["tangent"], position - given["state"][POSITION]) ** 2
     )
     if visibility != "none":
-        node += given["visibility"] * _cropped(visibility, x, offset, view, distance, given)
+        node += given["visibility"] * _cropped(visibility, x, view, distance, given)
     length = u[LENGTH]
     passing = (
         length * (given["jerk"] * ca.sumsqr(u[JERK]) + given["time"])
@@ -183,16 +183,14 @@ def _aiming(x: Any, given: dict[str, Any]) -> Any:
     return ca.cos(aim[1]) ** 2 * (x[YAW] - aim[0]) ** 2 + (x[PITCH] - aim[1]) ** 2
 
 
-def _cropped(
-    visibility: Visibility, x: Any, offset: Any, view: tuple[Any, Any, Any], distance: Any, given: Any
-) -> Any:
+def _cropped(visibility: Visibility, x: Any, view: tuple[Any, Any, Any], distance: Any, given: Any) -> Any:
     """Return c_v: squared half frames by which the target is less inside the frame than it is to be.
 
     How far it is from a plane of the frustum, over what half a frame is at the target's distance.
     """
     sin, cos = ca.sin(x[PITCH]), ca.cos(x[PITCH])
     exact = visibility == "silhouette"
-    points = [view] if exact else [_to_camera(p, x[YAW], x[PITCH]) for p in _hull_points(offset, given)]
+    points = [view] if exact else _hull_points(view, x, given)
     cost = 0.0
     for index, (axis, sign) in enumerate(EDGES):
         half = given["half_height" if axis == UP else "half_width"]
@@ -209,9 +207,19 @@ def _reach(up: Any, given: dict[str, Any]) -> Any:
     return given["height"] / 2 * ca.sqrt(up**2 + 1e-8) + given["radius"] * ca.sqrt(1 - up**2 + 1e-6)
 
 
-def _hull_points(offset: Any, given: dict[str, Any]) -> list[Any]:
-    """Return top, bottom, left and right of Eq. 4-7, with world up for the camera's (right at any pitch)."""
-    flat = ca.sqrt(offset[0] ** 2 + offset[1] ** 2 + 1e-9)
-    side = given["radius"] * ca.vertcat(-offset[1], offset[0], 0) / flat
-    up = ca.vertcat(0, 0, given["height"] / 2)
-    return [offset + up, offset - up, offset + side, offset - side]
+def _hull_points(view: tuple[Any, Any, Any], x: Any, given: dict[str, Any]) -> list[tuple[Any, Any, Any]]:
+    """Return top, bottom, left and right of Eq. 4-7 in the camera, up as in the world.
+
+    Left and right are as high in the picture as the middle, at a right angle to what leads there: that is
+    known wherever the camera looks at its target, from straight above, too.
+    """
+    right, up, ahead = view
+    half, sin, cos = given["height"] / 2, ca.sin(x[PITCH]), ca.cos(x[PITCH])
+    aside = given["radius"] / ca.sqrt(right**2 + ahead**2 + 1e-9)
+    across, along = aside * ahead, -aside * right
+    return [
+        (right, up + half * cos, ahead + half * sin),
+        (right, up - half * cos, ahead - half * sin),
+        (right - across, up, ahead - along),
+        (right + across, up, ahead + along),
+    ]
