@@ -24,6 +24,13 @@ GROUND: Rgb = (0.80, 0.79, 0.73)
 GROUND_FAR: Rgb = (0.88, 0.88, 0.85)
 WHITE: Rgb = (1.0, 1.0, 1.0)
 
+PICTURES: tuple[Rgb, ...] = (
+    (0.00, 0.35, 0.71), (0.79, 0.22, 0.12), (0.00, 0.49, 0.36), (0.55, 0.24, 0.64),
+    (0.60, 0.40, 0.05), (0.00, 0.53, 0.64), (0.78, 0.13, 0.45), (0.33, 0.46, 0.05),
+    (0.30, 0.30, 0.33), (0.42, 0.32, 0.83), (0.55, 0.13, 0.13), (0.10, 0.36, 0.42),
+)  # fmt: skip
+"""Of a show, one after another: dark enough for a white number, neighbours of different lightness and hue."""
+
 
 def shade(color: Rgb, light: float) -> Rgb:
     """Return a colour darker (light < 1) or, blended with white, lighter (light > 1)."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from shotc.emit.audience import Audience
 from shotc.emit.contact_sheet.moments import Board
+from shotc.emit.contact_sheet.stands import draw_stands, outlines
 from shotc.emit.palette import CAMERA, FLIGHT, GROUND_FAR, INK, KEEP_IN, KEEP_OUT, QUIET, WHITE, Rgb, shade
 from shotc.emit.storyboard.canvas import Box, Canvas
 from shotc.emit.storyboard.furniture import north_arrow, round_length, scale_bar
@@ -17,24 +18,20 @@ from shotc.emit.storyboard.map import squares as draw_squares
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
-from shotc.ir.fleet import Colors
 from shotc.ir.mission import MissionIR
-from shotc.ir.sampling import light_colors
 
 BORDER = 0.35
-DOT, PAD = 0.022, 0.02
-"""Radius of a light and half the width of a pad, inches."""
+"""Between what is on the map and its edge, inches."""
 
-DARKER = 0.72
-"""Lights on paper: what shines in the dark is too pale here."""
+PAD = 0.02
+"""Half the width of a pad, inches."""
 
 
 def draw_ground(canvas: Canvas, box: Box, board: Board, mission: MissionIR, seen: Audience) -> None:
     """Draw the map of one display into ``box``."""
     pads = np.array(mission.fleet(board.display.fleet).pads)
-    lights = _pictures(board)
     eye = np.array([seen.eye])
-    sheet = _sheet(box, np.concatenate([pads, lights[0], eye]))
+    sheet = _sheet(box, board, seen)
     canvas.polygons([box.outline()], GROUND_FAR)
     step = max(5.0, round_length(float(np.max(reach_of(sheet))) / 3.0))
     draw_squares(canvas, sheet, step)
@@ -42,26 +39,34 @@ def draw_ground(canvas: Canvas, box: Box, board: Board, mission: MissionIR, seen
     _look(canvas, sheet, seen)
     squares = [_square(at, PAD).outline() for at in sheet.place(pads)]
     canvas.polygons(squares, WHITE, FLIGHT, 0.5, box)
-    spots = [_square(at, DOT).outline() for at in sheet.place(lights[0])]
-    canvas.polygons(spots, [tuple(DARKER * c / 255.0 for c in color) for color in lights[1].tolist()])
-    _eye(canvas, sheet.place(eye[0]))
-    content = [_around(sheet.place(points), 0.03) for points in (pads, lights[0], eye)]
+    shapes = outlines(board, sheet)
+    content = [_around(sheet.place(pads), 0.03), _around(np.concatenate(shapes), 0.03)]
+    content.append(_around(sheet.place(eye), 0.03))
     taken = [north_arrow(canvas, sheet, content)]
     taken.append(scale_bar(canvas, sheet, step, content + taken))
+    taken += draw_stands(canvas, sheet, shapes, [*taken, content[0], content[2]])
+    _eye(canvas, sheet.place(eye[0]))
     _names(canvas, sheet, mission, (content, taken))
     canvas.polygons([box.outline()], "none", INK, 0.8)
 
 
-def _pictures(board: Board) -> tuple[Array, Colors]:
-    """Return where the lights of all pictures are, and how they shine."""
+def map_height(board: Board, width: float, seen: Audience) -> float:
+    """Return the height that a map of some width needs, inches."""
+    low, high = _reach(board, seen)
+    span = np.maximum(high - low, 10.0)
+    return float((width - 2 * BORDER) / span[0] * span[1]) + 2 * BORDER
+
+
+def _reach(board: Board, seen: Audience) -> tuple[Array, Array]:
+    """Return the corners, (2,) each, of all that is to be on the map, metres."""
     times = np.array([moment.time for moment in board.moments])
-    at = places(board.flight.breaks, board.flight.coef, times)
-    colors = light_colors(board.flight.lights, times)
-    return at.reshape(-1, 3), colors.reshape(-1, 3)
+    at = places(board.flight.breaks, board.flight.coef, np.array([0.0, *times])).reshape(-1, 3)
+    cloud = np.concatenate([at[:, :2], [seen.eye[:2]]])
+    return cloud.min(axis=0), cloud.max(axis=0)
 
 
-def _sheet(box: Box, cloud: Array) -> Sheet:
-    low, high = cloud[:, :2].min(axis=0), cloud[:, :2].max(axis=0)
+def _sheet(box: Box, board: Board, seen: Audience) -> Sheet:
+    low, high = _reach(board, seen)
     span = np.maximum(high - low, 10.0)
     inches = float(min((box.width - 2 * BORDER) / span[0], (box.height - 2 * BORDER) / span[1]))
     return Sheet(box, np.eye(3)[:2], (low + high) / 2, inches)
@@ -87,13 +92,12 @@ def _eye(canvas: Canvas, at: Array) -> None:
 
 def _names(canvas: Canvas, sheet: Sheet, mission: MissionIR, others: tuple[list[Box], list[Box]]) -> None:
     content, taken = others
-    pads, lights, eye = content
+    pads, _, eye = content
     labels = [
         Label(
             "audience", shade(CAMERA, 0.6), _around(np.array([[eye.x, eye.y], [eye.right, eye.top]]), 0.08)
         ),
         Label("pads", QUIET, pads),
-        Label("pictures", INK, lights),
     ]
     for zone in mission.zones:
         seen = sheet.visible(sheet.outline(zone.solid))

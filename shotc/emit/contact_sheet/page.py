@@ -7,9 +7,10 @@ from math import ceil, hypot
 import numpy as np
 
 from shotc.emit.audience import ASPECT, Audience, audience
-from shotc.emit.contact_sheet.ground import draw_ground
+from shotc.emit.contact_sheet.ground import draw_ground, map_height
 from shotc.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
 from shotc.emit.contact_sheet.night import night
+from shotc.emit.contact_sheet.stands import NUMBER, number
 from shotc.emit.palette import FAINT, INK, QUIET, WHITE
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard.frame import clock
@@ -76,6 +77,7 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
     canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
     _band(canvas, top, board, seen)
     start, tall = top - BAND, _height(board) - BAND - 0.22 - 0.17
+    tall = min(tall, max(LEAST_MAP, map_height(board, MAP, seen)))
     draw_ground(canvas, Box(MARGIN, start - tall, MAP, tall), board, mission, seen)
     left = MARGIN + MAP + 0.35
     for i, moment in enumerate(board.moments):
@@ -135,7 +137,8 @@ def _cell(
     name = (
         moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"
     )
-    canvas.write(box.x, y - 0.19, name, Type(10, INK, bold=True), 0.55 * BIG)
+    number(canvas, (box.x + NUMBER, y - 0.15), board.moments.index(moment))
+    canvas.write(box.x + 2 * NUMBER + 0.07, y - 0.19, name, Type(10, INK, bold=True), 0.55 * BIG - 0.26)
     stands = clock(moment.start)
     if moment.end - moment.start >= 1.0:
         stands = f"{clock(moment.start)} to {clock(moment.end)}"

@@ -5,12 +5,18 @@ from __future__ import annotations
 from io import BytesIO
 
 import numpy as np
+import pytest
 from PIL import Image
 
 from shotc.emit.audience import ASPECT, audience
 from shotc.emit.contact_sheet import EMITTER
 from shotc.emit.contact_sheet.moments import MOST, boards, lights
 from shotc.emit.contact_sheet.night import night
+from shotc.emit.contact_sheet.page import MAP, MARGIN
+from shotc.emit.contact_sheet.stands import anchors, outlines
+from shotc.emit.palette import QUIET
+from shotc.emit.storyboard.canvas import Box
+from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Shown
 from shotc.ir.trajectory import VerifiedIR
@@ -30,6 +36,42 @@ def test_a_page_with_both_pictures() -> None:
     assert (red > blue + 100).sum() > 500  # the orange sphere
     assert (blue > red + 100).sum() > 500  # the blue cube
     assert EMITTER.emit(sky.plan()).artifacts[0].data == artifact.data
+
+
+def crowded(count: int, apart: float) -> VerifiedIR:
+    """A show of so many pictures, one after another, each so many metres beside the one before."""
+    display = sky.display()
+    plan = sky.plan(sky.mission(displays=(display._replace(pictures=(display.pictures * count)[:count]),)))
+    flight = plan.trajectory.fleets[0]
+    shown = tuple(Shown("shapes", i, 0, 26.0 + i, 26.2 + i) for i in range(count))
+    coef = flight.coef + apart * np.linspace(0.0, 1.0, flight.coef.shape[1])[:, None] * [1.0, 0.3, 0.0]
+    flight = replace(flight, shown=shown, coef=coef)
+    return replace(plan, trajectory=replace(plan.trajectory, fleets=(flight,)))
+
+
+@pytest.mark.parametrize("apart", [0.0, 60.0])
+@pytest.mark.parametrize("count", [2, 5, 10])
+def test_the_map_has_a_number_for_each_picture_and_none_is_over_another(count: int, apart: float) -> None:
+    with texts() as found:
+        EMITTER.emit(crowded(count, apart))
+    here = [t for t in found if t.box.x < MARGIN + MAP and t.style.color != QUIET and t.style.size < 12]
+    numbers = [t.text for t in here if t.text.isdigit()]
+    assert sorted(numbers, key=int) == [str(k + 1) for k in range(count)]
+    captions = [t.text for t in found if t.text.isdigit() and t not in here]
+    assert captions == [str(k + 1) for k in range(count)]
+    assert min(t.capital for t in found) >= 9.0 - 1e-9
+    for k, one in enumerate(here):
+        assert not [other.text for other in here[k + 1 :] if one.box.meets(other.box)]
+
+
+def test_a_number_leads_to_its_own_outline() -> None:
+    (board,) = boards(crowded(5, 40.0))
+    sheet = Sheet(Box(0.0, 0.0, 4.0, 6.0), np.eye(3)[:2], np.zeros(2), 0.02)
+    shapes = outlines(board, sheet)
+    for shape, anchor in zip(shapes, anchors(shapes), strict=True):
+        ends = np.roll(shape, -1, axis=0)
+        along = np.clip(((anchor - shape) * (ends - shape)).sum(-1) / ((ends - shape) ** 2).sum(-1), 0.0, 1.0)
+        assert np.linalg.norm(shape + along[:, None] * (ends - shape) - anchor, axis=1).min() < 1e-9
 
 
 def test_moments_are_pictures_at_their_holds() -> None:
