@@ -19,7 +19,9 @@ WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)
 _UP = np.array([0.0, 0.0, 1.0])
 TOUCHES = 1e-9  # metres from a solid at which a point is in it
 CLOSE = 1e-3  # share of a distance that a gap may fall short of it to be as wide as any
-GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
+SETTLED = 1e-7  # of a segment's length, to which its nearest point is found
+STEPS = 60  # at most; a dozen do
+TINY = 1e-18  # m^2 instead of a slope that is none
 
 
 def bounded(part: Solid) -> Solid:
@@ -33,7 +35,7 @@ def closest_points(part: Solid, p: Array) -> Array:
     if isinstance(part, Cylinder):
         centre = np.array(part.centre)
         away = p[..., :2] - centre
-        distance = np.linalg.norm(away, axis=-1, keepdims=True)
+        distance = np.hypot(away[..., :1], away[..., 1:])
         scale = np.minimum(1.0, part.radius / np.maximum(distance, 1e-12))
         return np.concatenate([centre + away * scale, z], axis=-1)
     return np.concatenate([_closest_on_polygon(part, p[..., :2]), z], axis=-1)
@@ -71,21 +73,39 @@ def distances(part: Solid, p: Array) -> Array:
 def segment_distances(part: Solid, a: Array, b: Array) -> Array:
     """Return the distance of segments a-b, shapes (N, 3), to the solid; shape (N,), metres.
 
-    The distance to a convex set is convex along a segment, so golden section finds its minimum; it
-    stops at 1e-7 of the length, where the value is good to the square of that unless it is 0.
+    Good to the square of SETTLED of their length, and to SETTLED of it where they meet the solid.
     """
     near = distances(part, _nearest_on_segments(part, a, b))
     return np.asarray(np.minimum.reduce([near, distances(part, a), distances(part, b)]))
 
 
 def _nearest_on_segments(part: Solid, a: Array, b: Array) -> Array:
-    low, high = np.zeros(len(a)), np.ones(len(a))
+    """Return the point of each segment, shapes (N, 3), that is nearest to the solid, or one that is in it.
+
+    The squared distance to a convex set is convex and smooth, so that its slope rises along a segment; where
+    that is 0 is found by false position, in which an end that stays twice counts half (Illinois).
+    """
     side = b - a
-    for _ in range(34):
-        x1, x2 = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        left = distances(part, a + x1[:, None] * side) <= distances(part, a + x2[:, None] * side)
-        low, high = np.where(left, low, x1), np.where(left, x2, high)
-    return np.asarray(a + 0.5 * (low + high)[:, None] * side)
+
+    def slope(share: Array) -> Array:
+        p = a + share[:, None] * side
+        return np.asarray(np.einsum("nd,nd->n", p - closest_points(part, p), side))
+
+    low, high = np.zeros(len(a)), np.ones(len(a))
+    falls, rises = np.minimum(slope(low), 0.0), np.maximum(slope(high), 0.0)
+    level = SETTLED**2 * np.einsum("nd,nd->n", side, side) + TINY
+    before, at = np.zeros(len(a)), low
+    for _ in range(STEPS):
+        at = low - falls / np.maximum(rises - falls, TINY) * (high - low)
+        now = slope(at)
+        beyond = now >= 0.0
+        low, high = np.where(beyond, low, at), np.where(beyond, at, high)
+        falls = np.where(beyond, np.where(before > 0.0, 0.5 * falls, falls), now)
+        rises = np.where(beyond, now, np.where(before < 0.0, 0.5 * rises, rises))
+        before = np.where(beyond, 1.0, -1.0)
+        if ((high - low <= SETTLED) | (np.abs(now) <= level)).all():
+            break
+    return np.asarray(a + at[:, None] * side)
 
 
 def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]:
