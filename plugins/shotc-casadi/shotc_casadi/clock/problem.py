@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
@@ -22,7 +22,6 @@ UNFILMED = 1e3
 WIDE = 5e-4  # half the width of the box about the given states of both ends, m and so on
 HELD = 2e-4  # half the width of the box about a keyframe's place; of its velocity and acceleration at rest
 SAME = 1e-9  # seconds
-OPEN = 1.0  # of a slack in the first guess
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,6 +48,19 @@ class ClockProblem:
     def stages(self) -> int:
         """N."""
         return len(self.inputs)
+
+    @property
+    def units(self) -> Array:
+        """The units of all inputs, shape (N, sizes.inputs): of a slack, what costs 1 in a stage."""
+        units = np.ones_like(self.inputs)
+        for price, k in self.sizes.slacks.items():
+            units[:, k] = 1.0 / (self._each("length") * self._each(price))
+        return units
+
+    def _each(self, name: str) -> Array:
+        """Return a parameter of all stages that is one number, shape (N,)."""
+        names = list(FIELDS)
+        return self.parameters[:-1, sum(FIELDS[other] for other in names[: names.index(name)])]
 
 
 def breaks_of(subject: ClockSubject) -> Array:
@@ -86,12 +98,13 @@ def problem(
     share: float,
     start: tuple[Array, Array],
 ) -> ClockProblem:
-    """Return the programme; share : of each limit that is used; start : as ``guess`` returns."""
+    """Return the programme; share : of each limit that is used; start : as ``guess`` returns.
+
+    The slacks of ellipsoids begin at one unit each.
+    """
     limits = subject.drone.limits
     table, count = _half_spaces(planes, len(breaks) - 1)
     sizes = Sizes(count, wanted.past.shape[1], wanted.bodies.shape[1], wanted.subjects.shape[1])
-    moves = start[1][:, : sizes.moves]
-    inputs = np.column_stack([moves, np.full((len(moves), sizes.inputs - sizes.moves), OPEN)])
     least = np.full(sizes.inputs, -inf)
     least[sizes.moves :] = 0.0
     if not sizes.subjects:
@@ -105,17 +118,19 @@ def problem(
     high[:3] = jerk, speed, share * limits.climb
     rows = [wanted.past, wanted.bodies, wanted.subjects]
     flat = [row.reshape(len(breaks), -1) for row in rows]
-    return ClockProblem(
+    moves = start[1][:, : sizes.moves]
+    made = ClockProblem(
         sizes,
         np.column_stack([_parameters(subject, breaks, wanted), table, *flat]),
         _unit(wanted),
         start[0],
-        inputs,
+        np.column_stack([moves, np.ones((len(moves), sizes.inputs - sizes.moves))]),
         _bounds(subject, breaks, sizes, share),
         least,
         (np.full(3, -inf), np.array([speed, acceleration, 1.0])),
         (low, high),
     )
+    return replace(made, inputs=np.column_stack([moves, made.units[:, sizes.moves :]]))
 
 
 def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, share: float) -> tuple[Array, Array]:

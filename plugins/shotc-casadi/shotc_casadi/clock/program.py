@@ -23,16 +23,16 @@ ROWS = (*HELD, "jerk", "speed", "climb and descent")
 def solve(task: ClockProblem, solver: Solver) -> Solution:
     """Solve a problem from its first guess."""
     found = solved(instance(task), solver)
-    return replace(found, objective=found.objective / task.unit)
+    return replace(found, inputs=found.inputs * task.units, objective=found.objective / task.unit)
 
 
 def instance(task: ClockProblem) -> Instance:
-    """Return a problem as the solvers take it."""
+    """Return a problem as the solvers take it, with each slack in its unit."""
     return Instance(
         kind=derived(*task.sizes),
         parameters=task.parameters,
         states=task.states,
-        inputs=task.inputs,
+        inputs=task.inputs / task.units,
         state_bounds=task.state_bounds,
         input_bounds=(np.tile(task.least, (task.stages, 1)), np.full_like(task.inputs, np.inf)),
         held=task.held,
@@ -57,7 +57,7 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
         u[:, sizes.moves] = lack[:, : sizes.screens].max(axis=1)
     if sizes.bodies:
         u[:, -1] = lack[:, sizes.screens :].max(axis=1)
-    value = made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[0]
+    value = made.cost.map(len(u))(np.hstack([states[:-1], u / task.units]).T, task.parameters[:-1].T)[0]
     last = made.last_cost(states[-1], task.parameters[-1])[0]
     return (float(np.array(value).sum()) + float(last)) / task.unit
 

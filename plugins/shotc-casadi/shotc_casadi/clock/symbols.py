@@ -61,6 +61,16 @@ class Sizes(NamedTuple):
         return self.moves + (self.screens > 0) + (self.bodies > 0)
 
     @property
+    def slacks(self) -> dict[str, int]:
+        """The inputs that are slacks of ellipsoids, each under the name of its price.
+
+        Solvers have them in units that cost 1 a stage: multipliers begin at 1, and a price that is large
+        beside that is what most of the steps of an interior-point method go into.
+        """
+        found = {"hidden": self.moves} if self.screens else {}
+        return found | ({"touch": self.inputs - 1} if self.bodies else {})
+
+    @property
     def limits(self) -> int:
         """How many rows of ``driven`` there are before those of half-spaces and ellipsoids."""
         return 3 if self.subjects else 5
@@ -124,16 +134,11 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
     aimed = _aims_at_several(x, u, given, shown) if subjects else _aims_at_one(x, u, given)
     depths = [inside(body, place) for body in near]
     covers = [cover(line[:SCREEN], place, line[SCREEN:]) for line in past]
-    passing = given["jerk"] * ca.sumsqr(jerk) + aimed.slack
-    reached = []
-    if covers:
-        passing += given["hidden"] * u[sizes.moves]
-    if depths:
-        passing += given["touch"] * u[-1]
-        reached = [
-            ca.sqrt(given["field"]) * ca.fmax(0.0, 1.0 - q / body[-1])
-            for q, body in zip(depths, near, strict=True)
-        ]
+    lacks = {price: u[k] / (h * given[price]) for price, k in sizes.slacks.items()}
+    reached = [
+        ca.sqrt(given["field"]) * ca.fmax(0.0, 1.0 - q / body[-1])
+        for q, body in zip(depths, near, strict=True)
+    ]
     middle = v + h * a / 2
     driven = ca.vertcat(
         ca.sumsqr(jerk),
@@ -141,15 +146,15 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
         middle[2],
         *aimed.limits,
         *_slacks(walls, place, v, moved, h),
-        *(u[sizes.moves] - covered for covered in covers),
-        *(q - 1.0 + u[-1] for q in depths),
+        *(lacks["hidden"] - covered for covered in covers),
+        *(q - 1.0 + lacks["touch"] for q in depths),
     )
     return Stage(
         z,
         p,
         ca.vertcat(moved, *aimed.moved),
         node=given["place"] * off * (1 + given["leash"] * off) + aimed.node,
-        passing=h * passing,
+        passing=h * (given["jerk"] * ca.sumsqr(jerk) + aimed.slack) + ca.sum1(u[sizes.moves :]),
         held=ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a), given["near"] * off),
         driven=driven,
         node_roots=ca.vertcat(*reached),
