@@ -12,7 +12,7 @@ from pathlib import Path
 
 from shotc import __version__, plugins
 from tests.originals import ORIGINALS
-from tests.papers import framing, page, retiming, solvers, tower
+from tests.papers import framing, lenses, page, retiming, solvers, tower
 from tests.papers.missions import missions
 from tests.papers.report import Section, html, markdown, text
 
@@ -48,6 +48,7 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
     if "framing" in parts:
         found.append(framing.section(drafts, conditions, say))
         found.append(tower.section(conditions, say))
+        found.append(lenses.section(drafts, conditions, say))
         if "ours" in installed:
             found.append(solvers.section(drafts, say))
     if "yaw" in parts:

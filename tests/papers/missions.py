@@ -77,12 +77,12 @@ def keyframes_of(draft: Draft) -> KeyframeIR | None:
     mission = done.reports[-1].output if done.reports else None
     if not isinstance(mission, MissionIR) or has_errors(done.diagnostics):
         return None
-    (shot,) = mission.shots
-    (drone,) = mission.drones
+    shot, *others = mission.shots
+    drone = mission.drone(shot.drone)
     if any(not drone.gimbal.pitch[0] <= aim[1] <= drone.gimbal.pitch[1] for aim in draft.aims):
         return None
     framed = tuple(k._replace(aim=aim) for k, aim in zip(shot.keyframes, draft.aims, strict=True))
-    aimed = mission._replace(shots=(shot._replace(keyframes=framed),))
+    aimed = mission._replace(shots=(shot._replace(keyframes=framed), *others))
     placed = PlaceKeyframes().run(aimed, PassContext())
     return None if has_errors(placed.diagnostics) else placed.value
 

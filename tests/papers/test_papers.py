@@ -16,7 +16,7 @@ from shotc.geom.camera import View, frustum_margins, point_margins
 from shotc.ir.path import Leg, Mark
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
-from tests.papers import page
+from tests.papers import lenses, page
 from tests.papers import shown as shown_module
 from tests.papers.framing import one, quality, solve_times
 from tests.papers.missions import ASPECT, HFOV, convex_path, keyframes_of, missions
@@ -173,3 +173,19 @@ def test_the_page_is_filled_between_its_marks_again_and_again():
     assert "body" in once
     with pytest.raises(ValueError, match="marks"):
         page.filled("nothing", "body")
+
+
+@pytest.mark.parametrize("lens", [20, 100])
+def test_near_a_subject_the_refiner_shows_all_of_it_through_any_lens(lens):
+    (draft,) = lenses.drawn(lens, 1)
+    result = one(draft.name, "ours", convex_path(draft))
+    assert result.faults == ()
+    assert result.shown.margin.min() >= -lenses.TOUCH
+    assert result.shown.error.mean() < 0.01
+
+
+def test_a_mission_beside_another_drone_is_the_same_mission():
+    (draft,) = missions(1)
+    alone, beside = (one(d.name, "none", convex_path(d)).shown for d in (draft, lenses.beside(draft)))
+    assert beside.duration == pytest.approx(alone.duration, rel=1e-6)
+    assert beside.error == pytest.approx(alone.error, abs=1e-6)
