@@ -252,9 +252,23 @@ def _tree(cast: _Cast, seed: int, takes: tuple[Take, ...], pads: list[Array], wi
         "targets": {s.name: s.wanted for s in cast.subjects},
         "drones": drones,
         "rules": _written(cast),
-        "shots": [t.wanted for t in takes],
+        "shots": _shots(cast, takes),
         "output": {"rate": 25},
     }
+
+
+def _shots(cast: _Cast, takes: tuple[Take, ...]) -> list[dict[str, Any]]:
+    """Return the shots as they are written: some leave the drone open, some wait for another's shot."""
+    shots = [dict(t.wanted) for t in takes]
+    drones = {c.name: {k: v for k, v in c.wanted.items() if k != "priority"} for c in cast.cameras}
+    alike = len(drones) > 1 and all(wanted == drones["cam1"] for wanted in drones.values())
+    if alike and all(t.times is not None for t in takes) and cast.dice.chance(0.5):
+        return [shot | {"drone": "auto"} for shot in shots]
+    first, last = takes[0], takes[-1]
+    if first.drone != last.drone and last.times is None and first.times is None and cast.dice.chance(0.4):
+        timing = shots[-1].get("timing", {}) | {"after": first.id}
+        shots[-1] = shots[-1] | {"timing": timing}
+    return shots
 
 
 def _written(cast: _Cast) -> dict[str, Any]:

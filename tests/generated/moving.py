@@ -9,6 +9,7 @@ import numpy as np
 
 from tests.generated.cameras import Camera
 from tests.generated.dice import Dice
+from tests.generated.keyed import keyframes
 from tests.generated.optics import fitting_distance, shows
 from tests.generated.subjects import Subject
 from tests.generated.takes import PLACES, TARGET_ROOM, Array, Rules, Take, bearing
@@ -17,6 +18,7 @@ SPEED = 0.72  # of the drone's speed that the place of a shot moves at, at most
 BEND = 0.45  # of its acceleration
 TURN = 0.45  # of the rates of gimbal and body at which the line of sight turns
 STEP = 0.25  # seconds between the moments that are looked at
+HIGHEST = 110.0  # metres from which a shot looks straight down
 LONGEST = 12.0  # seconds of a shot
 BEYOND = (1.08, 2.2)  # times the distance at which the subject fits
 
@@ -75,7 +77,7 @@ def take(chance: Chance, name: str, *, timed: bool) -> Take | None:
     """
     draw = chance.dice.weighted(KINDS if timed else STEADY)
     drawn = draw(chance)
-    if drawn is None or not bearable(chance, drawn[1]):
+    if drawn is None or (draw is not _top_down and not bearable(chance, drawn[1])):
         return None
     keys, places = drawn
     timing: dict[str, Any] = {"duration": chance.lasts}
@@ -83,7 +85,9 @@ def take(chance: Chance, name: str, *, timed: bool) -> Take | None:
         timing = {"start": chance.start, **timing}
     kind = draw.__name__.removeprefix("_").replace("_", "-")
     wanted = {"id": name, "kind": kind, "drone": chance.camera.name, **keys, "timing": timing}
-    if chance.screen != "center" or chance.rules.composition in PLACES:
+    if draw is _top_down:
+        wanted["composition"] = "center"
+    elif chance.screen != "center" or chance.rules.composition in PLACES:
         wanted["composition"] = chance.screen
     if chance.dice.chance(0.3):
         wanted["require"] = {"in_frame": "100 %"}
@@ -258,7 +262,20 @@ def _crane_of(chance: Chance, moves: tuple[str, ...]) -> Draft | None:
     return keys, places
 
 
+def _top_down(chance: Chance) -> Draft | None:
+    """Straight down from where the subject fits, however it turns."""
+    dice, subject, camera = chance.dice, chance.subject, chance.camera
+    half = np.tan(camera.hfov / 2) / max(1.0, camera.aspect)
+    z = round(subject.height + max(subject.radius / (0.75 * half) * dice.between(1.0, 1.6), 4.0), 1)
+    places = np.column_stack([subject.at(chance.times)[:, :2], np.full(len(chance.times), z)])
+    if z > HIGHEST or camera.pitch[0] > -np.pi / 2 + 1e-6 or not rates_bearable(camera, chance.times, places):
+        return None
+    return {"target": subject.name, "altitude": z}, places
+
+
 KINDS: dict[Callable[[Chance], Draft | None], float] = {
+    keyframes: 4.0,
+    _top_down: 1.5,
     _chase: 2.0,
     _lead: 1.5,
     _lateral: 2.5,
@@ -271,6 +288,8 @@ KINDS: dict[Callable[[Chance], Draft | None], float] = {
     _crane: 0.7,
 }
 STEADY: dict[Callable[[Chance], Draft | None], float] = {
+    keyframes: 2.0,
+    _top_down: 1.0,
     _chase: 2.0,
     _lead: 1.5,
     _lateral: 2.5,

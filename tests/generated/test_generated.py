@@ -58,6 +58,9 @@ def test_every_kind_theme_and_number_of_drones_is_drawn_often() -> None:
     assert set(kinds) == KINDS
     assert min(kinds.values()) >= 5
     assert min(Counter(m.theme for m in drawn).values()) >= 5
+    assert sum("from: " in m.text for m in drawn) >= 5
+    assert sum("drone: auto" in m.text for m in drawn) >= 5
+    assert sum("after: " in m.text for m in drawn) >= 5
     drones = Counter(len(m.cameras) for m in drawn)
     assert set(drones) == {1, 2, 3, 4}
     assert sum(drones[n] for n in (2, 3, 4)) >= 90
