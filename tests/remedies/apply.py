@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.source.file import KeyPath
-from shotc.source.parser import LOADER, yaml
 from shotc.source.yaml_tree import Document, parse
 
 STRICT = 1e-3
@@ -101,7 +100,7 @@ def _places(document: Document, diagnostic: Diagnostic) -> Iterator[Place]:
 
 def value(text: str) -> Any:
     """Return what a text says as a YAML value."""
-    return yaml.load(text, Loader=LOADER)
+    return parse(f"value: {text}".encode(), "value").root["value"]
 
 
 def at(root: Any, path: KeyPath) -> Any:
@@ -150,9 +149,14 @@ def around(scene: Scene, text: str) -> Iterator[KeyPath]:
     """Yield the mappings in which a key may be meant: what is named, then what is marked, inside out."""
     done = set()
     shots: list[KeyPath] = []
+    flies: list[KeyPath] = []
+    for place in scene.places:
+        if place.path[:1] == ("shots",) and len(place.path) > 1:
+            shot = at(scene.root, place.path[:2])
+            flies += [(f"{key}s", shot[key]) for key in ("drone", "fleet") if key in shot]
     if re.search(r"the shot\b", text):
         shots = [("shots", i) for i in range(len(scene.root.get("shots", ())))]
-    for path in (*named(scene.root, text), *(place.path for place in scene.places), *shots):
+    for path in (*named(scene.root, text), *(place.path for place in scene.places), *flies, *shots):
         for length in range(len(path), -1, -1):
             if isinstance(at(scene.root, path[:length]), dict) and path[:length] not in done:
                 done.add(path[:length])
@@ -161,7 +165,7 @@ def around(scene: Scene, text: str) -> Iterator[KeyPath]:
 
 def named(root: dict[str, Any], text: str) -> Iterator[KeyPath]:
     """Yield the paths of drones, shots and the like whose names stand in backticks."""
-    for name in re.findall(r"`([^`:]+)`", text):
+    for name in re.findall(r"`([^`]*)`", text):
         for section in SECTIONS:
             path: KeyPath = tuple(section.split("."))
             held = at(root, path)
@@ -169,6 +173,24 @@ def named(root: dict[str, Any], text: str) -> Iterator[KeyPath]:
                 yield (*path, name)
             elif isinstance(held, list):
                 yield from ((*path, i) for i, item in enumerate(held) if item.get("id") == name)
+
+
+def apart(text: str, scene: Scene) -> Iterator[dict[str, Any]]:
+    """`key: value` here, and `key: value` for the shot, or and every `time` so many times as late."""
+    here, _, rest = text.partition(", and ")
+    times = re.search(rf"every `time` ({NUMBER}) times as late", rest)
+    if times is None and "for the shot" not in rest:
+        return
+    for root in settings(here, scene):
+        if times is None:
+            yield from settings(rest, scene._replace(root=root))
+            continue
+        for shot in (made := deepcopy(root)).get("shots", ()):
+            for keyframe in shot.get("keyframes", ()):
+                if "time" in keyframe:
+                    number, _, unit = str(keyframe["time"]).partition(" ")
+                    keyframe["time"] = f"{float(number) * float(times[1])} {unit or 's'}"
+        yield made
 
 
 def settings(text: str, scene: Scene) -> Iterator[dict[str, Any]]:
@@ -335,4 +357,4 @@ def raised(text: str, more: float) -> Any:
 
 
 Rule = Callable[[str, Scene], Iterator[dict[str, Any]]]
-RULES: tuple[Rule, ...] = (removals, settings, numbered_settings, meant, positions, heights, bounds)
+RULES: tuple[Rule, ...] = (removals, apart, settings, numbered_settings, meant, positions, heights, bounds)

@@ -11,10 +11,9 @@ from pathlib import Path
 import pytest
 
 from shotc.diag.code_info import CodeInfo
-from shotc.diag.model import Diagnostic, Severity
-from shotc.diag.registry import registry, severity_of
+from shotc.diag.registry import registry
 from tests.front import placed
-from tests.remedies.apply import Remedy, remedies
+from tests.remedies.tried import failed
 
 CHECKED = [info for info in registry().values() if info.phase == "check" and not info.code.startswith("Y")]
 """Those of the Y family are faults of the text: there is no tree yet in which to set a key."""
@@ -39,32 +38,8 @@ TOLD_IN_WORDS = {
 """Codes whose help no rule applies, and why."""
 
 
-def judged(text: str, folder: Path) -> list[Diagnostic]:
-    return placed(text.encode(), folder)[1]
-
-
-def helps(mission: str, fault: Diagnostic, before: list[Diagnostic], folder: Path) -> bool:
-    """Tell whether a mission has a fault less, and no error that it did not have."""
-    after = judged(mission, folder)
-    fewer = sum(d.code == fault.code for d in after) < sum(d.code == fault.code for d in before)
-    known = {d.code for d in before}
-    return fewer and not any(severity_of(d) is Severity.ERROR and d.code not in known for d in after)
-
-
-def failed(text: str, folder: Path) -> tuple[list[Remedy], list[str]]:
-    """Return all remedies that a rule applies, and the texts of those that do not help."""
-    before = judged(text, folder)
-    found, wrong = [], []
-    for fault in before:
-        for remedy in remedies(text, fault):
-            found.append(remedy)
-            if not any(helps(mission, fault, before, folder) for mission in remedy.missions):
-                wrong.append(remedy.text)
-    return found, wrong
-
-
 @pytest.mark.parametrize("info", CHECKED, ids=[info.code for info in CHECKED])
 def test_what_a_help_proposes_does_when_it_is_written(info: CodeInfo, tmp_path: Path) -> None:
-    found, wrong = failed(info.failing, tmp_path)
+    found, wrong = failed(info.failing, lambda text: placed(text.encode(), tmp_path)[1])
     assert bool(found) != (info.code in TOLD_IN_WORDS), "a rule applies it, or the list says why none does"
     assert wrong == []

@@ -18,13 +18,25 @@ shots:
     target: mast
     require: {PROMISE}
     keyframes:
-      - {at: [-24, SOUTH, 6], look_at: mast}
-      - {at: [24, SOUTH, 6], look_at: mast}
+      - {at: [-24, -20, 6], look_at: mast}
+      - {at: [24, -20, 6], look_at: mast}
 """
 
 
-def _promise(promise: str, south: int = -20) -> str:
-    return _MISSION.replace("PROMISE", promise).replace("SOUTH", str(south))
+_WATCH = """\
+shotc: 1
+mission: watch
+targets:
+  runner: {track: {points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]}, radius: 0.4, height: 1.8}
+drones: {cam: {model: x500, home: [0, -30, 0]}}
+shots:
+  - {id: pass, kind: static, drone: cam, target: runner, at: [30, -12, 4], AIM,
+     timing: {start: 15, duration: 15}, require: {in_frame: 100 %}, allow: [walks-out-of-frame]}
+"""
+
+
+def _promise(promise: str) -> str:
+    return _MISSION.replace("PROMISE", promise)
 
 
 _PAIR = """\
@@ -57,7 +69,10 @@ FRAMED: tuple[CodeInfo, ...] = (
             "cylinder is inside the frame. The worst frame is named. Move back or widen the field of view there, "
             "slow the shot down, or promise less.",
         ),
-        (_promise("in_frame: 100 %", -8), _promise("in_frame: 100 %")),
+        (
+            _WATCH.replace("AIM", "heading: 0 deg, pitch: -10 deg"),
+            _WATCH.replace("AIM", "look_at: runner"),
+        ),
     ),
     verified(
         20,

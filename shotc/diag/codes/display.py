@@ -233,7 +233,7 @@ CODES: tuple[CodeInfo, ...] = (
             ("cube: {center: [0, 0, 65]", "cube: {center: [72, 0, 65]"),
             ("transition: 12", "transition: 30"),
         )
-    ),
+    )._replace(exact=("D058",)),
     slip(
         "D018",
         "too-many-drones",

@@ -155,7 +155,10 @@ CODES: tuple[CodeInfo, ...] = (
         "The place that a chase, a lateral or another kind asks for is an ideal. Where the drone's limits, a zone, "
         "the ground or another target stand against it, the plan leaves it by as little as it can, and says by how "
         "much and when. Give the shot more room, or the drone higher limits.",
-        ("home: [0, -30, 0], limits: {speed: 8 m/s}", "home: [0, -30, 0], limits: {speed: 1.6 m/s}"),
+        (
+            "targets:",
+            "world: {zones: {tree: {keep: out, cylinder: {center: [30, 8], radius: 1.5, height: [0, 12]}}}}\ntargets:",
+        ),
     ),
     _code(
         9,
@@ -166,9 +169,11 @@ CODES: tuple[CodeInfo, ...] = (
         "would have to give way, and by how much.",
         (
             "drones:",
-            "world: {zones: {cage: {keep: in, box: {center: [0, -30, 5], size: [10, 10, 12]}},"
-            " bar: {keep: in, box: {center: [0, 30, 5], size: [90, 60, 12]}}}}\ndrones:",
+            "world: {zones: {lane: {keep: in, box: {center: [50, 0, 1.95], size: [140, 3.2, 3.9]}}}}\ndrones:",
         ),
+        ("home: [0, -30, 0]", "home: [-12, 0, 0]"),
+        ("kind: lateral", "kind: flyby"),
+        ("side: left, distance: 8, altitude: 4", "behind: 10, ahead: 10, altitude: 3, allow: [fast-pan]"),
     ),
     _needs_a_file(
         10,
@@ -206,7 +211,7 @@ CODES: tuple[CodeInfo, ...] = (
         "Keyframes that the author places bind: the camera is at each of them at its time, in motion, and the drone "
         "keeps its limits on the way. Here it cannot, though it is fast enough on average. Give the shot more time, "
         "move the keyframes, or raise the drone's limits.",
-        ("offset: [-9, -9, 3]}, look_at: runner", "offset: [-9, -9, 3]}, look_at: runner, time: 1.5 s"),
+        ("offset: [-9, -9, 3]}, look_at: runner", "offset: [-18, 0, 3]}, look_at: runner, time: 1.5 s"),
         ("offset: [-9, 0, 5]}, look_at: runner", "offset: [-9, 0, 5]}, look_at: runner, time: 3 s"),
     ),
     _keyed(

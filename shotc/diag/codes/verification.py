@@ -12,6 +12,19 @@ from shotc.diag.codes._held import HELD
 from shotc.diag.codes._shown import SHOWN
 from shotc.diag.codes._verified import verified
 
+_MET = """\
+shotc: 1
+mission: pair
+drones:
+  one: {model: x500, home: [0, -40, 0]}
+  two: {model: x500, home: [12, -40, 0]}
+shots:
+  - {id: look, kind: static, drone: one, at: [0, -30, 9], heading: 0 deg, pitch: 0 deg,
+     timing: {start: 30, duration: 5}}
+  - {id: see, kind: static, drone: two, at: [EAST, -30, 9], heading: 0 deg, pitch: 0 deg,
+     timing: {start: 30, duration: 5}}
+"""
+
 _LIMITS = (
     verified(
         1,
@@ -129,6 +142,7 @@ _SPACE = (
             "much as its width, so that one horizontal distance tells how near two drones come. Two fleets keep "
             "the larger of both. Give pictures more room or transitions more time.",
         ),
+        (_MET.replace("EAST", "1"), _MET.replace("EAST", "12")),
     ),
 )
 

@@ -28,7 +28,7 @@ def no_origin(mission: MissionIR) -> Diagnostic:
         "the MAVLink files are skipped: the mission has no world.origin",
         (mission.origins.key(("world",)),),
         ("waypoints are latitudes and longitudes",),
-        "add world.origin: {lat: ..., lon: ..., alt: ...}",
+        "write `origin: {lat: ..., lon: ..., alt: ...}` under `world`, or take `mavlink` out of `emit`",
     )
 
 

@@ -13,7 +13,7 @@ from typing import ClassVar, Final
 from shotc.diag.model import Diagnostic
 from shotc.kinds.base import Kind
 from shotc.passes.assign_drones.choice import Choice, choose
-from shotc.passes.assign_drones.tasks import Task, busiest, tasks_of
+from shotc.passes.assign_drones.tasks import Task, busiest, later, tasks_of
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.names import AUTO, nobody
 from shotc.spec.load import LoadedMission
@@ -62,9 +62,7 @@ def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:
     if len(busy) > number:
         there = "there is 1 drone" if number == 1 else f"there are {number} drones"
         message = f"{len(busy)} shots are filmed at t = {time:.1f} s, and {there}"
-        return Diagnostic(
-            "K014", message, labels, (f"they are {shots}",), "add a drone, or move a shot in time"
-        )
+        return Diagnostic("K014", message, labels, (f"they are {shots}",), f"add a drone, or {later(busy)}")
     return Diagnostic(
         "K014",
         "no choice of drones films every shot in time",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import dist
+from math import ceil, dist
 from typing import NamedTuple
 
 from shotc.ir.ideal import ideal_place
@@ -15,6 +15,9 @@ from shotc.passes.resolve import Resolve
 from shotc.passes.resolve.motion import least_shot, least_travel
 from shotc.passes.resolve.names import AUTO
 from shotc.spec.load import LoadedMission
+
+SLOWER = 2.0
+"""Times the least time of a way within which it is flown, with smooth starts and stops and round things."""
 
 
 class Task(NamedTuple):
@@ -95,6 +98,14 @@ def busiest(tasks: tuple[Task, ...]) -> tuple[float, list[Task]]:
     at = {t.start or 0.0: [o for o in timed if (o.start or 0.0) <= (t.start or 0.0) < _end(o)] for t in timed}
     time = max(at, key=lambda t: len(at[t]))
     return time, at[time]
+
+
+def later(busy: list[Task]) -> str:
+    """Say when the last of several shots could begin, so that a drone has filmed another one and is there."""
+    *others, last = sorted(busy, key=lambda task: task.start or 0.0)
+    drones = [last.flown_by] if last.flown_by is not None else list(last.drones)
+    free = min(_end(task) + SLOWER * task.to(last, drone) for task in others for drone in drones)
+    return f"start shot `{last.id}` later, by `timing: {{start: {ceil(free)} s}}`"
 
 
 def _end(task: Task) -> float:

@@ -65,7 +65,8 @@ def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: 
         f"{plain(fleet.endurance)} s",
         tuple(labels),
         (f"from lift-off to touch-down, of which {at_least(shown)} s are shown",),
-        f"shorten the show by {at_least(total - fleet.endurance)} s, or give its parts to several fleets",
+        f"shorten the show by {at_least(total - fleet.endurance)} s, give its parts to several fleets, or, "
+        f"if the battery has it, write `endurance: {at_least(total)} s`",
     )
 
 
@@ -74,7 +75,10 @@ def no_time(mission: MissionIR, display: Display) -> Diagnostic:
     return Diagnostic(
         "D083",
         f"display `{display.id}` takes no time",
-        (mission.origins.key(display.path),),
+        (
+            mission.origins.key(display.path),
+            mission.origins.value(display.pictures[-1].path, "its one picture"),
+        ),
         ("it has one picture, which is not held",),
-        "give the picture a `hold`, such as `hold: 5`",
+        "write `hold: 5` in the picture, or how long it is to stand",
     )

@@ -64,4 +64,4 @@ def _meeting(mission: MissionIR, one: FleetTrajectory, other: FleetTrajectory) -
     near = closest_between(one.breaks, one.coef, other.breaks, other.coef, apart)
     if kept(near.proven, apart.across):
         return []
-    return [fleets_meet(mission, fleets, near, apart.across)]
+    return [fleets_meet(mission, (one, other), near, apart.across)]

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import ceil
 from typing import NamedTuple
+
+import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing
@@ -16,6 +19,11 @@ from shotc.passes.keep_apart.longer import Stretch
 from shotc.passes.keep_apart.off_goals import Off
 from shotc.passes.resolve.show.pads import wider
 from shotc.rounding import at_least, at_most
+
+STILL = 1e-6
+"""Metres by which a drone on its pad moves at most."""
+DEGREE = 3
+"""Of the splines: a control point acts from so many breaks before its own on."""
 
 
 class Tried(NamedTuple):
@@ -77,8 +85,11 @@ def _remedies(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) 
         yield "make the figure larger, use fewer drones, or ask for no more than what was found"
 
 
-def fleets_meet(mission: MissionIR, fleets: tuple[Fleet, Fleet], found: Nearest, across: float) -> Diagnostic:
+def fleets_meet(
+    mission: MissionIR, flights: tuple[FleetTrajectory, FleetTrajectory], found: Nearest, across: float
+) -> Diagnostic:
     """Return D087: drones of two fleets come too near."""
+    fleets = mission.fleet(flights[0].fleet), mission.fleet(flights[1].fleet)
     first, second = (drone_names(f)[row] for f, row in zip(fleets, (found.first, found.second), strict=True))
     x, y, z = found.position
     return Diagnostic(
@@ -87,7 +98,20 @@ def fleets_meet(mission: MissionIR, fleets: tuple[Fleet, Fleet], found: Nearest,
         f"other at {found.time:.2f} s, and {across:.2f} m is the least",
         tuple(mission.origins.key(fleet.path) for fleet in fleets),
         (f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",),
-        "show one `after` the other, or bring their pads and pictures farther apart",
+        f"{_in_turn(*flights)}, or bring their pads and pictures farther apart",
+    )
+
+
+def _in_turn(first: FleetTrajectory, second: FleetTrajectory) -> str:
+    """Say when the fleet that shows later could begin, to leave its pads once the other has landed."""
+    if second.shown[0].start < first.shown[0].start:
+        first, second = second, first
+    moved = np.abs(second.coef - second.coef[:, :1]).max(axis=(0, 2)) > STILL
+    lead = second.shown[0].start - float(second.breaks[max(int(np.argmax(moved)) - DEGREE, 0)])
+    start = ceil(first.phases[-1].end + lead)
+    return (
+        f"show `{second.fleet}` once `{first.fleet}` has landed, by `timing: {{start: {start} s}}` of "
+        f"`{second.shown[0].display}`"
     )
 
 

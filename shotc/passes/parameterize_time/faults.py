@@ -96,7 +96,8 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
         f"{plain(drone.endurance)} s",
         tuple(labels),
         (f"longest first: {listed(tuple(longest))}",),
-        f"shorten the mission by {at_least(total - drone.endurance)} s, or cut it in two",
+        f"shorten the mission by {at_least(total - drone.endurance)} s, cut it in two, or, if the battery "
+        f"has it, write `endurance: {at_least(total)} s`",
     )
 
 

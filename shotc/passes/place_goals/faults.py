@@ -25,6 +25,8 @@ KEYS = {
     Drawing: "svg",
     Model: "model",
 }
+BETWEEN = (0.0, 0.25, 0.5, 0.75)
+"""Shares of the way from the middle of a picture to its goals at which places within it are looked at."""
 FEWEST = 8
 """Drones below which no solid can be told from a box: they are its corners."""
 
@@ -110,7 +112,7 @@ def passing(fleet: Fleet) -> str:
 def _ways(fleet: Fleet, ways: Remedies, otherwise: str) -> str:
     found = []
     if ways.number is not None:
-        found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'}")
+        found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'} (`count: {ways.number}`)")
     if ways.size is not None:
         found.append(f"make it {at_least(ways.size[1])} times as large (`{ways.size[0]}`)")
     if ways.share is not None:
@@ -129,7 +131,7 @@ def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | 
     drones = "drone is" if number == 1 else "drones are"
     message = f"{number} {drones} too few to show a shape"
     label = (place_of(mission, picture),)
-    return Diagnostic("D057", message, label, (note,), f"use {FEWEST} drones or more")
+    return Diagnostic("D057", message, label, (note,), f"use {FEWEST} drones (`count: {FEWEST}`) or more")
 
 
 def in_the_way(
@@ -139,7 +141,9 @@ def in_the_way(
     goals = np.concatenate(frames)
     if not (room.lack(goals) > ROUNDING).any():
         return []
-    shift = least_shift(goals, room)
+    # Where something stands between its goals, drones would have to come by it on their way.
+    shift = least_shift(_whole(goals), room)
+    shift = least_shift(goals, room) if shift is None else shift
     help_ = "make the picture smaller, or place it elsewhere" if shift is None else _moved(picture, shift)
     label = place_of(mission, picture, "center")
     found: list[Diagnostic] = []
@@ -155,6 +159,14 @@ def in_the_way(
     for obstacle in room.obstacles:
         found += _at_obstacle(obstacle, goals, (mission, fleet, label, help_, len(frames)))
     return found
+
+
+def _whole(goals: Array) -> Array:
+    """Return goals (n, 3) with places between them: on the ways to the middle, and to neighbours."""
+    middle = goals.mean(axis=0)
+    rays = [middle + share * (goals - middle) for share in BETWEEN]
+    rows = [goals[np.lexsort((goals[:, (k + 1) % 3], goals[:, k]))] for k in range(3)]
+    return np.concatenate([goals, *rays, *(0.5 * (row[1:] + row[:-1]) for row in rows)])
 
 
 def _at_obstacle(

@@ -69,7 +69,9 @@ def _font(name: str | None, files: Mapping[str, bytes]) -> Any:
     except ValueError:
         known = sorted({entry.name for entry in font_manager.fontManager.ttflist})
         near = closest(name, known)
-        help_ = f"did you mean `{near}`?" if near else "name a .ttf file that lies beside the mission"
+        help_ = (
+            f"did you mean `{near}`?" if near else "name a .ttf file beside the mission, or leave `font` out"
+        )
         note = f"this machine has {len(known)} fonts, and none of that name"
         return SourceFault("D055", "font", f"unknown font `{name}`", (note,), help_)
     return _sized(FT2Font(path))

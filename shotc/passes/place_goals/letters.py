@@ -12,6 +12,7 @@ from shotc.passes.place_goals.body import Fill
 from shotc.passes.place_goals.faults import passing, place_of
 from shotc.passes.place_goals.flat import FlatBody
 from shotc.passes.resolve.show.sizes import enlarged, size_words
+from shotc.rounding import at_most
 
 DOTS = 5
 """Lights in the height of a letter, fewer of which make none: the smallest fonts have five."""
@@ -40,7 +41,11 @@ def too_few_lights(
         f"its {'edges' if fill == 'outline' else 'strokes'} are {length:.0f} m long, so its lights are "
         f"{length / number:.1f} m apart; these letters need one every {_step(source, body, fill):.1f} m"
     )
-    ways = ["make it larger, with more drones" if enough is None else f"use {enough} drones or more"]
+    ways = [
+        "make it larger, with more drones"
+        if enough is None
+        else f"use {enough} drones (`count: {enough}`) or more"
+    ]
     if fill == "outline" and number >= lights_needed(source, body, "volume"):
         ways.append("leave `fill` out")
     message = f"{number} drones are too few to read `{source.text[:40]}`"
@@ -60,7 +65,10 @@ def too_small(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic 
     notes = (passing(fleet), f"{'small ' if share < 1.0 else ''}letters need {DOTS} lights in their height")
     larger = enlarged(picture, needed / source.height, mission.rules.ground_clearance + fleet.radius)
     message = f"letters {source.height:.4g} m high are too small to be read"
-    help_ = f"make them larger (`{size_words(source, larger.source)}`), or keep a smaller `separation`"
+    help_ = f"make them larger (`{size_words(source, larger.source)}`)"
+    closer = source.height / needed * fleet.apart.across - fleet.apart.margin
+    if closer >= 2 * fleet.radius:
+        help_ += f", or keep a `separation` of {at_most(closer)} m"
     return Diagnostic("D063", message, (place_of(mission, picture, "height"),), notes, help_)
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import degrees, inf
+from itertools import product
+from math import cos, degrees, inf, pi, sin
 from typing import assert_never
 
 import numpy as np
@@ -13,16 +14,23 @@ from shotc.geom.corridor import Room
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation
-from shotc.passes.corridor.room import GROUND, named, owner_path
+from shotc.passes.corridor.room import GROUND, flight_room, named, owner_path, pad_room
 from shotc.passes.solve_path_qp.angles import NOTICE, Cut
 from shotc.passes.solve_path_qp.gap import lower_clearance, narrow_gap, opening
 from shotc.passes.solve_path_qp.lines import NoWay, TooNear
-from shotc.passes.solve_path_qp.pad import PadBlocked
+from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.remedy import conflict, needed, remedy
 from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, Stuck
 from shotc.passes.solve_path_qp.swings import Swing
 from shotc.rounding import at_least
 from shotc.solvers.conic import Status
+
+ROUND = 24
+"""Directions in which a free pad is looked for."""
+FARTHER = (1.0, 1.25, 1.5, 2.0, 3.0, 5.0)
+"""Distances at which it is, in units of what the pad is short of."""
+NUDGE = 0.02
+"""Metres added to that, since the place is told to centimetres."""
 
 _WAY = {"over": "down", "under": "up"}
 
@@ -51,7 +59,7 @@ def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnosti
         case "outside":
             message = f"the pad of `{drone.name}` is not inside {owner}"
             note = f"the drone's body is {lack:.2f} m beyond its rim"
-            help_ = f"move home at least {lack:.2f} m inwards, or widen {owner}"
+            help_ = f"{_free_pad(mission, drone, lack)}, or widen {owner} by {at_least(lack)} m"
         case "ceiling":
             message = f"{owner} leaves `{drone.name}` no height to fly at above its pad"
             note = f"the drone's centre must keep above {what.needs:.2f} m and below {what.has:.2f} m"
@@ -60,7 +68,7 @@ def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnosti
             over = "in the way above" if what.why == "above" else "too near to fly off from"
             message = f"{owner} is {over} the pad of `{drone.name}`"
             note = f"the drone's centre has {max(what.has, 0.0):.2f} m and needs {what.needs:.2f} m"
-            help_ = f"move home at least {lack:.2f} m away from {owner}"
+            help_ = _free_pad(mission, drone, lack)
     return Diagnostic(
         "Q002",
         message,
@@ -71,6 +79,18 @@ def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnosti
         (note,),
         help_,
     )
+
+
+def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
+    """Name the nearest pad found from which a drone can rise, round its own; lack : metres it is short of."""
+    x, y, z = drone.home
+    for share, k in product(FARTHER, range(ROUND)):
+        way, angle = share * lack + NUDGE, 2.0 * pi * k / ROUND
+        there = drone._replace(home=(round(x + way * sin(angle), 2), round(y + way * cos(angle), 2), z))
+        free = transit_point(flight_room(mission, there), pad_room(mission, there), there)
+        if not isinstance(free, PadBlocked):
+            return f"move home to {_point(np.array(there.home))}, {way:.2f} m away"
+    return f"move home, {at_least(lack)} m at least"
 
 
 def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:
@@ -84,7 +104,8 @@ def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:
             mission.origins.value((*drone.path, "body"), "needs a gimbal yaw of 0 deg"),
         ),
         (f"its yaw reaches from {low:.1f} deg to {high:.1f} deg",),
-        "use body: free or body: forward, or widen gimbal.yaw to hold 0 deg",
+        "write `body: free` or `body: forward`, or "
+        f"`gimbal: {{yaw: [{min(low, 0.0):g} deg, {max(high, 0.0):g} deg]}}`",
     )
 
 

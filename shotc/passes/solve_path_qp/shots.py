@@ -109,9 +109,9 @@ def stack(*curves: Piecewise) -> Piecewise:
 
 def _still(placed: PlacedShot, line: Line) -> ShotCurve:
     first = placed.keyframes[0]
-    hold = placed.shot.timing.duration
-    if hold is None:
-        hold = sum(k.hold for k in placed.keyframes)
+    asked = placed.shot.timing.duration
+    times = _standing(placed.keyframes, asked)
+    hold = asked if asked is not None else times[-1] + placed.keyframes[-1].hold
     pose = (*map(float, line.corners[0]), first.yaw, first.pitch, first.yaw, first.hfov)
     spans: tuple[FramingSpan, ...] = ()
     if first.target is not None:
@@ -119,8 +119,22 @@ def _still(placed: PlacedShot, line: Line) -> ShotCurve:
         if first.reference is not None:
             reference = Piecewise(np.array([0.0, 1.0]), np.tile(np.array(first.reference), (1, 6, 1)))
         spans = (FramingSpan(first.target, 0.0, 0.0, reference),)
-    marks = tuple(Mark(0.0, k.time, i, k.path) for i, k in enumerate(placed.keyframes))
+    marks = tuple(
+        Mark(0.0, t, i, k.path) for i, (t, k) in enumerate(zip(times, placed.keyframes, strict=True))
+    )
     return ShotCurve(placed, None, pose, (Stop(0.0, hold),), marks, spans, (), (), None, ())
+
+
+def _standing(keyframes: tuple[PlacedKeyframe, ...], duration: float | None) -> list[float]:
+    """Return when a camera that stands is at each of its keyframes, s: in order, the last at the end."""
+    times: list[float] = []
+    now = 0.0
+    for k in keyframes:
+        times.append(now if k.time is None else k.time)
+        now = times[-1] + k.hold
+    if duration is not None and len(keyframes) > 1 and keyframes[-1].time is None:
+        times[-1] = max(times[-1], duration - keyframes[-1].hold)
+    return times
 
 
 def _position(

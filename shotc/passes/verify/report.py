@@ -14,6 +14,7 @@ from shotc.ir.show import Display
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.hidden import hidden_by
+from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
 from shotc.passes.verify.sight import OUT_OF_PICTURE
@@ -146,6 +147,9 @@ def rule_of(constraint: str, mission: MissionIR) -> Rule:
 def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> Diagnostic:
     mission = ir.keyframes.mission
     rule = rule_of(claim.constraint, mission)
+    met = meeting(ir, claim) if rule.code == "V022" else None
+    if met is not None:
+        return met
     phase = _phase_of(ir, claim)
     notes = list(_notes(claim, phase))
     shot = _shot(mission, claim.shot)

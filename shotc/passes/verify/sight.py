@@ -84,7 +84,11 @@ class Sight:
 
     def out(self, t: Array) -> Array:
         """Return how far the other is out of the picture: metres, or rad off the axis for a cone."""
-        eyes, places = cameras(self.mission, self.film, t), self.other.curve(t)[:, :3]
+        return self.out_at(t, self.other.curve(t)[:, :3])
+
+    def out_at(self, t: Array, places: Array) -> Array:
+        """Return the same of a body that is at other places then, (M, 3)."""
+        eyes = cameras(self.mission, self.film, t)
         measured = outside if self.mission.rules.half_angle is None else off_axis
         return measured(eyes, places, self.body.radius)
 

@@ -13,6 +13,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.preference import MOST_MOVED, Price, given_up, prefers_free_pictures
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
+from shotc.passes.verify.kept_out import kept_out
 from shotc.passes.verify.numbers import measure, told_apart
 from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight, ticks
 from shotc.rounding import at_least
@@ -48,7 +49,7 @@ def sighted(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Diagnostic:
         f"{who} {where} {claim.subject} in shot `{claim.shot}`",
         tuple(_labels(mission, claim)),
         tuple(notes),
-        _help(mission, claim, tracks[claim.constraint.removesuffix(OUT_OF_PICTURE)]),
+        _help(Sight(mission, film, tracks[claim.constraint.removesuffix(OUT_OF_PICTURE)]), claim, phase),
     )
 
 
@@ -131,19 +132,11 @@ def _doing(other: DroneTrajectory, time: float) -> str:
     return f"{other.drone} is {_DOING[phase.name]} then"
 
 
-def _help(mission: MissionIR, claim: Claim, other: DroneTrajectory) -> str:
-    pad = claim.time is not None and (
-        claim.time >= other.curve.end
-        or np.array_equal(other.curve(claim.time)[:3], other.curve(other.curve.start)[:3])
-    )
-    move = (
-        f"move the home of `{other.drone}`, or film from another side"
-        if pad
-        else f"give shot `{claim.shot}` or that of `{other.drone}` another time, or film from another side"
-    )
+def _help(sight: Sight, claim: Claim, phase: Phase) -> str:
+    ways = ", or ".join(kept_out(sight, claim, phase))
     if claim.hard:
-        return f"{move}, or set `rules: {{mutual_visibility: {{strength: prefer}}}}` to be told only"
+        return f"{ways}, or write `rules: {{mutual_visibility: {{strength: prefer}}}}` to be told only"
     return (
-        f"{move}; `rules: {{mutual_visibility: {{strength: require}}}}` has them kept out whatever it takes, "
-        "`strength: off` judges nothing"
+        f"{ways}, or write `rules: {{mutual_visibility: {{strength: off}}}}` to have it not judged; "
+        "`require` there keeps drones out whatever it takes"
     )

@@ -138,7 +138,7 @@ def test_what_the_help_of_dark_drones_says_lights_all() -> None:
 def numbers(found: Diagnostic) -> list[float]:
     """The number of drones, the height and both separations that a help names."""
     words = re.fullmatch(
-        r"use (\d+) drones, or make it [\d.]+ times as large \(`height: ([\d.]+)[^`]*`\), "
+        r"use (\d+) drones \(`count: \1`\), or make it [\d.]+ times as large \(`height: ([\d.]+)[^`]*`\), "
         r"or keep a `separation` of ([\d.]+) m, ([\d.]+) m vertically",
         found.help,
     )
@@ -149,7 +149,7 @@ def numbers(found: Diagnostic) -> list[float]:
 def test_a_fleet_that_is_mostly_dark_is_told_where_to_put_a_larger_picture() -> None:
     (fault,) = PlaceGoals().run(mission(heart(33.6), "outline", 200), PassContext()).diagnostics
     assert fault.code == "D062"
-    words = re.search(r"use (\d+) drones, .*`height: ([\d.]+), center: \[0, 20, ([\d.]+)\]`", fault.help)
+    words = re.search(r"use (\d+) drones .*`height: ([\d.]+), center: \[0, 20, ([\d.]+)\]`", fault.help)
     assert words is not None, fault.help
     number, height, z = int(words[1]), float(words[2]), float(words[3])
     assert fault.message.startswith(f"{200 - number} of 200 drones")

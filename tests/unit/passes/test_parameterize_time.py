@@ -107,7 +107,7 @@ class TestEndurance:
         assert "60 s" in fault.message
         assert fault.notes[0].index("shot `half` 80.0 s") < fault.notes[0].index("transit")
         assert fault.labels[0].span == mission().origins.values["drones", "cam1", "endurance"]
-        over = number_before(fault.help, " s, or cut", after="by ")
+        over = number_before(fault.help, " s, cut", after="by ")
         shot_time(straight(duration=80.0 - over), mission(endurance=60.0))
 
 

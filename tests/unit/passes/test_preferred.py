@@ -115,8 +115,8 @@ def test_what_is_given_up_is_told_once_a_shot_with_its_price_and_the_switch() ->
     assert len(said) == 2
     for one in said:
         assert "the preference is given up for shot `round`: to move it by 12.0" in one
-        assert "rules: {mutual_visibility: {strength: require}}" in one
-        assert "`strength: off`" in one
+        assert "rules: {mutual_visibility: {strength: off}}" in one
+        assert "`require` there" in one
     assert told(orbit(), "M008") == []
 
 

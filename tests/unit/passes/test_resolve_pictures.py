@@ -18,7 +18,11 @@ def test_a_picture_in_the_ground_is_told_once() -> None:
         head="world: {zones: {sky: {box: {center: [0, 0, 45], size: [200, 200, 90]}, keep: in}}}\n",
     )
     d = only(text)
-    assert (d.code, marked(d, text), d.help) == ("D014", "[0, 0, 10]", "raise its centre by 7.25 m")
+    assert (d.code, marked(d, text), d.help) == (
+        "D014",
+        "[0, 0, 10]",
+        "raise its centre by 7.25 m, to z = 17.25",
+    )
     assert faults(text.replace("[0, 0, 10]", "[0, 0, 17.25]")) == []
 
 

@@ -1,0 +1,83 @@
+"""What keeps one drone out of another one's picture: another time, another direction, another place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.path import CAM_YAW, HFOV
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import slack
+from shotc.passes.verify.meeting import filming, put_off
+from shotc.passes.verify.numbers import measure
+from shotc.passes.verify.sight import Sight, ticks
+from shotc.rounding import at_least
+
+BEYOND = 0.5  # degrees that a camera is turned more than it must
+
+
+def kept_out(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
+    """Yield what would keep the other drone of a broken claim out of the shot of a phase.
+
+    Another time is no help where the other drone is seen on its pad, too.
+    """
+    mission, other = sight.mission, sight.other
+    times = ticks(mission, phase)
+    if _pad_is_seen(sight, times, claim):
+        yield f"move the home of `{other.drone}`, which is in the picture, too"
+    elif other.phases:
+        yield from _another_time(sight, phase)
+    turn = _turned(sight, times, phase)
+    if turn:
+        yield turn
+    lack = measure(claim.limit - claim.worst, claim.unit)
+    aside = f"{lack} farther off the axis" if claim.unit == "rad" else f"{lack} farther aside"
+    yield f"film from where `{other.drone}` is {aside}"
+
+
+def _pad_is_seen(sight: Sight, times: Array, claim: Claim) -> bool:
+    pad = sight.other.curve(sight.other.curve.start)[:3]
+    out = sight.out_at(times, np.repeat(pad[None], len(times), axis=0))
+    return bool((out < claim.limit - slack(claim.limit)).any())
+
+
+def _another_time(sight: Sight, phase: Phase) -> Iterator[str]:
+    """Propose to film one after the other; this one, if it is the later one, once the other has landed."""
+    other = filming(sight.other, phase.start)
+    if other is None:
+        return
+    if other.start >= phase.start:
+        yield put_off(sight.mission, phase, (sight.other, other))
+    else:
+        landed = Phase(other.name, other.shot, other.start, sight.other.curve.end)
+        yield put_off(sight.mission, landed, (sight.film, phase))
+
+
+def _turned(sight: Sight, times: Array, phase: Phase) -> str:
+    """Say how far a camera that is told its heading turns away; empty for one that follows something."""
+    mission = sight.mission
+    shot = next(s for s in mission.shots if s.id == phase.shot)
+    if not shot.keyframes or any(k.aim is None or len(k.aim) != 2 for k in shot.keyframes):
+        return ""
+    film, away = sight.film.curve(times), sight.other.curve(times)[:, :3]
+    east, north = (away - film[:, :3])[:, :2].T
+    off = (np.arctan2(north, east) - film[:, CAM_YAW] + np.pi) % (2 * np.pi) - np.pi
+    far = np.hypot(east, north)
+    radius = sight.body.radius
+    if (far <= radius).any():
+        return ""
+    half = film[:, HFOV] / 2 if mission.rules.half_angle is None else mission.rules.half_angle
+    edge = half + np.arcsin(radius / far)
+    # Turned to the right, what is ahead goes to the left, and the other way round.
+    right, left = float((edge - off).max()), float((edge + off).max())
+    by = float(at_least(degrees(min(right, left)) + BEYOND, 0))
+    way = "right" if right <= left else "left"
+    said = f"turn the camera of `{shot.id}` {by:.0f} deg to the {way}"
+    if len(shot.keyframes) > 1:
+        return said
+    heading = 90.0 - degrees(float(film[0, CAM_YAW])) + (by if way == "right" else -by)
+    return f"{said}, by `heading: {round(heading) % 360} deg`"

@@ -1,0 +1,49 @@
+"""The examples of every code that `plan` finds, under the refiner that it uses by itself, and their help.
+
+The failing one raises its code alone, the passing one nothing, and each remedy that the help names is
+written into the failing one and planned.
+"""
+
+from __future__ import annotations
+
+from functools import cache, partial
+
+import pytest
+
+from shotc.api import PlanOptions, compile_source, emit_plan
+from shotc.diag.code_info import CodeInfo
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import registry
+from tests.remedies.tried import failed
+
+PLANNED = [info for info in registry().values() if info.phase == "plan"]
+
+TOLD_IN_WORDS = {
+    **dict.fromkeys(("M008", "M009", "Q001", "Q006"), "what moves out of the way is the author's choice"),
+    **dict.fromkeys(("M011", "Q009"), "where else a home or a keyframe goes is the author's choice"),
+    "Q007": "where a keyframe goes is the author's choice",
+    "E101": "only the author knows where on earth it is",
+    **dict.fromkeys(("E102", "E105", "E107"), "it says what to do with the file, the mission is in order"),
+}
+"""Codes whose help no rule applies, and why."""
+
+UNREFINED = ("Q007",)
+"""Codes of the convex path alone: a refiner leads the path aside, and verification tells what is left."""
+
+
+@cache
+def planned(text: str, refiner: str | None = None) -> list[Diagnostic]:
+    """Return all that planning a mission tells, and writing its outputs where it names some."""
+    made = compile_source(text.encode(), "mission.yaml", None, PlanOptions(refiner=refiner))
+    written = made.plan is not None and "emit" in text
+    return [*made.diagnostics, *(emit_plan(made.plan).diagnostics if written else ())]
+
+
+@pytest.mark.parametrize("info", PLANNED, ids=[info.code for info in PLANNED])
+def test_an_example_shows_its_code_alone_and_its_help_does(info: CodeInfo) -> None:
+    judged = partial(planned, refiner="none" if info.code in UNREFINED else None)
+    assert {d.code for d in judged(info.failing)} == {info.code}
+    assert judged(info.passing) == []
+    found, wrong = failed(info.failing, judged)
+    assert bool(found) != (info.code in TOLD_IN_WORDS), "a rule applies it, or the list says why none does"
+    assert wrong == []
