@@ -52,21 +52,26 @@ class ConeRows:
         dim, cones = len(entries), len(constants[0])
         base = self._count + dim * np.arange(cones)
         for entry, terms in enumerate(entries):
+            row = base + entry
             for cols, values in terms:
-                self._rows.append(base + entry)
+                self._rows.append(row)
                 self._cols.append(cols)
                 self._values.append(values)
         self._constants.append(np.stack(constants, axis=1).ravel())
         self._cones.append((kind, dim, cones))
         self._count += dim * cones
 
-    def solve(self, cost: Array, tolerance: float, hessian: Any = None) -> tuple[Status, Array]:
+    def solve(
+        self, cost: Array, tolerance: float, hessian: Any = None, *, scaled: bool = False
+    ) -> tuple[Status, Array]:
         """Minimise cost.x + x.hessian.x / 2; returns the status and x (meaningless unless SOLVED).
 
         hessian : a sparse matrix, or an array that is the diagonal of one; None for a linear cost
+        scaled : whether every unknown and every row is in a unit of its own already, so that Clarabel is not
+            to look for others, which only make it slower then
         """
         import clarabel
-        from scipy.sparse import csc_matrix, diags_array, triu
+        from scipy.sparse import csc_matrix
 
         shape = (self._count, self.unknowns)
         places = (np.concatenate(self._rows), np.concatenate(self._cols))
@@ -82,12 +87,24 @@ class ConeRows:
         settings.verbose = False
         settings.max_threads = 1
         settings.presolve_enable = False
+        settings.equilibrate_enable = not scaled
         settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
-        bent = np.zeros(self.unknowns) if hessian is None else hessian
-        square = diags_array(bent, format="csc") if isinstance(bent, np.ndarray) else triu(bent, format="csc")
-        solver = clarabel.DefaultSolver(square, cost, lhs, np.concatenate(self._constants), cones, settings)
+        solver = clarabel.DefaultSolver(
+            self._square(hessian), cost, lhs, np.concatenate(self._constants), cones, settings
+        )
         solution = solver.solve()
         return _STATUS.get(str(solution.status), Status.FAILED), np.asarray(solution.x)
+
+    def _square(self, hessian: Any) -> Any:
+        """Return the upper triangle of a hessian as ``solve`` takes one, in columns."""
+        from scipy.sparse import csc_matrix, triu
+
+        if hessian is None:
+            return csc_matrix((self.unknowns, self.unknowns))
+        if isinstance(hessian, np.ndarray):
+            each = np.arange(self.unknowns)
+            return csc_matrix((hessian, (each, each)))
+        return triu(hessian, format="csc")
 
 
 _STATUS = {

@@ -109,6 +109,8 @@ def turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
                 wanted = atan2(start[1] - pose[1], start[0] - pose[0])
             start[BODY_YAW] = allowed_body(drone, start[CAM_YAW], wanted)
         return replace(shot, pose=tuple(start))
+    if not turns:
+        return shot
     ctrl = shot.curve.ctrl.copy()
     ctrl[:, :, CAM_YAW] += turns
     ctrl[:, :, BODY_YAW] += turns

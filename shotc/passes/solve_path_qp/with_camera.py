@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -21,8 +22,13 @@ class NoTransit(Exception):
     """A refined shot has no body or no way to it; the text says what cannot be kept."""
 
 
+@lru_cache(maxsize=64)
 def with_camera(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
-    """Return a shot's leg with another camera (see ``rejoined``), and the body that goes with it."""
+    """Return a shot's leg with another camera (see ``rejoined``), and the body that goes with it.
+
+    The same leg for the same camera: a refiner looks at it before it is put back, and what was found of it
+    then (its times above all) holds for it afterwards.
+    """
     old = leg.curve
     if old is None or abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
