@@ -200,9 +200,9 @@ def _unit(wanted: ClockWishes) -> float:
 
 def _binds(subject: ClockSubject, wanted: ClockWishes) -> float:
     """Return the weight of the place."""
-    if subject.together:
+    if len(subject.framed) > 1:
         return weights.LOOSE
-    if not wanted.placed:
+    if not wanted.placed or subject.held_whole:
         return weights.PLACE
     return weights.YIELDS if wanted.yields or wanted.past.shape[1] else weights.PLACED
 

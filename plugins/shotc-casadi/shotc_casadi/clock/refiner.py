@@ -27,7 +27,7 @@ from shotc.refiner_api import (
 )
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.clock.shown import no_less, past_what_hides
+from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_what_hides
 from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.solving import MOTION
 from shotc_casadi.telling import UNITS, fallen_back, stats, unsolved
@@ -41,6 +41,7 @@ IN_PICTURE = "refined, a drone would come into another's picture"
 OUT = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
 CALM = "a calmer camera, and the drone's limits"
 SIGHT = "what would hide the subject"
+WHOLE = "the whole subject in the frame, and the drone's limits"
 SAME = 2.0  # seconds between a place that moved the guide and one that is off for the same reason
 
 
@@ -84,30 +85,34 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool) -> _
     """Refine a shot; unseen : whether the drones' pictures are to be kept free."""
     refined = refine_clock(subject, unseen=unseen)
     said = _report(path, subject, refined, name)
+    whole = held_whole(subject, refined, unseen=unseen)
     new, why = refined.leg, GUIDE_BETTER
-    if new is not None and subject.together and not no_less(subject, subject.leg, new):
+    enough = no_less if subject.together else as_whole
+    if new is not None and not enough(subject, subject.leg, new):
         refined, why = replace(refined, leg=None), SHOWS_LESS
-    if refined.leg is not None:
+    freed = past_what_hides(subject, whole or refined, unseen=unseen)
+    reasons = ((freed, SIGHT), (whole, WHOLE), (refined, CALM))
+    if any(one is not None and one.leg is not None for one, _ in reasons):
         why = IN_PICTURE
-    freed = past_what_hides(subject, refined, unseen=unseen)
-    taken, moved = _taken(path, refined, freed, unseen=unseen)
-    return _Tried(taken, moved, why, said)
+    taken, moved = _taken(path, reasons, unseen=unseen)
+    return _Tried(taken or replace(refined, leg=None), moved, why, said)
 
 
 def _taken(
-    path: PathIR, plain: ClockRefined, freed: ClockRefined | None, *, unseen: bool
-) -> tuple[ClockRefined, PathIR]:
+    path: PathIR, found: tuple[tuple[ClockRefined | None, str], ...], *, unseen: bool
+) -> tuple[ClockRefined | None, PathIR]:
     """Return the first of a shot's refinements that may be flown, and the path with it.
 
+    found : each with the reason for which it leaves its place
     unseen : whether it has to keep the drones' pictures free, or not to come deeper into them
     """
-    for one in (freed, plain):
+    for one, why in found:
         if one is None or one.leg is None:
             continue
-        moved = with_leg(path, one.leg, CALM if one is plain else SIGHT)
+        moved = with_leg(path, one.leg, why)
         if not unseen or least_out(moved) >= min(OUT, least_out(path)):
             return one, moved
-    return replace(plain, leg=None), path
+    return None, path
 
 
 def subject_of(path: PathIR, shot: str) -> ClockSubject:

@@ -21,12 +21,10 @@ from shotc_casadi.clock.symbols import PITCH, PLACED, YAW
 
 
 def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array) -> Array:
-    """Return the parameters of subjects that share a picture, shape (M, J, SUBJECT); of one none of them.
+    """Return the parameters of subjects in a picture, shape (M, J, SUBJECT).
 
     centres : of theirs, (M, J, 3). What is free weighs as in ``viewpoint``, as faintly as the ideal has it.
     """
-    if len(subjects) < 2:
-        return np.zeros((len(centres), 0, SUBJECT))
     sized = any(s.size is not None for s in subjects)
     rows = np.zeros((len(centres), len(subjects), SUBJECT))
     rows[:, :, :3] = centres

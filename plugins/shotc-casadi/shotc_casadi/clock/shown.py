@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -49,6 +50,31 @@ def past_what_hides(
         return None
     better = _hidden(subject, found.leg) < _hidden(subject, before) - GAIN
     return found if better and as_whole(subject, before, found.leg) else None
+
+
+def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:
+    """Return a shot refined so that its subject is whole in more frames than in a plain refinement, or None.
+
+    unseen : as in ``refine_clock``. The camera is part of the problem then, with what the gimbal does: so the
+    place gives way where the camera cannot follow, or where the subject does not fit.
+    """
+    ideal, failed = subject.placed.shot.ideal, plain.solution.status != "solved" or plain.gap is not None
+    follows = subject.watched is not None and subject.looker.keyed is None and not subject.together
+    if failed or not follows or ideal is None or ideal.placed or _cropped_on_purpose(subject):
+        return None
+    before = plain.leg or subject.leg
+    if shown(subject, before).cropped <= SLACK:
+        return None
+    found = refine_clock(replace(subject, held_whole=True), unseen=unseen)
+    if found.leg is None:
+        return None
+    fewer = shown(subject, found.leg).cropped < shown(subject, before).cropped - SLACK
+    return found if fewer and as_whole(subject, before, found.leg) else None
+
+
+def _cropped_on_purpose(subject: ClockSubject) -> bool:
+    size = subject.framed[0].size
+    return size is not None and size > 1.0
 
 
 def no_less(subject: ClockSubject, before: TimedLeg, after: TimedLeg) -> bool:

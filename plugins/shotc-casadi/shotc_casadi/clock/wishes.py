@@ -41,12 +41,17 @@ INNER = 0.005  # metres that it may be farther off than its guide: a constraint 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockSubject:
-    """A shot on its own clock: the path that it is part of, its leg and what is asked of it."""
+    """A shot on its own clock: the path that it is part of, its leg and what is asked of it.
+
+    held_whole : whether the camera of a shot that follows one subject is part of the problem all the same, so
+        that all of it is kept in the frame
+    """
 
     path: PathIR
     drone: Drone
     placed: PlacedShot
     leg: TimedLeg
+    held_whole: bool = False
 
     @property
     def mission(self) -> MissionIR:
@@ -79,8 +84,8 @@ class ClockSubject:
 
     @property
     def together(self) -> bool:
-        """Whether several subjects share the picture, so that the camera is part of the problem."""
-        return len(self.framed) > 1
+        """Whether the camera is part of the problem, as where several subjects share the picture."""
+        return self.held_whole or len(self.framed) > 1
 
     @property
     def aim(self) -> tuple[float, float] | None:
@@ -129,7 +134,7 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     keyed = subject.looker.keyed is not None
     placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
     centres = seen_at(subject, t)
-    shown = pictured(subject.mission, subject.framed, centres)
+    shown = pictured(subject.mission, subject.framed if subject.together else (), centres)
     nothing = (centres, shown, np.zeros((n, 0, LINE)), np.zeros((n, 0, BODY)))
     reach = _reach(subject, t, ideal)
     if watched is None or (keyed and _over(subject, centres, ideal)):
@@ -153,7 +158,7 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
     """
     leg, promise, n = subject.leg, subject.placed.shot.promise, len(t) - 1
     promised = promise.in_frame is not None or promise.screen_error is not None
-    if promised or subject.together or subject.looker.keyed is not None:
+    if promised or len(subject.framed) > 1 or subject.looker.keyed is not None:
         return np.full(n + 1, np.inf)
     share = np.arange(LOOKS)[:, None] / LOOKS
     times = (t[:-1] + share * np.diff(t)).ravel()
