@@ -8,10 +8,13 @@ import numpy as np
 
 from tests.second_opinion.case import Case, Finding, Findings
 from tests.second_opinion.flight import Array, Flight, Phase
+from tests.second_opinion.mission import SEPARATION
 from tests.second_opinion.quantities import number
 
 CLOCK = 1e-3  # seconds by which a time that was asked for may be missed
 PLACE = 1e-3  # metres by which a place that was asked for may be missed
+FOLLOWING = 0.01  # metres, where the camera turns after what moves
+PREFERRED, REQUIRED = 0.2, 0.5  # of the distance to its target, by which pictures of others may move a shot
 TURN = np.radians(10.0)  # by which an arc that bends round something may end beside its bearing
 
 
@@ -87,14 +90,34 @@ def _keyframes(case: Case, shot: dict[str, Any], flight: Flight, phase: Phase) -
 
 
 def _static(case: Case, shot: dict[str, Any], flight: Flight, phase: Phase) -> Findings:
-    if not (isinstance(shot["at"], dict) and "from" in shot["at"]):
-        t = np.linspace(phase.start, phase.end, 400)
-        yield from _stays(shot["id"], flight, t, case.mission.at(shot["at"]))
+    if isinstance(shot["at"], dict) and "from" in shot["at"]:
+        return
+    t, at = np.linspace(phase.start, phase.end, 400), case.mission.at(shot["at"])
+    name = shot.get("look_at", shot.get("target"))
+    target = case.mission.targets.get(name if isinstance(name, str) else shot.get("target"))
+    if target is None or not target.moves:
+        yield from _stays(shot["id"], flight, t, at)
+        return
+    yield from _stays(shot["id"], flight, t, at, _moved_by_others(case, flight, target.at(t), (t, at)))
 
 
-def _stays(subject: str, flight: Flight, t: Array, at: Array) -> Findings:
+def _moved_by_others(case: Case, flight: Flight, filmed: Array, stand: tuple[Array, Array]) -> float:
+    """Return how far other drones may move a camera that turns after something: for pictures, or near it."""
+    t, at = stand
+    others = [case.place(name, t) for name in case.drones if name != flight.drone]
+    if not others:
+        return FOLLOWING
+    rule = case.mission.rules.get("mutual_visibility", "prefer")
+    strength = rule.get("strength", "require") if isinstance(rule, dict) else rule
+    share = {"prefer": PREFERRED, "require": REQUIRED}.get(strength, 0.0)
+    apart = case.mission.rule("separation", SEPARATION) + 1.0
+    near = [2 * apart for place in others if np.linalg.norm(place - at, axis=1).min() < apart]
+    return FOLLOWING + share * float(np.linalg.norm(filmed - at, axis=1).max()) + sum(near)
+
+
+def _stays(subject: str, flight: Flight, t: Array, at: Array, within: float = PLACE) -> Findings:
     off = np.linalg.norm(flight.at(t)[:, :3] - at, axis=1)
-    if off.max() > PLACE:
+    if off.max() > within:
         yield Finding("place of keyframe", subject, float(off.max()), 0.0, float(t[off.argmax()]))
 
 

@@ -56,7 +56,12 @@ HELD: tuple[CodeInfo, ...] = (
             "A path that a kind generates is an ideal: planning leaves it where something stands in the way, or for "
             "the picture's sake, and says by how much (`deviations`). No more than that is allowed, half a metre at "
             "its beginning and its end where nothing is near, and half the distance to the target elsewhere. So an "
-            "orbit of another sweep, the other way round or backwards is none. Plan the mission again.",
+            "orbit of another sweep, the other way round or backwards is none. What the plan says is believed as far "
+            "as the mission explains it: going round what stands or comes there, half the distance to the target for "
+            "its picture, and of what moves the way in which the drone stops. Between placed keyframes the path "
+            "stays within half of the way between them of the straight one, and what stands there. A place that the "
+            "author gave is left only for the pictures of other drones, by a fifth of the distance where they are "
+            "preferred free, and for what comes there. Plan the mission again.",
         ),
     ),
     verified(

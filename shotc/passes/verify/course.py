@@ -7,6 +7,7 @@ the picture's sake. The plan says how far, and no more is allowed; where nothing
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 from math import inf, pi
 
@@ -24,6 +25,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, gap
+from shotc.passes.verify.explained import ASIDE, NEAR, Way, believed, farthest, for_the_picture, in_the_way
 from shotc.passes.verify.shots import ON_TIME
 
 UNTOLD = 0.25
@@ -32,14 +34,14 @@ UNTOLD = 0.25
 BOW = 0.25
 """Share of the way between two generated keyframes that a path may bow out between them."""
 
+SWING = 0.5
+"""Share of the way between two placed keyframes, or of a longer one beside it, by which it may be left."""
+
+PER_CHORD = 50
+"""Places on the straight way between two keyframes at which it is asked what stands there."""
+
 AT_ENDS = 0.5
 """Metres within which a generated path begins and ends, where it could."""
-
-NEAR = 1.0
-"""Metres beyond its clearances within which something stands in the way of a keyframe."""
-
-ASIDE = 0.5
-"""Share of the distance to its target by which a free keyframe may be left."""
 
 LENS = 1e-3
 """Radians within which the field of view at a keyframe is met."""
@@ -61,14 +63,23 @@ def course(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
         yield _in_order(flight, placed, flown[0])
         if len(times) == len(placed.keyframes) and all(flown[0].start <= t <= flown[0].end for t in times):
             t = np.array(_times(flight, placed))
-            yield from _along(flight, placed, t, told(ir, placed.shot))
+            yield from _along(flight, placed, t, ir)
             yield from _looking(flight, placed, t)
 
 
-def told(ir: TrajectoryIR, shot: Shot) -> float:
-    """Return how far the plan says that a shot leaves its path, metres: round things, and for its picture."""
-    said = sorted((d.distance for d in ir.deviations if d.shot == shot.id), reverse=True)
-    return sum(said[:2])
+def _told(flight: Flight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> float:
+    """Return how far a shot may leave its path, metres: as is said, round things and for its picture."""
+    blocks = in_the_way(flight, way)
+    said = believed((d for d in ir.deviations if d.shot == placed.shot.id), blocks)
+    far = farthest(flight.mission, {k.target for k in placed.keyframes if k.target is not None}, way)
+    return min(sum(said[:2]), sum(blocks.values()) + for_the_picture(flight.mission, far, placed=False))
+
+
+def _chords(at: Array) -> Way:
+    """Return the straight way through places (K, 3), finely."""
+    share = np.linspace(0.0, 1.0, PER_CHORD)[:, None]
+    parts = [a + share * (b - a) for a, b in pairwise(at)]
+    return Way(np.concatenate(parts) if parts else at, None)
 
 
 def _times(flight: Flight, placed: PlacedShot) -> list[float]:
@@ -95,12 +106,14 @@ def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
     return claim(flight, limit, Worst(max(worst, 0.0), None, "exact"))
 
 
-def _along(flight: Flight, placed: PlacedShot, t: Array, said: float) -> Iterator[Claim]:
+def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> Iterator[Claim]:
     """Claim that a generated path is left by no more than the plan says, its ends where they are blocked."""
     keyframes, shot = placed.keyframes, placed.shot
-    if any(k.placed for k in keyframes):
-        return
     at = np.array([k.at for k in keyframes])
+    if any(k.placed for k in keyframes):
+        yield from _swing(flight, placed, t)
+        return
+    said = _told(flight, ir, placed, _chords(at))
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
     k = int(away.argmax())
     worst = Worst(float(away[k]), float(t[k]), "exact")
@@ -121,8 +134,33 @@ def _along(flight: Flight, placed: PlacedShot, t: Array, said: float) -> Iterato
     yield claim(flight, limit, Worst(float(share[k]), float(t[k]), "exact"))
 
 
+def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
+    """Claim that the way between placed keyframes stays beside the straight one where nothing stands."""
+    keyframes, shot = placed.keyframes, placed.shot
+    at = np.array([k.at for k in keyframes])
+    lengths = norm(np.diff(at, axis=0))
+    found: list[tuple[float, float, Worst]] = []
+    for i, (start, end) in enumerate(pairwise(t)):
+        times, ends = (float(start) + keyframes[i].hold, float(end)), (at[i], at[i + 1])
+        longest = float(lengths[max(i - 1, 0) : i + 2].max())
+        most = SWING * longest + UNTOLD + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
+        worst = _off_chord(flight, times, ends, most)
+        found.append((worst.value / most, most, worst))
+    if found:
+        _, most, worst = max(found, key=lambda one: one[0])
+        limit = Limit("way between keyframes", most, "m", shot.path, shot=shot.id)
+        yield claim(flight, limit, worst)
+
+
 def _between(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array]) -> Worst:
     """Return how far the flight is from the line between two keyframes, less what it may bow out."""
+    bow = BOW * float(np.linalg.norm(ends[1] - ends[0]))
+    found = _off_chord(flight, times, ends, bow + UNTOLD)
+    return replace(found, value=max(found.value - bow, 0.0))
+
+
+def _off_chord(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array], most: float) -> Worst:
+    """Return how far the flight is from the line between two keyframes; most : what it may be, metres."""
     first, along = ends[0], ends[1] - ends[0]
     length = float(np.linalg.norm(along))
     if times[1] <= times[0]:
@@ -132,8 +170,8 @@ def _between(flight: Flight, times: tuple[float, float], ends: tuple[Array, Arra
         share = np.clip((points - first) @ along / max(length * length, 1e-12), 0.0, 1.0)
         return norm(points - first - share[..., None] * along)
 
-    found = sup_convex(cut(flight.track.curve.channels(0, 1, 2), *times), off, gap(BOW * length + UNTOLD))
-    return Worst(max(found.proven - BOW * length, 0.0), found.at)
+    found = sup_convex(cut(flight.track.curve.channels(0, 1, 2), *times), off, gap(most))
+    return Worst(found.proven, found.at)
 
 
 def _distances(mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...]) -> Array:

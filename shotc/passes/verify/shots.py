@@ -20,12 +20,23 @@ from shotc.ir.sampling import clock
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
+from shotc.passes.verify.explained import (
+    Way,
+    believed,
+    farthest,
+    for_its_limits,
+    for_the_picture,
+    in_the_way,
+)
 
 ON_TIME = 1e-3
 """Seconds within which a duration, a start or a keyframe's time is met."""
 
 UNTOLD = 1.0
 """Metres that a shot on its own clock may leave its ideal without a word: planning tells from 0.5 m on."""
+
+IN_PLACE = 0.01
+"""Metres within which a camera stands that the author placed, while it follows what moves."""
 
 ON_PLACE = 1e-3
 """Metres (radians, for the camera) within which a keyframe is met and a hold stands still."""
@@ -85,7 +96,7 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
 
 
 def _place(flight: Flight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterator[Claim]:
-    """Claim that a shot of a moving target leaves its ideal place by no more than the plan says."""
+    """Claim that a shot of a moving target leaves its ideal place by no more than is said and explained."""
     if shot.ideal is None:
         return
     ticks = clock(flight.mission.rate, phase.end)
@@ -94,9 +105,24 @@ def _place(flight: Flight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterat
     ideal = np.array([ideal_place(flight.mission, begun, phase.start, float(u)) for u in t])
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)
     k = int(np.argmax(away))
-    said = max((d.distance for d in ir.deviations if d.shot == shot.id), default=0.0)
-    limit = Limit("distance from its place", said + UNTOLD, "m", shot.path, shot=shot.id)
+    limit = Limit(
+        "distance from its place", _allowed(flight, ir, begun, Way(ideal, t)), "m", shot.path, shot=shot.id
+    )
     yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "sampled"))
+
+
+def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
+    """Return how far a shot may be from its ideal, metres: as the plan says, and the mission explains."""
+    assert shot.ideal is not None
+    placed = shot.ideal.placed
+    blocks = in_the_way(flight, way, placed=placed)
+    far = farthest(flight.mission, (s.target for s in shot.subjects), way)
+    explained = sum(blocks.values()) + for_the_picture(flight.mission, far, placed=placed)
+    if not placed:
+        explained += for_its_limits(flight, way)
+    said = max(believed((d for d in ir.deviations if d.shot == shot.id), blocks), default=0.0)
+    told = min(said, explained) + UNTOLD
+    return min(told, max(explained, IN_PLACE)) if placed else told
 
 
 def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | None, ...]:

@@ -93,6 +93,38 @@ def test_what_a_plan_says_of_a_detour_explains_no_other_shot(data: bytes, name: 
     assert "V044" in codes(resealed(document))
 
 
+@pytest.mark.parametrize(
+    "cause", ["the drone's limits", "the pictures of other drones", "zone tree", "drone cam1"]
+)
+def test_no_cause_explains_another_shot_of_what_moves(data: bytes, cause: str) -> None:
+    """The other side of a runner is 16 m away: more than any cause that is there leads a drone."""
+    document = json.loads(data)
+    flight_of(document, variant("side: left", "side: right"))
+    document["deviations"] = [{"shot": "side", "distance": 200.0, "s": 0.0, "cause": cause}]
+    document = json.loads(resealed(document))
+    (found,) = (
+        c
+        for c in document["certificate"]
+        if (c["shot"], c["constraint"]) == ("side", "distance from its place")
+    )
+    assert not found["holds"]
+    assert found["hard"]
+    assert found["limit"] < 12.0
+
+
+def test_the_way_between_placed_keyframes_is_held_to_them(data: bytes) -> None:
+    document = json.loads(data)
+    flown = track(document, "cam1")
+    first, second = (k["time"] for k in flown["keyframes"] if k["shot"] == "look" and k["index"] in (2, 3))
+    breaks, control = flown["curve"]["breaks"], flown["curve"]["control"]
+    inside = [k for k in range(len(control)) if first < breaks[k] and breaks[k + 1] < second]
+    assert "V044" not in codes(resealed(document))
+    for k in inside:
+        for point in control[k]:
+            point[1] -= 12.0
+    assert "V044" in codes(resealed(document))
+
+
 def spread_keyframes(document: Document, shot: str) -> None:
     """Say that as many keyframes as the mission has are met along a shot, whatever is flown there."""
     for flown in document["drones"]:

@@ -1,0 +1,137 @@
+"""How far a shot may be led from what it asks for: what the mission has in its way, recomputed, explains it.
+
+A plan says how far it leaves the ideal of a shot, and why. That is believed only as far as the mission bears
+it out, so that no entry in a file explains any distance:
+
+- what stands in the way, or comes there, explains as much as it takes to go round it: its width or height and
+  twice the clearance; a keep-in zone and the ground what the ideal is beyond them. A cause that names what is
+  nowhere near the ideal explains nothing;
+- the picture, its own and those of other drones, explains a share of the distance to what is filmed;
+- the drone's limits explain the way in which it stops, and what its speed falls short of the ideal's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.solids_array import signed_distance
+from shotc.ir.bodies import cylinder, flying, moved
+from shotc.ir.mission import MissionIR, Target
+from shotc.ir.path import Deviation
+from shotc.ir.preference import MOST_MOVED, UNWATCHED
+from shotc.passes.verify.claims import Flight
+
+NEAR = 1.0
+"""Metres beyond its clearances within which something stands in the way."""
+
+ASIDE = 0.5
+"""Share of the distance to its target by which a shot may be left for its picture."""
+
+THINGS = ("zone ", "target ", "drone ", "ground")
+"""What causes begin with that name something."""
+
+
+class Way(NamedTuple):
+    """Where a shot would be, shape (M, 3), and at which mission times (M,), None where that is open."""
+
+    places: Array
+    times: Array | None
+
+
+def in_the_way(flight: Flight, way: Way, *, placed: bool = False) -> dict[str, float]:
+    """Return what blocks a way, named as a cause is, and how far it leads a drone that goes round it, metres.
+
+    placed : whether the author gave the place, which then binds but where something comes
+    """
+    stands = () if placed else _zones(flight, way)
+    found = (*stands, *_targets(flight, way, placed=placed), *_drones(flight, way))
+    return {name: detour for name, detour in found if detour > 0.0}
+
+
+def believed(deviations: Iterable[Deviation], blocks: dict[str, float]) -> list[float]:
+    """Return the distances that are told with a cause that can be one, the largest first."""
+    told = (d.distance for d in deviations if d.cause in blocks or not d.cause.startswith(THINGS))
+    return sorted(told, reverse=True)
+
+
+def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> float:
+    """Return how far a picture may lead a shot, metres; distance : to what is filmed.
+
+    placed : whether the author gave the place, which only the pictures of other drones may move
+    """
+    if not placed:
+        return ASIDE * distance
+    if mission.rules.visibility == "off" or len(mission.drones) == 1:
+        return 0.0
+    return (ASIDE if mission.rules.visibility == "require" else MOST_MOVED) * distance
+
+
+def for_its_limits(flight: Flight, way: Way) -> float:
+    """Return how far a drone falls behind a way, metres: where that is too fast, and until it has stopped."""
+    assert way.times is not None
+    limits, steps = flight.drone.limits, np.diff(way.times)
+    rates = np.diff(way.places, axis=0) / steps[:, None]
+    level = np.hypot(rates[:, 0], rates[:, 1])
+    rise = np.maximum(rates[:, 2] - limits.climb, -rates[:, 2] - limits.descent)
+    behind = np.hypot(np.maximum(level - limits.speed, 0.0), np.maximum(rise, 0.0)) @ steps
+    fastest = min(float(level.max()), limits.speed) + min(float(np.abs(rates[:, 2]).max()), limits.climb)
+    stops = fastest * fastest / (2.0 * limits.acceleration) + fastest * limits.acceleration / limits.jerk
+    return float(behind + stops)
+
+
+def farthest(mission: MissionIR, names: Iterable[str], way: Way) -> float:
+    """Return the largest distance along a way from the nearest of some targets, metres."""
+    targets = [mission.target(name) for name in names]
+    if not targets:
+        return UNWATCHED
+    away = [np.linalg.norm(way.places - _centre(target, way.times), axis=1) for target in targets]
+    return float(np.min(away, axis=0).max())
+
+
+def _centre(target: Target, times: Array | None) -> Array:
+    centre = np.array(target.centre)
+    return centre if times is None or target.track is None else centre + moved(target, times)
+
+
+def _zones(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
+    mission, body = flight.mission, flight.drone.radius + NEAR
+    for zone in mission.zones:
+        apart = signed_distance(zone.solid, way.places)
+        if zone.keep == "in":
+            yield f"zone {zone.name}", float(apart.max()) + body
+        elif apart.min() < body:
+            yield f"zone {zone.name}", _size(zone.solid) + 2.0 * body
+    yield "ground", mission.rules.ground_clearance + body - float(way.places[:, 2].min())
+
+
+def _targets(flight: Flight, way: Way, *, placed: bool) -> Iterator[tuple[str, float]]:
+    near = flight.mission.rules.target_clearance + flight.drone.radius + NEAR
+    for target in flight.mission.targets:
+        if (placed and target.track is None) or (way.times is None and target.track is not None):
+            continue
+        beside = way.places - (_centre(target, way.times) - np.array(target.centre))
+        if signed_distance(cylinder(target), beside).min() < near:
+            yield f"target {target.name}", max(2.0 * target.radius, target.height) + 2.0 * near
+
+
+def _drones(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
+    if way.times is None:
+        return
+    near = flight.mission.rules.separation + NEAR
+    for other in flight.others:
+        if np.linalg.norm(flying(other.curve, way.times) - way.places, axis=1).min() < near:
+            yield f"drone {other.drone}", 2.0 * near
+
+
+def _size(solid: Solid) -> float:
+    """Return the larger of a solid's width and its height, metres."""
+    if isinstance(solid, Cylinder):
+        return max(2.0 * solid.radius, solid.top - solid.bottom)
+    points = np.array(solid.points)
+    width = float(np.linalg.norm(points[:, None] - points, axis=-1).max())
+    return max(width, solid.top - solid.bottom)

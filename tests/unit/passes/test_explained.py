@@ -1,0 +1,117 @@
+"""What explains that a shot is elsewhere than was asked: things by numbers, and none that is not there."""
+
+from __future__ import annotations
+
+import json
+from math import inf
+
+import numpy as np
+import pytest
+
+from shotc import api
+from shotc.geom.solids import Cylinder
+from shotc.ir.mission import MissionIR, Zone
+from shotc.ir.path import Deviation
+from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.explained import (
+    NEAR,
+    Way,
+    believed,
+    farthest,
+    for_its_limits,
+    for_the_picture,
+    in_the_way,
+)
+from tests.records import replace
+from tests.resealed import Document, resealed
+from tests.samples import orbit_plan
+
+EAST = Way(np.linspace([-50.0, 0.0, 30.0], [50.0, 0.0, 30.0], 101), np.linspace(0.0, 20.0, 101))
+
+
+def flight(*zones: Zone, **rules: object) -> Flight:
+    plan = orbit_plan().trajectory
+    mission: MissionIR = plan.keyframes.mission
+    mission = replace(mission, zones=zones, targets=(), rules=replace(mission.rules, **rules))
+    return Flight(mission, mission.drones[0], plan.drones[0])
+
+
+def mast(y: float, keep: str = "out", radius: float = 3.0) -> Zone:
+    return Zone("mast", keep, Cylinder((0.0, y), radius, 0.0, 40.0), ("world", "zones", "mast"))  # type: ignore[arg-type]
+
+
+def test_what_stands_there_explains_as_much_as_it_takes_to_go_round_it() -> None:
+    one = flight(mast(2.0))
+    assert in_the_way(one, EAST) == {"zone mast": 40.0 + 2.0 * (one.drone.radius + NEAR)}
+    assert in_the_way(flight(mast(3.0 + one.drone.radius + NEAR + 0.1)), EAST) == {}
+    assert in_the_way(one, EAST, placed=True) == {}
+
+
+def test_a_fence_and_the_ground_explain_what_the_way_is_beyond_them() -> None:
+    one = flight(mast(0.0, "in", 20.0), ground_clearance=29.0)
+    body = one.drone.radius + NEAR
+    found = in_the_way(one, EAST)
+    assert found["zone mast"] == pytest.approx(30.0 + body)
+    assert found["ground"] == pytest.approx(29.0 + body - 30.0)
+
+
+def test_a_cause_that_is_not_there_is_not_believed() -> None:
+    told = [Deviation("a", 9.0, 0.0, "zone wall"), Deviation("a", 4.0, 0.0, "zone mast")]
+    told.append(Deviation("a", 2.0, 0.0, "the drone's limits"))
+    assert believed(told, {"zone mast": 5.0}) == [4.0, 2.0]
+
+
+def test_pictures_move_a_placed_camera_only_for_other_drones() -> None:
+    alone = flight().mission
+    both = replace(alone, drones=alone.drones * 2)
+    assert for_the_picture(alone, 10.0, placed=False) == 5.0
+    assert for_the_picture(alone, 10.0, placed=True) == 0.0
+    for strength, most in (("off", 0.0), ("prefer", 2.0), ("require", 5.0)):
+        mission = replace(both, rules=replace(both.rules, visibility=strength))
+        assert for_the_picture(mission, 10.0, placed=True) == most
+
+
+def test_limits_explain_the_way_to_stop_and_what_is_too_fast() -> None:
+    one = flight()
+    limits = replace(one.drone.limits, speed=4.0, climb=inf, acceleration=2.0, jerk=8.0)
+    slow = Flight(one.mission, replace(one.drone, limits=limits), one.track)
+    assert for_its_limits(slow, EAST) == pytest.approx(1.0 * 20.0 + 4.0**2 / 4.0 + 4.0 * 2.0 / 8.0)
+    still = Way(np.zeros((5, 3)), np.arange(5.0))
+    assert for_its_limits(slow, still) == 0.0
+
+
+def test_what_films_nobody_counts_as_ten_metres_away() -> None:
+    assert farthest(flight().mission, (), EAST) == 10.0
+
+
+STANDS = """\
+shotc: 1
+mission: stands
+targets:
+  runner: {track: {start: [-10, 0, 0.9], velocity: [2, 0, 0]}, radius: 0.4, height: 1.8}
+drones:
+  cam1: {model: x500, home: [0, -30, 0]}
+shots:
+  - {id: watch, kind: static, drone: cam1, look_at: runner, at: [0, -20, 6],
+     timing: {start: 10, duration: 6}}
+"""
+
+
+def test_a_camera_that_was_placed_stands_there() -> None:
+    done = api.compile_source(STANDS.encode(), "stands.yaml", None, api.PlanOptions(refiner="none"))
+    assert done.plan is not None, done.diagnostics
+    document: Document = json.loads(api.emit_plan(done.plan, []).artifacts[0].data)
+    assert limit_of(document) == 0.01
+    (flown,) = document["drones"]
+    document["deviations"] = [{"shot": "watch", "distance": 5.0, "s": 12.0, "cause": "the drone's limits"}]
+    for point in (p for piece in flown["curve"]["control"] for p in piece):
+        point[0] += 0.05
+    data = resealed(document)
+    assert limit_of(json.loads(data)) == 0.01
+    assert "V044" in {d.code for d in api.verify_plan(data, "plan.json").diagnostics}
+
+
+def limit_of(document: Document) -> float:
+    (found,) = (c for c in document["certificate"] if c["constraint"] == "distance from its place")
+    assert found["hard"]
+    return float(found["limit"])
