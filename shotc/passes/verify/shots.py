@@ -118,11 +118,11 @@ def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
     blocks = in_the_way(flight, way, placed=placed)
     far = farthest(flight.mission, (s.target for s in shot.subjects), way)
     explained = sum(blocks.values()) + for_the_picture(flight.mission, far, placed=placed)
-    if not placed:
-        explained += for_its_limits(flight, way)
+    explained += for_its_limits(flight, way)
     said = max(believed((d for d in ir.deviations if d.shot == shot.id), blocks), default=0.0)
     told = min(said, explained) + UNTOLD
-    return min(told, max(explained, IN_PLACE)) if placed else told
+    stands = placed and not np.ptp(way.places, axis=0).any()
+    return min(told, max(explained, IN_PLACE)) if stands else told
 
 
 def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | None, ...]:
