@@ -8,6 +8,7 @@ so constraints are rows of six weights: ``Rows``.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import comb
 
 import numpy as np
@@ -45,8 +46,15 @@ def extraction(breaks: Array) -> Array:
     """Return the maps from six coefficients to six Bernstein points; shape (P, 6, 6).
 
     Row k of piece p is the blossom of the piece at (a, ..., a, b, ..., b) with k times b (Ramshaw's
-    polar form), unrolled by de Boor's recursion.
+    polar form), unrolled by de Boor's recursion. Not to be written to: the last ones are kept, since all
+    the rows of a programme ask for them.
     """
+    return _extraction(np.asarray(breaks, dtype=np.float64).tobytes())
+
+
+@lru_cache(maxsize=4)
+def _extraction(of: bytes) -> Array:
+    breaks = np.frombuffer(of)
     pieces = len(breaks) - 1
     knots = np.concatenate([[breaks[0]] * DEGREE, breaks, [breaks[-1]] * DEGREE])
     first = np.arange(pieces)[:, None] + np.arange(1, 2 * DEGREE + 1)
@@ -60,7 +68,9 @@ def extraction(breaks: Array) -> Array:
             x = ((at - lo) / (hi - lo))[..., None]
             points = (1.0 - x) * points[:, :-1] + x * points[:, 1:]
         rows.append(points[:, 0])
-    return np.stack(rows, axis=1)
+    maps = np.stack(rows, axis=1)
+    maps.flags.writeable = False
+    return maps
 
 
 def greville(breaks: Array) -> Array:

@@ -43,17 +43,18 @@ class Surroundings:
         span : of the film. On each piece the one that the course is nearest to counts, as far as the course
         itself keeps it.
         """
-        found: dict[int, tuple[float, Array, float]] = {}
-        for floors in keep_free(looker, self.pictures, span, self.breaks, course).floors:
-            for piece, normal, offset in zip(floors.rows.piece, floors.normal, floors.offset, strict=True):
-                length = float(np.linalg.norm(normal))
-                slack = float((course.ctrl[piece] @ normal).min() - offset) / length
-                if piece not in found or slack < found[piece][0]:
-                    found[piece] = slack, normal / length, offset / length + min(0.0, slack)
-        pieces = np.array(sorted(found), dtype=np.intp)
-        normals = np.array([found[k][1] for k in pieces]).reshape(-1, 3)
-        borders = np.array([found[k][2] for k in pieces])
-        return Planes(pieces, normals, np.repeat(borders[:, None], 2, axis=1))
+        floors = keep_free(looker, self.pictures, span, self.breaks, course).floors
+        if not floors:
+            return Planes(np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros((0, 2)))
+        piece = np.concatenate([each.rows.piece for each in floors])
+        normal = np.concatenate([each.normal for each in floors])
+        length = np.linalg.norm(normal, axis=1)
+        normal, offset = normal / length[:, None], np.concatenate([each.offset for each in floors]) / length
+        slack = np.einsum("rmd,rd->rm", course.ctrl[piece], normal).min(axis=1) - offset
+        nearest = np.lexsort((slack, piece))
+        nearest = nearest[np.unique(piece[nearest], return_index=True)[1]]
+        borders = (offset + np.minimum(slack, 0.0))[nearest]
+        return Planes(piece[nearest], normal[nearest], np.repeat(borders[:, None], 2, axis=1))
 
     def lacking(self, hulls: Array) -> Array:
         """Return by how much pieces fail to prove their clearances, metres; shape (P,), <= 0 is proved.

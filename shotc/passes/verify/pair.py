@@ -6,13 +6,14 @@ Two drones that the plan does not fly stand where the mission puts them, and not
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations, pairwise, product
+from itertools import combinations, product
 from math import inf
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.pieces import Pieces, cut, join, pieces
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.bspline import restrict
+from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import Bound, box_gap, inf_distance
 from shotc.geom.solids import point
 from shotc.ir.parked import parked_fleets
@@ -59,16 +60,13 @@ def _difference(one: Piecewise, other: Piecewise) -> Pieces:
     """Return the first curve less the second on their common pieces, each standing still after its end."""
     end = max(one.end, other.end)
     breaks = np.union1d(one.breaks, other.breaks)
-    bags = []
-    for low, high in pairwise(breaks):
-        if low < end:
-            first, second = _on(one, low, high), _on(other, low, high)
-            bags.append(Pieces(np.array([low]), np.array([high]), (first - second)[None]))
-    return join(bags)
+    first, second = (restrict(_standing(curve, end), breaks) for curve in (one, other))
+    return Pieces(breaks[:-1], breaks[1:], first.ctrl - second.ctrl)
 
 
-def _on(curve: Piecewise, low: float, high: float) -> Array:
-    found = cut(curve, low, high)
-    if len(found):
-        return np.asarray(found.ctrl[0])
-    return np.repeat(curve(curve.end)[None], curve.degree + 1, axis=0)
+def _standing(curve: Piecewise, end: float) -> Piecewise:
+    """Return a curve that stands still from its end to another."""
+    if curve.end >= end:
+        return curve
+    still = np.repeat(curve.ctrl[-1:, -1:], curve.degree + 1, axis=1)
+    return Piecewise(np.append(curve.breaks, end), np.concatenate([curve.ctrl, still]))

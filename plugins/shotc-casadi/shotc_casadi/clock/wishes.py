@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from math import pi, tan
 
 import numpy as np
@@ -209,7 +210,7 @@ def motion(mission: MissionIR, name: str, t: Array) -> Array:
     target = mission.target(name)
     if target.track is None:
         return np.column_stack([np.tile(np.array(target.centre), (len(t), 1)), np.zeros((len(t), 9))])
-    s, share = np.polynomial.legendre.leggauss(SAMPLES)
+    s, share = _legendre()
     kernel = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 4
     mass = 256 / 315  # the integral of (1 - s^2)^4
     at = places(target.track, (t[:, None] - AROUND * s).ravel()).reshape(len(t), SAMPLES, 3)
@@ -219,6 +220,13 @@ def motion(mission: MissionIR, name: str, t: Array) -> Array:
         weight = weight * share / (mass * AROUND**order)
         orders.append(np.einsum("mkd,k->md", at, weight))
     return np.concatenate(orders, axis=1)
+
+
+@cache
+def _legendre() -> tuple[Array, Array]:
+    """Return places and weights of the quadrature, shape (SAMPLES,) each; they are eigenvalues, and slow."""
+    s, share = np.polynomial.legendre.leggauss(SAMPLES)
+    return np.asarray(s), np.asarray(share)
 
 
 def steepest(subject: ClockSubject, t: Array) -> Array:
