@@ -119,7 +119,7 @@ def run_refined(
     seat : as in ``default_passes``. Where the mission allows it, the unrefined path is flown instead. Where
     the refiner gives no path, the later passes judge the unrefined one, and its errors say what came of it.
     """
-    from shotc.passes.refine_path import blame, still_true
+    from shotc.passes.refine_path import blame, shortest_refined, still_true
 
     done = run(passes, value, ctx, stop_after)
     k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), 0)
@@ -137,7 +137,7 @@ def run_refined(
         return done
     again = run(passes[k + 1 :], convex, ctx, stop_after)
     if has_errors(again.diagnostics):
-        return done
+        return done._replace(diagnostics=shortest_refined(seat, done.diagnostics, again.diagnostics))
     verdict = blame(seat, (convex, refined), tuple(d for d in late if has_errors([d])))
     early = tuple(d for report in done.reports[: k + 1] for d in report.diagnostics)
     if not verdict.convex:

@@ -7,6 +7,9 @@ from shotc.ir.keyed import way_at
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
 
+TO_CATCH_UP = 1.25
+"""Times the speed of a place that goes on, with which a drone that is behind comes to it in good time."""
+
 
 def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
     """Return the place at a mission time, metres; before and after the shot its ends are carried on.

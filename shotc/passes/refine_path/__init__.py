@@ -15,7 +15,7 @@ from shotc.ir.path import PathIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path.account import account
 from shotc.passes.refine_path.ask import ask
-from shotc.passes.refine_path.blame import blame, still_true
+from shotc.passes.refine_path.blame import blame, shortest_refined, still_true
 from shotc.passes.refine_path.instead import with_convex
 from shotc.passes.refine_path.seat import REFINER, KeepPath, Refiner, Seat, Unusable
 from shotc.passes.refine_path.settle import settle
@@ -29,6 +29,7 @@ __all__ = [
     "Unusable",
     "account",
     "blame",
+    "shortest_refined",
     "still_true",
     "with_convex",
 ]

@@ -16,6 +16,9 @@ from shotc.passes.timed_route.faults import left_places
 OF_THE_CONVEX = ("Q007",)
 """Warnings of what the convex path cannot frame; verification says it of a path that is flown instead."""
 
+TOO_SHORT, POSSIBLE = "T001", "the shortest possible"
+"""The error of a duration in which a path cannot be flown, and its words for the least that can be."""
+
 KEEP = "plan with `--refiner none`, or let all shots that are refined say `refine: {optional: true}`"
 OF_THE_GUIDE = "M008"
 """The warning of how far a shot on its own clock leaves its place; a refined one leaves it by another way."""
@@ -52,6 +55,29 @@ def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ..
             ),
         ),
     )
+
+
+def shortest_refined(
+    seat: Seat, said: tuple[Diagnostic, ...], convex: tuple[Diagnostic, ...]
+) -> tuple[Diagnostic, ...]:
+    """Return what was said of a refined path, its durations told as those of that path and not of any.
+
+    convex : what is said of the convex path, which is not flown either
+    """
+    unrefined = {d.labels[0].span: d for d in convex if d.code == TOO_SHORT}
+
+    def told(d: Diagnostic) -> Diagnostic:
+        other = unrefined.get(d.labels[0].span) if d.code == TOO_SHORT else None
+        if other is None or other.message == d.message:
+            return d
+        return d._replace(
+            message=d.message.replace(
+                POSSIBLE, f"the shortest for the path of refiner `{seat.refiner.name}`"
+            ),
+            notes=(*d.notes, f"the convex path would not do either: {other.message}"),
+        )
+
+    return tuple(told(d) for d in said)
 
 
 def still_true(paths: tuple[PathIR, PathIR], said: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:

@@ -13,7 +13,7 @@ from math import dist, hypot, inf
 from shotc.diag.model import Diagnostic
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start, known_start
-from shotc.ir.ideal import ideal_place
+from shotc.ir.ideal import TO_CATCH_UP, ideal_place
 from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.rounding import down, up
@@ -66,13 +66,24 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 def _faster(mission: MissionIR, shot: Shot, speed: float, start: float) -> str:
     """Return limits with which the drone keeps up, as they are written.
 
-    An acceleration belongs to them where the place changes its velocity faster than the drone can.
+    An acceleration belongs to them where the place changes its velocity faster than the drone can. With a
+    target that never stops, a drone that is only as fast never comes to its place.
     """
+    if _goes_on(mission, shot):
+        speed *= TO_CATCH_UP
     limits = f"speed: {up(speed + mission.wind, 1):.1f} m/s"
     needed = _hardest(mission, shot, start)
     if needed > mission.drone(shot.drone).limits.acceleration * (1 + ROUNDING):
         limits += f", acceleration: {up(needed, 1):.1f} m/s^2"
     return f"limits: {{{limits}}}"
+
+
+def _goes_on(mission: MissionIR, shot: Shot) -> bool:
+    """Tell whether the place goes with a target that moves on for ever."""
+    own = shot.ideal.target if shot.ideal is not None else None
+    names = carriers(shot) if is_keyed(shot) else (own,) if own is not None else ()
+    tracks = [mission.target(name).track for name in names]
+    return any(track is not None and any(track.after) for track in tracks)
 
 
 def _hardest(mission: MissionIR, shot: Shot, start: float) -> float:

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from math import dist
+
 from shotc.diag.model import Diagnostic
+from shotc.ir.framed import at_start
+from shotc.ir.ideal import TO_CATCH_UP, ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.corridor.room import named, owner_path
 from shotc.passes.parameterize_time.faults import listed, timing_label
@@ -10,6 +14,7 @@ from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate
 from shotc.rounding import at_least, down, plain, up
 
 ALONE = "or have the drone start nearer"
+WINDOW = 2.0  # seconds over which the speed of a place is told
 
 
 def outside_track(mission: MissionIR, shot: Shot, found: OutsideTrack) -> Diagnostic:
@@ -40,7 +45,8 @@ def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
     """Return T003: the drone is not there at the start of a shot of what moves on meanwhile."""
     asked, short = shot.timing.start, found.outside
     label = mission.origins.key(shot.path) if asked is None else timing_label(mission, shot.path, "start")
-    labels, told = [label], f"shot `{shot.id}`" + ("" if asked is None else f" starts at {plain(asked)} s")
+    begins = "has no start" if asked is None else f"starts at {plain(asked)} s"
+    labels, told = [label], f"shot `{shot.id}` {begins}"
     sum_up = f"{at_least(found.before[-1].end)} s, the last {found.run_up:.1f} s to come up to speed"
     notes = [f"before it come {listed(found.before)}: {sum_up}"]
     remedies = []
@@ -53,6 +59,7 @@ def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
         message = f"{told}, and the track of `{short.target}` ends before its drone is there"
     else:
         message = f"{told}, and its drone does not catch up with what it films"
+        remedies += _catching_up(mission, shot, found.before[-1].end)
     if short is not None:
         path = mission.target(short.target).path
         labels.append(mission.origins.value((*path, "track"), f"{short.left:.1f} s are left of it then"))
@@ -61,6 +68,20 @@ def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
         remedies += _begun_later(mission, shot, asked, up(found.late))
     remedies.append(f"shorten what comes before, {ALONE}")
     return Diagnostic("T003", message, tuple(labels), tuple(notes), ", or ".join(remedies))
+
+
+def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
+    """Return the speed at which a slower drone catches up with a place that goes on as it does then."""
+    drone = mission.drone(shot.drone)
+    begun = at_start(mission, shot, time)
+    places = [ideal_place(mission, begun, time, time + t) for t in (0.0, WINDOW)]
+    speed = dist(places[0][:2], places[1][:2]) / WINDOW * TO_CATCH_UP
+    if speed <= drone.limits.speed:
+        return []
+    return [
+        f"raise `limits: {{speed: {at_least(speed + mission.wind, 1)} m/s}}` of `{drone.name}` "
+        "if it flies that"
+    ]
 
 
 def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -> Diagnostic:

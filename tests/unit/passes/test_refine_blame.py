@@ -8,6 +8,7 @@ from shotc import api, plugins
 from shotc.diag.model import Diagnostic
 from shotc.passes.base import Outcome
 from tests.bad_refiners import PASS, ROUND, Odd, along, bumped, text
+from tests.remedies.apply import remedies
 
 DURATION = 22
 
@@ -84,13 +85,22 @@ def fails(ir):
     raise RuntimeError("no luck")
 
 
-def lost(shot):
+def test_a_duration_that_is_too_short_is_told_as_that_of_the_refined_path_and_of_the_convex_one(planned):
+    (alone,) = planned(Outcome, hurried(seconds=7)).diagnostics
+    (fault,) = planned(detour, hurried(seconds=7)).diagnostics
+    assert fault.code == alone.code == "T001"
+    assert "is the shortest possible" in alone.message
+    assert "is the shortest for the path of refiner `odd`" in fault.message
+    assert fault.notes[-1] == f"the convex path would not do either: {alone.message}"
+
+
+def lost(shot, code="R012"):
     """Refine nothing, and say that a shot has no path."""
 
     def act(ir):
         found = next(s for s in ir.keyframes.mission.shots if s.id == shot)
         label = ir.keyframes.mission.origins.key(found.path)
-        return Outcome(ir, (Diagnostic("R012", "no path", (label,)),))
+        return Outcome(ir, (Diagnostic(code, "no path", (label,)),))
 
     return act
 
@@ -109,6 +119,14 @@ def test_a_shot_that_cannot_be_refined_says_that_its_convex_path_is_good_and_wha
     assert "the convex path of shot `round` keeps every limit and promise" in fault.notes
     assert "let shot `round` fly the convex path by `refine: {optional: true}`" in fault.help
     assert planned(lost(ROUND), text(ROUND)).plan is not None
+
+
+@pytest.mark.parametrize("code", ["R010", "R011", "R012"])
+def test_what_the_help_of_a_solver_s_fault_says_does_when_it_is_written(planned, code):
+    (fault,) = planned(lost(ROUND, code), text()).diagnostics
+    (remedy,) = remedies(text(), fault)
+    made = (planned(lost(ROUND, code), mission) for mission in remedy.missions)
+    assert any(one.plan is not None for one in made)
 
 
 @pytest.mark.parametrize("act", [fails, lost(ROUND)])
