@@ -23,6 +23,7 @@ NOTE = re.compile(
 )
 EARTH = 2e-3  # metres by which four decimals of a metre and nine of a degree, twice, move a waypoint
 AHEAD = 4000  # points of a way among which the next one is looked for
+BACK = 50  # of them that one may go back: half a metre, in which a drone that waits swings
 ROUNDING = 1e-3  # rad and half frames
 TURNING = np.radians(1.0)  # by which the heading at a place depends on how fast a vehicle speeds up and turns
 PACE = 0.15  # share of the time of straight legs that accelerations and corners may take more
@@ -134,14 +135,15 @@ def _moving(places: Array) -> Array:
 
 
 def _lost(points: Array, path: Array, near: float) -> float | None:
-    """Return how far the first point is that lies too far from a path (K, 3) on which one only goes on."""
+    """Return how far the first point is that lies too far from a path (K, 3) on which one goes on."""
     reach = np.hypot(near, np.linalg.norm(np.diff(path, axis=0), axis=1).max() / 2)
     at = 0
     for point in points:
-        away = np.linalg.norm(path[at : at + AHEAD] - point, axis=1)
+        first = max(at - BACK, 0)
+        away = np.linalg.norm(path[first : at + AHEAD] - point, axis=1)
         if away.min() > reach:
             return float(away.min())
-        at += int((away <= reach).argmax())
+        at = first + int((away <= reach).argmax())
     return None
 
 
