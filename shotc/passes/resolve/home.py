@@ -28,11 +28,9 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
         label = mission.origins.value((*drone.path, "home"))
         if drone.home[2] < -ROUNDING:
             note = f"it is {-drone.home[2]:.2f} m under z = 0, the ground"
-            faults.append(
-                Diagnostic(
-                    "G006", f"the home of `{drone.name}` is underground", (label,), (note,), "raise it"
-                )
-            )
+            help_ = f"raise it by {at_least(-drone.home[2])} m, to z = 0"
+            message = f"the home of `{drone.name}` is underground"
+            faults.append(Diagnostic("G006", message, (label,), (note,), help_))
             continue
         for obstacle in obstacles_of(mission, drone):
             said = _obstructed(mission, drone, obstacle)

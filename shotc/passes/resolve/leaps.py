@@ -1,16 +1,20 @@
 """Tracks that no target can have moved along: jumps, and gaps over which nothing is known."""
 
+from collections.abc import Iterator
 from itertools import pairwise
 from math import dist
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.track import Track
+from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.rounding import at_least
 
 GAP = 10.0  # times the usual time between rows; smart recorders leave out up to that much
 LEAST_GAP = 3.0  # seconds; over less a straight line is a fair guess
 ROUNDING = 1e-6  # of a speed
+MOST = 1000.0  # m/s that the language reads as a speed
 STOOD = 0.1  # metres: what has moved by less in a gap is taken to have stood, as recorders that pause do
 
 
@@ -32,8 +36,7 @@ class Course(NamedTuple):
 def check_jump(course: Course, origins: OriginMap) -> Diagnostic | None:
     """Return the first two rows between which the target would have to be faster than it can be."""
     track, top = course.track, course.top_speed * (1 + ROUNDING)
-    stretches = zip(pairwise(track.times), pairwise(track.points), strict=True)
-    jumps = [i for i, ((s, t), (p, q)) in enumerate(stretches) if dist(p, q) > top * (t - s)]
+    jumps = [i for i, ((s, t), (p, q)) in enumerate(_stretches(track)) if dist(p, q) > top * (t - s)]
     if not jumps:
         return None
     i = jumps[0]
@@ -42,14 +45,15 @@ def check_jump(course: Course, origins: OriginMap) -> Diagnostic | None:
     if len(jumps) > 1:
         notes.append(f"it does so {len(jumps)} times")
     remedy = _remedy(course, i)
-    labels, raised = _labels(course, origins, _place(course, i))
+    fastest = max(dist(p, q) / (t - s) for (s, t), (p, q) in _stretches(track))
+    labels, raised = _labels(course, origins, _place(course, i), fastest)
     return Diagnostic(
         "M021",
         f"target `{course.name}` jumps: {_speed(way / lasts)} is more than its top speed, "
         f"{_speed(course.top_speed)}",
         labels,
         tuple(notes),
-        f"{remedy}, or {raised} `top_speed` if it is as fast as that",
+        f"{remedy}, or {raised} if it is as fast as that",
     )
 
 
@@ -57,13 +61,13 @@ def check_velocity(course: Course, speed: float, origins: OriginMap, *key: str |
     """Return the fault of a speed, written at ``key`` below the track, that is above the target's own."""
     if speed <= course.top_speed * (1 + ROUNDING):
         return None
-    labels, raised = _labels(course, origins, (*course.path, *key))
+    labels, raised = _labels(course, origins, (*course.path, *key), speed)
     return Diagnostic(
         "M021",
         f"target `{course.name}` moves at {_speed(speed)}; its top speed is {_speed(course.top_speed)}",
         labels,
         ("a bare number is in m/s",),
-        f"slow it down, or {raised} `top_speed` if it is as fast as that",
+        f"slow it down, or {raised} if it is as fast as that",
     )
 
 
@@ -115,12 +119,21 @@ def _remedy(course: Course, i: int) -> str:
     return f"mend {'line' if course.file else 'point'} {one} or {other}, or the time between them"
 
 
-def _labels(course: Course, origins: OriginMap, path: KeyPath) -> tuple[tuple[Label, ...], str]:
+def _stretches(track: Track) -> Iterator[tuple[tuple[float, float], tuple[Vec3, Vec3]]]:
+    """Yield the times and the places of each row of a track and the next."""
+    return zip(pairwise(track.times), pairwise(track.points), strict=True)
+
+
+def _labels(course: Course, origins: OriginMap, path: KeyPath, speed: float) -> tuple[tuple[Label, ...], str]:
     """Return the place of a fault beside the top speed, where one is written, and what to do with it."""
     written = (*course.path[:-1], "top_speed")
+    key = f"`top_speed: {at_least(speed, 1)} m/s`" if speed < MOST else "a `top_speed`"
     if written in origins.values:
-        return (origins.value(path), origins.value(written, "its top speed")), "raise"
-    return (origins.value(path),), "give it a"
+        return (
+            origins.value(path),
+            origins.value(written, "its top speed"),
+        ), f"raise {key.removeprefix('a ')}"
+    return (origins.value(path),), f"give it {key}"
 
 
 def _speed(speed: float) -> str:

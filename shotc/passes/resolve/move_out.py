@@ -17,14 +17,16 @@ TRIES = 40  # of them on each way
 def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obstacle) -> str:
     """Return in words the move to the nearest place that will do; to a free one where none shows the target.
 
-    Tried are the ways out of the obstacle, and on from there straight away from the target.
+    Tried are the ways out of the obstacle, and on from there straight away from the target. A camera that
+    is told where to look does not turn to its target: what it shows from elsewhere is not asked.
     """
     p, drone = keyframe.at, mission.drone(shot.drone)
     free = free_place(mission, drone, p, obstacle)
-    if keyframe.target is None or (free is not None and _shown(mission, shot, keyframe, free)):
+    looks = keyframe.target is not None and keyframe.aim is None
+    if not looks or (free is not None and _shown(mission, shot, keyframe, free)):
         return "move it to a free place" if free is None else move(p, free)
     around, floor = obstacles_of(mission, drone), mission.rules.ground_clearance + drone.radius
-    centre = mission.target(keyframe.target).centre
+    centre = mission.target(str(keyframe.target)).centre
     found: list[Vec3] = []
     for way in obstacle.ways_out(p):
         for q in _farther(centre, way):

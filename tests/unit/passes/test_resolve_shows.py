@@ -264,7 +264,8 @@ def test_pads_of_two_fleets() -> None:
 def test_pads_underground_and_pads_under_a_roof() -> None:
     text = show(fleet=FLEET.replace("[0, 0, 0]", "[0, 0, -1.5]"))
     d = only(text)
-    assert (d.code, d.help, marked(d, text)) == ("D006", "raise the layout by 1.50 m", "[0, 0, -1.5]")
+    assert (d.code, marked(d, text)) == ("D006", "[0, 0, -1.5]")
+    assert d.help == "raise the layout by 1.50 m, to `origin: [0.00, 0.00, 0.00]`"
     roof = "world: {zones: {roof: {box: {center: [12, 12, 8], size: [3, 3, 1]}}}}\n"
     d = only(show(head=roof))
     assert d.code == "D006"

@@ -187,7 +187,7 @@ def test_a_jump_names_both_lines_and_the_row_to_mend(tmp_path: Path) -> None:
     assert d.notes == ("t.csv, line 42, after line 41: 30.00 m in 0.1 s, at t = 3.9 s", "it does so 2 times")
     assert d.help == (
         "mend or drop line 42: without it the target moves there at 3.0 m/s, "
-        "or give it a `top_speed` if it is as fast as that"
+        "or give it `top_speed: 300.1 m/s` if it is as fast as that"
     )
 
 
@@ -204,7 +204,7 @@ def test_a_runner_at_200_km_per_hour_is_told_by_his_top_speed(tmp_path: Path) ->
     assert (d.code, len(d.labels)) == ("M021", 2)
     assert "55.6 m/s is more than its top speed, 12.5 m/s" in d.message
     assert d.notes[0].startswith("t.csv, line 4, after line 3: 55.60 m in 1 s")
-    assert "raise `top_speed`" in d.help
+    assert "raise `top_speed: 55.6 m/s`" in d.help
     assert "M021" not in {d.code for d in resolved(written(fast), tmp_path)[1]}
 
 

@@ -20,6 +20,7 @@ from shotc.rounding import at_least, up
 
 _AROUND = tuple(product((-1, 0, 1), repeat=3))
 UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
+FARTHEST, MANY = 60, 400  # metres up to which a free place is looked for, and drones above which none is
 Cell = tuple[int, int, int]
 
 
@@ -178,10 +179,10 @@ def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
         ways += [(up(high + reach - first), axis, on), (-up(last + reach - low), axis, back)]
     for by, axis, way in sorted(ways, key=lambda found: abs(found[0])):
         x, y = (by, 0.0) if axis == 0 else (0.0, by)
-        there = moved._replace(pads=tuple((px + x, py + y, pz) for px, py, pz in moved.pads))
+        there = _shifted(moved, (x, y, 0.0))
         others = [fleet for fleet in mission.fleets if fleet.name != moved.name]
-        if not any(_too_near(mission, fleet, there, advise=False) for fleet in others) and not any(
-            _placed(mission, there)
+        if not any(_too_near(mission, fleet, there, advise=False) for fleet in others) and _rises(
+            mission, there
         ):
             return f"move `{moved.name}` {abs(by):.2f} m {way}{_anchored(mission, moved, there)}"
     return ""
@@ -206,7 +207,9 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     if z < -UNEVEN:
         note = f"pad {low + 1} is {-z:.2f} m under z = 0, the ground"
         message = f"fleet `{fleet.name}` stands underground"
-        yield Diagnostic("D006", message, (label,), (note,), f"raise the layout by {at_least(-z)} m")
+        higher = _shifted(fleet, (0.0, 0.0, up(-z)))
+        help_ = f"raise the layout by {at_least(-z)} m{_anchored(mission, fleet, higher)}"
+        yield Diagnostic("D006", message, (label,), (note,), help_)
         return
     obstacles = obstacles_of(mission, fleet)
     blocked = [found for obstacle in obstacles if (found := _blocked(mission, fleet, obstacle)) is not None]
@@ -230,7 +233,38 @@ def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Obstacle) -> Diagnostic
         message = f"{who} cannot rise clear of {what} `{obstacle.name}`"
     labels = (_place(mission, fleet), mission.origins.key(obstacle.path, "the obstacle"))
     note = _least_room(fleet, obstacle, worst, rooms[worst])
-    return Diagnostic("D006", message, labels, (note,), "move the layout, or the obstacle")
+    return Diagnostic("D006", message, labels, (note,), _cleared(mission, fleet))
+
+
+def _cleared(mission: MissionIR, fleet: Fleet) -> str:
+    """Propose the shortest way along a grid axis to where all drones of a fleet can rise."""
+    others = [other for other in mission.fleets if other.name != fleet.name]
+
+    def free(there: Fleet) -> bool:
+        return _rises(mission, there) and not any(
+            _too_near(mission, other, there, advise=False) for other in others
+        )
+
+    if len(fleet.pads) > MANY:
+        return "move the layout, or the obstacle"
+    for metres in range(1, FARTHEST + 1):
+        for x, y, way in ((1, 0, "east"), (-1, 0, "west"), (0, 1, "north"), (0, -1, "south")):
+            there = _shifted(fleet, (float(x * metres), float(y * metres), 0.0))
+            if free(there):
+                return f"move the layout {metres} m {way}{_anchored(mission, fleet, there)}, or the obstacle"
+    return "move the layout, or the obstacle"
+
+
+def _rises(mission: MissionIR, fleet: Fleet) -> bool:
+    """Tell whether all drones of a fleet can rise from their pads."""
+    least = fleet.radius - ROUNDING
+    around = obstacles_of(mission, fleet)
+    return all(take_off_room(p, p[2] + fleet.rise, o) >= least for o in around for p in fleet.pads)
+
+
+def _shifted(fleet: Fleet, by: Vec3) -> Fleet:
+    x, y, z = by
+    return fleet._replace(pads=tuple((px + x, py + y, pz + z) for px, py, pz in fleet.pads))
 
 
 def _least_room(fleet: Fleet, obstacle: Obstacle, worst: int, room: float) -> str:

@@ -8,6 +8,7 @@ from math import floor, inf
 from shotc.diag.model import Diagnostic
 from shotc.geom.apart import spacing
 from shotc.geom.solids import signed_distance
+from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
 from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
@@ -16,6 +17,18 @@ from shotc.passes.resolve.show.places import centre_label, key_of, word_of
 from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
 from shotc.passes.resolve.show.sizes import enlarged, resized, size_words
 from shotc.rounding import at_least, down
+
+FARTHEST, MANY = (
+    60,
+    2000,
+)  # metres up to which a free place is looked for; balls and obstacles above which none is
+WAYS: tuple[tuple[Vec3, str], ...] = (
+    ((1.0, 0.0, 0.0), "east"),
+    ((-1.0, 0.0, 0.0), "west"),
+    ((0.0, 1.0, 0.0), "north"),
+    ((0.0, -1.0, 0.0), "south"),
+    ((0.0, 0.0, 1.0), "up"),
+)
 
 
 def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
@@ -108,13 +121,13 @@ def _against(
     what = f"{'target' if obstacle.role == 'target' else 'zone'} `{obstacle.name}`"
     if swallowed:
         message = f"this {word_of(picture)} is inside {what}"
-        yield Diagnostic("D016", message, labels, ("no drone can stand in it",), "move it out of there")
+        help_ = _cleared(mission, fleet, picture, shape) or "move it out of there"
+        yield Diagnostic("D016", message, labels, ("no drone can stand in it",), help_)
         return
     message = f"this {word_of(picture)} reaches into {what}"
     note = f"by {reach:.2f} m, the {obstacle.room:.2f} m included that must be free"
-    yield Diagnostic(
-        "D017", message, labels, (note,), "move it clear; the plan refuses drones that stand there"
-    )
+    help_ = _cleared(mission, fleet, picture, shape) or "move it clear"
+    yield Diagnostic("D017", message, labels, (note,), f"{help_}; the plan refuses drones that stand there")
 
 
 def _inside(
@@ -143,13 +156,41 @@ def _inside(
         return
     if outside:
         message = f"this {word} is outside keep-in zone `{zone.name}`"
-        yield Diagnostic("D015", message, labels, ("no drone can stand in it",), "move it into the zone")
+        help_ = _cleared(mission, fleet, picture, shape) or "move it into the zone"
+        yield Diagnostic("D015", message, labels, ("no drone can stand in it",), help_)
         return
     note = f"by {lacks:.2f} m, the body radius of {fleet.radius:.2f} m included"
     message = f"this {word} reaches out of keep-in zone `{zone.name}`"
-    yield Diagnostic(
-        "D017", message, labels, (note,), "move it inside; the plan refuses drones that stand there"
-    )
+    help_ = _cleared(mission, fleet, picture, shape) or "move it inside"
+    yield Diagnostic("D017", message, labels, (note,), f"{help_}; the plan refuses drones that stand there")
+
+
+def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]) -> str:
+    """Propose the shortest way to where a picture is clear of everything; empty where none is found."""
+    centre, around = picture.source.centre, obstacles_of(mission, fleet)
+    floor_ = mission.rules.ground_clearance + fleet.radius
+    if centre is None or len(shape) * len(around) > MANY:
+        return ""
+    for metres in range(1, FARTHEST + 1):
+        for (x, y, z), way in WAYS:
+            by = (x * metres, y * metres, z * metres)
+            there = tuple(ball._replace(centre=_plus(ball.centre, by)) for ball in shape)
+            if lowest(there) >= floor_ and all(_is_clear(there, o, fleet.radius) for o in around):
+                to = ", ".join(f"{c + 0.0:.2f}" for c in _plus(centre, by))
+                return f"move it {metres} m {way}, to `center: [{to}]`"
+    return ""
+
+
+def _is_clear(shape: tuple[Ball, ...], obstacle: Obstacle, radius: float) -> bool:
+    """Tell whether a shape is all out of a zone or target, or within a keep-in zone."""
+    gaps = (signed_distance(obstacle.solid, ball.centre) for ball in shape)
+    if obstacle.role == "in":
+        return all(-gap - ball.radius >= radius - ROUNDING for gap, ball in zip(gaps, shape, strict=True))
+    return all(gap - ball.radius >= obstacle.room - ROUNDING for gap, ball in zip(gaps, shape, strict=True))
+
+
+def _plus(p: Vec3, by: Vec3) -> Vec3:
+    return (p[0] + by[0], p[1] + by[1], p[2] + by[2])
 
 
 def _fitted(picture: Picture, reach: tuple[float, float], room: tuple[float, float]) -> str:
