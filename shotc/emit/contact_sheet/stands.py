@@ -69,8 +69,10 @@ def draw_stands(canvas: Canvas, sheet: Sheet, shapes: Sequence[Array], taken: Se
     """
     for k, shape in enumerate(shapes):
         canvas.polygons([shape], (*color_of(k), FACE / max(len(shapes), 4)), clip=sheet.box)
-    for k, shape in enumerate(shapes):
-        canvas.lines([np.concatenate([shape, shape[:1]])], color_of(k), 1.3, sheet.box)
+    # The longest first: what coincides with a part of it stays to be seen.
+    closed = [np.concatenate([shape, shape[:1]]) for shape in shapes]
+    for k in sorted(range(len(shapes)), key=lambda k: -_length(closed[k])):
+        canvas.lines([closed[k]], color_of(k), 1.3, sheet.box)
     rims = _squares([_fine(shape) for shape in shapes], FINE)
     inside = _squares([_inside(shape) for shape in shapes], CELL)
     box, rooms = sheet.box, list[Box]()
@@ -110,6 +112,10 @@ def _fine(shape: Array) -> Array:
         count = max(1, int(np.linalg.norm(end - start) / FINE))
         parts.append(start + np.arange(count)[:, None] / count * (end - start))
     return np.concatenate(parts)
+
+
+def _length(line: Array) -> float:
+    return float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
 
 
 def _inside(shape: Array) -> Array:
