@@ -9,7 +9,7 @@ from shotc.geom import viewpoint
 from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
-from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins
+from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, silhouette_bounds
 from shotc.geom.convex import bounded, distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
@@ -113,6 +113,7 @@ __all__ = [
     "rough_times",
     "seen",
     "shortfall",
+    "silhouette_bounds",
     "smoother",
     "spline",
     "steady",

@@ -10,6 +10,7 @@ import pytest
 from shotc_casadi.clock.problem import breaks_of
 from shotc_casadi.clock.refiner import SHOWS_LESS, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import refine_clock
+from shotc_casadi.clock.several import WHOLE
 from shotc_casadi.clock.shown import held_whole, shown
 from shotc_casadi.clock.wishes import ClockSubject, wishes
 
@@ -120,6 +121,19 @@ def test_a_subject_that_is_to_be_cropped_is_not_kept_whole() -> None:
     close = replace(of, placed=of.placed._replace(subjects=(one._replace(size=2.0),)))
     assert held_whole(of, plain) is not None
     assert held_whole(close, plain) is None
+
+
+def test_who_does_not_fit_from_where_the_camera_may_go_is_no_reason_to_go_there() -> None:
+    text = BESIDE.replace("gimbal", "camera: {hfov: 50 deg}, gimbal")
+    asked = text.replace("offset: 1", "offset: 1, require: {in_frame: 100 %}")
+    near, promised = (
+        wishes(replace(of, held_whole=True), breaks_of(of)).subjects[:, 0, WHOLE] > 0.0
+        for of in (subject(one, "solve-path-qp") for one in (text, asked))
+    )
+    assert promised.all()
+    middle = len(near) // 2
+    assert not near[middle]
+    assert near[: middle // 2].all()
 
 
 def test_what_is_promised_is_kept_at_any_distance() -> None:

@@ -13,11 +13,16 @@ from shotc.refiner_api import (
     Array,
     Drone,
     PlacedSubject,
+    View,
     quintic_hermite,
+    silhouette_bounds,
     viewpoint,
 )
-from shotc_casadi.clock.picture import SUBJECT
+from shotc_casadi.clock.picture import FIELDS, SUBJECT
 from shotc_casadi.clock.symbols import PITCH, PLACED, YAW
+
+WHOLE = sum(FIELDS[name] for name in tuple(FIELDS)[: tuple(FIELDS).index("whole")])
+FARTHEST = 1e6  # metres that count where a camera may go back as far as it takes
 
 
 def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array) -> Array:
@@ -55,6 +60,26 @@ def _asked(mission: MissionIR, subject: PlacedSubject, sized: bool) -> list[floa
         float(elevation is not None and not both),
         viewpoint.FAINT if elevation is None else 0.0,
     ]
+
+
+def where_it_fits(rows: Array, drone: Drone, ideal: Array, reach: Array) -> Array:
+    """Return the parameters of one subject, kept whole only where a camera that goes back can have it whole.
+
+    rows : as of ``pictured``, (M, 1, SUBJECT); ideal : places of the camera, (M, 3)
+    reach : metres that it may go back from there, (M,)
+    """
+    radius, height = rows[0, 0, 3:5]
+    offset = rows[:, 0, :3] - ideal
+    offset *= 1.0 + (np.minimum(reach, FARTHEST) / np.linalg.norm(offset, axis=1))[:, None]
+    yaw, pitch = np.arctan2(offset[:, 1], offset[:, 0]), np.arctan2(offset[:, 2], np.hypot(*offset.T[:2]))
+    half = np.tan(drone.hfov / 2)
+    camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)
+    there = (offset[:, 0], offset[:, 1], offset[:, 2])
+    left, right, low, high = silhouette_bounds(camera, there, radius, height)
+    fits = np.maximum(right - left, high - low) <= 2.0 * viewpoint.EDGE
+    kept = rows.copy()
+    kept[:, 0, WHOLE] *= fits & (np.linalg.norm(offset, axis=1) > np.hypot(radius, height / 2))
+    return kept
 
 
 def angles(curve: Piecewise, breaks: Array) -> Array:

@@ -26,7 +26,7 @@ from shotc.refiner_api import (
     looker_of,
     places,
 )
-from shotc_casadi.clock.several import pictured
+from shotc_casadi.clock.several import pictured, where_it_fits
 from shotc_casadi.clock.symbols import BODY, LINE
 
 AROUND = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
@@ -134,10 +134,11 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     watched, shot, n = subject.watched, subject.placed.shot, len(t)
     keyed = subject.looker.keyed is not None
     placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
-    centres = seen_at(subject, t)
+    centres, reach = seen_at(subject, t), _reach(subject, t, ideal)
     shown = pictured(subject.mission, subject.framed if subject.together else (), centres)
+    if subject.held_whole:
+        shown = where_it_fits(shown, subject.drone, ideal, reach)
     nothing = (centres, shown, np.zeros((n, 0, LINE)), np.zeros((n, 0, BODY)))
-    reach = _reach(subject, t, ideal)
     if watched is None or (keyed and _over(subject, centres, ideal)):
         away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((n, 9))])
         return ClockWishes(ideal, away, reach, 100.0, False, placed, False, *nothing)
