@@ -24,12 +24,11 @@ TOLD_IN_WORDS = {
             *("N008", "U002", "U005", "U006")),
         "only the author knows the value: the help says its form",
     ),
-    **dict.fromkeys(("G007", "G012", "G014", "G015"), "another place is the author's choice"),
+    **dict.fromkeys(("G007", "G014", "G015"), "another place is the author's choice"),
     **dict.fromkeys(("K005", "D021"), "what to drop is the author's choice"),
     **dict.fromkeys(("K009", "M003"), "how long a shot lasts is the author's choice"),
     **dict.fromkeys(("K015", "M030", "M034"), "it asks whether what is written is meant"),
     **dict.fromkeys(("K016", "M002"), "it needs a name or another kind with keys of its own"),
-    **dict.fromkeys(("M007",), "it names a direction"),
     **dict.fromkeys(
         ("D011", "D012", "D013", "D024"),
         "where a picture or pad goes is the author's choice",

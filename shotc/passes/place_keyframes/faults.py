@@ -88,8 +88,14 @@ def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
         over,
         f"target `{keyframe.target}` is cropped by `{keyframe.composition.name}`",
         (f"it reaches {over:.2f} m out of the frame, {_range(setting)}",),
-        "turn the camera towards it, move away, or widen `hfov`",
+        lambda _mission, _shot: f"turn the camera towards it, move away, or {_wider(setting, aim)}",
     )
+
+
+def _wider(setting: Setting, aim: Vec2) -> str:
+    """Say how wide a lens shows the target whole to a camera that looks as it does."""
+    wide = least(lambda a: setting._replace(hfov=a).margin(aim) >= -TOUCH, setting.hfov, WIDEST)
+    return "widen `hfov`" if wide is None else f"widen `hfov` to {at_least(degrees(wide), 1)} deg"
 
 
 def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:

@@ -6,7 +6,7 @@ to the middle is taken at which the target is whole, half way through the shot.
 
 from __future__ import annotations
 
-from math import pi
+from math import degrees, pi
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.begins import first_start
@@ -15,6 +15,7 @@ from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject
 from shotc.passes.place_keyframes.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
+from shotc.rounding import at_least
 
 MIDDLE = (0.0, 0.0)
 
@@ -53,7 +54,23 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
         return place, []
     instead = nearest_on_verticals(setting, composition, MIDDLE)
     wanted = _nearest_of_all(setting, composition)
-    return instead or wanted, [_cropped(mission, shot, subject, wanted, instead)]
+    told = _cropped(mission, shot, subject, wanted, instead)
+    return instead or wanted, [told._replace(help=_whole(mission, shot, setting, composition) or told.help)]
+
+
+def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Composition) -> str:
+    """Say through which lens a target is whole at a place of its composition; empty where none does."""
+    from shotc.passes.place_keyframes.farther import least
+    from shotc.passes.place_keyframes.faults import WIDEST
+
+    def fits(hfov: float) -> bool:
+        return nearest_candidate(setting._replace(hfov=hfov), composition, MIDDLE) is not None
+
+    wide = least(fits, setting.hfov, WIDEST) if setting.hfov < WIDEST else None
+    if wide is None:
+        return ""
+    lens = at_least(degrees(wide), 1)
+    return f"film it from farther away, or through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`"
 
 
 def setting_at(mission: MissionIR, shot: Shot, target: str) -> Setting:
