@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 # Columns and their values, one entry a row.
 Term = tuple[NDArray[Any], Array]
 
+REFINED = 1e-3  # of a tolerance: to which the linear systems of a step are solved
+
 
 class ConeRows:
     """Expressions constant + sum of terms over ``unknowns`` columns, each in a cone."""
@@ -88,6 +90,7 @@ class ConeRows:
         settings.max_threads = 1
         settings.presolve_enable = False
         settings.equilibrate_enable = not scaled
+        settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = REFINED * tolerance
         settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
         solver = clarabel.DefaultSolver(
             self._square(hessian), cost, lhs, np.concatenate(self._constants), cones, settings
