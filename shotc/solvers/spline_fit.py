@@ -13,9 +13,11 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, value_rows
-from shotc.solvers.conic import Status, solve
-from shotc.solvers.spline_problem import scalar_map
+from shotc.solvers.cone_rows import ConeRows
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_problem import scalar_map, terms
 
+TOLERANCE = 1e-8
 TOUCH = 3e-7  # a third of what verification lets a limit be missed by
 
 
@@ -87,45 +89,45 @@ def _unbounded(task: Fit) -> Array:
     matrix, wanted = _least_squares(task)
     size = matrix.shape[1]
     normal = matrix.T @ matrix
-    anchors, bound = _anchors(task, size)
+    binding, bound = _anchors(task)
     if not len(bound):
         return np.asarray(spsolve(normal.tocsc(), matrix.T @ wanted))
+    anchors = scalar_map(binding, size)
     system = bmat([[normal, anchors.T], [anchors, None]], format="csc")
     return np.asarray(spsolve(system, np.concatenate([matrix.T @ wanted, bound]))[:size])
 
 
-def _anchors(task: Fit, size: int) -> tuple[Any, Array]:
-    """Return a matrix whose products with coefficients are what binds, and the values that it binds to."""
-    from scipy.sparse import vstack
-
-    values = scalar_map(value_rows(task.breaks, task.anchor_at), size)
+def _anchors(task: Fit) -> tuple[Rows, Array]:
+    """Return the rows that bind, and the values that they bind to."""
+    rows = value_rows(task.breaks, task.anchor_at)
     if task.slope_at is None or task.slope is None:
-        return values, task.anchor
-    slopes = scalar_map(value_rows(task.breaks, task.slope_at, 1), size)
-    return vstack([values, slopes], format="csr"), np.concatenate([task.anchor, task.slope])
+        return rows, task.anchor
+    slopes = value_rows(task.breaks, task.slope_at, 1)
+    both = Rows(np.concatenate([rows.piece, slopes.piece]), np.concatenate([rows.weight, slopes.weight]))
+    return both, np.concatenate([task.anchor, task.slope])
 
 
 def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
     """Solve for the change to the optimum without bounds: near it the numbers are small."""
-    import cvxpy as cp
-
     matrix, _ = _least_squares(task)
     matrix = matrix / max(float(abs(matrix).max()), 1e-12)
     size = matrix.shape[1]
-    change = cp.Variable(size)
-    points = scalar_map(control_rows(task.breaks), size)
     assert task.low is not None
     assert task.high is not None
-    at = points @ free
-    constraints = [points @ change >= task.low.ravel() - at, points @ change <= task.high.ravel() - at]
-    anchors, bound = _anchors(task, size)
-    if len(bound):
-        constraints.append(anchors @ change == 0.0)
-    programme = cp.Problem(cp.Minimize(cp.sum_squares(matrix @ change)), constraints)
-    status = solve(programme)
-    if change.value is None or status not in {Status.SOLVED, Status.INACCURATE}:
+    points = control_rows(task.breaks)
+    at = points.apply(free[:, None])[:, 0]
+    programme = ConeRows(size)
+    for sign, bound in ((1.0, task.low.ravel()), (-1.0, task.high.ravel())):
+        bounds = np.isfinite(bound)
+        rows = Rows(points.piece[bounds], points.weight[bounds])
+        programme.positive(sign * (at - bound)[bounds], terms(rows, sign))
+    binding, _ = _anchors(task)
+    if len(binding.piece):
+        programme.zero(terms(binding))
+    status, change = programme.solve(np.zeros(size), TOLERANCE, 2.0 * (matrix.T @ matrix))
+    if status not in {Status.SOLVED, Status.INACCURATE}:
         return status, np.zeros(size)
-    return status, np.asarray(free + change.value)
+    return status, np.asarray(free + change)
 
 
 def _stiff(task: Fit, order: int, weight: float | Array) -> Rows:

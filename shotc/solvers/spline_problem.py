@@ -13,6 +13,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import DEGREE, IntArray, Rows
+from shotc.solvers.cone_rows import Term
 
 EVERY = (0, 1, 2)
 
@@ -102,3 +103,9 @@ def scalar_map(rows: Rows, size: int) -> Any:
     columns = rows.piece[:, None] + np.arange(DEGREE + 1)
     pointer = np.arange(0, (DEGREE + 1) * count + 1, DEGREE + 1)
     return csr_matrix((rows.weight.ravel(), columns.ravel(), pointer), shape=(count, size))
+
+
+def terms(rows: Rows, factor: Array | float = 1.0, first: int = 0) -> list[Term]:
+    """Return rows of one component, times a factor, as terms of ``ConeRows``; ``first`` : of its columns."""
+    columns = rows.piece + first
+    return [(columns + k, rows.weight[:, k] * factor) for k in range(DEGREE + 1)]

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import DEGREE, Rows
+from shotc.geom.bspline import Rows
 from shotc.solvers.cone_rows import ConeRows, Term
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_problem import EVERY, Cones, SplineProblem, centred, scalar_map
+from shotc.solvers.spline_problem import EVERY, Cones, SplineProblem, centred, scalar_map, terms
 
 MISS = 1e-6  # metres that a solution may miss an equality by
 TOLERANCE = 1e-8
@@ -137,9 +137,9 @@ def programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     at, price = 3 * problem.size, [np.zeros(3 * problem.size)]
     for axis in EVERY:
         equal = problem.equalities
-        rows.zero(_terms(equal.rows, problem.size, axis), -equal.value[:, axis])
+        rows.zero(terms(equal.rows, first=axis * problem.size), -equal.value[:, axis])
     for floor in problem.floors:
-        along = (_terms(floor.rows, problem.size, axis, floor.normal[:, axis]) for axis in EVERY)
+        along = (terms(floor.rows, floor.normal[:, axis], axis * problem.size) for axis in EVERY)
         rows.positive(-floor.offset, list(chain.from_iterable(along)))
     for cone in problem.cones:
         more: list[Term] = []
@@ -161,21 +161,15 @@ def programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     return SplineSolution(status, coef, _energy(problem, coef), excess)
 
 
-def _terms(rows: Rows, size: int, axis: int, factor: Array | float = 1.0) -> list[Term]:
-    """Return the terms of one component of some rows, times a factor."""
-    first = rows.piece + axis * size
-    return [(first + k, rows.weight[:, k] * factor) for k in range(DEGREE + 1)]
-
-
 def _bounded(rows: ConeRows, size: int, cone: Cones, more: list[Term]) -> None:
     """Demand that norms are at most their bounds and what is added to them; of one component, its size."""
-    parts = [_terms(cone.rows, size, axis) for axis in cone.axes]
+    parts = [terms(cone.rows, first=axis * size) for axis in cone.axes]
     if len(parts) > 1:
         rows.second_order(cone.bound, [more, *parts], rest=list(-cone.centre.T))
         return
     for sign in (1.0, -1.0):
-        terms = [(columns, -sign * values) for columns, values in parts[0]]
-        rows.positive(cone.bound + sign * cone.centre[:, 0], more + terms)
+        part = [(columns, -sign * values) for columns, values in parts[0]]
+        rows.positive(cone.bound + sign * cone.centre[:, 0], more + part)
 
 
 def _quadratic(problem: SplineProblem, slacks: int) -> tuple[Any, Array]:

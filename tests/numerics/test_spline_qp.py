@@ -295,6 +295,33 @@ def test_slopes_that_bind_are_met(bounded):
     assert np.abs(control_rows(breaks).apply(coef[:, None])).max() <= edge.max() + 1e-6
 
 
+@pytest.mark.parametrize("sloped", [False, True])
+def test_a_fit_between_bounds_is_the_one_that_a_modelling_layer_finds(sloped):
+    breaks, at = np.linspace(0, 10, 9), np.linspace(0.1, 9.9, 60)
+    low, high = np.full((8, 6), -0.7), np.full((8, 6), 0.9)
+    high[:2] = np.inf
+    anchors = np.array([0.0, 4.0])
+    task = Fit(breaks, at, np.sin(at), np.ones(60), anchors, 0 * anchors, (1e-4, 1e-5), low, high)
+    if sloped:
+        task = replace(task, slope_at=np.array([4.0]), slope=np.array([-0.2]))
+    x = cp.Variable(count(breaks))
+
+    def of(rows):
+        return scalar_map(rows, count(breaks)) @ x
+
+    points, upper = of(control_rows(breaks)), np.flatnonzero(np.isfinite(high.ravel()))
+    rows = [of(value_rows(breaks, anchors)) == 0.0, points >= -0.7, points[upper] <= 0.9]
+    rows += [of(value_rows(breaks, np.array([4.0]), 1)) == -0.2] if sloped else []
+    stiff = 1e-4 * cp.sum_squares(of(energy_rows(breaks, 1))) + 1e-5 * cp.sum_squares(
+        of(energy_rows(breaks, 3))
+    )
+    cost = cp.sum_squares(of(value_rows(breaks, at)) - np.sin(at)) + stiff
+    cp.Problem(cp.Minimize(cost), rows).solve(solver=cp.CLARABEL, tol_gap_rel=1e-10, tol_gap_abs=1e-10)
+    status, coef = fit(task)
+    assert status is Status.SOLVED
+    assert np.abs(coef - x.value).max() < 1e-4
+
+
 def test_bounds_hold_on_every_control_point():
     breaks = np.linspace(0, 10, 11)
     at = np.linspace(0, 10, 80)
