@@ -57,7 +57,8 @@ CODES: tuple[CodeInfo, ...] = (
         "The path is flown as fast as the limits allow: speed, climb and descent, acceleration and jerk as "
         "norms in space, the turning of the body and of each gimbal axis, from rest to rest, with its holds. "
         "If that takes longer than `duration`, the shortest possible duration is named, with the limits that "
-        "hold the drone back and where. Give the shot that duration, raise the limit, or bring its keyframes "
+        "hold the drone back and where. Of a path that a refiner has led aside it is that path's, and the note says "
+        "what the convex one would take. Give the shot that duration, raise the limit, or bring its keyframes "
         "nearer together.",
         ("duration: 16 s", "duration: 9 s"),
         (", time: 8 s", ""),

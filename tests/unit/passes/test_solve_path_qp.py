@@ -9,7 +9,6 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
-from shotc.diag.codes.convex import CODES
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.limits import Timing
@@ -137,16 +136,6 @@ def test_sizes_from_decimetres_to_kilometres_are_planned(scale):
     (leg,) = legs(planned(made, shot([free(i, p) for i, p in enumerate(points)])), "shot")
     passed = leg.curve(np.array([mark.s for mark in leg.marks]))[:, :3]
     assert np.abs(passed - points).max() < 1e-6 * max(1.0, scale)
-
-
-@pytest.mark.parametrize("info", [c for c in CODES if c.phase == "plan"], ids=lambda c: c.slug)
-def test_examples_of_codes(info):
-    def found(text):
-        options = PlanOptions(stop_after="solve-path-qp")
-        return {d.code for d in compile_source(text.encode(), "m.yaml", None, options).diagnostics}
-
-    assert info.code in found(info.failing)
-    assert not found(info.passing)
 
 
 def test_plan_says_once_that_an_ideal_path_is_blocked():
