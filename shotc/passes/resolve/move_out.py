@@ -12,6 +12,7 @@ from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_place, move,
 
 STEP = 1.1  # times the distance to the target, from one place that is tried to the next
 TRIES = 40  # of them on each way
+WAYS = 6  # out of an obstacle, the nearest ones
 
 
 def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obstacle) -> str:
@@ -28,7 +29,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obsta
     around, floor = obstacles_of(mission, drone), mission.rules.ground_clearance + drone.radius
     centre = mission.target(str(keyframe.target)).centre
     found: list[Vec3] = []
-    for way in obstacle.ways_out(p):
+    for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:WAYS]:
         for q in _farther(centre, way):
             place = outward(p, q)
             if place[2] < floor - ROUNDING or any(o.lack(place) > ROUNDING for o in around):
