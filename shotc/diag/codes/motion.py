@@ -22,7 +22,7 @@ _BY_FILE = _PASSING.replace("points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]
 
 
 _WARNINGS = (7, 8, 34, 35)
-_PLANNED = (8, 9, 11)
+_PLANNED = (8, 9, 11, 13)
 
 
 def _code(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
@@ -226,6 +226,30 @@ CODES: tuple[CodeInfo, ...] = (
             "{at: {from: target, offset: [-9, -9, 3]}, look_at: runner}",
             "{at: [10, -9, 3], heading: 270 deg, pitch: 0 deg}",
         ),
+    ),
+    _code(
+        12,
+        "target-over-pad",
+        "a target comes over a pad while the drone is on it",
+        "A drone on its pad is a body there. It may leave as soon as the mission begins, and wait in the air for "
+        "its shot or for room to land, so a target that passes later finds the pad empty. Here it comes sooner than "
+        "any take-off is over, or it stays on the pad while the drone still films, or the drone films nothing and "
+        "never leaves. Put `home` beside the track, or have the target pass at another time.",
+        ("home: [0, -30, 0]", "home: [1.5, 0.2, 0]"),
+    ),
+    _code(
+        13,
+        "pad-not-free",
+        "a drone cannot take off, or land, clear of a target",
+        "The plan takes off before a target comes over the pad, or after it, and waits with the landing until the "
+        "pad is free. Here the target is there at all of the times that were tried, and the drone's body would touch "
+        "it. Move `home` aside from its track, or start the shot at another time.",
+        (
+            "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]",
+            "points: [[0, 0, 0.9], [45, 0, 0.9]], times: [0, 30]",
+        ),
+        ("home: [0, -30, 0]", "home: [45, 0, 0]"),
+        ("{start: 15, duration: 10}", "{duration: 10}"),
     ),
     _code(
         21,

@@ -29,6 +29,7 @@ from shotc.passes.resolve.seldom import (
     check_covered,
     check_fleets,
     check_ideals,
+    check_passers,
     framed,
     shown,
     tracks_of,
@@ -180,7 +181,7 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
     the order of the shots where all shots and homes do.
     """
-    homes = [*check_homes(mission), *check_ideals(mission)]
+    homes = [*check_homes(mission), *check_ideals(mission), *check_passers(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in check_places(mission, shot)]
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]

@@ -77,6 +77,15 @@ def check_covered(mission: MissionIR) -> list[Diagnostic]:
     return list(covered(mission))
 
 
+def check_passers(mission: MissionIR) -> list[Diagnostic]:
+    """Return what comes over a pad while its drone stands there."""
+    if all(target.track is None for target in mission.targets):
+        return []
+    from shotc.passes.resolve.passers import passers_of
+
+    return list(passers_of(mission))
+
+
 class Show(NamedTuple):
     """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others.
 

@@ -100,6 +100,7 @@ def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]
 def on_clock(ir: KeyframeIR) -> bool:
     """Tell whether legs have to know their mission time: a target moves, or several drones fly."""
     moving = any(placed.shot.ideal is not None for placed in ir.shots)
+    moving = moving or any(target.track is not None for target in ir.mission.targets)
     return moving or len({placed.shot.drone for placed in ir.shots}) > 1
 
 

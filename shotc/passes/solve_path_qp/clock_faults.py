@@ -13,6 +13,7 @@ from shotc.passes.parameterize_time.faults import listed, timing_label
 from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate
 from shotc.rounding import at_least, down, plain, up
 
+PAD_ROOM = 0.5  # metres that a pad is told to lie beyond a target's way over it
 ALONE = "or have the drone start nearer"
 WINDOW = 2.0  # seconds over which the speed of a place is told
 
@@ -87,6 +88,8 @@ def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
 def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -> Diagnostic:
     """Return M011: every way to a shot, or back home where that is None, meets a target."""
     met = found.met
+    if met.phase != "transit":
+        return _pad_met(mission, drone, found)
     lead = "on its way home" if shot is None else f"on every way to shot `{shot.id}`"
     where = (
         mission.origins.value((*drone.path, "home"), "on the way back here")
@@ -106,6 +109,26 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -
         ),
         ", or ".join(remedies),
     )
+
+
+def _pad_met(mission: MissionIR, drone: Drone, found: Meets) -> Diagnostic:
+    """Return M013: a target is over the pad whenever the drone could take off from it, or land."""
+    met = found.met
+    target = next(t for t in mission.targets if met.owner == f"target {t.name}")
+    verb = "take off" if met.phase == "takeoff" else "land"
+    labels = (
+        mission.origins.value((*drone.path, "home")),
+        mission.origins.value((*target.path, "track"), "comes over the pad"),
+    )
+    notes = (
+        f"at t = {met.time:.1f} s the target reaches {at_least(met.lack)} m into the body, at the "
+        f"best of the times to {verb} that were tried",
+    )
+    away = at_least(met.lack + PAD_ROOM)
+    remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
+    remedies.append(f"move `home` {away} m or more aside from the track of `{target.name}`")
+    message = f"`{drone.name}` cannot {verb} clear of target `{target.name}`"
+    return Diagnostic("M013", message, labels, notes, ", or ".join(remedies))
 
 
 def _shortened(found: OutsideTrack) -> str:

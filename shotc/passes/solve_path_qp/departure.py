@@ -1,9 +1,10 @@
 """When to set out on an unfilmed way, and over which height, so that nothing that moves is met on it.
 
 A drone leaves as late as it can and still be in time, or, where nobody waits for it, at once. Where that
-way meets a target or another drone, it sets out at another time, or goes round or over the top. A way that
-comes too near to a target would be refused by the proof: it is chosen only where there is no other, not
-even a late one.
+way meets a target or another drone, it sets out at another time, or goes round or over the top. On its pad,
+on the way up from it and down to it the drone's body alone counts, as in the proof: a target that comes over
+the pad finds the drone gone before it, or not there yet. A way that comes too near to a target would be
+refused by the proof: it is chosen only where there is no other, not even a late one.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Leg
+from shotc.ir.path import Leg, PhaseName
 from shotc.ir.preference import LONGEST_WAIT
 from shotc.passes.parameterize_time.estimate import leg_motion
 from shotc.passes.timed_route.moving import Moving
@@ -28,7 +29,7 @@ from shotc.passes.timed_route.sights import seen_on
 STEP = 0.05  # seconds between the places that are compared
 COMFORT = 0.5  # metres beyond a clearance: twice what two drones or a target come nearer within a step
 EARLY = 1.0  # seconds by which a drone is in place where it has the time
-DELAYS = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0)  # seconds that it may wait
+DELAYS = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds that it may wait
 SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the time it has to spare that it waits
 CLOSER, ZOOMS = 20, 2  # parts into which a step is cut where it is nearest to a target, and how often
 PROVED = 1e-6  # metres
@@ -39,11 +40,15 @@ Course = Callable[[Array], Array]
 
 @dataclass(frozen=True, slots=True)
 class Meeting:
-    """A target that a way comes too near to: when, and by how many metres."""
+    """A target that a way comes too near to: when, and by how many metres.
+
+    phase : "takeoff" or "land" where that is at the pad, "transit" elsewhere
+    """
 
     owner: str
     time: float
     lack: float
+    phase: PhaseName = "transit"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,48 +80,62 @@ class Then:
     ready: float
 
 
+@dataclass(frozen=True, slots=True)
+class When:
+    """When a way is flown, mission times in seconds.
+
+    ready : from when on the drone may leave; due : by when it has to be there, if it has to
+    stays : until when it stands where the way ends, at least
+    """
+
+    ready: float
+    due: float | None = None
+    stays: float = 0.0
+
+
 def choose(
     mission: MissionIR,
     drone: Drone,
     traffic: Traffic,
     ways: Iterable[list[Leg]],
-    span: tuple[float, float | None],
+    when: When,
     then: Then | None = None,
 ) -> Way | None:
     """Return the first way in time on which nothing is met, else the best; None where there is none.
 
-    The best meets no target, is the least late, and has the most room, in this order.
+    The best meets no target, then no drone, is the least late, and has the most room, in this order: what is
+    met is refused by the proof, and a shot that is late can be put off, or is told when it could begin.
 
     ways : legs that lead there, those to be preferred first
-    span : mission times from which the drone may leave, and by which it has to be there, if it has to
     then : what it flies next, which is not to meet anything either
     """
     tried: list[Way] = []
     for legs in ways:
-        for way in _tries(mission, drone, traffic, legs, span, then):
-            in_time = span[1] is None or way.end <= span[1]
-            if way.clear and _unseen(traffic, way, span) >= 0.0 and (in_time or not tried):
+        for way in _tries(mission, drone, traffic, legs, when, then):
+            in_time = when.due is None or way.end <= when.due
+            if way.clear and _unseen(traffic, way, when) >= 0.0 and (in_time or not tried):
                 return way
             tried.append(way)
         if not traffic.moving:
             break
-    due = inf if span[1] is None else span[1]
+    due = inf if when.due is None else when.due
 
-    def worth(way: Way) -> tuple[bool, float, float, float]:
-        unseen = _unseen(traffic, way, span)
-        return way.met is None, -max(0.0, way.end - due), min(way.room, COMFORT), unseen
+    def worth(way: Way) -> tuple[bool, bool, float, float, float]:
+        late = max(0.0, way.end - due)
+        unseen = _unseen(traffic, way, when)
+        return way.met is None, way.room >= 0.0, -late, min(way.room, COMFORT), unseen
 
     return max(tried, key=worth, default=None)
 
 
-def _unseen(traffic: Traffic, way: Way, span: tuple[float, float | None]) -> float:
-    """Return how far a way is out of pictures, metres, where that counts; span : as in ``choose``.
+def _unseen(traffic: Traffic, way: Way, when: When) -> float:
+    """Return how far a way is out of pictures, metres, where that counts; when : as in ``choose``.
 
     A preference that is not met counts for nothing, nor one that is for which what follows waits too long.
     """
     if not traffic.sights.preferred:
         return way.unseen
-    waits = (way.legs[0].start or 0.0) - span[0] if span[1] is None and way.legs else 0.0
+    waits = (way.legs[0].start or 0.0) - when.ready if when.due is None and way.legs else 0.0
     return 0.0 if way.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
 
 
@@ -125,10 +144,10 @@ def _tries(
     drone: Drone,
     traffic: Traffic,
     legs: list[Leg],
-    span: tuple[float, float | None],
+    when: When,
     then: Then | None,
 ) -> Iterator[Way]:
-    begin, due = span
+    begin, due = when.ready, when.due
     curves = [motion.curve for leg in legs if (motion := leg_motion(mission, drone, leg)) is not None]
     lasts = sum(float(curve.end) for curve in curves)
     next_motion = None if then is None else leg_motion(mission, drone, then.leg)
@@ -141,13 +160,13 @@ def _tries(
         if not traffic.moving:
             yield Way(tuple(started), leaves + lasts)
             return
-        until = max(leaves + lasts, due or 0.0, 0.0 if then is None else then.ready)
+        until = max(leaves + lasts, when.stays, due or 0.0, 0.0 if then is None else then.ready)
         course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, until)
         times = np.arange(begin, until + (0.0 if film is None else float(film.end)) + STEP, STEP)
         places, upright = course.at(times), course.upright(times)
-        room = min(_room(what, times, places, upright) for what in traffic.moving)
+        room = min(_room(what, drone.radius, times, places, upright) for what in traffic.moving)
         unseen = seen_on(drone, traffic.sights, times, places)
-        met = _met(traffic.moving, course, times[times <= until])
+        met = _met(traffic.moving, drone.radius, course, times[times <= until])
         yield Way(tuple(started), leaves + lasts, room, unseen, met)
 
 
@@ -177,16 +196,24 @@ class _Course:
         return places
 
     def upright(self, times: Array) -> Mask:
-        """Tell at which times it rises from its pad or sinks to it, where targets need no clearance."""
-        found = np.zeros(len(times), dtype=bool)
-        begin = self.leaves
+        """Tell at which times it is on its pad, rises from it or sinks to it: its body alone counts."""
+        takes_off, lands = self._lifts()
+        return np.asarray((times <= takes_off) | (times >= lands))
+
+    def phase(self, t: float) -> PhaseName:
+        """Return what it does at a mission time; all but take-off and landing is a transit."""
+        takes_off, lands = self._lifts()
+        return "takeoff" if t <= takes_off else "land" if t >= lands else "transit"
+
+    def _lifts(self) -> tuple[float, float]:
+        """Return the mission times at which take-off ends and landing begins; infinite without one."""
+        takes_off, lands, begin = -inf, inf, self.leaves
         for leg, curve in zip(self.legs, self.curves, strict=False):
-            if leg.phase == "takeoff":
-                found |= times <= begin + float(curve.end)
-            if leg.phase == "land":
-                found |= times >= begin
-            begin += float(curve.end)
-        return found
+            end = begin + float(curve.end)
+            takes_off = end if leg.phase == "takeoff" else takes_off
+            lands = begin if leg.phase == "land" else lands
+            begin = end
+        return takes_off, lands
 
 
 def _from(places: Array, times: Array, begin: float, curve: Piecewise) -> None:
@@ -195,29 +222,35 @@ def _from(places: Array, times: Array, begin: float, curve: Piecewise) -> None:
     places[inside] = curve(np.minimum(times[inside] - begin, float(curve.end)))
 
 
-def _room(what: Moving, times: Array, places: Array, upright: Mask) -> float:
-    """Return the least distance from something that moves beyond the clearance from it, metres."""
-    counts = np.ones(len(times), dtype=bool) if what.always else ~upright
-    away = distances(what.part, places[counts] - what.at(times[counts]))
-    return float(away.min(initial=inf)) - what.clearance
+def _room(what: Moving, radius: float, times: Array, places: Array, upright: Mask) -> float:
+    """Return the least distance from something that moves beyond the clearance from it, metres.
+
+    radius : of the body, which is all that counts at the pad
+    """
+    needs = _needs(what, radius, upright)
+    return float((distances(what.part, places - what.at(times)) - needs).min(initial=inf))
 
 
-def _met(moving: Sequence[Moving], course: _Course, times: Array) -> Meeting | None:
+def _needs(what: Moving, radius: float, upright: Mask) -> Array:
+    """Return the metres that are kept from something that moves, shape (M,)."""
+    return np.where(upright & (not what.always), radius, what.clearance)
+
+
+def _met(moving: Sequence[Moving], radius: float, course: _Course, times: Array) -> Meeting | None:
     """Return the target that a course comes nearest to, if that is too near."""
-    nearest = [_nearest(what, course, times) for what in moving if not what.always]
+    nearest = [_nearest(what, radius, course, times) for what in moving if not what.always]
     worst = max(nearest, key=lambda met: met.lack, default=None)
     return worst if worst is not None and worst.lack > PROVED else None
 
 
-def _nearest(what: Moving, course: _Course, times: Array) -> Meeting:
+def _nearest(what: Moving, radius: float, course: _Course, times: Array) -> Meeting:
     """Return where a course is nearest to a target, looked at ever more closely: it is to stand the proof."""
-    step, least, when = STEP, inf, float(times[0])
+    step, most, when = STEP, -inf, float(times[0])
     for _ in range(1 + ZOOMS):
-        near = times[~course.upright(times)]
-        if not len(near):
-            break
-        away = distances(what.part, course.at(near) - what.at(near))
-        least, when = float(away.min()), float(near[int(away.argmin())])
+        lack = _needs(what, radius, course.upright(times)) - distances(
+            what.part, course.at(times) - what.at(times)
+        )
+        most, when = float(lack.max()), float(times[int(lack.argmax())])
         inside = np.linspace(max(when - step, times[0]), min(when + step, times[-1]), 2 * CLOSER + 1)
         step, times = step / CLOSER, inside
-    return Meeting(what.owner, when, what.clearance - least)
+    return Meeting(what.owner, when, most, course.phase(when))

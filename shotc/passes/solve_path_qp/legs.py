@@ -10,10 +10,12 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, subdivide
-from shotc.geom.corridor import Room
-from shotc.ir.mission import Drone
+from shotc.geom.convex import segment_distances
+from shotc.geom.corridor import Room, bounds_slack, breaches
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop, TimedLeg
+from shotc.passes.corridor.room import pad_room
 from shotc.passes.solve_path_qp.body import BodyTask, allowed_body, body_line
 from shotc.passes.solve_path_qp.lines import SAME_PLACE, TURN_LENGTH, Line, straight_line
 from shotc.passes.solve_path_qp.position import Stretch, solve_stretch
@@ -21,6 +23,7 @@ from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, ShotCurve, S
 from shotc.solvers.conic import Status
 
 SAME_ANGLE = 1e-6
+ROUNDING = 1e-9  # metres
 PIECES = 4
 
 Pose = tuple[float, ...]
@@ -58,6 +61,15 @@ def take_off(flight: Flight, goal: Pose) -> Leg:
     ctrl = lift.curve.ctrl.copy()
     ctrl[-1, -1, :3] = flight.top
     return replace(lift, curve=Piecewise(lift.curve.breaks, ctrl))
+
+
+def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
+    """Return the flight with its transit point so much higher; None where that cannot be."""
+    top = flight.top + np.array([0.0, 0.0, metres])
+    home, pad = np.array(flight.drone.home), pad_room(mission, flight.drone)
+    free = bounds_slack(pad, top[None])[0] >= 0.0 and not breaches(flight.room, top)
+    above = (segment_distances(o.part, home[None], top[None])[0] - o.clearance for o in pad.obstacles)
+    return replace(flight, top=top) if free and min(above, default=0.0) >= -ROUNDING else None
 
 
 def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[Leg] | Failure:

@@ -6,9 +6,11 @@ it are timed here as the time pass will time them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+
+import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyed import carriers
@@ -18,11 +20,12 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.parameterize_time.estimate import leg_time
-from shotc.passes.solve_path_qp.departure import Then, Way, choose
+from shotc.passes.solve_path_qp.departure import Then, Way, When, choose
 from shotc.passes.solve_path_qp.legs import (
     Flight,
     Pose,
     end_of,
+    raised,
     shot_leg,
     take_off,
     turned,
@@ -37,17 +40,17 @@ from shotc.passes.solve_path_qp.starts import (
     Reached,
     TooLate,
     Trouble,
-    later,
     outside,
     put_off,
 )
 from shotc.passes.solve_path_qp.sweeps import with_sweeps
 from shotc.passes.timed_route.aims import Looker
-from shotc.passes.timed_route.clock import lead_in
 from shotc.passes.timed_route.flights import flight
+from shotc.passes.timed_route.run_up import lead_in, way_time
 from shotc.passes.timed_route.shot import NoMotion, Traffic, timed_shot
+from shotc.rounding import up
 
-LATER = (2.0, 5.0, 10.0)  # seconds that such a shot may begin later where something is met on the way to it
+LATER = (2.0, 5.0, 10.0, 20.0, 40.0)  # seconds that a shot may begin later where something is met on its way
 LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
 LATE = 1e-6  # seconds
 AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
@@ -85,7 +88,8 @@ class Itinerary:
         if not isinstance(back, list):
             return back
         ways = self._ways_home(pose, back)
-        way = choose(self.mission, self.drone, self.traffic, ways, (self.clock, None))
+        stays = max(self.ends.values(), default=0.0)
+        way = choose(self.mission, self.drone, self.traffic, ways, When(self.clock, stays=stays))
         assert way is not None
         if way.met is not None:
             return Meets(way.met)
@@ -178,20 +182,32 @@ class Itinerary:
                 found = self._through(stops, path)
                 if found is not None:
                     yield [*lift, *found]
+            if lift:
+                yield from self._lifted(goal, near, path)
 
-        found = choose(self.mission, self.drone, self.traffic, ways(), (self.clock, due), then)
+        found = choose(self.mission, self.drone, self.traffic, ways(), When(self.clock, due), then)
         assert found is not None
         return found
+
+    def _lifted(self, goal: Pose, near: Pose, path: KeyPath) -> Iterator[list[Leg]]:
+        """Return ways from the pad that rise higher straight up, where there is room for it."""
+        for metres in LIFTS:
+            higher = raised(self.mission, self.flight, metres)
+            if higher is None:
+                return
+            lift = take_off(higher, goal)
+            rest = way_to(higher, end_of([lift]), near, path)
+            if isinstance(rest, list):
+                yield [lift, *rest]
 
     def _timed(self, placed: PlacedShot) -> Trouble | None:
         shot = placed.shot
         fixed = shot.timing.start
         if fixed is None:
             ready = self.ends.get(shot.timing.after or "", 0.0)
-            start = max(
-                ready, self.clock + lead_in(self.mission, self.drone, shot, self.clock), self._since(placed)
-            )
-            reached = put_off(self.mission, self._reached, placed, start)
+            before = lead_in(self.mission, self.drone, shot, self.clock).seconds
+            start = max(ready, self.clock + before, self._since(placed))
+            reached = put_off(self.mission, self._reached, placed, start, self._about(placed))
         else:
             reached = self._reached(placed, fixed)
         if not isinstance(reached, Reached):
@@ -221,7 +237,7 @@ class Itinerary:
             return outside(self.mission, placed, start)
         if fixed is None:
             return self._too_late(reached, reached, None)
-        first = put_off(self.mission, self._reached, placed, later(fixed, reached.late))
+        first = put_off(self.mission, self._reached, placed, up(fixed), self._about(placed))
         if isinstance(first, OutsideTrack):
             return self._too_late(reached, reached, first)
         if not isinstance(first, Reached):
@@ -262,6 +278,19 @@ class Itinerary:
         begins = float(made.leg.curve.start)
         way = self._way(made.leg.pose, placed, begins)
         return Reached(made, way, way.end - begins) if isinstance(way, Way) else way
+
+    def _about(self, placed: PlacedShot) -> Callable[[float], float]:
+        """Return by how many seconds the drone is late for a start of a shot, if it flies straight there."""
+        shot, limits = placed.shot, self.drone.limits
+        here, ready = np.array(end_of(self.legs)[:3] if self.legs else self.flight.top), self.clock
+        if not self.legs:
+            ready += way_time(limits, here - np.array(self.drone.home))
+
+        def about(start: float) -> float:
+            before = lead_in(self.mission, self.drone, shot, start)
+            return ready + way_time(limits, before.rest - here) - (start - before.seconds)
+
+        return about
 
     def _since(self, placed: PlacedShot) -> float:
         tracks = (self.mission.target(name).track for name in carriers(placed.shot))

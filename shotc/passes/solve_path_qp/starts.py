@@ -1,14 +1,15 @@
 """When a shot on its own clock can begin at the earliest, for its target moves on while its start is put off.
 
-Each try plans the shot for a start, and the way to where it begins then. By how much the drone is late there
-tells the next start, with the rate at which it catches up once there are two of them. One that is put off by
-too much is led back by halves.
+Each try plans the shot for a start, and the way to where it begins then. The next start is the first at which
+the drone is there by a rough estimate of its lateness, corrected by how far that was off at the tries before.
+So a shot whose target comes to the drone begins as it comes by, not once the drone has followed it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 
 from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
@@ -20,9 +21,13 @@ from shotc.passes.timed_route.shot import NoMotion, TimedShot
 from shotc.rounding import down, up
 
 TRIES = 10
-CLOSE = 0.5  # seconds between starts that are late and in time, the second of which is taken
-SPARE = 0.2  # seconds by which a drone is early where the mission does not fix the start
-SLOWEST = 0.1  # seconds that it catches up with each second that the start is put off; less is no gain
+GIVES_UP = 4  # tries, after which a drone that falls behind ever more is given up
+CLOSE = 0.3  # seconds between starts that are late and in time, the second of which is taken
+SPARE = 0.1  # seconds by which a drone is early where the mission does not fix the start
+STEEPEST = 0.95  # seconds that an estimate may get worse by with each second that the start is put off
+HORIZON = 300.0  # seconds that a start may be put off by
+FINE = 0.1  # seconds between the first starts that are looked at
+COARSER = 100  # of them, after which they lie twice as far apart
 SHORTEST = 1.0  # seconds of track that are worth a shot
 ROUNDING = 1e-6  # seconds
 
@@ -76,6 +81,8 @@ class Reached:
 
 
 Trouble = Failure | NoMotion | OutsideTrack | Meets | TooLate
+Lateness = Callable[[float], float]
+"""By how many seconds a drone is late for a start."""
 Reach = Callable[[PlacedShot, float], Reached | Trouble]
 """Plans a shot for a start, and the way to it."""
 
@@ -90,34 +97,62 @@ def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrac
     return None
 
 
-def put_off(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float) -> Reached | Trouble:
+def put_off(
+    mission: MissionIR, reach: Reach, placed: PlacedShot, start: float, about: Lateness
+) -> Reached | Trouble:
     """Return a shot planned for the first start, from ``start`` on, at which its drone is there.
 
+    about : by how many seconds it is late for a start, roughly
     Where the track ends too soon, the shot is planned as long as the track lasts. One that is returned late
     has a drone that does not catch up.
     """
-    behind: tuple[float, float] | None = None  # the last start at which it is late, and by how much
-    there: Reached | None = None  # the first one known at which it is not
+    there: Reached | None = None  # the first start known at which it is there
+    span = (start, inf)  # the last start known at which it is late, and that one
+    off: list[
+        tuple[float, float]
+    ] = []  # starts that were tried, and by how much later they are than estimated
+    now: float | None = start
     reached: Reached | Trouble
     for _ in range(TRIES):
-        reached = _as_long(mission, reach, placed, start)
+        assert now is not None
+        reached = _as_long(mission, reach, placed, now)
         if not isinstance(reached, Reached):
             break
+        off.append((now, reached.late - about(now)))
         if reached.late <= 0.0:
-            there = reached
+            there, span = reached, (span[0], now)
         else:
-            gain = 1.0 if behind is None else (behind[1] - reached.late) / (start - behind[0])
-            behind = (start, reached.late)
-            if there is None:
-                if gain < SLOWEST:
-                    break
-                start = later(start, reached.late / gain)
-                continue
-        first = there.shot.leg.start
-        if behind is None or first - behind[0] < CLOSE:
+            span = (now, span[1])
+        now = _first(about, off, span)
+        if now is None:
             break
-        start = up(0.5 * (behind[0] + first))
     return there or reached
+
+
+def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, float]) -> float | None:
+    """Return the first start inside a span at which a drone is there by the corrected estimate; or None.
+
+    That the correction grew may be the cost of another way there, which is paid once: a few times it is taken
+    to stay as it is before the drone is given up.
+    """
+    (before, less), (last, lack) = off[-2:] if len(off) > 1 else (off[-1], off[-1])
+    rate = (lack - less) / (last - before) if last != before else 0.0
+    found = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST))
+    return _soonest(about, off, span, 0.0) if found is None and len(off) < GIVES_UP else found
+
+
+def _soonest(
+    about: Lateness, off: list[tuple[float, float]], span: tuple[float, float], rate: float
+) -> float | None:
+    """Return the same, for an estimate that gets worse at a rate from the last try on."""
+    (last, lack), begin = off[-1], span[0] + FINE
+    until = min(span[1] - CLOSE, off[0][0] + HORIZON)
+    steps = 0
+    while (now := up(begin + FINE * steps * (1.0 + steps / COARSER))) <= until:
+        if about(now) + lack + rate * (now - last) <= -SPARE:
+            return now
+        steps += 1
+    return None
 
 
 def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float) -> Reached | Trouble:
@@ -129,11 +164,6 @@ def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float)
     if short.left < SHORTEST or is_keyed(placed.shot):
         return short
     return reach(lasting(placed, short.left), start)
-
-
-def later(start: float, seconds: float) -> float:
-    """Return a start so much later that the drone has time to spare, in whole hundredths of a second."""
-    return up(start + seconds + SPARE)
 
 
 def lasting(placed: PlacedShot, seconds: float) -> PlacedShot:

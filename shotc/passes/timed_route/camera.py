@@ -13,7 +13,7 @@ from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone
 from shotc.passes.timed_route.aims import Looker, aims_at
 from shotc.passes.timed_route.clock import Clock
-from shotc.passes.timed_route.position import NEARLY, at_rest
+from shotc.passes.timed_route.position import NEARLY, UNSEEN, at_rest
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
 from shotc.solvers.spline_qp import minimise
@@ -64,7 +64,7 @@ def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
     across = np.maximum(np.cos(aims[:, 1]), 0.03)
     wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
-    goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(breaks)
+    goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(clock)
     problem = SplineProblem(count(breaks), goals, _ends(watch, breaks), _bounds(drone, breaks), ())
     solved = minimise(problem, UNIT)
     if solved.coef is None:
@@ -141,12 +141,11 @@ def _goals(rows: Rows, root: Array, wanted: Array) -> tuple[Goal, ...]:
     return tuple(goals)
 
 
-def _smooth(breaks: Array) -> tuple[Goal, ...]:
-    energy = energy_rows(breaks, 3)
+def _smooth(clock: Clock) -> tuple[Goal, ...]:
+    energy = energy_rows(clock.breaks, 3)
     none = np.zeros((len(energy.piece), 3))
-    return tuple(
-        Goal(_scaled(energy, np.full(len(energy.piece), s**3)), none, (c,)) for c, s in enumerate(SMOOTH)
-    )
+    gentle = np.sqrt(np.where(clock.filmed, 1.0, UNSEEN))[energy.piece]
+    return tuple(Goal(_scaled(energy, s**3 * gentle), none, (c,)) for c, s in enumerate(SMOOTH))
 
 
 def _bounds(drone: Drone, breaks: Array) -> tuple[Floors, ...]:

@@ -10,17 +10,16 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
-from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, is_keyed
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import Shot
+from shotc.passes.timed_route.run_up import RunUp
 
 PIECE = 0.5  # seconds of a piece of the spline, of a shot that is not very long
 FEWEST, MOST = 16, 240  # pieces of the film
-SHARE = 0.6  # of the drone's acceleration and jerk that the ways in and out are laid out for
-SETTLE = 1.0  # seconds that they have beyond that
+FINE = 0.4  # seconds of a piece of a way into the film or out of it
+LEAST = 5  # pieces of such a way: fewer are not as quick as its time allows
 PARTS = 4  # pieces at least from a keyframe to the next, so that a smooth way bends between them
 ROUNDING = 1e-9  # seconds
-STEP = 0.5  # seconds over which the speed at the ends of a shot is measured
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,19 +40,19 @@ class Clock:
         return np.asarray((middle > self.start) & (middle < self.end))
 
 
-def clock_of(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> Clock:
-    """Return the knots of a shot whose first frame is at ``start``."""
+def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp]) -> Clock:
+    """Return the knots of a shot whose first frame is at ``start``, with the ways into and out of it."""
     duration = shot.timing.duration or 0.0
     end = start + duration
     pieces = int(min(MOST, max(FEWEST, ceil(duration / PIECE))))
-    step = duration / pieces
-    before = lead_in(mission, drone, shot, start)
-    after = _lead(drone, _speed(mission, shot, start, end, -STEP))
-    first, last = (max(4, ceil(lead / max(step, PIECE))) for lead in (before, after))
+    before, after = (way.seconds for way in ways)
+    first, last = (max(LEAST, ceil(seconds / FINE)) for seconds in (before, after))
     breaks = np.concatenate(
         [
             np.linspace(start - before, start, first + 1)[:-1],
-            _filmed(shot, start, step) if is_keyed(shot) else np.linspace(start, end, pieces + 1),
+            _filmed(shot, start, duration / pieces)
+            if is_keyed(shot)
+            else np.linspace(start, end, pieces + 1),
             np.linspace(end, end + after, last + 1)[1:],
         ]
     )
@@ -74,20 +73,3 @@ def _filmed(shot: Shot, start: float, step: float) -> Array:
         start + np.linspace(a, b, max(PARTS, ceil((b - a) / step)), endpoint=False) for a, b in pairwise(kept)
     ]
     return np.append(np.concatenate(knots), start + duration)
-
-
-def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> float:
-    """Return the seconds that the drone sets out before the first frame of a shot."""
-    return _lead(drone, _speed(mission, shot, start, start, STEP))
-
-
-def _speed(mission: MissionIR, shot: Shot, start: float, t: float, step: float) -> float:
-    a, b = (np.array(ideal_place(mission, shot, start, u)) for u in (t, t + step))
-    return float(np.linalg.norm(b - a)) / abs(step)
-
-
-def _lead(drone: Drone, speed: float) -> float:
-    """Return the seconds in which a drone comfortably gets from rest to a speed."""
-    limits = drone.limits
-    most = min(speed, limits.speed)
-    return SETTLE + most / (SHARE * limits.acceleration) + limits.acceleration / limits.jerk

@@ -21,6 +21,7 @@ from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, shortfalls, sides
 from shotc.passes.timed_route.preferred import cost
+from shotc.passes.timed_route.run_up import RunUp
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Cones, Equalities, Floors, Goal, SplineProblem
@@ -30,16 +31,16 @@ from shotc.solvers.spline_relax import Relaxation, relax
 SMOOTH = 0.5  # seconds: shorter wiggles of the ideal are smoothed away
 SAMPLES = 3  # of the ideal, a piece
 FAINT = 1e-3  # weight of the ideal's course beyond the film's ends, against that in the film
-UNSEEN = 0.1  # weight of jerk beyond the film's ends, against that in the film
+UNSEEN = 0.005  # weight of jerk beyond the film's ends, against that in the film
 NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
 ROUNDS = 6
 LOOKS = 5  # rounds in which pictures are kept free
-STAND = 3.0  # seconds that a drone may stand where a motion begins or ends
 REACH = 4.0  # metres beyond its clearance within which something that stands counts
 SHARES = (0.5, 0.95)  # as in solve_path_qp.position
 PROVED = 1e-6  # metres
 ROUNDING = 1e-9  # seconds
 GAIN = 0.01
+ASTRAY = 50.0  # metres off its ideal on average over the film: a motion so far off is none
 HOPE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
 
 
@@ -83,6 +84,7 @@ class Task:
     """One shot to be flown.
 
     looker : who flies, and whom it films
+    ways : into the film and out of it
     passing : what passes while it stands where the motion begins, and where it ends
     room : what stands; motions : its obstacles and what moves, even on the clock's pieces
     sights : whose pictures count
@@ -92,6 +94,7 @@ class Task:
     looker: Looker
     shot: Shot
     clock: Clock
+    ways: tuple[RunUp, RunUp]
     room: Room
     motions: tuple[Even, ...]
     passing: tuple[tuple[Even, ...], tuple[Even, ...]]
@@ -207,12 +210,22 @@ def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
         if _lack(task, points) > PROVED:
             hulls = points if now.rounds % 2 else chords
             now = replace(now, hulls=hulls, reach=2.0 * now.reach, share=SHARES[0])
+        elif _astray(task, solution):
+            now = replace(now, status=Status.INFEASIBLE, ended=True)
         else:
             now = _improved(now, solution, points, done=not problem.floors)
     if now.best is None:
         return Flown(None, now.status, float("nan"), now.rounds, now.relaxation)
     assert now.best.coef is not None
     return Flown(spline(breaks, now.best.coef), now.best.status, now.best.objective, now.rounds)
+
+
+def _astray(task: Task, solution: SplineSolution) -> bool:
+    """Tell whether a motion is nowhere near its ideal.
+
+    Planes that all but contradict each other leave room only where they cross, kilometres away.
+    """
+    return solution.objective > ASTRAY**2 * (task.clock.end - task.clock.start)
 
 
 def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _Round:
@@ -252,7 +265,13 @@ def _lack(task: Task, points: Array) -> float:
 
 
 def _ideal(task: Task, times: Array) -> Array:
-    return np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
+    """Return where the camera would be: at its ideal in the film, on straight ways before and after it."""
+    clock, (before, after) = task.clock, task.ways
+    inside = np.clip(times, clock.start, clock.end)
+    filmed = np.array([ideal_place(task.mission, task.shot, clock.start, float(t)) for t in inside])
+    early, late = (times < clock.start)[:, None], (times > clock.end)[:, None]
+    led = np.where(early, before.at(times - clock.start), filmed)
+    return np.asarray(np.where(late, after.at(times - clock.end), led))
 
 
 def _base(task: Task) -> SplineProblem:
@@ -342,10 +361,12 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
     return replace(problem, floors=(*problem.floors, *(f for f in floors if len(f.offset))))
 
 
-def standing_by(motions: Sequence[Moving], breaks: Array) -> tuple[tuple[Even, ...], tuple[Even, ...]]:
-    """Return what passes while the drone stands where a motion begins, and where it ends."""
+def standing_by(
+    motions: Sequence[Moving], breaks: Array, seconds: float
+) -> tuple[tuple[Even, ...], tuple[Even, ...]]:
+    """Return what passes while the drone stands so long where a motion begins, and where it ends."""
     begin, end = breaks[0], breaks[-1]
-    windows = np.array([[begin - STAND, begin], [end, end + STAND]])
+    windows = np.array([[begin - seconds, begin], [end, end + seconds]])
     before, after = (tuple(evened(m, window) for m in motions) for window in windows)
     return before, after
 

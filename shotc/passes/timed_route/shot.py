@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from shotc.geom.runs import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.ir.preference import noted
 from shotc.passes.place_keyframes.keyed import placed_at, slowed
@@ -23,6 +24,7 @@ from shotc.passes.timed_route.clock import Clock, clock_of
 from shotc.passes.timed_route.keyed import marks_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, bounds_of, fly, standing_by
+from shotc.passes.timed_route.run_up import run_ups
 from shotc.passes.timed_route.sights import Sights
 from shotc.solvers.conic import Status
 
@@ -35,12 +37,31 @@ LIMITS = "the drone's limits"
 PICTURES = "the pictures of other drones"
 
 
+class Ask(NamedTuple):
+    """What is asked of the ends of a motion.
+
+    stand : seconds that the drone may stand there; longer : times as long as need be that the ways into the
+    film and out of it take
+    """
+
+    stand: float
+    longer: float
+
+
+ASKED = (Ask(3.0, 1.0), Ask(1.0, 1.0), Ask(0.0, 1.0), Ask(0.0, 2.0))
+"""The first with which there is a motion is taken."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Traffic:
     """What goes on around a shot: what moves, and whose pictures count."""
 
     moving: tuple[Moving, ...]
     sights: Sights
+
+
+Around = tuple[Room, Traffic]
+"""What stands around a shot, and what moves."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,14 +103,13 @@ def timed_shot(
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``.
 
-    Where it begins and ends nothing passes for some seconds before and after, so that a drone that comes
-    or leaves has time to.
+    Where it begins and ends nothing passes for some seconds before and after, if that can be, so that a drone
+    that comes or leaves has time to. The ways to and from there are held to what passes by themselves.
     """
     mission, drone = looker.mission, looker.drone
     placed = placed_at(mission, placed, start)
-    task = _task(mission, drone, (room, traffic), placed, start)
+    task, flown = _flown(mission, drone, (room, traffic), placed, start)
     shot, looker, clock = task.shot, task.looker, task.clock
-    flown = fly(task)
     if flown.curve is None:
         missed = _missed(task, (room, traffic), placed, start) if task.bound else None
         return NoMotion(flown.status, _lacks(task, flown), missed=missed)
@@ -112,19 +132,36 @@ def timed_shot(
     return TimedShot(leg, _deviations(task, flown), stats)
 
 
-def _task(
-    mission: MissionIR, drone: Drone, around: tuple[Room, Traffic], placed: PlacedShot, start: float
-) -> Task:
-    """Return what is to be flown; placed : the shot as it is where it begins at ``start``."""
-    shot, (room, traffic) = placed.shot, around
-    clock = clock_of(mission, drone, shot, start)
+def _flown(
+    mission: MissionIR, drone: Drone, around: Around, placed: PlacedShot, start: float
+) -> tuple[Task, Flown]:
+    """Return the first motion of some for which ever less is asked, or the last one that was not found.
+
+    placed : the shot as it is where it begins at ``start``
+    """
+    looker = looker_of(mission, drone, placed, start)
+    for ask in ASKED:
+        task = _task(looker, around, placed.shot, start, ask)
+        flown = fly(task)
+        if flown.curve is not None:
+            break
+    return task, flown
+
+
+def _task(looker: Looker, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
+    """Return what is to be flown, from where to where so much is asked."""
+    room, traffic = around
+    before, after = run_ups(looker.mission, looker.drone, shot, start)
+    ways = before.lasting(ask.longer), after.lasting(ask.longer)
+    clock = clock_of(shot, start, ways)
     near = (*standing(room), *traffic.moving)
     motions = tuple(evened(m, clock.breaks) for m in near)
-    looker, bound = looker_of(mission, drone, placed, start), bounds_of(mission, shot, start)
-    return Task(looker, shot, clock, room, motions, standing_by(near, clock.breaks), traffic.sights, bound)
+    passing = standing_by(near, clock.breaks, ask.stand)
+    bound = bounds_of(looker.mission, shot, start)
+    return Task(looker, shot, clock, ways, room, motions, passing, traffic.sights, bound)
 
 
-def _missed(task: Task, around: tuple[Room, Traffic], placed: PlacedShot, start: float) -> Missed | None:
+def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Missed | None:
     """Return which keyframes are out of reach, or None where the shot cannot be flown without them either."""
     free = fly(replace(task, free=True)).curve
     if free is None:
@@ -133,7 +170,8 @@ def _missed(task: Task, around: tuple[Room, Traffic], placed: PlacedShot, start:
     far = tuple(sorted((pair for pair in away if pair[1] > ON_PLACE), key=lambda pair: -pair[1]))
     for longer in LONGER:
         slower = slowed(task.mission, placed, start, longer)
-        if fly(_task(task.mission, task.drone, around, slower, start)).curve is not None:
+        looker = looker_of(task.mission, task.drone, slower, start)
+        if fly(_task(looker, around, slower.shot, start, ASKED[-1])).curve is not None:
             return Missed(far, longer)
     return Missed(far, None)
 

@@ -94,13 +94,13 @@ def test_points_that_keep_all_half_spaces_are_proved_clear() -> None:
     share = np.linspace(0.0, 1.0, 6)
     proved = 0
     for _ in range(30):
-        hulls = guide.ctrl + rng.normal(0.0, 1.5, (len(guide.ctrl), 1, 3))
+        hulls = guide.ctrl + rng.uniform(-2.0, 2.0, (len(guide.ctrl), 1, 3))
         reach = np.einsum("pmd,pd->pm", hulls[planes.piece], planes.normal)
         border = planes.border[:, :1] + share * (planes.border[:, 1:] - planes.border[:, :1])
         broken = np.zeros(len(hulls), dtype=bool)
         broken[planes.piece[(reach < border).any(axis=1)]] = True
         lack = around.lacking(hulls)
-        # A far obstacle has no plane; what is that near has one.
+        # What is farther than moves lead has no plane; what is nearer has one.
         assert lack[~broken].max(initial=-1.0) <= 1e-6
         proved += int((~broken).sum())
     assert proved > 100

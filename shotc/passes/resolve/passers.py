@@ -1,0 +1,171 @@
+"""Targets that come over a pad while its drone has to stand there: told by arithmetic, not by a plan.
+
+A drone may leave its pad as soon as the mission begins and wait in the air. So what passes later finds the
+pad empty, and only what comes sooner than any take-off could be over, or comes to stand there for good while
+the drone still films, is a fault of the mission.
+"""
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import dist, hypot, inf
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.solids import Cylinder, closest_on_segment, distance
+from shotc.geom.track import Track
+from shotc.geom.vec import Vec3
+from shotc.ir.begins import first_start
+from shotc.ir.mission import Drone, MissionIR, Target
+from shotc.passes.resolve.names import AUTO
+from shotc.rounding import at_least
+
+ROUNDING = 1e-6  # metres or seconds
+HALVES = 40  # of a stretch of a track, to find where a pad is touched first and last
+LOOKS = 50  # moments at which a take-off is held against what comes over it
+FAR = 1e3  # metres beyond a pad
+BESIDE = 0.1  # metres that a pad is told to lie beyond the reach of what passes
+
+
+class Stretch(NamedTuple):
+    """An even motion of a target between two mission times, seconds; the last one of a track has no end."""
+
+    begin: float
+    end: float
+
+
+class Touch(NamedTuple):
+    """When a target touches the body of a drone on its pad, seconds."""
+
+    first: float
+    last: float
+
+
+def passers_of(mission: MissionIR) -> Iterator[Diagnostic]:
+    """Yield what comes over a pad where the drone stands whatever is planned."""
+    for drone in mission.drones:
+        for target in mission.targets:
+            if target.track is None:
+                continue
+            touches = list(_touches(drone, target, target.track))
+            yield from _told(mission, drone, target, touches)
+
+
+def _told(mission: MissionIR, drone: Drone, target: Target, touches: list[Touch]) -> Iterator[Diagnostic]:
+    ends = [(s.drone, first_start(mission, s) + (s.timing.duration or 0.0)) for s in mission.shots]
+    filmed = [end for name, end in ends if name in (drone.name, AUTO)]
+    if not filmed:
+        until = max((end for _, end in ends), default=0.0)
+        parked = [t for t in touches if t.first < until - ROUNDING]
+        if parked:
+            yield _fault(
+                mission, drone, target, parked[0].first, f"`{drone.name}` films nothing and stands there"
+            )
+        return
+    caught = next((t for touch in touches if (t := _caught(drone, target, touch)) is not None), None)
+    if caught is not None:
+        risen = f"by then the drone can be {_risen(drone, caught):.2f} m above its pad at most"
+        yield _fault(mission, drone, target, caught, risen)
+    elif touches and touches[-1].last == inf and touches[-1].first < max(filmed) - ROUNDING:
+        first = f"it stays there, and the drone films until {max(filmed):.1f} s at least"
+        yield _fault(mission, drone, target, touches[-1].first, first)
+
+
+def _fault(mission: MissionIR, drone: Drone, target: Target, when: float, why: str) -> Diagnostic:
+    labels = (
+        mission.origins.value((*drone.path, "home")),
+        mission.origins.value((*target.path, "track"), "comes over the pad"),
+    )
+    note = f"its body touches the drone's on the pad at t = {when:.1f} s; {why}"
+    reach = at_least(target.radius + drone.radius + BESIDE)
+    help_ = f"put `home` {reach} m or more beside the track, or have `{target.name}` pass at another time"
+    message = f"target `{target.name}` comes over the pad of `{drone.name}` while the drone is on it"
+    return Diagnostic("M012", message, labels, (note,), help_)
+
+
+def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:
+    """Return when a target touches a drone that takes off as soon and as fast as it can; None where never."""
+    if touch.first == 0.0:
+        return 0.0
+    until = min(touch.last, touch.first + 10.0)
+    for i in range(LOOKS + 1):
+        t = touch.first + (until - touch.first) * i / LOOKS
+        x, y, z = drone.home
+        if _room(drone, target, (x, y, z + _risen(drone, t)), t) < -ROUNDING:
+            return t
+    return None
+
+
+def _risen(drone: Drone, t: float) -> float:
+    """Return the most metres that a drone can have risen by a mission time, not coming to rest there."""
+    limits = drone.limits
+    return min(limits.climb * t, 0.5 * limits.acceleration * t**2, limits.jerk * t**3 / 6.0)
+
+
+def _room(drone: Drone, target: Target, place: Vec3, t: float) -> float:
+    """Return the metres between a drone's body at a place and a target's; negative where they touch."""
+    x, y, z = target.at(t)
+    body = Cylinder((x, y), target.radius, z - 0.5 * target.height, z + 0.5 * target.height)
+    return distance(body, place) - drone.radius
+
+
+def _touches(drone: Drone, target: Target, track: Track) -> Iterator[Touch]:
+    """Yield when a target touches a drone on its pad, joined over the stretches of its track."""
+    open_: Touch | None = None
+    for stretch in _stretches(drone, track):
+        touch = _touch(drone, target, stretch)
+        if touch is None:
+            continue
+        if open_ is not None and touch.first <= open_.last + ROUNDING:
+            open_ = Touch(open_.first, touch.last)
+            continue
+        if open_ is not None:
+            yield open_
+        open_ = touch
+    if open_ is not None:
+        yield open_
+
+
+def _stretches(drone: Drone, track: Track) -> Iterator[Stretch]:
+    """Yield the stretches of a track from mission time 0 on, the last one until it is far from a pad."""
+    if track.times[0] > 0.0:
+        yield Stretch(0.0, track.times[0])
+    for a, b in pairwise(track.times):
+        if b > 0.0:
+            yield Stretch(max(a, 0.0), b)
+    begin = max(0.0, track.times[-1])
+    speed = hypot(*track.after)
+    if speed < ROUNDING:
+        yield Stretch(begin, inf)
+        return
+    yield Stretch(begin, begin + (dist(track.at(begin), drone.home) + FAR) / speed)
+
+
+def _touch(drone: Drone, target: Target, stretch: Stretch) -> Touch | None:
+    """Return when a target touches a drone on its pad on one stretch: once, for their distance is convex."""
+    begin, end = stretch
+    if end == inf:
+        return Touch(begin, inf) if _room(drone, target, drone.home, begin) < -ROUNDING else None
+    (ax, ay, _), (bx, by, _) = target.at(begin), target.at(end)
+    x, y, _ = drone.home
+    near = closest_on_segment((ax, ay), (bx, by), (x, y))
+    if hypot(near[0] - x, near[1] - y) >= target.radius + drone.radius:
+        return None
+    way = hypot(bx - ax, by - ay)
+    share = hypot(near[0] - ax, near[1] - ay) / way if way > ROUNDING else 0.0
+    nearest = begin + share * (end - begin)
+    if _room(drone, target, drone.home, nearest) >= -ROUNDING:
+        return None
+    return Touch(_edge(drone, target, nearest, begin), _edge(drone, target, nearest, end))
+
+
+def _edge(drone: Drone, target: Target, inside: float, outside: float) -> float:
+    """Return the end, towards ``outside``, of the time for which a target touches a drone on its pad."""
+    if _room(drone, target, drone.home, outside) < -ROUNDING:
+        return outside
+    for _ in range(HALVES):
+        middle = 0.5 * (inside + outside)
+        if _room(drone, target, drone.home, middle) < -ROUNDING:
+            inside = middle
+        else:
+            outside = middle
+    return inside

@@ -1,0 +1,112 @@
+"""The ways into the motion of a shot and out of it: straight, between rest and the speed of the film's ends.
+
+The least time from rest to a speed v, with acceleration a and jerk j bounded, is v / a + a / j where the
+acceleration reaches its bound, and 2 sqrt(v / j) where it does not: it is a trapezoid or a triangle
+(Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, Sec. 3.4). The place
+of rest is free, so nothing else counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import hypot, sqrt
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.ideal import ideal_place
+from shotc.ir.limits import Limits
+from shotc.ir.mission import Drone, MissionIR, Shot
+
+STEP = 0.5  # seconds over which the speed at the ends of a shot is measured
+SPLINE = (
+    1.05  # times the least time that a spline takes: its control points keep the limits, its pieces are few
+)
+SETTLE = 0.4  # seconds beyond that, in which the camera comes to its turn too, and the place settles
+
+Places = Callable[[float], tuple[float, float, float]]
+"""Where a camera is to be at a mission time, metres."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunUp:
+    """A way between rest and an end of a film.
+
+    seconds : that it takes; place, velocity : at the film's end of it, shape (3,), metres and m/s
+    """
+
+    seconds: float
+    place: Array
+    velocity: Array
+
+    @property
+    def rest(self) -> Array:
+        """Where a drone is at rest before the film, shape (3,), metres."""
+        return self.place - 0.5 * self.seconds * self.velocity
+
+    def lasting(self, times: float) -> RunUp:
+        """Return the way that takes so many times as long."""
+        return replace(self, seconds=times * self.seconds)
+
+    def at(self, away: Array) -> Array:
+        """Return places (M, 3) so many seconds from the film, negative before it; at rest beyond the way.
+
+        The speed goes evenly eased from nothing to the film's.
+        """
+        x = np.clip(1.0 - np.abs(away) / self.seconds, 0.0, 1.0)
+        flown = self.seconds * (0.5 - x**3 + 0.5 * x**4)
+        return np.asarray(self.place + (np.sign(away) * flown)[:, None] * self.velocity)
+
+
+def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> RunUp:
+    """Return the way into a shot whose first frame is at ``start``."""
+    return _run_up(drone, partial(ideal_place, mission, shot, start), start, STEP)
+
+
+def run_ups(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> tuple[RunUp, RunUp]:
+    """Return the ways into and out of a shot whose first frame is at ``start``."""
+    end = start + (shot.timing.duration or 0.0)
+    after = _run_up(drone, partial(ideal_place, mission, shot, start), end, -STEP)
+    return lead_in(mission, drone, shot, start), after
+
+
+def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
+    here, velocity = np.array(place(t)), (np.array(place(t + step)) - np.array(place(t))) / step
+    limits = drone.limits
+    level, up = hypot(velocity[0], velocity[1]), velocity[2]
+    share = max(level / limits.speed, up / limits.climb, -up / limits.descent, 1.0)
+    velocity = velocity / share
+    least = least_time(float(np.linalg.norm(velocity)), limits.acceleration, limits.jerk)
+    return RunUp(SPLINE * least + SETTLE, here, velocity)
+
+
+def way_time(limits: Limits, way: Array) -> float:
+    """Return the seconds of a straight way from rest to rest, shape (3,), metres; its two parts at once."""
+    level = rest_to_rest(float(np.linalg.norm(way[:2])), limits.speed, limits.acceleration, limits.jerk)
+    speed = limits.climb if way[2] > 0.0 else limits.descent
+    return max(level, rest_to_rest(abs(float(way[2])), speed, limits.acceleration, limits.jerk))
+
+
+def rest_to_rest(distance: float, speed: float, acceleration: float, jerk: float) -> float:
+    """Return the least seconds over a distance from rest to rest; SI.
+
+    Half the way to a speed and half the way from it are flown at half of it on average.
+    """
+    if distance <= 0.0:
+        return 0.0
+    ease = acceleration / jerk
+    peak = 0.5 * acceleration * (sqrt(ease**2 + 4.0 * distance / acceleration) - ease)
+    if peak < acceleration * ease:
+        peak = (0.5 * distance * sqrt(jerk)) ** (2 / 3)
+    peak = min(peak, speed)
+    turn = least_time(peak, acceleration, jerk)
+    return 2.0 * turn + max(0.0, distance - peak * turn) / peak
+
+
+def least_time(speed: float, acceleration: float, jerk: float) -> float:
+    """Return the least seconds from rest to an even speed; SI."""
+    if speed >= acceleration**2 / jerk:
+        return speed / acceleration + acceleration / jerk
+    return 2.0 * sqrt(speed / jerk)
