@@ -25,6 +25,7 @@ SPLINE = (
     1.05  # times the least time that a spline takes: its control points keep the limits, its pieces are few
 )
 SETTLE = 0.4  # seconds beyond that, in which the camera comes to its turn too, and the place settles
+SHORTEST = 1.5  # seconds of any way: a shorter one has too few pieces for a refiner to ease it
 
 Places = Callable[[float], tuple[float, float, float]]
 """Where a camera is to be at a mission time, metres."""
@@ -79,7 +80,7 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
     share = max(level / limits.speed, up / limits.climb, -up / limits.descent, 1.0)
     velocity = velocity / share
     least = least_time(float(np.linalg.norm(velocity)), limits.acceleration, limits.jerk)
-    return RunUp(SPLINE * least + SETTLE, here, velocity)
+    return RunUp(max(SHORTEST, SPLINE * least + SETTLE), here, velocity)
 
 
 def way_time(limits: Limits, way: Array) -> float:
