@@ -22,6 +22,7 @@ shots:
     kind: keyframes
     drone: cam1
     require: {in_frame: 30 %}
+    allow: [fast-pan]
     keyframes:
       - {at: [-40, 10, 12], heading: 200 deg, pitch: -5 deg}
       - {at: [-40, -10, 12], heading: 240 deg, pitch: -5 deg, hold: 2}
