@@ -20,6 +20,7 @@ from shotc.rounding import at_least
 STEP = 0.1  # seconds between the moments at which a turn is judged
 ROUNDING = 1e-6  # seconds
 PEAK = 2.1  # of the mean rate: 15 / 8 from rest to rest with least jerk, more where it turns unevenly
+RESHAPED = 1.05  # of a free time: a given one stretches the profile at full limits, which differs
 NEARLY = 0.99  # of the seconds that a frame width takes at least; less is told
 
 
@@ -96,22 +97,25 @@ def _axis(pose: Array) -> Array:
     return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
 
 
-def _enough(track: DroneTrajectory, phase: Phase, pan: Pan) -> float:
+def _enough(track: DroneTrajectory, phase: Phase, pan: Pan, free: bool) -> float:
     """Return the seconds in which a shot between keyframes turns slowly enough.
 
     As much longer as it is too fast; and for all that it turns, from rest to rest by the smoothest law.
+    free : whether the mission leaves its time free
     """
     lasts = phase.end - phase.start
     times = np.linspace(phase.start, phase.end, max(2, round(lasts / STEP)) + 1)
     turned = float(_widths(track, times[:-1], float(times[1] - times[0])).sum())
-    return max(lasts * pan.pace, PEAK * turned * slowest(pan.followed))
+    longer = lasts * pan.pace * (RESHAPED if free else 1.0)
+    return max(longer, PEAK * turned * slowest(pan.followed))
 
 
 def _told(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: Pan) -> Diagnostic:
     shot = next(s for s in mission.shots if s.id == phase.shot)
     help_ = "film it from farther away, or with a wider field of view"
     if shot.ideal is None:
-        help_ = f"write `timing: {{duration: {at_least(_enough(track, phase, pan), 1)} s}}` or more"
+        seconds = at_least(_enough(track, phase, pan, shot.timing.duration is None), 1)
+        help_ = f"write `timing: {{duration: {seconds} s}}` or more"
     into = f"t = {pan.time:.1f} s, {pan.time - phase.start:.1f} s into the shot"
     return Diagnostic(
         "V051",
