@@ -73,7 +73,7 @@ def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
     placed = tuple(
         k._replace(at=place_of(mission, k, start + t)) for k, t in zip(shot.keyframes, arrive, strict=True)
     )
-    points = tuple((t / duration, k.at) for t, k in zip(arrive, placed, strict=True))
+    points = tuple((t / max(duration, NEVER), k.at) for t, k in zip(arrive, placed, strict=True))
     return shot._replace(keyframes=placed, ideal=ideal._replace(points=points))
 
 
@@ -112,7 +112,8 @@ def _bends(mission: Same[MissionIR], shot: Same[Shot], start: float) -> _Bends:
     leave = tuple(t + k.hold for t, k in zip(arrive, keyframes, strict=True))
     speeds: list[tuple[float, float]] = []
     for i in _gaps(shot.it):
-        lasts = arrive[i + 1] - leave[i]
+        # Times that leave none for the way are refused (K001, K003), and planning may look on for a number.
+        lasts = max(arrive[i + 1] - leave[i], NEVER)
         way = _way(mission.it, keyframes, i, (start + leave[i], start + arrive[i + 1]))
         speeds.append((way / lasts, lasts))
     rests = [k.hold > 0 for k in keyframes]

@@ -39,7 +39,7 @@ def check_times(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         yield too_long(mission, shot, drone, duration)
         return
     holds = sum(k.hold for k in shot.keyframes)
-    if holds >= duration:
+    if holds >= duration > 0.0:
         held = [k for k in shot.keyframes if k.hold > 0]
         yield Diagnostic(
             "K003",

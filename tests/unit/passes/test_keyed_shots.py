@@ -195,6 +195,7 @@ class TestChecked:
         [
             (("time: 16 s", "time: 1 s"), "K001"),
             (("time: 16 s", "time: 19 s"), "K002"),
+            (("time: 16 s", "time: 0 s"), "K001"),
             (("hold: 2}\n      - ", "hold: 30}\n      - "), "K003"),
         ],
     )

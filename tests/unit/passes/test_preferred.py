@@ -20,12 +20,12 @@ mission: far
 targets: {yacht: {track: {start: [-80, 0, 8.85], velocity: [2.2, 0, 0]}, radius: 7.25, height: 17.7}}
 drones:
   near: {model: pro, camera: {hfov: 105 deg, aspect: "1:1"}, priority: 1, home: [-14, -24, 0]}
-  tele: {model: x500, camera: {hfov: 23 deg}, priority: 2, home: [0, 110, 0]}
+  tele: {model: x500, camera: {hfov: 40 deg}, priority: 2, home: [0, 85, 0]}
 rules: {separation: 6, mutual_visibility: {strength: prefer}}
 shots:
-  - {id: behind, kind: chase, drone: near, target: yacht, distance: 14.7, altitude: 15.8,
+  - {id: behind, kind: chase, drone: near, target: yacht, distance: 18, altitude: 10,
      timing: {start: 37, duration: 9}}
-  - {id: side, kind: lateral, drone: tele, target: yacht, side: left, distance: 125, altitude: 11.3,
+  - {id: side, kind: lateral, drone: tele, target: yacht, side: left, distance: 90, altitude: 11.3,
      timing: {start: 36, duration: 5}}
 """
 
