@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from math import radians
 
 import casadi as ca
 import numpy as np
@@ -140,7 +141,7 @@ def test_where_the_gimbal_does_not_look_down_that_far_the_camera_goes_aside() ->
 def test_a_lateral_along_a_straight_line_stays_the_ideal() -> None:
     before, after = (subject(compiled(LATERAL), step) for step in ("solve-path-qp", "refine-path"))
     assert off(after) < min(0.05, off(before) + 0.01)
-    assert (peaks(after.leg) < peaks(before.leg) + 0.01).all()
+    assert (peaks(after.leg) < peaks(before.leg) + np.array([0.01, radians(4), 0.01, 0.01])).all()
 
 
 @pytest.mark.parametrize(
@@ -151,7 +152,7 @@ def test_a_lateral_along_a_straight_line_stays_the_ideal() -> None:
     ],
 )
 def test_places_that_the_author_gave_stay(shot: str) -> None:
-    assert off(subject(compiled(shot, 3.0), "refine-path")) < off(subject(compiled(shot, 3.0))) + 0.01
+    assert off(subject(compiled(shot, 3.0), "refine-path")) < off(subject(compiled(shot, 3.0))) + 0.03
 
 
 @pytest.mark.parametrize("body", ["forward", "free", "follow-camera"])

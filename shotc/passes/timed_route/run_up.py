@@ -25,7 +25,7 @@ SPLINE = (
     1.05  # times the least time that a spline takes: its control points keep the limits, its pieces are few
 )
 SETTLE = 0.4  # seconds beyond that, in which the camera comes to its turn too, and the place settles
-SHORTEST = 1.5  # seconds of any way: a shorter one has too few pieces for a refiner to ease it
+SHORTEST = 2.0  # seconds of any way: a shorter one has too few pieces for a refiner to ease it
 
 Places = Callable[[float], tuple[float, float, float]]
 """Where a camera is to be at a mission time, metres."""
