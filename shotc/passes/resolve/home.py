@@ -70,18 +70,21 @@ def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
     """
     least, (x, y, z) = mission.rules.separation, standing.home
     straight = atan2(moved.home[1] - y, moved.home[0] - x)
-    others = [drone.home for drone in mission.drones if drone.name != moved.name]
     reach = sqrt(max(0.0, least**2 - (moved.home[2] - z) ** 2)) + NUDGE
     for turn in ROUND:
         way = straight + radians(turn)
         place = outward(standing.home, (x + reach * cos(way), y + reach * sin(way), z))
         place = (place[0], place[1], moved.home[2])
-        there = moved._replace(home=place)
-        if any(dist(place, home) < least - ROUNDING for home in others):
-            continue
-        if all(_obstructed(mission, there, o) is None for o in obstacles_of(mission, there)):
+        if stands_free(mission, moved._replace(home=place)):
             return move(moved.home, place).replace("move it", f"move `{moved.name}`", 1)
     return ""
+
+
+def stands_free(mission: MissionIR, drone: Drone) -> bool:
+    """Tell whether a home is clear of what stands, on it and above it, and apart from the other homes."""
+    others = (other.home for other in mission.drones if other.name != drone.name)
+    apart = all(dist(drone.home, home) >= mission.rules.separation - ROUNDING for home in others)
+    return apart and all(_obstructed(mission, drone, o) is None for o in obstacles_of(mission, drone))
 
 
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[str, str] | None:

@@ -7,7 +7,7 @@ the drone still films, is a fault of the mission.
 
 from collections.abc import Iterator
 from itertools import pairwise
-from math import dist, hypot, inf
+from math import cos, dist, hypot, inf, radians, sin
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -16,7 +16,9 @@ from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start
 from shotc.ir.mission import Drone, MissionIR, Target
+from shotc.passes.resolve.home import ROUND, stands_free
 from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.obstacles import move, outward
 from shotc.rounding import at_least
 
 ROUNDING = 1e-6  # metres or seconds
@@ -24,6 +26,7 @@ HALVES = 40  # of a stretch of a track, to find where a pad is touched first and
 LOOKS = 50  # moments at which a take-off is held against what comes over it
 FAR = 1e3  # metres beyond a pad
 BESIDE = 0.1  # metres that a pad is told to lie beyond the reach of what passes
+RINGS = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # times that reach, at which another pad is looked for
 
 
 class Stretch(NamedTuple):
@@ -76,10 +79,31 @@ def _fault(mission: MissionIR, drone: Drone, target: Target, when: float, why: s
         mission.origins.value((*target.path, "track"), "comes over the pad"),
     )
     note = f"its body touches the drone's on the pad at t = {when:.1f} s; {why}"
-    reach = at_least(target.radius + drone.radius + BESIDE)
-    help_ = f"put `home` {reach} m or more beside the track, or have `{target.name}` pass at another time"
+    aside = beside_tracks(mission, drone, target)
+    help_ = f"{aside}, or have `{target.name}` pass at another time"
     message = f"target `{target.name}` comes over the pad of `{drone.name}` while the drone is on it"
     return Diagnostic("M012", message, labels, (note,), help_)
+
+
+def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
+    """Return in words the move of a home to a near place over which nothing comes, not ``target`` either."""
+    wide = drone.radius + mission.rules.target_clearance
+    reach = target.radius + wide + BESIDE
+    x, y, z = drone.home
+    for rings in RINGS:
+        for turn in ROUND:
+            way = radians(turn)
+            place = (x + rings * reach * cos(way), y + rings * reach * sin(way), z)
+            there = drone._replace(home=outward(drone.home, place))
+            wider = there._replace(radius=wide)
+            if stands_free(mission, there) and not any(_met(wider, t) for t in mission.targets):
+                return move(drone.home, there.home).replace("move it", "move `home`", 1)
+    return f"move `home` {at_least(reach)} m or more aside from the track of `{target.name}`"
+
+
+def _met(drone: Drone, target: Target) -> bool:
+    """Tell whether a target ever comes over a pad."""
+    return target.track is not None and any(_touches(drone, target, target.track))
 
 
 def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:

@@ -13,7 +13,6 @@ from shotc.passes.parameterize_time.faults import listed, timing_label
 from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate
 from shotc.rounding import at_least, down, plain, up
 
-PAD_ROOM = 0.5  # metres that a pad is told to lie beyond a target's way over it
 ALONE = "or have the drone start nearer"
 WINDOW = 2.0  # seconds over which the speed of a place is told
 
@@ -124,9 +123,9 @@ def _pad_met(mission: MissionIR, drone: Drone, found: Meets) -> Diagnostic:
         f"at t = {met.time:.1f} s the target reaches {at_least(met.lack)} m into the body, at the "
         f"best of the times to {verb} that were tried",
     )
-    away = at_least(met.lack + PAD_ROOM)
+    away = at_least(target.radius + drone.radius + mission.rules.target_clearance)
     remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
-    remedies.append(f"move `home` {away} m or more aside from the track of `{target.name}`")
+    remedies.append(f"put `home` where the axis of `{target.name}` comes no nearer than {away} m")
     message = f"`{drone.name}` cannot {verb} clear of target `{target.name}`"
     return Diagnostic("M013", message, labels, notes, ", or ".join(remedies))
 
