@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 Term = tuple[NDArray[Any], Array]
 
 REFINED = 1e-3  # of a tolerance: to which the linear systems of a step are solved
+ROUNDING = 1e-13  # the same where that is not enough
 
 
 class ConeRows:
@@ -90,13 +91,16 @@ class ConeRows:
         settings.max_threads = 1
         settings.presolve_enable = False
         settings.equilibrate_enable = not scaled
-        settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = REFINED * tolerance
         settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
-        solver = clarabel.DefaultSolver(
-            self._square(hessian), cost, lhs, np.concatenate(self._constants), cones, settings
-        )
-        solution = solver.solve()
-        return _STATUS.get(str(solution.status), Status.FAILED), np.asarray(solution.x)
+        programme = (self._square(hessian), cost, lhs, np.concatenate(self._constants), cones)
+        # What is solved no finer than that is solved sooner, but a few programmes make no progress so.
+        for refined in (REFINED * tolerance, ROUNDING):
+            settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = refined
+            solution = clarabel.DefaultSolver(*programme, settings).solve()
+            status = _STATUS.get(str(solution.status), Status.FAILED)
+            if status is not Status.FAILED:
+                break
+        return status, np.asarray(solution.x)
 
     def _square(self, hessian: Any) -> Any:
         """Return the upper triangle of a hessian as ``solve`` takes one, in columns."""
