@@ -16,6 +16,7 @@ from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.sight import OUT_OF_PICTURE
+from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.rounding import at_least, at_most, away
 
 WIDTH = 100
@@ -81,6 +82,7 @@ def _framing(told: ScreenSummary) -> tuple[str, str, str]:
 def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
+    facts += [("transits", text) for text in _passed(plan.certificate)]
     facts += [("drones", text) for text in (*_together(plan), *nearest(plan), *_on_pads(plan))]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
@@ -143,7 +145,7 @@ def _closest(claims: Sequence[Claim]) -> list[str]:
         and isfinite(c.worst)
         and isfinite(c.limit)
         and not c.constraint.startswith("separation")
-        and not c.constraint.endswith(OUT_OF_PICTURE)
+        and not c.constraint.endswith((OUT_OF_PICTURE, ON_TRANSITS))
     ]
     near.sort(key=lambda c: c.worst - c.limit)
     several = len({c.subject for c in claims}) > 1
@@ -153,6 +155,20 @@ def _closest(claims: Sequence[Claim]) -> list[str]:
         + ("" if c.time is None else f" at {clock(c.time)}")
         for c in near[:2]
     ]
+
+
+def _passed(claims: Sequence[Claim]) -> list[str]:
+    """Tell what is come nearest to on ways between shots, against what is kept from it there."""
+    passed = [c for c in claims if c.constraint.endswith(ON_TRANSITS)]
+    if not passed:
+        return []
+    near = min(passed, key=lambda c: c.worst - c.limit)
+    drone = f" of {near.subject}" if len({c.subject for c in claims}) > 1 else ""
+    name = near.constraint.removesuffix(ON_TRANSITS) + drone
+    if abs(near.worst - near.limit) < NOTHING:
+        return [f"as near as a shot begins or ends to {name}, then {near.limit:.2f} m"]
+    when = "" if near.time is None else f" at {clock(near.time)}"
+    return [f"{at_most(near.worst)} m from {name}{when}, {near.limit:.2f} m asked"]
 
 
 def _together(plan: VerifiedIR) -> list[str]:

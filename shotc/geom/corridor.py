@@ -16,8 +16,11 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.convex import BoolArray, distances, segment_distances, separate, support
 from shotc.geom.solids import Solid
+from shotc.geom.taper import SLOPE, Taper
+from shotc.geom.vec import Vec3
 
 COMFORT = 0.5  # kept beyond that by a curve where there is room, metres
+STEEPER = 1.4  # times the slope of what is needed: planned curves leave their polylines a little
 MARGIN = 0.05  # kept beyond what verification asks, metres: later stages interpolate the path
 
 
@@ -57,11 +60,15 @@ class Disc:
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """All of it, for one drone."""
+    """All of it, for one drone.
+
+    ends : places, metres, from which the clearances of obstacles that are nearer taper (``geom.taper``)
+    """
 
     obstacles: tuple[Obstacle, ...]
     walls: tuple[Wall, ...]
     discs: tuple[Disc, ...]
+    ends: tuple[Vec3, ...] = ()
 
     @property
     def owners(self) -> tuple[str, ...]:
@@ -156,12 +163,14 @@ class Planes:
 
     piece, obstacle : shape (R,), which piece keeps away from which obstacle
     normal, offset  : shapes (R, 3), (R,)
+    eased           : by how much less the offset is for each of a piece's six control points, shape (R, 6)
     """
 
     piece: IntArray
     obstacle: IntArray
     normal: Array
     offset: Array
+    eased: Array
 
 
 def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Planes:
@@ -171,7 +180,7 @@ def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Plan
     share : of the distance a piece has beyond the clearance, this much is kept, COMFORT at most
     A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
     """
-    pieces, obstacles, normals, offsets = [], [], [], []
+    pieces, obstacles, normals, offsets, eased = [], [], [], [], []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
     for j, o in enumerate(room.obstacles):
         near = np.flatnonzero(distances(o.part, middle) < o.clearance + reach + size)
@@ -180,18 +189,36 @@ def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Plan
         n, gap = separate(o.part, hulls[near])
         keep = gap < o.clearance + reach
         near, n, gap = near[keep], n[keep], gap[keep]
-        need = o.clearance + kept(gap - o.clearance, share)
-        points = np.einsum("nmd,nd->nm", hulls[near], n).min(axis=1)
+        border = np.einsum("nmd,nd->nm", hulls[near], n).min(axis=1) - gap
+        less, slack = np.zeros((len(near), 6)), gap - o.clearance
+        if room.ends:
+            points = six(hulls[near])
+            less = o.clearance - taper(room, o).needs(points)
+            along = np.einsum("nmd,nd->nm", points, n) - border[:, None]
+            slack = (along - o.clearance + less).min(axis=1)
         pieces.append(near)
         obstacles.append(np.full(len(near), j))
         normals.append(n)
-        offsets.append(points - gap + need)
+        offsets.append(border + o.clearance + kept(slack, share))
+        eased.append(less)
     if not pieces:
         none = np.zeros(0, dtype=np.intp)
-        return Planes(none, none, np.zeros((0, 3)), np.zeros(0))
-    return Planes(
-        np.concatenate(pieces), np.concatenate(obstacles), np.concatenate(normals), np.concatenate(offsets)
-    )
+        return Planes(none, none, np.zeros((0, 3)), np.zeros(0), np.zeros((0, 6)))
+    return Planes(*map(np.concatenate, (pieces, obstacles, normals, offsets, eased)))
+
+
+def taper(room: Room, obstacle: Obstacle) -> Taper:
+    """Return what is needed of the distance from an obstacle in a room whose clearances taper."""
+    ends = np.array(room.ends, dtype=np.float64).reshape(-1, 3)
+    return Taper(obstacle.clearance, STEEPER * SLOPE, ends, distances(obstacle.part, ends))
+
+
+def six(hulls: Array) -> Array:
+    """Return where the control points of pieces are, shape (P, 6, 3), or are to be on chords."""
+    if hulls.shape[1] == 6:
+        return hulls
+    x = np.linspace(0.0, 1.0, 6)[:, None]
+    return np.asarray((1.0 - x) * hulls[:, :1] + x * hulls[:, -1:])
 
 
 def kept(slack: Array, share: float) -> Array:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, hull_and_pockets
 from shotc.geom.solids_array import FAR, separation, signed_distance, support
+from shotc.geom.taper import Taper
 
 ROUNDS = 60
 """Halvings before a bound is given as it is; an interval of an hour is then shorter than a nanosecond."""
@@ -99,21 +101,39 @@ def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) ->
     Where the curve enters the solid the value is negative: minus the depth at the deepest place found.
     ``gap`` as in ``sup_convex``, given the smallest distance found so far.
     """
-    best = _nearest(pieces, convex_parts(solid), gap)
+    best = _least(pieces, _from_all(solid, _distances), gap)
     if best.attained > 0:
         return best
     deepest = _deepest(pieces, solid)
     return deepest if deepest.attained < 0 else best
 
 
-def _nearest(pieces: Pieces, parts: tuple[Solid, ...], gap: Callable[[float], float]) -> Bound:
+def inf_tapered(pieces: Pieces, solid: Solid, taper: Taper, gap: Callable[[float], float]) -> Bound:
+    """Bound the infimum of a distance from a solid to which what a taper gives is added, metres.
+
+    That is the distance, or the clearance and by how much the distance exceeds what is needed where that is
+    less: below the clearance iff the distance is below what is needed. ``gap`` as in ``inf_distance``.
+    """
+    return _least(pieces, _from_all(solid, partial(_tapered, taper)), gap)
+
+
+Nearness = Callable[[Pieces], tuple[Array, Array]]
+"""Lower bounds of a value on every piece, (M,), and the value in its middle, (M,)."""
+
+
+def _from_all(solid: Solid, of: Callable[[Pieces, Solid], tuple[Array, Array]]) -> Nearness:
+    # Of all parts at once: near one part the curve may be in another.
+    parts = convex_parts(solid)
+    return lambda pieces: np.min([of(pieces, part) for part in parts], axis=0)
+
+
+def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> Bound:
     best, at, closed = np.inf, 0.0, np.inf
     rest = np.inf
     for _ in range(ROUNDS):
         if not len(pieces):
             break
-        # Of all parts at once: near one part the curve may be in another.
-        lower, distance = np.min([_distances(pieces, part) for part in parts], axis=0)
+        lower, distance = near(pieces)
         k = int(np.argmin(distance))
         if distance[k] < best:
             best, at = float(distance[k]), float(0.5 * (pieces.low[k] + pieces.high[k]))
@@ -131,6 +151,24 @@ def _distances(pieces: Pieces, part: Solid) -> tuple[Array, Array]:
     distance, normal = separation(part, _middle(pieces.ctrl))
     along = np.einsum("mkd,md->mk", pieces.ctrl, normal).min(axis=1) - support(part, normal)
     return np.maximum(np.where(distance > 0.0, along, 0.0), box_gap(pieces.ctrl, part)), distance
+
+
+def _tapered(taper: Taper, pieces: Pieces, part: Solid) -> tuple[Array, Array]:
+    """Return the same as ``_distances`` of distances to which what a taper gives is added.
+
+    On a piece the distance is at least that from a plane; less ``slope`` times the distance from an end it is
+    concave, so that it is least at a control point.
+    """
+    middle = _middle(pieces.ctrl)
+    distance, normal = separation(part, middle)
+    along = np.einsum("mkd,md->mk", pieces.ctrl, normal) - support(part, normal)[:, None]
+    along = np.where((distance > 0.0)[:, None], along, 0.0)
+    lower, value = np.maximum(along.min(axis=1), box_gap(pieces.ctrl, part)), distance
+    for end, its_gap in zip(taper.ends, taper.gaps, strict=True):
+        given = taper.clearance - its_gap
+        lower = np.maximum(lower, (along - taper.slope * norm(pieces.ctrl - end)).min(axis=1) + given)
+        value = np.maximum(value, distance - taper.slope * norm(middle - end) + given)
+    return lower, value
 
 
 def _deepest(pieces: Pieces, solid: Solid) -> Bound:

@@ -238,12 +238,26 @@ class Shot(NamedTuple):
     allow: tuple[str, ...] = ()
 
 
+class TransitClearance(NamedTuple):
+    """What a drone's body keeps away from on its ways between shots, metres; see ``ir.transits``.
+
+    filmed : from every target that the mission films; other : from all other targets and keep-out zones
+    filmed_required, other_required : whether the mission writes it down, so that a plan is held to it
+    """
+
+    filmed: float = 0.0
+    other: float = 0.0
+    filmed_required: bool = False
+    other_required: bool = False
+
+
 class Rules(NamedTuple):
     """Mission-wide rules, metres.
 
     visibility : how strictly drones keep out of each other's pictures
     half_angle : half the opening of the cone about a camera's axis that they keep out of, rad; None for
         the frame itself
+    transits : kept on ways between shots
     """
 
     separation: float
@@ -251,6 +265,7 @@ class Rules(NamedTuple):
     target_clearance: float
     visibility: Literal["require", "prefer", "off"] = "prefer"
     half_angle: float | None = None
+    transits: TransitClearance = TransitClearance()
 
 
 class Deferred(NamedTuple):

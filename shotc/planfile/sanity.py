@@ -45,6 +45,8 @@ def _mission(mission: MissionIR) -> Iterator[Fault]:
     half_angle = mission.rules.half_angle
     if half_angle is not None and not 0 < half_angle <= pi / 2:
         yield "mission.rules.half_angle", f"{half_angle:g} rad is not between 0 and a right angle"
+    if min(mission.rules.transits[:2]) < 0:
+        yield "mission.rules.transits", "a clearance is negative"
     for i, zone in enumerate(mission.zones):
         text = _solid(zone.solid)
         if text:

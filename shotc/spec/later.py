@@ -14,7 +14,17 @@ from pydantic.json_schema import JsonSchemaValue
 
 from shotc.spec.fieldtypes import FieldType
 
-__all__ = ["Fleet", "Gimbal", "Later", "MutualVisibility", "Refine", "Require", "Timing", "Track"]
+__all__ = [
+    "Fleet",
+    "Gimbal",
+    "Later",
+    "MutualVisibility",
+    "Refine",
+    "Require",
+    "Timing",
+    "Track",
+    "TransitClearance",
+]
 
 
 class Later(FieldType):
@@ -51,6 +61,7 @@ if TYPE_CHECKING:
     from shotc.spec.shot_terms import RequireSpec as Require
     from shotc.spec.shot_terms import TimingSpec as Timing
     from shotc.spec.tracks import TrackSpec as Track
+    from shotc.spec.transits import TransitClearanceSpec as TransitClearance
     from shotc.spec.visibility import MutualVisibilitySpec as MutualVisibility
 else:
     Fleet = Annotated[Any, Later("shotc.spec.fleets:FleetSpec")]
@@ -60,3 +71,4 @@ else:
     Require = Annotated[Any, Later("shotc.spec.shot_terms:RequireSpec")]
     Timing = Annotated[Any, Later("shotc.spec.shot_terms:TimingSpec")]
     Track = Annotated[Any, Later("shotc.spec.tracks:TrackSpec")]
+    TransitClearance = Annotated[Any, Later("shotc.spec.transits:TransitClearanceSpec")]

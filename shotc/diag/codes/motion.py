@@ -159,6 +159,7 @@ CODES: tuple[CodeInfo, ...] = (
             "targets:",
             "world: {zones: {tree: {keep: out, cylinder: {center: [30, 8], radius: 1.5, height: [0, 12]}}}}\ntargets:",
         ),
+        ("shots:", "rules: {transit_clearance: {filmed: 1 m}}\nshots:"),
     ),
     _code(
         9,

@@ -9,6 +9,7 @@ from __future__ import annotations
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._framed import FRAMED
 from shotc.diag.codes._held import HELD
+from shotc.diag.codes._passed import PASSED
 from shotc.diag.codes._shown import SHOWN
 from shotc.diag.codes._verified import verified
 
@@ -131,6 +132,7 @@ _SPACE = (
             "`rules.target_clearance` from all of them, filmed or not.",
         ),
     ),
+    *PASSED,
     verified(
         22,
         "drones-too-near",

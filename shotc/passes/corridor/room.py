@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import hypot, inf
 
 from shotc.geom.convex import bounded
-from shotc.geom.corridor import Disc, Obstacle, Room, Wall
+from shotc.geom.corridor import MARGIN, Disc, Obstacle, Room, Wall
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges, hull_and_pockets, point
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
+from shotc.ir.transits import Apart, from_target, from_zones
 
 GROUND = "ground"
 
@@ -29,6 +31,31 @@ def flight_room(mission: MissionIR, drone: Drone) -> Room:
     over_ground = mission.rules.ground_clearance + drone.radius
     walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
     return _with_keep_ins(mission, drone, (obstacles, walls), floors=True)
+
+
+def transit_room(mission: MissionIR, drone: Drone) -> Room:
+    """Return the room of ways between shots: that of flight, with the clearances that are kept there."""
+    room, wide = flight_room(mission, drone), _kept_on_ways(mission)
+
+    def widened(obstacle: Obstacle) -> Obstacle:
+        apart = wide.get(obstacle.owner)
+        return (
+            obstacle if apart is None else replace(obstacle, clearance=drone.radius + apart.metres + MARGIN)
+        )
+
+    return replace(room, obstacles=tuple(map(widened, room.obstacles)))
+
+
+def required_on_ways(mission: MissionIR) -> frozenset[str]:
+    """Return the owners whose clearances on ways between shots the mission writes down."""
+    kept = _kept_on_ways(mission)
+    return frozenset(owner for owner, apart in kept.items() if apart is not None and apart.required)
+
+
+def _kept_on_ways(mission: MissionIR) -> dict[str, Apart | None]:
+    zones = from_zones(mission)
+    kept = {f"zone {z.name}": zones for z in mission.zones if z.keep == "out"}
+    return kept | {f"target {t.name}": from_target(mission, t.name) for t in mission.targets}
 
 
 def pad_room(mission: MissionIR, drone: Drone) -> Room:

@@ -40,7 +40,8 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
 
 def _floors(around: Around, planes: Planes, owner: IntArray) -> Floors:
     rows = _points_of(around.breaks, planes.piece)
-    return Floors(rows, np.repeat(planes.normal, 6, axis=0), np.repeat(planes.offset, 6), np.repeat(owner, 6))
+    offset = planes.offset[:, None] - planes.eased
+    return Floors(rows, np.repeat(planes.normal, 6, axis=0), offset.ravel(), np.repeat(owner, 6))
 
 
 def _points_of(breaks: Array, pieces: IntArray) -> Rows:
@@ -57,7 +58,7 @@ def _wall_floors(around: Around, index: dict[str, int]) -> list[Floors]:
         if not len(near):
             continue
         offset = wall.offset + kept(slack[near], around.share)
-        planes = Planes(near, near, np.tile(n, (len(near), 1)), offset)
+        planes = Planes(near, near, np.tile(n, (len(near), 1)), offset, np.zeros((len(near), 6)))
         floors.append(_floors(around, planes, np.full(len(near), index[wall.owner])))
     return floors
 

@@ -11,7 +11,7 @@ from typing import ClassVar, Final, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
-from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, Zone
+from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, TransitClearance, Zone
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
 from shotc.passes.base import Outcome, PassContext
@@ -39,7 +39,7 @@ from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
-from shotc.spec.presets import RATE, SHOW_RATE
+from shotc.spec.presets import RATE, SHOW_RATE, TRANSIT_FILMED, TRANSIT_OTHER
 from shotc.spec.rules import RulesSpec
 
 ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
@@ -169,10 +169,22 @@ def _judged(ir: LoadedMission, mission: MissionIR, world: _World, *, order: bool
 
 def _rules(spec: RulesSpec) -> Rules:
     rules = Rules(spec.separation, spec.ground_clearance, spec.target_clearance)
+    rules = rules._replace(transits=_transits(spec))
     visibility = spec.mutual_visibility
     if visibility is None:
         return rules
     return rules._replace(visibility=visibility.strength, half_angle=visibility.half_angle)
+
+
+def _transits(spec: RulesSpec) -> TransitClearance:
+    asked = spec.transit_clearance
+    filmed, other = (None, None) if asked is None else (asked.filmed, asked.other)
+    return TransitClearance(
+        TRANSIT_FILMED if filmed is None else filmed,
+        TRANSIT_OTHER if other is None else other,
+        filmed is not None,
+        other is not None,
+    )
 
 
 def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Diagnostic]:

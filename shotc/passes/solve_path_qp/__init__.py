@@ -32,7 +32,7 @@ from shotc.passes.solve_path_qp.faults import (
     pad_blocked,
     swings,
 )
-from shotc.passes.solve_path_qp.legs import Flight, drone_legs
+from shotc.passes.solve_path_qp.legs import Flight, drone_legs, flight_of
 from shotc.passes.solve_path_qp.on_clock import Itinerary
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
@@ -146,7 +146,7 @@ def _plan(
     if faults:
         return _stopped(*faults)
     ctx.progress(f"way of {drone.name}")
-    flight, warnings = Flight(drone, room, top), _warnings(mission, drone, shots)
+    flight, warnings = flight_of(mission, drone, top), _warnings(mission, drone, shots)
     if not on_clock(ir):
         return _in_a_row(mission, flight, shots, warnings)
     moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, flights))

@@ -4,7 +4,9 @@ A drone leaves as late as it can and still be in time, or, where nobody waits fo
 way meets a target or another drone, it sets out at another time, or goes round or over the top. On its pad,
 on the way up from it and down to it the drone's body alone counts, as in the proof: a target that comes over
 the pad finds the drone gone before it, or not there yet. A way that comes too near to a target would be
-refused by the proof: it is chosen only where there is no other, not even a late one.
+refused by the proof: it is chosen only where there is no other, not even a late one. So is one that breaks a
+clearance of ways between shots that the mission writes down; where it is silent the clearances are kept by
+ways that are in time, and nothing waits long for them.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
+from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Leg, PhaseName
 from shotc.ir.preference import LONGEST_WAIT
@@ -29,10 +32,12 @@ from shotc.passes.timed_route.sights import seen_on
 STEP = 0.05  # seconds between the places that are compared
 COMFORT = 0.5  # metres beyond a clearance: twice what two drones or a target come nearer within a step
 EARLY = 1.0  # seconds by which a drone is in place where it has the time
+HASTE = 0.9  # of those that are given up where something passes its place until then
 DELAYS = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds that it may wait
 SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the time it has to spare that it waits
 CLOSER, ZOOMS = 20, 2  # parts into which a step is cut where it is nearest to a target, and how often
 PROVED = 1e-6  # metres
+WAITED = 1e3  # metres that a clearance counts as broken by, where what follows would wait too long for it
 
 Course = Callable[[Array], Array]
 """Places (M, 3) at mission times (M,)."""
@@ -58,6 +63,8 @@ class Way:
     end : mission time at which the last one ends
     room : least distance on it beyond a clearance, metres; unseen : least distance out of a picture
     met : the target that it comes too near to, if there is one
+    kept : least distance on it beyond the clearances of ways between shots, metres; required : the same of
+        those that the mission writes down
     """
 
     legs: tuple[Leg, ...]
@@ -65,11 +72,13 @@ class Way:
     room: float = inf
     unseen: float = inf
     met: Meeting | None = None
+    kept: float = inf
+    required: float = inf
 
     @property
     def clear(self) -> bool:
         """Whether nothing is met on it."""
-        return self.room >= COMFORT
+        return self.room >= COMFORT and self.required >= -PROVED
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,8 +112,9 @@ def choose(
 ) -> Way | None:
     """Return the first way in time on which nothing is met, else the best; None where there is none.
 
-    The best meets no target, then no drone, is the least late, and has the most room, in this order: what is
-    met is refused by the proof, and a shot that is late can be put off, or is told when it could begin.
+    The best meets no target, then no drone, is the least late, keeps the clearances of ways between shots,
+    and has the most room, in this order: what is met is refused by the proof, and a shot that is late can be
+    put off, or is told when it could begin.
 
     ways : legs that lead there, those to be preferred first
     then : what it flies next, which is not to meet anything either
@@ -113,19 +123,32 @@ def choose(
     for legs in ways:
         for way in _tries(mission, drone, traffic, legs, when, then):
             in_time = when.due is None or way.end <= when.due
-            if way.clear and _unseen(traffic, way, when) >= 0.0 and (in_time or not tried):
-                return way
             tried.append(way)
+            fine = _unseen(traffic, way, when) >= 0.0 and _kept(way, when, tried[0]) >= -PROVED
+            if way.clear and fine and (in_time or len(tried) == 1):
+                return way
         if not traffic.moving:
             break
     due = inf if when.due is None else when.due
 
-    def worth(way: Way) -> tuple[bool, bool, float, float, float]:
+    def worth(way: Way) -> tuple[bool, bool, float, float, float, float, float]:
         late = max(0.0, way.end - due)
+        kept = min(_kept(way, when, tried[0]), 0.0)
         unseen = _unseen(traffic, way, when)
-        return way.met is None, way.room >= 0.0, -late, min(way.room, COMFORT), unseen
+        required = min(way.required, 0.0)
+        return way.met is None, way.room >= 0.0, required, -late, kept, min(way.room, COMFORT), unseen
 
     return max(tried, key=worth, default=None)
+
+
+def _kept(way: Way, when: When, first: Way) -> float:
+    """Return how far a way keeps the clearances of ways between shots, metres.
+
+    It is worth little where what follows would wait longer for it than a preference may cost: it ends so much
+    later than the first way does.
+    """
+    waits = 0.0 if when.due is not None else way.end - first.end
+    return way.kept if waits <= LONGEST_WAIT else min(way.kept, 0.0) - WAITED
 
 
 def _unseen(traffic: Traffic, way: Way, when: When) -> float:
@@ -135,8 +158,12 @@ def _unseen(traffic: Traffic, way: Way, when: When) -> float:
     """
     if not traffic.sights.preferred:
         return way.unseen
-    waits = (way.legs[0].start or 0.0) - when.ready if when.due is None and way.legs else 0.0
-    return 0.0 if way.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
+    return 0.0 if way.unseen >= 0.0 and _waits(way, when) <= LONGEST_WAIT else -inf
+
+
+def _waits(way: Way, when: When) -> float:
+    """Return for how many seconds what follows waits for a way."""
+    return (way.legs[0].start or 0.0) - when.ready if when.due is None and way.legs else 0.0
 
 
 def _tries(
@@ -153,7 +180,8 @@ def _tries(
     next_motion = None if then is None else leg_motion(mission, drone, then.leg)
     film = None if next_motion is None else next_motion.curve.channels(0, 1, 2)
     spare = 0.0 if due is None else max(0.0, due - EARLY - begin - lasts)
-    delays = DELAYS if due is None else tuple(dict.fromkeys(share * spare for share in SHARES))
+    shares = (*(share * spare for share in SHARES), *((spare + HASTE * EARLY,) if spare > 0.0 else ()))
+    delays = DELAYS if due is None else tuple(dict.fromkeys(shares))
     for delay in delays:
         leaves = begin + delay
         started = [replace(leg, start=leaves) if i == 0 else leg for i, leg in enumerate(legs)]
@@ -166,8 +194,13 @@ def _tries(
         places, upright = course.at(times), course.upright(times)
         room = min(_room(what, drone.radius, times, places, upright) for what in traffic.moving)
         unseen = seen_on(drone, traffic.sights, times, places)
-        met = _met(traffic.moving, drone.radius, course, times[times <= until])
-        yield Way(tuple(started), leaves + lasts, room, unseen, met)
+        until_then = times <= until
+        met = _met(traffic.moving, drone.radius, course, times[until_then])
+        between = until_then & ~upright
+        apart = [(what, _apart(what, times[between], places[between])) for what in traffic.moving]
+        kept = min((lack for _, lack in apart), default=inf)
+        required = min((lack for what, lack in apart if what.required), default=inf)
+        yield Way(tuple(started), leaves + lasts, room, unseen, met, kept, required)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -229,6 +262,16 @@ def _room(what: Moving, radius: float, times: Array, places: Array, upright: Mas
     """
     needs = _needs(what, radius, upright)
     return float((distances(what.part, places - what.at(times)) - needs).min(initial=inf))
+
+
+def _apart(what: Moving, times: Array, places: Array) -> float:
+    """Return the least distance from something that moves beyond what is needed between shots, metres."""
+    if what.apart <= what.clearance or not len(times):
+        return inf
+    beside = places - what.at(times)
+    ends = beside[[0, -1]]
+    taper = Taper(what.apart, SLOPE, ends, distances(what.part, ends))
+    return float((distances(what.part, beside) - taper.needs(beside)).min())
 
 
 def _needs(what: Moving, radius: float, upright: Mask) -> Array:

@@ -15,11 +15,11 @@ from shotc.geom.corridor import Room, bounds_slack, breaches
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop, TimedLeg
-from shotc.passes.corridor.room import pad_room
+from shotc.passes.corridor.room import flight_room, pad_room, required_on_ways, transit_room
 from shotc.passes.solve_path_qp.body import BodyTask, allowed_body, body_line
-from shotc.passes.solve_path_qp.lines import SAME_PLACE, TURN_LENGTH, Line, straight_line
-from shotc.passes.solve_path_qp.position import Stretch, solve_stretch
-from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, ShotCurve, Stuck, stack
+from shotc.passes.solve_path_qp.lines import SAME_PLACE, TURN_LENGTH
+from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, ShotCurve, stack
+from shotc.passes.solve_path_qp.transit import Rooms, transit_curve
 from shotc.solvers.conic import Status
 
 SAME_ANGLE = 1e-6
@@ -31,11 +31,25 @@ Pose = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flight:
-    """What every unfilmed leg of one drone needs to know."""
+    """What every unfilmed leg of one drone needs to know.
+
+    top : the transit point over the pad
+    """
 
     drone: Drone
-    room: Room
+    rooms: Rooms
     top: Array
+
+    @property
+    def room(self) -> Room:
+        """The room of all phases."""
+        return self.rooms.flight
+
+
+def flight_of(mission: MissionIR, drone: Drone, top: Array) -> Flight:
+    """Return the flight of a drone of a mission."""
+    wide, required = transit_room(mission, drone), required_on_ways(mission)
+    return Flight(drone, Rooms(flight_room(mission, drone), wide, required), top)
 
 
 def drone_legs(flight: Flight, shots: list[ShotCurve]) -> tuple[Leg, ...] | tuple[Failure, ShotCurve | None]:
@@ -166,24 +180,12 @@ def _transit(flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: Ke
         breaks = np.array([0.0, TURN_LENGTH * max(turn, SAME_ANGLE)])
         position = Piecewise(breaks, np.linspace(a, b, 6)[None])
     else:
-        line = straight_line(flight.room, a, b)
-        if not isinstance(line, Line):
-            return line
-        found = smooth(flight.room, flight.drone, line)
-        if isinstance(found, Stuck):
+        found = transit_curve(flight.rooms, flight.drone, a, b)
+        if not isinstance(found, Piecewise):
             return found
         position = found
     curve = _with_angles(flight.drone, position, start, goal, free_end=phase == "return")
     return curve if isinstance(curve, AngleFailure) else [_plain(phase, curve, path)]
-
-
-def smooth(room: Room, drone: Drone, line: Line) -> Piecewise | Stuck:
-    """Return the position curve of an unfilmed leg along a polyline."""
-    none = np.zeros(0)
-    ends = (0, len(line.corners) - 1)
-    stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
-    solved = solve_stretch(room, stretch, drone.limits)
-    return Stuck(solved, line.corners, ()) if solved.curve is None else solved.curve
 
 
 def _with_angles(

@@ -122,7 +122,7 @@ class Itinerary:
         if until is None:
             until = self.clock + AMPLE * sum(leg_time(self.mission, self.drone, leg) for leg in direct)
         span = (self.clock, max(self.clock, until))
-        return replace(self.flight, room=with_sweeps(self.flight.room, self.traffic.moving, span))
+        return replace(self.flight, rooms=with_sweeps(self.flight.rooms, self.traffic.moving, span))
 
     def _through(self, stops: list[Pose], path: KeyPath) -> list[Leg] | None:
         """Return the legs from each of some poses to the next."""

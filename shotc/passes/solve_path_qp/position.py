@@ -86,15 +86,18 @@ class Solved:
     owners: tuple[str, ...] = ()
 
 
-def solve_stretch(room: Room, stretch: Stretch, limits: Limits) -> Solved:
-    """Return the curve of one stretch."""
+def solve_stretch(room: Room, stretch: Stretch, limits: Limits, wide: Room | None = None) -> Solved:
+    """Return the curve of one stretch, proved clear in a room.
+
+    wide : the same with larger clearances, which the curve is to keep as the polyline does
+    """
     if stretch.straight:
         return Solved(_line(stretch), Status.SOLVED, 0.0, 0)
     rounds = 0
     status, problem = Status.FAILED, None
     for finer in FINER:
         breaks = subdivide(stretch.s, PIECES * finer)
-        problem, best, used = _iterate(room, stretch, limits, breaks)
+        problem, best, used = _iterate((room, wide or room), stretch, limits, breaks)
         rounds += used
         if isinstance(best, SplineSolution):
             assert best.coef is not None
@@ -116,8 +119,13 @@ def _line(stretch: Stretch) -> Piecewise:
 
 
 def _iterate(
-    room: Room, stretch: Stretch, limits: Limits, breaks: Array
+    rooms: tuple[Room, Room], stretch: Stretch, limits: Limits, breaks: Array
 ) -> tuple[SplineProblem, SplineSolution | Status, int]:
+    """Return the last programme, its best solution or why there is none, and how many were solved.
+
+    rooms : what solutions are proved in, and what they are held to
+    """
+    room, wide = rooms
     polyline = np.column_stack([np.interp(breaks, stretch.s, stretch.corners[:, k]) for k in range(3)])
     chords = np.stack([polyline[:-1], polyline[1:]], axis=1)
     base = _base_problem(stretch, limits, breaks)
@@ -126,7 +134,7 @@ def _iterate(
     best: SplineSolution | None = None
     problem = base
     for used in range(1, ROUNDS + 1):
-        problem = with_corridor(base, Around(room, breaks, hulls, reach, share))
+        problem = with_corridor(base, Around(wide, breaks, hulls, reach, share))
         solution = minimise(problem)
         if solution.coef is None:
             return problem, best or solution.status, used

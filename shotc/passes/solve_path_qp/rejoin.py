@@ -14,7 +14,7 @@ from shotc.ir.mission import Drone
 from shotc.ir.path import DronePath, Leg, PathIR
 from shotc.passes.corridor.room import flight_room, pad_room
 from shotc.passes.solve_path_qp.in_time import in_time
-from shotc.passes.solve_path_qp.legs import Flight, drone_legs
+from shotc.passes.solve_path_qp.legs import drone_legs, flight_of
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.shots import ShotCurve
 from shotc.passes.solve_path_qp.with_camera import NoTransit, same, with_camera
@@ -60,7 +60,7 @@ def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
         for leg in legs
         if leg.shot is not None
     ]
-    joined = drone_legs(Flight(drone, room, top), shots)
+    joined = drone_legs(flight_of(mission, drone, top), shots)
     if isinstance(joined[0], Leg):
         return joined
     before = joined[1]

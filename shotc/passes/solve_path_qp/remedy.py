@@ -9,9 +9,9 @@ from shotc.geom.corridor import Room
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.passes.corridor.room import GROUND, named
-from shotc.passes.solve_path_qp.legs import smooth
 from shotc.passes.solve_path_qp.lines import Line, straight_line
 from shotc.passes.solve_path_qp.shots import ShotCurve, Stuck, shot_curve
+from shotc.passes.solve_path_qp.transit import smooth
 from shotc.rounding import up
 
 LEAST = 5e-3  # metres of give-way that count as part of a conflict: less is printed as nothing

@@ -6,7 +6,7 @@ the shortest beside a target that stands still until it is filmed.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import cos, pi
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from shotc.geom.corridor import Obstacle, Room
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_hull
+from shotc.passes.solve_path_qp.transit import Rooms
 from shotc.passes.timed_route.moving import Moving
 
 STEP = 0.5  # seconds between the places that a hull is drawn about
@@ -21,10 +22,16 @@ STILL = 1e-3  # metres: less is standing
 CORNERS = 8  # of the prism about a cylinder
 
 
-def with_sweeps(room: Room, moving: Sequence[Moving], span: tuple[float, float]) -> Room:
-    """Return a room in which all targets are where they are between two mission times, seconds."""
-    swept = (Obstacle(m.owner, _swept(m, span), m.clearance) for m in moving if not m.always)
-    return replace(room, obstacles=(*room.obstacles, *swept))
+def with_sweeps(rooms: Rooms, moving: Sequence[Moving], span: tuple[float, float]) -> Rooms:
+    """Return rooms in which all targets are where they are between two mission times, seconds."""
+    swept = [(m, _swept(m, span)) for m in moving if not m.always]
+    flight = (Obstacle(m.owner, part, m.clearance) for m, part in swept)
+    transit = (Obstacle(m.owner, part, m.apart) for m, part in swept)
+    return rooms._replace(flight=_with(rooms.flight, flight), transit=_with(rooms.transit, transit))
+
+
+def _with(room: Room, more: Iterable[Obstacle]) -> Room:
+    return replace(room, obstacles=(*room.obstacles, *more))
 
 
 def _swept(what: Moving, span: tuple[float, float]) -> Solid:

@@ -6,20 +6,22 @@ clearance, so that a plane beside the even motion keeps clear of the true one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import IntArray
+from shotc.geom.bspline import IntArray, Rows, control_rows
 from shotc.geom.convex import separate, support
-from shotc.geom.corridor import Room
+from shotc.geom.corridor import MARGIN, Room, six
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.track_array import places
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import Drone, MissionIR, Target
+from shotc.ir.transits import from_target
+from shotc.solvers.spline_problem import Floors
 
 SAMPLES = 8  # a piece, at which motion is compared with even motion
 REACH = 4.0  # metres beyond its clearance within which something that moves counts
@@ -33,6 +35,7 @@ class Moving:
 
     owner : as in geom.corridor; at : places p_W (M, 3) at times (M,)
     always : whether it is kept away from while a drone rises from its pad or sinks to it, too
+    apart : the clearance on ways between shots, metres; required : whether the mission writes that down
     """
 
     owner: str
@@ -40,11 +43,20 @@ class Moving:
     clearance: float
     at: Callable[[Array], Array]
     always: bool = False
+    apart: float = 0.0
+    required: bool = False
 
 
-def standing(room: Room) -> tuple[Moving, ...]:
-    """Return the obstacles of a room, as motions that stay where they are."""
-    return tuple(Moving(o.owner, o.part, o.clearance, _nowhere) for o in room.obstacles)
+def standing(room: Room, wide: Room | None = None, required: Collection[str] = ()) -> tuple[Moving, ...]:
+    """Return the obstacles of a room, as motions that stay where they are.
+
+    wide : the same with the clearances of ways between shots; required : owners of those that are written
+    """
+    pairs = zip(room.obstacles, (wide or room).obstacles, strict=True)
+    return tuple(
+        Moving(o.owner, o.part, o.clearance, _nowhere, apart=w.clearance, required=o.owner in required)
+        for o, w in pairs
+    )
 
 
 def _nowhere(times: Array) -> Array:
@@ -53,26 +65,40 @@ def _nowhere(times: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Even:
-    """A motion made even on each piece: its ends (P, 2, 3), and how far the true one strays (P,)."""
+    """A motion made even on each piece: its ends (P, 2, 3), and how far the true one strays (P,).
+
+    wide : the clearance at each control point of the pieces, (P, 6), where it is not that of all phases
+    """
 
     what: Moving
     ends: Array
     stray: Array
+    wide: Array | None = None
+
+    @property
+    def needs(self) -> Array:
+        """What is needed of the distance at the control points of the pieces, shape (P, 6), metres."""
+        clearance = np.full((len(self.stray), 6), self.what.clearance) if self.wide is None else self.wide
+        return np.asarray(clearance + self.stray[:, None])
 
 
 def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     """Return the targets that move, each a cylinder about its centre."""
     clearance = drone.radius + mission.rules.target_clearance
-    return tuple(
-        Moving(
-            f"target {t.name}",
-            Cylinder((0.0, 0.0), t.radius, -t.height / 2, t.height / 2),
-            clearance,
-            partial(places, t.track),
-        )
-        for t in mission.targets
-        if t.track is not None
-    )
+    found = []
+    for target in mission.targets:
+        if target.track is not None:
+            name, part = f"target {target.name}", Cylinder((0.0, 0.0), target.radius, *_heights(target))
+            kept = from_target(mission, target.name)
+            apart = clearance if kept is None else drone.radius + kept.metres + MARGIN
+            required = kept is not None and kept.required
+            at = partial(places, target.track)
+            found.append(Moving(name, part, clearance, at, apart=apart, required=required))
+    return tuple(found)
+
+
+def _heights(target: Target) -> tuple[float, float]:
+    return -target.height / 2, target.height / 2
 
 
 def evened(what: Moving, breaks: Array) -> Even:
@@ -109,21 +135,23 @@ def sides(motions: Sequence[Even], hulls: Array) -> Sides:
     """
     rows = []
     for index, motion in enumerate(motions):
-        relative = _relative(motion, hulls)
-        need = motion.what.clearance + motion.stray
+        relative = relative_to(motion, hulls)
+        need = motion.needs
         normal, gap = separate(motion.what.part, relative)
-        for run in _runs(gap < need - TOUCH):
-            normal[run] = _way_round(motion.what.part, relative[run], need[run])
+        slack = _slack(motion, relative, normal, gap)
+        for run in _runs(slack < -TOUCH):
+            normal[run] = _way_round(motion.what.part, relative[run], need[run].max(axis=1))
             gap[run] = -_push(motion.what.part, relative[run], np.zeros(len(run)), normal[run])
-        near = np.flatnonzero(gap < need + REACH)
+        slack = _slack(motion, relative, normal, gap)
+        near = np.flatnonzero(slack < REACH)
         if not len(near):
             continue
         points = np.einsum("nmd,nd->nm", relative[near], normal[near]).min(axis=1)
-        keep = need[near] + np.minimum(COMFORT, 0.5 * np.maximum(gap[near] - need[near], 0.0))
-        border = points - gap[near] + keep
+        keep = need[near] + np.minimum(COMFORT, 0.5 * np.maximum(slack[near], 0.0))[:, None]
+        border = (points - gap[near])[:, None] + keep
         even = np.linspace(0.0, 1.0, 6)[None, :, None]
         carried = motion.ends[near][:, :1] + even * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
-        offset = border[:, None] + np.einsum("nmd,nd->nm", carried, normal[near])
+        offset = border + np.einsum("nmd,nd->nm", carried, normal[near])
         rows.append((near, normal[near], offset, np.full(len(near), index)))
     if not rows:
         none = np.zeros(0, dtype=np.intp)
@@ -132,16 +160,36 @@ def sides(motions: Sequence[Even], hulls: Array) -> Sides:
     return Sides(*map(np.concatenate, (pieces, normals, offsets, owners)))
 
 
+def floors_of(breaks: Array, beside: Sides, first: int) -> Floors:
+    """Return the half-spaces as rows of a programme; first : index of the first motion among the owners."""
+    every = control_rows(breaks).weight.reshape(-1, 6, 6)
+    rows = Rows(np.repeat(beside.piece, 6), every[beside.piece].reshape(-1, 6))
+    return Floors(
+        rows, np.repeat(beside.normal, 6, axis=0), beside.offset.ravel(), first + np.repeat(beside.owner, 6)
+    )
+
+
+def _slack(motion: Even, relative: Array, normal: Array, gap: Array) -> Array:
+    """Return by how much pieces are farther away than is needed, as planes with these normals tell, (P,)."""
+    if motion.wide is None:
+        return np.asarray(gap - motion.needs[:, 0])
+    along = np.einsum("pmd,pd->pm", relative, normal)
+    border = along.min(axis=1) - gap
+    points = np.einsum("pmd,pd->pm", six(relative), normal)
+    return np.asarray((points - border[:, None] - motion.needs).min(axis=1))
+
+
 def shortfalls(motions: Sequence[Even], hulls: Array) -> Array:
     """Return by how much each piece fails to prove its clearances, metres; shape (P,), <= 0 is proved."""
     worst = np.full(len(hulls), -np.inf)
     for motion in motions:
-        _, gap = separate(motion.what.part, _relative(motion, hulls))
+        _, gap = separate(motion.what.part, relative_to(motion, hulls))
         worst = np.maximum(worst, motion.what.clearance + motion.stray - gap)
     return worst
 
 
-def _relative(motion: Even, hulls: Array) -> Array:
+def relative_to(motion: Even, hulls: Array) -> Array:
+    """Return hulls (P, m, 3), evenly in time over their pieces, as a motion sees them."""
     share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
     return np.asarray(hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1])))
 

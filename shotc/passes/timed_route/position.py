@@ -18,8 +18,9 @@ from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.preference import Price, prefers_free_pictures
 from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
+from shotc.passes.timed_route.between import lacking, sides_apart, standing_apart
 from shotc.passes.timed_route.clock import Clock
-from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, shortfalls, sides
+from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, floors_of, shortfalls, sides
 from shotc.passes.timed_route.preferred import cost
 from shotc.passes.timed_route.run_up import RunUp
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
@@ -35,6 +36,8 @@ UNSEEN = 0.005  # weight of jerk beyond the film's ends, against that in the fil
 NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
 ROUNDS = 6
 LOOKS = 5  # rounds in which pictures are kept free
+SAME = 0.02  # of its distance from whom it films, that a camera is moved by for what is not written down
+LOOKS_APART = 3  # rounds in which the clearances of ways between shots are sought
 REACH = 4.0  # metres beyond its clearance within which something that stands counts
 SHARES = (0.5, 0.95)  # as in solve_path_qp.position
 PROVED = 1e-6  # metres
@@ -89,6 +92,7 @@ class Task:
     room : what stands; motions : its obstacles and what moves, even on the clock's pieces
     sights : whose pictures count
     bound : where it has to be when; free : whether that does not count
+    apart : half-spaces in which the ways into the film and out of it keep the clearances of such ways
     """
 
     looker: Looker
@@ -101,6 +105,7 @@ class Task:
     sights: Sights
     bound: tuple[Bound, ...] = ()
     free: bool = False
+    apart: tuple[Floors, ...] = ()
 
     @property
     def mission(self) -> MissionIR:
@@ -145,9 +150,10 @@ def fly(task: Task) -> Flown:
 
     As if nobody looked, where that is only preferred and takes more than a preference may, or does not do.
     """
-    plain = best = _fly(task, ())
+    task, plain = _apart(task, _fly(task, ()))
     if plain.curve is None:
         return plain
+    best = plain
     kept = _kept(task, plain.curve)
     for _ in range(LOOKS):
         if kept.worst >= 0.0 or best.curve is None:
@@ -166,6 +172,41 @@ def fly(task: Task) -> Flown:
     if free and price.little:
         return best
     return replace(plain, rounds=best.rounds, given_up=Price(price.moved, price.share, free))
+
+
+def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
+    """Return the motion whose ways into and out of the film keep the clearances of such ways, and its task.
+
+    Where they are not written down they hardly move the film: where they would, it is the plain motion.
+    """
+    if plain.curve is None or not task.motions:
+        return task, plain
+    span = (task.clock.start, task.clock.end)
+    best, lack = (task, plain), lacking(task.motions, plain.curve, span)
+    for _ in range(LOOKS_APART):
+        if max(lack) <= 0.0 or best[1].curve is None:
+            break
+        wider = replace(task, apart=_apart_floors(task, best[1].curve))
+        made = _fly(wider, ())
+        if made.curve is None:
+            break
+        price = cost(task.looker, span, plain.curve, made.curve)
+        if lack.required <= 0.0 and (price.share > SAME or price.crops):
+            break
+        later = lacking(task.motions, made.curve, span)
+        if later >= lack:
+            break
+        best, lack = (wider, replace(made, rounds=best[1].rounds + made.rounds)), later
+    return best
+
+
+def _apart_floors(task: Task, course: Piecewise) -> tuple[Floors, ...]:
+    """Return half-spaces beside a course for the clearances of the ways into the film and out of it."""
+    span, breaks, first = (task.clock.start, task.clock.end), task.clock.breaks, len(task.walls.owners)
+    ways = floors_of(breaks, sides_apart(task.motions, course, span), first)
+    stands = zip(standing_apart(task.motions, course, span), (0, -1), strict=True)
+    ends = [_standing(breaks, sides(at.motions, at.stands), first, row) for at, row in stands]
+    return tuple(floors for floors in (ways, *ends) if len(floors.offset))
 
 
 def _kept(task: Task, course: Piecewise) -> Kept:
@@ -200,7 +241,7 @@ def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
     now = _Round(chords)
     while not now.ended and now.rounds < ROUNDS:
         problem = _walled(task, base, now.hulls, now.reach, now.share)
-        problem = replace(problem, floors=(*problem.floors, *free))
+        problem = replace(problem, floors=(*problem.floors, *task.apart, *free))
         solution = minimise(problem)
         now = replace(now, rounds=now.rounds + 1, status=solution.status)
         if solution.coef is None:
@@ -355,7 +396,7 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
     breaks = task.clock.breaks
     problem = with_corridor(base, Around(task.walls, breaks, hulls, reach, share))
     first = len(task.walls.owners)
-    floors = [_floors(breaks, sides(task.motions, hulls), first)]
+    floors = [floors_of(breaks, sides(task.motions, hulls), first)]
     for motions, place, row in _stands(task, hulls):
         floors.append(_standing(breaks, sides(motions, place), first, row))
     return replace(problem, floors=(*problem.floors, *(f for f in floors if len(f.offset))))
@@ -388,14 +429,6 @@ def _standing(breaks: Array, beside: Sides, first: int, row: int) -> Floors:
     every, number = control_rows(breaks), len(beside.piece)
     rows = Rows(np.repeat(every.piece[[row]], number), np.repeat(every.weight[[row]], number, axis=0))
     return Floors(rows, beside.normal, beside.offset.max(axis=1, initial=-np.inf), first + beside.owner)
-
-
-def _floors(breaks: Array, beside: Sides, first: int) -> Floors:
-    every = control_rows(breaks).weight.reshape(-1, 6, 6)
-    rows = Rows(np.repeat(beside.piece, 6), every[beside.piece].reshape(-1, 6))
-    return Floors(
-        rows, np.repeat(beside.normal, 6, axis=0), beside.offset.ravel(), first + np.repeat(beside.owner, 6)
-    )
 
 
 def _scaled(rows: Rows, factor: Array) -> Rows:

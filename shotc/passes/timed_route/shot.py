@@ -17,6 +17,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.ir.preference import noted
+from shotc.passes.corridor.room import required_on_ways, transit_room
 from shotc.passes.place_keyframes.keyed import placed_at, slowed
 from shotc.passes.timed_route.aims import Looker, looker_of
 from shotc.passes.timed_route.camera import Watch, turn
@@ -154,7 +155,8 @@ def _task(looker: Looker, around: Around, shot: Shot, start: float, ask: Ask) ->
     before, after = run_ups(looker.mission, looker.drone, shot, start)
     ways = before.lasting(ask.longer), after.lasting(ask.longer)
     clock = clock_of(shot, start, ways)
-    near = (*standing(room), *traffic.moving)
+    wide, required = transit_room(looker.mission, looker.drone), required_on_ways(looker.mission)
+    near = (*standing(room, wide, required), *traffic.moving)
     motions = tuple(evened(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, ask.stand)
     bound = bounds_of(looker.mission, shot, start)

@@ -11,14 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import IntArray
+from shotc.geom.bspline import IntArray, restrict
 from shotc.geom.corridor import Room, kept, shortfall
 from shotc.ir.mission import Drone
-from shotc.ir.path import PathIR
-from shotc.passes.corridor.room import flight_room
+from shotc.ir.path import PathIR, TimedLeg
+from shotc.passes.corridor.room import flight_room, required_on_ways, transit_room
 from shotc.passes.timed_route.aims import Looker
+from shotc.passes.timed_route.between import widened
 from shotc.passes.timed_route.flights import flights
-from shotc.passes.timed_route.moving import Even, evened, moving_targets, shortfalls, sides, standing
+from shotc.passes.timed_route.moving import Even, Moving, evened, moving_targets, shortfalls, sides, standing
 from shotc.passes.timed_route.others import other_drones
 from shotc.passes.timed_route.sights import Sights, keep_free, sights_of
 
@@ -122,16 +123,34 @@ def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: boo
         stands whatever its time
     """
     mission = path.keyframes.mission
-    room = flight_room(mission, drone) if standing_too else Room((), (), ())
+    room, stands = Room((), (), ()), tuple[Moving, ...]()
+    if standing_too:
+        room = flight_room(mission, drone)
+        stands = standing(room, transit_room(mission, drone), required_on_ways(mission))
     flown = flights(path)
-    moving = (
-        *standing(room),
-        *moving_targets(mission, drone),
-        *other_drones(mission, drone.name, flown),
-    )
+    moving = (*stands, *moving_targets(mission, drone), *other_drones(mission, drone.name, flown))
     return Surroundings(
         breaks,
         Room((), room.walls, room.discs),
-        tuple(evened(what, breaks) for what in moving),
+        _led(path, drone, tuple(evened(what, breaks) for what in moving), breaks),
         sights_of(mission, drone, flown),
     )
+
+
+def _led(path: PathIR, drone: Drone, motions: tuple[Even, ...], breaks: Array) -> tuple[Even, ...]:
+    """Return motions with the clearances that the mission writes down, before the guide's film and after it.
+
+    The others are no reason for a refiner to fail: it begins from a guide that keeps them.
+    """
+    legs = [leg for flown in path.timed if flown.drone == drone.name for leg in flown.legs]
+    guide = next((leg for leg in legs if isinstance(leg, TimedLeg) and _spans(leg, breaks)), None)
+    if guide is None:
+        return motions
+    span, course = (guide.start, guide.end), restrict(guide.curve.channels(0, 1, 2), breaks)
+    wide = widened(motions, course, span)
+    return tuple(w if m.what.required else m for m, w in zip(motions, wide, strict=True))
+
+
+def _spans(leg: TimedLeg, breaks: Array) -> bool:
+    """Tell whether times are those of a leg, cut."""
+    return bool(leg.curve.start == breaks[0] and leg.curve.end == breaks[-1])

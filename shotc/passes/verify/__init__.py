@@ -31,6 +31,7 @@ from shotc.passes.verify.shape import shape, structure
 from shotc.passes.verify.shots import shots
 from shotc.passes.verify.sight import sights
 from shotc.passes.verify.space import space
+from shotc.passes.verify.transits import transits
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,14 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     claims: list[Claim] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
-        claims += [*shape(flight), *motion(flight), *space(flight), *shots(flight, ir), *course(flight, ir)]
+        claims += [
+            *shape(flight),
+            *motion(flight),
+            *space(flight),
+            *transits(flight),
+            *shots(flight, ir),
+            *course(flight, ir),
+        ]
         claims += framing(flight, ir)
     claims += [
         *separation(flights, on_pads),

@@ -16,9 +16,11 @@ from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.numbers import told_apart
+from shotc.passes.verify.passing import told_passes
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.sighting import sighted
+from shotc.passes.verify.transits import ENDING as PASSED
 
 RULES = {
     "speed": Rule("V001", 1.0),
@@ -79,6 +81,7 @@ STARTING = {
 }
 
 ENDING = {
+    PASSED: Rule("V035"),
     " in frame": Rule("V019"),
     " screen error": Rule("V020"),
     " size smallest": Rule("V021"),
@@ -102,10 +105,11 @@ _MOSTLY = {"V031": "V050"}
 def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
     """Turn every broken claim into one diagnostic: an error where it is hard, else a warning.
 
-    What is preferred of the drones' pictures is told once a shot.
+    What is preferred of the drones' pictures is told once a shot, of clearances on ways once a way.
     """
+    yield from told_passes(ir, claims)
     for claim in claims:
-        if claim.holds:
+        if claim.holds or claim.constraint.endswith(PASSED):
             continue
         if claim.constraint.endswith(OUT_OF_PICTURE):
             seen = _seen_with(claim, claims)

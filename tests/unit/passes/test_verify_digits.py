@@ -22,11 +22,11 @@ SHOT = replace(SAMPLE.keyframes.mission.shots[0], promise=Promise(size=(0.1, 0.7
 MISSION = replace(SAMPLE.keyframes.mission, shots=(SHOT,))
 PLAN = replace(SAMPLE, keyframes=replace(SAMPLE.keyframes, mission=MISSION))
 SPEED = next(c for c in orbit_plan().certificate if c.constraint == "speed")
-SIGHT = " out of the picture"  # is told of pairs of drones, in words of its own
+SIGHT, PASSED = " out of the picture", " on transits"  # are told in words of their own
 CONSTRAINTS = [
     *RULES,
     *(f"{start}field" for start in STARTING),
-    *(f"tower{end}" for end in ENDING if end != SIGHT),
+    *(f"tower{end}" for end in ENDING if end not in (SIGHT, PASSED)),
 ]
 
 

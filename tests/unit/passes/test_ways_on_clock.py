@@ -28,6 +28,7 @@ from shotc.passes.solve_path_qp.departure import When, choose
 from shotc.passes.solve_path_qp.legs import Flight, Pose, way_to
 from shotc.passes.solve_path_qp.starts import CLOSE, SPARE, Reached, Trouble, put_off
 from shotc.passes.solve_path_qp.sweeps import with_sweeps
+from shotc.passes.solve_path_qp.transit import Rooms
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.moving import Moving
 from shotc.passes.timed_route.run_up import least_time, rest_to_rest
@@ -36,6 +37,7 @@ from shotc.passes.timed_route.sights import Sights
 from shotc.passes.verify.advice import Rule, advice
 from tests.front import placed
 
+EMPTY = Room((), (), ())
 PAIR = """\
 shotc: 1
 mission: pair
@@ -277,7 +279,7 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
     """A drone hovers half way: the straight way is in time, the one over it is not."""
     mission = pair()
     drone = mission.drones[0]
-    flight = Flight(drone, Room((), (), ()), np.array([0.0, 0.0, 5.0]))
+    flight = Flight(drone, Rooms(EMPTY, EMPTY), np.array([0.0, 0.0, 5.0]))
     here, high, above, there = (
         (x, 0.0, z, 0.0, 0.0, 0.0, 1.2) for x, z in ((0.0, 5.0), (0.0, 12.0), (40.0, 12.0), (40.0, 5.0))
     )
@@ -301,13 +303,15 @@ def test_a_sweep_holds_all_places_of_its_target() -> None:
     def at(times: np.ndarray) -> np.ndarray:
         return np.column_stack([np.sin(times), 0.3 * times, 1.0 + 0.1 * times])
 
-    room = with_sweeps(Room((), (), ()), [Moving("target x", part, 1.6, at)], (2.0, 5.0))
-    (swept,) = room.obstacles
+    moving = [Moving("target x", part, 1.6, at, apart=5.6)]
+    flight, transit, _ = with_sweeps(Rooms(EMPTY, EMPTY), moving, (2.0, 5.0))
+    (swept,), (wide,) = flight.obstacles, transit.obstacles
     angle = np.linspace(0.0, 2 * np.pi, 24)
     rim = np.column_stack([0.89 * np.cos(angle), 0.89 * np.sin(angle), np.zeros(24)])
     for t in np.arange(2.0, 5.01, 0.5):
         assert distances(swept.part, at(np.array([t])) + rim).max() == pytest.approx(0.0, abs=1e-9)
     assert (swept.owner, swept.clearance) == ("target x", 1.6)
+    assert (wide.part, wide.clearance) == (swept.part, 5.6)
 
 
 @pytest.mark.parametrize("phase", ["transit", "return"])

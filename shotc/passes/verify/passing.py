@@ -1,0 +1,151 @@
+"""What is passed nearer than on ways between shots it should be, in the author's terms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.pieces import cut
+from shotc.geom.proof import inf_distance
+from shotc.geom.solids import Solid, distance
+from shotc.ir.bodies import cylinder
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.sampling import beside
+from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
+from shotc.ir.transits import Way, ways
+from shotc.passes.verify.claims import gap, slack
+from shotc.passes.verify.numbers import told_apart
+from shotc.passes.verify.transits import ENDING, on_way, taper_of
+from shotc.rounding import at_most
+
+HARD, SOFT = "V035", "V034"
+PLAY = 0.1  # metres that a clearance is told below what is kept: planning keeps a little more than is asked
+
+
+class Pass(NamedTuple):
+    """How near a drone comes to a solid where a claim is worst.
+
+    name : of the solid, for people; path : in the mission; at : mission time, seconds
+    has, needs : metres from the body then; least : metres on the whole way
+    """
+
+    name: str
+    path: KeyPath
+    way: Way
+    at: float
+    has: float
+    needs: float
+    least: float = 0.0
+
+
+def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
+    """Report broken claims of clearances on ways: what is required one by one, else one warning a way."""
+    broken = [c for c in claims if not c.holds and c.constraint.endswith(ENDING)]
+    soft: dict[tuple[str, Way], list[tuple[Claim, Pass]]] = {}
+    for claim in broken:
+        found = _passes(ir, claim)
+        if claim.hard:
+            yield _refused(ir, claim, found[0])
+            continue
+        for one in found:
+            soft.setdefault((claim.subject, one.way), []).append((claim, one))
+    for together in soft.values():
+        yield _told(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))
+
+
+def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
+    """Return where a flight breaks a claim, way by way, the worst first."""
+    mission, name = ir.keyframes.mission, claim.constraint.removesuffix(ENDING)
+    track = next(t for t in ir.drones if t.drone == claim.subject)
+    solid, path, curve = _solid(mission, name, track)
+    radius = mission.drone(track.drone).radius
+    kind, _, own = name.partition(" ")
+    found = []
+    for way in ways(track.phases):
+        bound = on_way((solid, curve), claim.limit + radius, way)
+        if bound.proven - radius >= claim.limit - slack(claim.limit):
+            continue
+        x, y, z = (float(c) for c in curve(bound.at))
+        needs = taper_of(solid, curve, claim.limit + radius, way).needs(np.array([x, y, z]))
+        least = inf_distance(cut(curve, way.start, way.end), solid, gap(radius))
+        has = distance(solid, (x, y, z))
+        passed = Pass(f"{kind} `{own}`", path, way, bound.at, has - radius, float(needs) - radius)
+        found.append((bound.proven, passed._replace(least=least.proven - radius)))
+    return [one for _, one in sorted(found, key=lambda pair: pair[0])]
+
+
+def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> tuple[Solid, KeyPath, Piecewise]:
+    """Return what a claim calls so, its path, and the flight as it sees that."""
+    curve = track.curve.channels(0, 1, 2)
+    for target in mission.targets:
+        if name == f"target {target.name}":
+            return cylinder(target), target.path, beside(curve, target)
+    zone = next(zone for zone in mission.zones if name == f"zone {zone.name}")
+    return zone.solid, zone.path, curve
+
+
+def _told(ir: TrajectoryIR, together: list[tuple[Claim, Pass]]) -> Diagnostic:
+    claim, worst = together[0]
+    message = f"{claim.subject} passes {_near(claim, worst)}"
+    notes = [_when(claim, worst), *(f"and {_near(c, p)}; {_when(c, p)}" for c, p in together[1:])]
+    keys = sorted({c.path[-1]: f"{c.path[-1]}: {_accepted(c, together)} m" for c, _ in together}.values())
+    help_ = (
+        f"write `rules: {{transit_clearance: {{{', '.join(keys)}}}}}` to accept and hold that, "
+        "or give the way more room"
+    )
+    return Diagnostic(SOFT, message, tuple(_labels(ir, claim, worst)), tuple(notes), help_)
+
+
+def _accepted(claim: Claim, together: list[tuple[Claim, Pass]]) -> str:
+    return _held(min(p.least for c, p in together if c.path == claim.path))
+
+
+def _held(least: float) -> str:
+    """Return a clearance that ways keep which come so near, with the play that planning takes, metres."""
+    return at_most(max(least - PLAY, 0.0))
+
+
+def _refused(ir: TrajectoryIR, claim: Claim, found: Pass) -> Diagnostic:
+    message = f"{claim.subject} passes {_near(claim, found)}"
+    key = claim.path[-1]
+    help_ = (
+        f"lower `transit_clearance.{key}` to {_held(found.least)} m, or start the shot at another "
+        "time, or give the way more room; then plan again"
+    )
+    return Diagnostic(HARD, message, tuple(_labels(ir, claim, found)), (_when(claim, found),), help_)
+
+
+def _near(claim: Claim, found: Pass) -> str:
+    has, needs = told_apart(found.has, found.needs, "m")
+    return f"{found.name} at {has} {_where(found.way)}; {needs} {_kept(claim)}"
+
+
+def _kept(claim: Claim) -> str:
+    return "are required" if claim.hard else "are kept where there is room"
+
+
+def _where(way: Way) -> str:
+    return "on the way home" if way.shot is None else f"on the way to shot `{way.shot}`"
+
+
+def _when(claim: Claim, found: Pass) -> str:
+    tapers = claim.limit - found.needs > 0.01
+    nearer = f", less than {claim.limit:g} m where the way begins or ends nearer" if tapers else ""
+    return f"worst at t = {found.at:.1f} s{nearer}; proved over continuous time"
+
+
+def _labels(ir: TrajectoryIR, claim: Claim, found: Pass) -> Iterator[Label]:
+    mission = ir.keyframes.mission
+    if claim.hard:
+        yield mission.origins.value(claim.path, "required here")
+    yield mission.origins.key(found.path, "is passed")
+    shot = next((s for s in mission.shots if s.id == found.way.shot), None)
+    if shot is not None:
+        yield mission.origins.key(shot.path, "on the way here")
+    else:
+        yield mission.origins.key(mission.drone(claim.subject).path, "on the way home")
