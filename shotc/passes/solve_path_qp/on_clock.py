@@ -47,7 +47,7 @@ from shotc.passes.solve_path_qp.sweeps import with_sweeps
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.flights import flight
 from shotc.passes.timed_route.run_up import lead_in, way_time
-from shotc.passes.timed_route.shot import NoMotion, Traffic, timed_shot
+from shotc.passes.timed_route.shot import ASKED, FROM_AFAR, Ask, NoMotion, Traffic, timed_shot
 from shotc.rounding import up
 
 LATER = (2.0, 5.0, 10.0, 20.0, 40.0)  # seconds that a shot may begin later where something is met on its way
@@ -267,12 +267,24 @@ class Itinerary:
         return None
 
     def _reached(self, placed: PlacedShot, start: float) -> Reached | Trouble:
-        """Plan a shot for a start, and the way to it."""
+        """Plan a shot for a start, and the way to it.
+
+        Where every way to where it begins comes too near to a target, it begins farther off, if that helps.
+        """
         short = outside(self.mission, placed, start)
         if short is not None:
             return short
+        near = self._reached_as(placed, start, ASKED)
+        if isinstance(near, Reached) and near.way.met is not None:
+            far = self._reached_as(placed, start, FROM_AFAR)
+            if isinstance(far, Reached) and far.way.met is None and far.late <= max(0.0, near.late):
+                return far
+        return near
+
+    def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | Trouble:
+        """Plan the same with what is asked of where the shot begins and ends."""
         looker = Looker(self.mission, self.drone, placed.subjects)
-        made = timed_shot(looker, self.flight.room, self.traffic, placed, start)
+        made = timed_shot(looker, (self.flight.room, self.traffic), placed, start, asked)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)

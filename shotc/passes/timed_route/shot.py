@@ -14,7 +14,7 @@ from shotc.geom.runs import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import Shot
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.ir.preference import noted
 from shotc.passes.corridor.room import required_on_ways, transit_room
@@ -51,6 +51,8 @@ class Ask(NamedTuple):
 
 ASKED = (Ask(3.0, 1.0), Ask(1.0, 1.0), Ask(0.0, 1.0), Ask(0.0, 2.0))
 """The first with which there is a motion is taken."""
+FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
+"""The same where no way leads to where such a motion begins: it begins farther off."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,19 +102,21 @@ class NoMotion:
 
 
 def timed_shot(
-    looker: Looker, room: Room, traffic: Traffic, placed: PlacedShot, start: float
+    looker: Looker, around: Around, placed: PlacedShot, start: float, asked: tuple[Ask, ...] = ASKED
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``.
+
+    asked : what is asked of its ends, the first with which there is a motion
 
     Where it begins and ends nothing passes for some seconds before and after, if that can be, so that a drone
     that comes or leaves has time to. The ways to and from there are held to what passes by themselves.
     """
     mission, drone = looker.mission, looker.drone
     placed = placed_at(mission, placed, start)
-    task, flown = _flown(mission, drone, (room, traffic), placed, start)
+    task, flown = _flown(looker_of(mission, drone, placed, start), around, placed.shot, start, asked)
     shot, looker, clock = task.shot, task.looker, task.clock
     if flown.curve is None:
-        missed = _missed(task, (room, traffic), placed, start) if task.bound else None
+        missed = _missed(task, around, placed, start) if task.bound else None
         return NoMotion(flown.status, _lacks(task, flown), missed=missed)
     kept = None if shot.ideal is None else shot.ideal.aim
     turned = turn(Watch(looker, kept), clock, flown.curve)
@@ -134,15 +138,11 @@ def timed_shot(
 
 
 def _flown(
-    mission: MissionIR, drone: Drone, around: Around, placed: PlacedShot, start: float
+    looker: Looker, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
 ) -> tuple[Task, Flown]:
-    """Return the first motion of some for which ever less is asked, or the last one that was not found.
-
-    placed : the shot as it is where it begins at ``start``
-    """
-    looker = looker_of(mission, drone, placed, start)
-    for ask in ASKED:
-        task = _task(looker, around, placed.shot, start, ask)
+    """Return the first motion of some for which ever less is asked, or the last one that was not found."""
+    for ask in asked:
+        task = _task(looker, around, shot, start, ask)
         flown = fly(task)
         if flown.curve is not None:
             break

@@ -269,7 +269,7 @@ def test_a_motion_is_near_what_it_films_or_there_is_none() -> None:
     drone = mission.drones[1]
     beside = Moving("drone cam1", point((0.0, 0.0, 0.0)), 3.0, flown, always=True)
     looker = Looker(mission, drone, second.subjects)
-    made = timed_shot(looker, flight_room(mission, drone), Traffic((beside,), Sights()), second, 8.14)
+    made = timed_shot(looker, (flight_room(mission, drone), Traffic((beside,), Sights())), second, 8.14)
     assert isinstance(made, TimedShot)
     begin = np.array(ideal_place(mission, second.shot, 8.14, 8.14))
     assert np.linalg.norm(made.leg.curve(8.14)[:3] - begin) < 10.0
