@@ -288,7 +288,6 @@ KINDS: dict[Callable[[Chance], Draft | None], float] = {
     _crane: 0.7,
 }
 STEADY: dict[Callable[[Chance], Draft | None], float] = {
-    keyframes: 2.0,
     _top_down: 1.0,
     _chase: 2.0,
     _lead: 1.5,
