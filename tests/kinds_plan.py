@@ -13,7 +13,7 @@ targets:
 drones:
   cam1: {model: x500, home: [0, -60, 0]}
   cam2: {model: x500, home: [70, -20, 0], priority: 2}
-rules: {mutual_visibility: {strength: off}}
+rules: {mutual_visibility: {strength: off}, transit_clearance: {filmed: 0, other: 0}}
 shots:
   - {id: round, kind: orbit, drone: cam1, target: tower, radius: 30, altitude: 15, sweep: -180 deg,
      start_azimuth: 180 deg}

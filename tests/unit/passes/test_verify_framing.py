@@ -111,7 +111,8 @@ def test_a_target_hidden_in_just_most_of_the_frames_is_an_error() -> None:
     for wide in (10.0, 60.0):
         screen = Zone("screen", "out", box((10.0, 0.0, 10), (1, wide, 20), 0), ("world", "zones", "screen"))
         ir = with_mission(zones=(*MISSION.zones, screen))
-        found[claim(ir, "tower visible").worst < 0.5] = codes(ir)
+        # The screen stands beside the way there, too, which is another warning.
+        found[claim(ir, "tower visible").worst < 0.5] = [code for code in codes(ir) if code != "V034"]
     assert found == {False: ["V031"], True: ["V050"]}
 
 
