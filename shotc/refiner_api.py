@@ -34,12 +34,12 @@ from shotc.passes.solve_path_qp.rejoin import rejoined
 from shotc.passes.solve_path_qp.turns import steady
 from shotc.passes.solve_path_qp.with_camera import NoTransit, with_camera
 from shotc.passes.timed_route.aims import Looker, aims_at, looker_of
+from shotc.passes.timed_route.bounds import Bound, bounds_of
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.flights import FlownShot, flights, flown_shot
 from shotc.passes.timed_route.keyed import Keyed
 from shotc.passes.timed_route.pictures import least_out
-from shotc.passes.timed_route.position import Bound, bounds_of
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within

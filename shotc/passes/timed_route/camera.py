@@ -12,8 +12,9 @@ from shotc.geom.bspline import Rows, control_rows, count, energy_rows, hull_rows
 from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone
 from shotc.passes.timed_route.aims import Looker, aims_at
+from shotc.passes.timed_route.bounds import NEARLY, at_rest
 from shotc.passes.timed_route.clock import Clock
-from shotc.passes.timed_route.position import NEARLY, UNSEEN, at_rest
+from shotc.passes.timed_route.position import UNSEEN
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
 from shotc.solvers.spline_qp import minimise

@@ -9,23 +9,22 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, hull_rows, spline, value_rows
+from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
 from shotc.geom.corridor import Room, shortfall
 from shotc.ir.ideal import ideal_place
-from shotc.ir.keyed import arrivals, is_keyed, place_of
-from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.preference import Price, prefers_free_pictures
 from shotc.passes.corridor.rows import Around, with_corridor
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.between import lacking, sides_apart, standing_apart
+from shotc.passes.timed_route.bounds import Bound, at_rest, limits_of
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, floors_of, shortfalls, sides
 from shotc.passes.timed_route.preferred import cost
 from shotc.passes.timed_route.run_up import RunUp
 from shotc.passes.timed_route.sights import Kept, Sights, keep_free
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_problem import Cones, Equalities, Floors, Goal, SplineProblem
+from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
@@ -33,7 +32,6 @@ SMOOTH = 0.5  # seconds: shorter wiggles of the ideal are smoothed away
 SAMPLES = 3  # of the ideal, a piece
 FAINT = 1e-3  # weight of the ideal's course beyond the film's ends, against that in the film
 UNSEEN = 0.005  # weight of jerk beyond the film's ends, against that in the film
-NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
 ROUNDS = 6
 LOOKS = 5  # rounds in which pictures are kept free
 SAME = 0.02  # of its distance from whom it films, that a camera is moved by for what is not written down
@@ -45,41 +43,6 @@ ROUNDING = 1e-9  # seconds
 GAIN = 0.01
 ASTRAY = 50.0  # metres off its ideal on average over the film: a motion so far off is none
 HOPE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Bound:
-    """A place of the author's, W, metres, where the camera is at a time, or from a time to another, seconds.
-
-    index : of its keyframe in the shot
-    """
-
-    index: int
-    place: Vec3
-    start: float
-    end: float
-
-    @property
-    def still(self) -> bool:
-        """Whether the camera stands still there for a while."""
-        return self.end > self.start
-
-
-def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]:
-    """Return where keyframes bind the camera of a shot whose first frame is at mission time ``start``."""
-    if not is_keyed(shot):
-        return ()
-    found: list[Bound] = []
-    for index, (keyframe, at) in enumerate(zip(shot.keyframes, arrivals(shot), strict=True)):
-        if not keyframe.placed:
-            continue
-        reach, leave = start + at, start + at + keyframe.hold
-        if keyframe.beside is None:
-            found.append(Bound(index, keyframe.at, reach, leave))
-            continue
-        times = [reach] if keyframe.hold <= 0 else [reach, leave]
-        found += [Bound(index, place_of(mission, keyframe, t), t, t) for t in times]
-    return tuple(found)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -358,38 +321,6 @@ def _coefficients(first: int, last: int, pieces: int) -> Rows:
     index = np.arange(first, last)
     piece = np.minimum(index, pieces - 1)
     return Rows(piece, np.eye(DEGREE + 1)[index - piece])
-
-
-def at_rest(breaks: Array) -> Rows:
-    """Return the rows of a spline's first and second derivative at both ends, by mission time in seconds."""
-    parts = []
-    for order in (1, 2):
-        rows = control_rows(breaks, order)
-        parts.append((rows.piece[[0, -1]], rows.weight[[0, -1]]))
-    return Rows(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
-
-
-def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
-    """Return the norms that a drone's motion keeps, at the control points of its derivatives."""
-    cones = []
-    for order, axes, bound in (
-        (1, (0, 1), limits.speed),
-        (2, (0, 1, 2), limits.acceleration),
-        (3, (0, 1, 2), limits.jerk),
-    ):
-        rows = hull_rows(breaks, order)
-        number = len(rows.piece)
-        owner = np.zeros(number, dtype=np.intp)
-        cones.append(
-            Cones(rows, axes, np.zeros((number, len(axes))), np.full(number, NEARLY * bound), None, owner)
-        )
-    up = hull_rows(breaks, 1)
-    middle = 0.5 * NEARLY * (limits.climb - limits.descent)
-    half = 0.5 * NEARLY * (limits.climb + limits.descent)
-    number = len(up.piece)
-    owner = np.zeros(number, dtype=np.intp)
-    cones.append(Cones(up, (2,), np.full((number, 1), middle), np.full(number, half), None, owner))
-    return tuple(cones)
 
 
 def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: float) -> SplineProblem:

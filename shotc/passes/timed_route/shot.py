@@ -20,11 +20,12 @@ from shotc.ir.preference import noted
 from shotc.passes.corridor.room import required_on_ways, transit_room
 from shotc.passes.place_keyframes.keyed import placed_at, slowed
 from shotc.passes.timed_route.aims import Looker, looker_of
+from shotc.passes.timed_route.bounds import bounds_of
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock, clock_of
 from shotc.passes.timed_route.keyed import marks_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
-from shotc.passes.timed_route.position import Flown, Task, bounds_of, fly, standing_by
+from shotc.passes.timed_route.position import Flown, Task, fly, standing_by
 from shotc.passes.timed_route.run_up import run_ups
 from shotc.passes.timed_route.sights import Sights
 from shotc.solvers.conic import Status

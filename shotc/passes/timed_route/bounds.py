@@ -1,0 +1,83 @@
+"""What binds a motion on the clock: rest at its ends, the drone's limits, and places of the author's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import Rows, control_rows, hull_rows
+from shotc.ir.keyed import arrivals, is_keyed, place_of
+from shotc.ir.limits import Limits, Vec3
+from shotc.ir.mission import MissionIR, Shot
+from shotc.solvers.spline_problem import Cones
+
+NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bound:
+    """A place of the author's, W, metres, where the camera is at a time, or from a time to another, seconds.
+
+    index : of its keyframe in the shot
+    """
+
+    index: int
+    place: Vec3
+    start: float
+    end: float
+
+    @property
+    def still(self) -> bool:
+        """Whether the camera stands still there for a while."""
+        return self.end > self.start
+
+
+def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]:
+    """Return where keyframes bind the camera of a shot whose first frame is at mission time ``start``."""
+    if not is_keyed(shot):
+        return ()
+    found: list[Bound] = []
+    for index, (keyframe, at) in enumerate(zip(shot.keyframes, arrivals(shot), strict=True)):
+        if not keyframe.placed:
+            continue
+        reach, leave = start + at, start + at + keyframe.hold
+        if keyframe.beside is None:
+            found.append(Bound(index, keyframe.at, reach, leave))
+            continue
+        times = [reach] if keyframe.hold <= 0 else [reach, leave]
+        found += [Bound(index, place_of(mission, keyframe, t), t, t) for t in times]
+    return tuple(found)
+
+
+def at_rest(breaks: Array) -> Rows:
+    """Return the rows of a spline's first and second derivative at both ends, by mission time in seconds."""
+    parts = []
+    for order in (1, 2):
+        rows = control_rows(breaks, order)
+        parts.append((rows.piece[[0, -1]], rows.weight[[0, -1]]))
+    return Rows(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
+
+
+def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
+    """Return the norms that a drone's motion keeps, at the control points of its derivatives."""
+    cones = []
+    for order, axes, bound in (
+        (1, (0, 1), limits.speed),
+        (2, (0, 1, 2), limits.acceleration),
+        (3, (0, 1, 2), limits.jerk),
+    ):
+        rows = hull_rows(breaks, order)
+        number = len(rows.piece)
+        owner = np.zeros(number, dtype=np.intp)
+        cones.append(
+            Cones(rows, axes, np.zeros((number, len(axes))), np.full(number, NEARLY * bound), None, owner)
+        )
+    up = hull_rows(breaks, 1)
+    middle = 0.5 * NEARLY * (limits.climb - limits.descent)
+    half = 0.5 * NEARLY * (limits.climb + limits.descent)
+    number = len(up.piece)
+    owner = np.zeros(number, dtype=np.intp)
+    cones.append(Cones(up, (2,), np.full((number, 1), middle), np.full(number, half), None, owner))
+    return tuple(cones)
