@@ -50,13 +50,7 @@ from shotc.passes.timed_route.run_up import lead_in, way_time
 from shotc.passes.timed_route.shot import ASKED, FROM_AFAR, Ask, NoMotion, Traffic, timed_shot
 from shotc.rounding import up
 
-LATER = (
-    2.0,
-    5.0,
-    10.0,
-    20.0,
-    40.0,
-)  # seconds that a shot may begin later where none is found, or something is met on its way
+LATER = (2.0, 5.0, 10.0, 20.0, 40.0)  # seconds that a shot may begin later, for a motion or a way to it
 LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
 LATE = 1e-6  # seconds
 AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
