@@ -124,3 +124,26 @@ def test_a_motion_begins_where_walkers_have_just_passed() -> None:
     plan, found = compiled(WALKERS, "")
     assert plan is not None, found
     assert all(claim.holds for claim in plan.certificate if claim.hard)
+
+
+FIELD = """\
+shotc: 1
+mission: field
+world:
+  zones: {field: {keep: in, polygon: {points: [[-47, -45], [55, -45], [55, 85], [-47, 85]], height: [0, 53]}}}
+targets:
+  cyclist: {track: {start: [6, -164, 0.9], velocity: [0, 4.8, 0]}, radius: 0.7, height: 1.8}
+drones:
+  cam1: {model: pro, home: [9, 9, 0]}
+shots:
+  - {id: tail, kind: chase, drone: cam1, target: cyclist, distance: 4.2, altitude: 7.7, timing: {duration: 8}}
+"""
+
+
+def test_a_shot_whose_target_is_still_outside_begins_later() -> None:
+    """As soon as the drone is there the cyclist is 60 m and more beyond the border, where it may not go."""
+    plan, found = compiled(FIELD, "")
+    assert plan is not None, found
+    (start,) = (p.start for p in plan.trajectory.drones[0].phases if p.shot == "tail")
+    _, north, _ = plan.trajectory.keyframes.mission.target("cyclist").at(start)
+    assert north > -45 - 50
