@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import hypot, inf
+from typing import NamedTuple
 
 from shotc.geom.convex import bounded
 from shotc.geom.corridor import MARGIN, Disc, Obstacle, Room, Wall
@@ -13,6 +14,17 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.transits import Apart, from_target, from_zones
 
 GROUND = "ground"
+
+
+class Rooms(NamedTuple):
+    """Where a drone may be: with the clearances of all phases, and with those of ways between shots.
+
+    required : owners whose clearances on ways the mission writes down
+    """
+
+    flight: Room
+    transit: Room
+    required: frozenset[str] = frozenset()
 
 
 def flight_room(mission: MissionIR, drone: Drone) -> Room:
@@ -33,8 +45,8 @@ def flight_room(mission: MissionIR, drone: Drone) -> Room:
     return _with_keep_ins(mission, drone, (obstacles, walls), floors=True)
 
 
-def transit_room(mission: MissionIR, drone: Drone) -> Room:
-    """Return the room of ways between shots: that of flight, with the clearances that are kept there."""
+def rooms_of(mission: MissionIR, drone: Drone) -> Rooms:
+    """Return the room of flight, and the same with the clearances that are kept on ways between shots."""
     room, wide = flight_room(mission, drone), _kept_on_ways(mission)
 
     def widened(obstacle: Obstacle) -> Obstacle:
@@ -43,13 +55,8 @@ def transit_room(mission: MissionIR, drone: Drone) -> Room:
             obstacle if apart is None else replace(obstacle, clearance=drone.radius + apart.metres + MARGIN)
         )
 
-    return replace(room, obstacles=tuple(map(widened, room.obstacles)))
-
-
-def required_on_ways(mission: MissionIR) -> frozenset[str]:
-    """Return the owners whose clearances on ways between shots the mission writes down."""
-    kept = _kept_on_ways(mission)
-    return frozenset(owner for owner, apart in kept.items() if apart is not None and apart.required)
+    required = frozenset(owner for owner, apart in wide.items() if apart is not None and apart.required)
+    return Rooms(room, replace(room, obstacles=tuple(map(widened, room.obstacles))), required)
 
 
 def _kept_on_ways(mission: MissionIR) -> dict[str, Apart | None]:

@@ -39,12 +39,13 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
 
 
 def _floors(around: Around, planes: Planes, owner: IntArray) -> Floors:
-    rows = _points_of(around.breaks, planes.piece)
+    rows = points_of(around.breaks, planes.piece)
     offset = planes.offset[:, None] - planes.eased
     return Floors(rows, np.repeat(planes.normal, 6, axis=0), offset.ravel(), np.repeat(owner, 6))
 
 
-def _points_of(breaks: Array, pieces: IntArray) -> Rows:
+def points_of(breaks: Array, pieces: IntArray) -> Rows:
+    """Return the rows of the six control points of pieces, shape (R,), one piece after the other."""
     every = control_rows(breaks).weight.reshape(-1, 6, 6)
     return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
 
@@ -72,7 +73,7 @@ def _disc_cones(around: Around, index: dict[str, int]) -> tuple[Cones, ...]:
         if not len(near):
             continue
         bound = np.repeat(disc.radius - kept(slack[near], around.share), 6)
-        rows = _points_of(around.breaks, near)
+        rows = points_of(around.breaks, near)
         owner = np.full(len(rows.piece), index[disc.owner])
         cones.append(Cones(rows, (0, 1), np.tile(centre, (len(bound), 1)), bound, None, owner))
     return tuple(cones)

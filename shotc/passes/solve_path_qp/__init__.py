@@ -21,7 +21,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.corridor.room import flight_room, pad_room
+from shotc.passes.corridor.room import pad_room, rooms_of
 from shotc.passes.place_keyframes.keyed import misplaced, placed_at
 from shotc.passes.solve_path_qp.clock_faults import outside_track, too_late, way_met
 from shotc.passes.solve_path_qp.faults import (
@@ -32,7 +32,7 @@ from shotc.passes.solve_path_qp.faults import (
     pad_blocked,
     swings,
 )
-from shotc.passes.solve_path_qp.legs import Flight, drone_legs, flight_of
+from shotc.passes.solve_path_qp.legs import Flight, drone_legs
 from shotc.passes.solve_path_qp.on_clock import Itinerary
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
@@ -138,15 +138,15 @@ def _plan(
         return _Planned((), (), (), ())
     if drone.body == "follow-camera" and not drone.gimbal.yaw[0] <= 0.0 <= drone.gimbal.yaw[1]:
         return _stopped(follow_camera_impossible(mission, drone))
-    room = flight_room(mission, drone)
-    top = transit_point(room, pad_room(mission, drone), drone)
-    shots, faults = _curves(mission, drone, room, mine, ctx)
+    rooms = rooms_of(mission, drone)
+    top = transit_point(rooms.flight, pad_room(mission, drone), drone)
+    shots, faults = _curves(mission, drone, rooms.flight, mine, ctx)
     if isinstance(top, PadBlocked):
         return _stopped(pad_blocked(mission, drone, top), *faults)
     if faults:
         return _stopped(*faults)
     ctx.progress(f"way of {drone.name}")
-    flight, warnings = flight_of(mission, drone, top), _warnings(mission, drone, shots)
+    flight, warnings = Flight(drone, rooms, top), _warnings(mission, drone, shots)
     if not on_clock(ir):
         return _in_a_row(mission, flight, shots, warnings)
     moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, flights))

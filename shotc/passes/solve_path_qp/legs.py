@@ -15,11 +15,11 @@ from shotc.geom.corridor import Room, bounds_slack, breaches
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop, TimedLeg
-from shotc.passes.corridor.room import flight_room, pad_room, required_on_ways, transit_room
+from shotc.passes.corridor.room import Rooms, pad_room
 from shotc.passes.solve_path_qp.body import BodyTask, allowed_body, body_line
 from shotc.passes.solve_path_qp.lines import SAME_PLACE, TURN_LENGTH
 from shotc.passes.solve_path_qp.shots import AngleFailure, Failure, ShotCurve, stack
-from shotc.passes.solve_path_qp.transit import Rooms, transit_curve
+from shotc.passes.solve_path_qp.transit import transit_curve
 from shotc.solvers.conic import Status
 
 SAME_ANGLE = 1e-6
@@ -44,12 +44,6 @@ class Flight:
     def room(self) -> Room:
         """The room of all phases."""
         return self.rooms.flight
-
-
-def flight_of(mission: MissionIR, drone: Drone, top: Array) -> Flight:
-    """Return the flight of a drone of a mission."""
-    wide, required = transit_room(mission, drone), required_on_ways(mission)
-    return Flight(drone, Rooms(flight_room(mission, drone), wide, required), top)
 
 
 def drone_legs(flight: Flight, shots: list[ShotCurve]) -> tuple[Leg, ...] | tuple[Failure, ShotCurve | None]:

@@ -286,7 +286,7 @@ class Itinerary:
     def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | Trouble:
         """Plan the same with what is asked of where the shot begins and ends."""
         looker = Looker(self.mission, self.drone, placed.subjects)
-        made = timed_shot(looker, (self.flight.room, self.traffic), placed, start, asked)
+        made = timed_shot(looker, (self.flight.rooms, self.traffic), placed, start, asked)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)

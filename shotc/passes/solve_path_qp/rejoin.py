@@ -12,9 +12,9 @@ from dataclasses import replace
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Drone
 from shotc.ir.path import DronePath, Leg, PathIR
-from shotc.passes.corridor.room import flight_room, pad_room
+from shotc.passes.corridor.room import pad_room, rooms_of
 from shotc.passes.solve_path_qp.in_time import in_time
-from shotc.passes.solve_path_qp.legs import drone_legs, flight_of
+from shotc.passes.solve_path_qp.legs import Flight, drone_legs
 from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
 from shotc.passes.solve_path_qp.shots import ShotCurve
 from shotc.passes.solve_path_qp.with_camera import NoTransit, same, with_camera
@@ -51,8 +51,8 @@ def _drone(path: PathIR, flown: DronePath, cameras: Mapping[str, Piecewise]) -> 
 
 def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
     mission = path.keyframes.mission
-    room = flight_room(mission, drone)
-    top = transit_point(room, pad_room(mission, drone), drone)
+    rooms = rooms_of(mission, drone)
+    top = transit_point(rooms.flight, pad_room(mission, drone), drone)
     assert not isinstance(top, PadBlocked), "it was free when the path was first planned"
     placed = {p.shot.id: p for p in path.keyframes.shots}
     shots = [
@@ -60,7 +60,7 @@ def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
         for leg in legs
         if leg.shot is not None
     ]
-    joined = drone_legs(flight_of(mission, drone, top), shots)
+    joined = drone_legs(Flight(drone, rooms, top), shots)
     if isinstance(joined[0], Leg):
         return joined
     before = joined[1]

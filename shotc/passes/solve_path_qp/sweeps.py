@@ -14,7 +14,7 @@ import numpy as np
 
 from shotc.geom.corridor import Obstacle, Room
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_hull
-from shotc.passes.solve_path_qp.transit import Rooms
+from shotc.passes.corridor.room import Rooms
 from shotc.passes.timed_route.moving import Moving
 
 STEP = 0.5  # seconds between the places that a hull is drawn about

@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 from math import inf
-from typing import NamedTuple
 
 import numpy as np
 
@@ -23,6 +22,7 @@ from shotc.geom.route import find_route, length
 from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone
+from shotc.passes.corridor.room import Rooms
 from shotc.passes.solve_path_qp.lines import Line, NoWay, TooNear, straight_line
 from shotc.passes.solve_path_qp.position import Stretch, solve_stretch
 from shotc.passes.solve_path_qp.shots import Stuck
@@ -35,17 +35,6 @@ RISES = (0.0, 0.6, 1.2, -0.6)  # rad that rays point upwards
 TRIED = 60  # places beside a short way that it may lead over
 PLAY = 3.0 * MARGIN  # metres beyond the clearances at which a way out of an end is at its end
 ROUNDING = 1e-6  # metres
-
-
-class Rooms(NamedTuple):
-    """Where a drone may be: with the clearances of all phases, and with those of ways between shots.
-
-    required : owners whose clearances on ways the mission writes down
-    """
-
-    flight: Room
-    transit: Room
-    required: frozenset[str] = frozenset()
 
 
 def transit_curve(rooms: Rooms, drone: Drone, a: Array, b: Array) -> Piecewise | NoWay | TooNear | Stuck:

@@ -6,21 +6,23 @@ clearance, so that a plane beside the even motion keeps clear of the true one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import IntArray, Rows, control_rows
+from shotc.geom.bspline import IntArray
 from shotc.geom.convex import separate, support
-from shotc.geom.corridor import MARGIN, Room, six
+from shotc.geom.corridor import MARGIN, six
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.track_array import places
-from shotc.ir.mission import Drone, MissionIR, Target
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.transits import from_target
+from shotc.passes.corridor.room import Rooms
+from shotc.passes.corridor.rows import points_of
 from shotc.solvers.spline_problem import Floors
 
 SAMPLES = 8  # a piece, at which motion is compared with even motion
@@ -47,15 +49,11 @@ class Moving:
     required: bool = False
 
 
-def standing(room: Room, wide: Room | None = None, required: Collection[str] = ()) -> tuple[Moving, ...]:
-    """Return the obstacles of a room, as motions that stay where they are.
-
-    wide : the same with the clearances of ways between shots; required : owners of those that are written
-    """
-    pairs = zip(room.obstacles, (wide or room).obstacles, strict=True)
+def standing(rooms: Rooms) -> tuple[Moving, ...]:
+    """Return the obstacles of rooms, as motions that stay where they are."""
     return tuple(
-        Moving(o.owner, o.part, o.clearance, _nowhere, apart=w.clearance, required=o.owner in required)
-        for o, w in pairs
+        Moving(o.owner, o.part, o.clearance, _nowhere, apart=w.clearance, required=o.owner in rooms.required)
+        for o, w in zip(rooms.flight.obstacles, rooms.transit.obstacles, strict=True)
     )
 
 
@@ -88,17 +86,14 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     found = []
     for target in mission.targets:
         if target.track is not None:
-            name, part = f"target {target.name}", Cylinder((0.0, 0.0), target.radius, *_heights(target))
+            half = target.height / 2
+            name, part = f"target {target.name}", Cylinder((0.0, 0.0), target.radius, -half, half)
             kept = from_target(mission, target.name)
             apart = clearance if kept is None else drone.radius + kept.metres + MARGIN
             required = kept is not None and kept.required
             at = partial(places, target.track)
             found.append(Moving(name, part, clearance, at, apart=apart, required=required))
     return tuple(found)
-
-
-def _heights(target: Target) -> tuple[float, float]:
-    return -target.height / 2, target.height / 2
 
 
 def evened(what: Moving, breaks: Array) -> Even:
@@ -162,11 +157,8 @@ def sides(motions: Sequence[Even], hulls: Array) -> Sides:
 
 def floors_of(breaks: Array, beside: Sides, first: int) -> Floors:
     """Return the half-spaces as rows of a programme; first : index of the first motion among the owners."""
-    every = control_rows(breaks).weight.reshape(-1, 6, 6)
-    rows = Rows(np.repeat(beside.piece, 6), every[beside.piece].reshape(-1, 6))
-    return Floors(
-        rows, np.repeat(beside.normal, 6, axis=0), beside.offset.ravel(), first + np.repeat(beside.owner, 6)
-    )
+    normal, owner = np.repeat(beside.normal, 6, axis=0), first + np.repeat(beside.owner, 6)
+    return Floors(points_of(breaks, beside.piece), normal, beside.offset.ravel(), owner)
 
 
 def _slack(motion: Even, relative: Array, normal: Array, gap: Array) -> Array:

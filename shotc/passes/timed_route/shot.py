@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
-from shotc.geom.corridor import Room, breaches
+from shotc.geom.corridor import breaches
 from shotc.geom.runs import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed
@@ -17,7 +17,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.ir.preference import noted
-from shotc.passes.corridor.room import required_on_ways, transit_room
+from shotc.passes.corridor.room import Rooms
 from shotc.passes.place_keyframes.keyed import placed_at, slowed
 from shotc.passes.timed_route.aims import Looker, looker_of
 from shotc.passes.timed_route.bounds import bounds_of
@@ -64,7 +64,7 @@ class Traffic:
     sights: Sights
 
 
-Around = tuple[Room, Traffic]
+Around = tuple[Rooms, Traffic]
 """What stands around a shot, and what moves."""
 
 
@@ -152,16 +152,15 @@ def _flown(
 
 def _task(looker: Looker, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
     """Return what is to be flown, from where to where so much is asked."""
-    room, traffic = around
+    rooms, traffic = around
     before, after = run_ups(looker.mission, looker.drone, shot, start)
     ways = before.lasting(ask.longer), after.lasting(ask.longer)
     clock = clock_of(shot, start, ways)
-    wide, required = transit_room(looker.mission, looker.drone), required_on_ways(looker.mission)
-    near = (*standing(room, wide, required), *traffic.moving)
+    near = (*standing(rooms), *traffic.moving)
     motions = tuple(evened(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, ask.stand)
     bound = bounds_of(looker.mission, shot, start)
-    return Task(looker, shot, clock, ways, room, motions, passing, traffic.sights, bound)
+    return Task(looker, shot, clock, ways, rooms.flight, motions, passing, traffic.sights, bound)
 
 
 def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Missed | None:

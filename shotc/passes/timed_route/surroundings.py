@@ -15,7 +15,7 @@ from shotc.geom.bspline import IntArray, restrict
 from shotc.geom.corridor import Room, kept, shortfall
 from shotc.ir.mission import Drone
 from shotc.ir.path import PathIR, TimedLeg
-from shotc.passes.corridor.room import flight_room, required_on_ways, transit_room
+from shotc.passes.corridor.room import rooms_of
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.between import widened
 from shotc.passes.timed_route.flights import flights
@@ -125,8 +125,8 @@ def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: boo
     mission = path.keyframes.mission
     room, stands = Room((), (), ()), tuple[Moving, ...]()
     if standing_too:
-        room = flight_room(mission, drone)
-        stands = standing(room, transit_room(mission, drone), required_on_ways(mission))
+        rooms = rooms_of(mission, drone)
+        room, stands = rooms.flight, standing(rooms)
     flown = flights(path)
     moving = (*stands, *moving_targets(mission, drone), *other_drones(mission, drone.name, flown))
     return Surroundings(

@@ -22,13 +22,12 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import Leg
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
-from shotc.passes.corridor.room import flight_room
+from shotc.passes.corridor.room import Rooms, rooms_of
 from shotc.passes.parameterize_time.estimate import leg_time
 from shotc.passes.solve_path_qp.departure import When, choose
 from shotc.passes.solve_path_qp.legs import Flight, Pose, way_to
 from shotc.passes.solve_path_qp.starts import CLOSE, SPARE, Reached, Trouble, put_off
 from shotc.passes.solve_path_qp.sweeps import with_sweeps
-from shotc.passes.solve_path_qp.transit import Rooms
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.moving import Moving
 from shotc.passes.timed_route.run_up import least_time, rest_to_rest
@@ -269,7 +268,7 @@ def test_a_motion_is_near_what_it_films_or_there_is_none() -> None:
     drone = mission.drones[1]
     beside = Moving("drone cam1", point((0.0, 0.0, 0.0)), 3.0, flown, always=True)
     looker = Looker(mission, drone, second.subjects)
-    made = timed_shot(looker, (flight_room(mission, drone), Traffic((beside,), Sights())), second, 8.14)
+    made = timed_shot(looker, (rooms_of(mission, drone), Traffic((beside,), Sights())), second, 8.14)
     assert isinstance(made, TimedShot)
     begin = np.array(ideal_place(mission, second.shot, 8.14, 8.14))
     assert np.linalg.norm(made.leg.curve(8.14)[:3] - begin) < 10.0
