@@ -164,7 +164,14 @@ def _mine(cast: _Cast, theme: str, i: int, one: Camera, turn: int, others: list[
 def _has_room(cast: _Cast, take: Take, one: Camera, others: list[Take]) -> bool:
     if not all(surroundings.apart(take, other, cast.rules) for other in others):
         return False
-    return surroundings.clear_of_subjects(take, one, cast.subjects, cast.rules)
+    if any(
+        surroundings.in_between(a, b, cast.subjects)
+        for other in others
+        for a, b in ((take, other), (other, take))
+    ):
+        return False
+    seen = surroundings.in_sight(take, cast.subjects)
+    return seen and surroundings.clear_of_subjects(take, one, cast.subjects, cast.rules)
 
 
 def _still(cast: _Cast, theme: str, one: Camera, sector: tuple[int, int], name: str) -> Take | None:

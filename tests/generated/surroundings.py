@@ -21,6 +21,8 @@ ZONE_ROOM = 4.0  # metres from a zone to places and pads, beside the body
 WAY_ROOM = 3.0  # metres from a zone to the sides of subjects
 RUN_UP = 15.0  # metres by which ways are drawn out at both ends before zones are put
 FENCE_ROOM = (35.0, 60.0)  # metres between a fence and all places, and over the highest
+BODY = 0.8  # metres from a line of sight, at which a drone is not between
+HIDDEN = 0.25  # share of a shot's places from which something hides what is filmed, at most
 STEP = 1.0  # metres, or half a second, between places that are looked at
 
 
@@ -107,6 +109,42 @@ def clear_of_subjects(take: Take, camera: Camera, subjects: Sequence[Subject], r
         if np.hypot(level, over).min() < need:
             return False
     return True
+
+
+def in_sight(take: Take, subjects: Sequence[Subject]) -> bool:
+    """Tell whether what a shot films is hidden behind other subjects from few of its places at most."""
+    placed = [s for s in subjects if not s.moves or take.times is not None]
+    centres = {s.name: s.at(take.times) if s.moves and take.times is not None else s.points for s in placed}
+    along = np.linspace(0.0, 1.0, 60)[:, None, None]
+    for filmed in (s for s in placed if s.name in take.subjects):
+        sight = take.places + along * (centres[filmed.name] - take.places)  # (60, n, 3)
+        for other in (s for s in placed if s is not filmed):
+            d = sight - centres[other.name]
+            inside = (np.hypot(d[..., 0], d[..., 1]) < other.radius) & (np.abs(d[..., 2]) < other.height / 2)
+            if inside.any(axis=0).mean() > HIDDEN:
+                return False
+    return True
+
+
+def in_between(take: Take, other: Take, subjects: Sequence[Subject]) -> bool:
+    """Tell whether another drone, in its shot, is between a camera and what it films for long."""
+    if take.times is None or other.times is None:
+        return False
+    t = take.times[(take.times >= other.times[0]) & (take.times <= other.times[-1])]
+    if not len(t):
+        return False
+    here, there = (
+        np.column_stack([np.interp(t, x.times, x.places[:, k]) for k in range(3)])
+        for x in (take, other)
+        if x.times is not None
+    )
+    for filmed in (s for s in subjects if s.name in take.subjects):
+        ray = (filmed.at(t) if filmed.moves else np.tile(filmed.points, (len(t), 1))) - here
+        along = np.clip(((there - here) * ray).sum(axis=1) / (ray * ray).sum(axis=1), 0.0, 1.0)
+        beside = np.linalg.norm(there - here - along[:, None] * ray, axis=1)
+        if (beside < BODY).sum() > HIDDEN * len(take.times):
+            return True
+    return False
 
 
 def pad(

@@ -180,6 +180,7 @@ def _text(name: str, targets: list[_Cylinder], rows: list[str]) -> str:
             "  - id: film",
             "    kind: keyframes",
             "    drone: cam",
+            "    allow: [hidden-subject]  # how targets stand is drawn, and one may hide another",
             *(["    target: t0"] if len(targets) == 1 else []),
             "    keyframes:",
             *rows,

@@ -12,7 +12,7 @@ import pytest
 from shotc_casadi import solving
 from shotc_casadi.clock import program
 from shotc_casadi.clock.angles import turning
-from shotc_casadi.clock.problem import STAGES, breaks_of, guess, problem
+from shotc_casadi.clock.problem import STAGES, Use, breaks_of, guess, problem
 from shotc_casadi.clock.proof import astray, gap_in
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, ClockRefined, refine_clock
@@ -184,7 +184,7 @@ def task(of: ClockSubject) -> program.ClockProblem:
     around, wanted = surroundings(of.path, of.drone, breaks), wishes(of, breaks)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
     planes = around.half_spaces(guide.ctrl, REACH, SHARE)
-    return problem(of, breaks, wanted, planes, NEARLY, guess(guide, breaks))
+    return problem(of, breaks, wanted, planes, Use(NEARLY), guess(guide, breaks))
 
 
 def test_two_solvers_find_the_same_motion() -> None:

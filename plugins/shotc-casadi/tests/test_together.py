@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.clock import picture, program
-from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
+from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, flown_cost
 from shotc_casadi.clock.several import pictured
@@ -74,7 +74,7 @@ def task(of: ClockSubject) -> ClockProblem:
     around, wanted = surroundings(of.path, of.drone, breaks), wishes(of, breaks)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
     planes = around.half_spaces(guide.ctrl, REACH, SHARE)
-    return problem(of, breaks, wanted, planes, NEARLY, guess(guide, breaks, of.leg.curve))
+    return problem(of, breaks, wanted, planes, Use(NEARLY), guess(guide, breaks, of.leg.curve))
 
 
 def turning(leg: TimedLeg) -> float:

@@ -227,9 +227,11 @@ def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float
 
 
 def _border(setting: Setting, line: Line, outside: float, inside: float) -> float:
+    """Bisect for where candidates begin; the whole target is inside the frame there if it can be."""
+    least = min(TOUCH, setting.slack(line.point(inside)))
     for _ in range(HALVINGS):
         middle = (outside + inside) / 2
-        if setting.slack(line.point(middle)) >= -TOUCH:
+        if setting.slack(line.point(middle)) >= least:
             inside = middle
         else:
             outside = middle

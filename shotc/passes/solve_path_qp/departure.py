@@ -36,6 +36,7 @@ HASTE = 0.9  # of those that are given up where something passes its place until
 DELAYS = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds that it may wait
 SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the time it has to spare that it waits
 CLOSER, ZOOMS = 20, 2  # parts into which a step is cut where it is nearest to a target, and how often
+LEAVES = 3.0  # seconds after a shot, in which a drone has to get away from where it ends
 PROVED = 1e-6  # metres
 WAITED = 1e3  # metres that a clearance counts as broken by, where what follows would wait too long for it
 
@@ -120,11 +121,17 @@ def choose(
     then : what it flies next, which is not to meet anything either
     """
     tried: list[Way] = []
+
+    def waits(way: Way) -> float:
+        """Return for how many seconds what follows waits for a way, beside the first."""
+        ready = 0.0 if then is None else then.ready
+        return 0.0 if when.due is not None else max(way.end, ready) - max(tried[0].end, ready)
+
     for legs in ways:
         for way in _tries(mission, drone, traffic, legs, when, then):
             in_time = when.due is None or way.end <= when.due
             tried.append(way)
-            fine = _unseen(traffic, way, when) >= 0.0 and _kept(way, when, tried[0]) >= -PROVED
+            fine = _unseen(traffic, way, waits(way)) >= 0.0 and _kept(way, waits(way)) >= -PROVED
             if way.clear and fine and (in_time or len(tried) == 1):
                 return way
         if not traffic.moving:
@@ -133,37 +140,30 @@ def choose(
 
     def worth(way: Way) -> tuple[bool, bool, float, float, float, float, float]:
         late = max(0.0, way.end - due)
-        kept = min(_kept(way, when, tried[0]), 0.0)
-        unseen = _unseen(traffic, way, when)
+        kept = min(_kept(way, waits(way)), 0.0)
+        unseen = _unseen(traffic, way, waits(way))
         required = min(way.required, 0.0)
         return way.met is None, way.room >= 0.0, required, -late, kept, min(way.room, COMFORT), unseen
 
     return max(tried, key=worth, default=None)
 
 
-def _kept(way: Way, when: When, first: Way) -> float:
+def _kept(way: Way, waits: float) -> float:
     """Return how far a way keeps the clearances of ways between shots, metres.
 
-    It is worth little where what follows would wait longer for it than a preference may cost: it ends so much
-    later than the first way does.
+    It is worth little where what follows would wait longer for it than a preference may cost.
     """
-    waits = 0.0 if when.due is not None else way.end - first.end
     return way.kept if waits <= LONGEST_WAIT else min(way.kept, 0.0) - WAITED
 
 
-def _unseen(traffic: Traffic, way: Way, when: When) -> float:
-    """Return how far a way is out of pictures, metres, where that counts; when : as in ``choose``.
+def _unseen(traffic: Traffic, way: Way, waits: float) -> float:
+    """Return how far a way is out of pictures, metres, where that counts; waits : as in ``_kept``.
 
     A preference that is not met counts for nothing, nor one that is for which what follows waits too long.
     """
     if not traffic.sights.preferred:
         return way.unseen
-    return 0.0 if way.unseen >= 0.0 and _waits(way, when) <= LONGEST_WAIT else -inf
-
-
-def _waits(way: Way, when: When) -> float:
-    """Return for how many seconds what follows waits for a way."""
-    return (way.legs[0].start or 0.0) - when.ready if when.due is None and way.legs else 0.0
+    return 0.0 if way.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
 
 
 def _tries(
@@ -190,7 +190,7 @@ def _tries(
             return
         until = max(leaves + lasts, when.stays, due or 0.0, 0.0 if then is None else then.ready)
         course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, until)
-        times = np.arange(begin, until + (0.0 if film is None else float(film.end)) + STEP, STEP)
+        times = np.arange(begin, until + (0.0 if film is None else float(film.end) + LEAVES) + STEP, STEP)
         places, upright = course.at(times), course.upright(times)
         room = min(_room(what, drone.radius, times, places, upright) for what in traffic.moving)
         unseen = seen_on(drone, traffic.sights, times, places)

@@ -6,9 +6,11 @@ it are timed here as the time pass will time them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from functools import partial
+from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,16 +18,15 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyed import carriers
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.parameterize_time.estimate import leg_time
 from shotc.passes.solve_path_qp.departure import Then, Way, When, choose
+from shotc.passes.solve_path_qp.detours import Meanwhile, Transit, ways_home, ways_to
 from shotc.passes.solve_path_qp.legs import (
     Flight,
     Pose,
     end_of,
-    raised,
     shot_leg,
     take_off,
     turned,
@@ -43,17 +44,44 @@ from shotc.passes.solve_path_qp.starts import (
     outside,
     put_off,
 )
-from shotc.passes.solve_path_qp.sweeps import with_sweeps
 from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.flights import flight
 from shotc.passes.timed_route.run_up import lead_in, way_time
-from shotc.passes.timed_route.shot import ASKED, FROM_AFAR, Ask, NoMotion, Traffic, timed_shot
+from shotc.passes.timed_route.shot import (
+    ASKED,
+    FROM_AFAR,
+    FROM_ASIDE,
+    TO_ASIDE,
+    Ask,
+    NoMotion,
+    Traffic,
+    timed_shot,
+)
 from shotc.rounding import up
 
 LATER = (2.0, 5.0, 10.0, 20.0, 40.0)  # seconds that a shot may begin later, for a motion or a way to it
-LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
 LATE = 1e-6  # seconds
 AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
+
+
+class _State(NamedTuple):
+    """How far a drone's legs are planned: what an itinerary holds, by the same names."""
+
+    legs: tuple[Leg | TimedLeg, ...]
+    clock: float
+    deviations: tuple[Deviation, ...]
+    stats: tuple[tuple[str, float | str], ...]
+    ends: dict[str, float]
+    last: _Last | None
+    room: float
+
+
+class _Last(NamedTuple):
+    """The last shot, where it is on its own clock: its start, and the state before it."""
+
+    placed: PlacedShot
+    start: float
+    before: _State
 
 
 @dataclass(slots=True)
@@ -61,6 +89,7 @@ class Itinerary:
     """The legs of one drone while they grow, and the clock at their end.
 
     ends : of the shots of drones planned before, by id; this drone's are added
+    last : its last shot; room : least distance beyond a clearance on the last way, metres
     """
 
     mission: MissionIR
@@ -71,6 +100,8 @@ class Itinerary:
     clock: float = 0.0
     deviations: list[Deviation] = field(default_factory=list)
     stats: list[tuple[str, float | str]] = field(default_factory=list)
+    last: _Last | None = None
+    room: float = inf
 
     @property
     def drone(self) -> Drone:
@@ -79,15 +110,58 @@ class Itinerary:
 
     def film(self, shot: ShotCurve | PlacedShot) -> Trouble | None:
         """Add a shot and the way to it."""
-        return self._path(shot) if isinstance(shot, ShotCurve) else self._timed(shot)
+        add = partial(self._path, shot) if isinstance(shot, ShotCurve) else partial(self._timed, shot)
+        return self._leaving(add)
 
-    def home(self) -> Failure | Meets | None:
+    def home(self) -> Trouble | None:
         """Add the way home."""
+        return self._leaving(self._home)
+
+    def _leaving(self, add: Callable[[], Trouble | None]) -> Trouble | None:
+        """Add what follows the last shot, which ends aside where something is met then, if that helps."""
+        before = self._state()
+        found = add()
+        if not isinstance(found, Meets) and self.room >= 0.0:
+            return found
+        planned = self._state()
+        self._restore(before)
+        if self._ended_aside():
+            again = add()
+            if not isinstance(again, Meets) and self.room >= 0.0:
+                return again
+        self._restore(planned)
+        return found
+
+    def _ended_aside(self) -> bool:
+        """Plan the last shot again, so that it ends where nothing passes; tell whether that can be."""
+        if self.last is None:
+            return False
+        placed, start, before = self.last
+        self._restore(before)
+        for asked in TO_ASIDE:
+            reached = self._reached_as(placed, start, asked)
+            if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE:
+                self._add(placed, reached)
+                return True
+        return False
+
+    def _state(self) -> _State:
+        lists = tuple(self.legs), self.clock, tuple(self.deviations), tuple(self.stats)
+        return _State(*lists, dict(self.ends), self.last, self.room)
+
+    def _restore(self, state: _State) -> None:
+        self.legs, self.clock = list(state.legs), state.clock
+        self.deviations, self.stats = list(state.deviations), list(state.stats)
+        self.last, self.room = state.last, state.room
+        self.ends.clear()
+        self.ends.update(state.ends)
+
+    def _home(self) -> Trouble | None:
         pose = end_of(self.legs)
         back = way_home(self.flight, pose)
         if not isinstance(back, list):
             return back
-        ways = self._ways_home(pose, back)
+        ways = ways_home(self.flight, pose, back, self._meanwhile(back, None))
         stays = max(self.ends.values(), default=0.0)
         way = choose(self.mission, self.drone, self.traffic, ways, When(self.clock, stays=stays))
         assert way is not None
@@ -100,39 +174,15 @@ class Itinerary:
         """Return the drone's flight as far as it is planned, as the time pass will fly it."""
         return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
-    def _ways_home(self, pose: Pose, direct: list[Leg]) -> Iterator[list[Leg]]:
-        """Return the direct way home, the one round everything, and those first straight up."""
-        yield direct
-        around = way_home(self._beside(direct, None), pose)
-        if isinstance(around, list):
-            yield around
-        for metres in LIFTS:
-            top = _at(pose, pose[2] + metres)
-            up = self._through([pose, top], self.drone.path)
-            back = way_home(self.flight, top)
-            if up is not None and isinstance(back, list):
-                yield [*up, *back]
-
-    def _beside(self, direct: list[Leg], due: float | None) -> Flight:
-        """Return the flight in a room where the targets stand all along the ways that they go meanwhile.
+    def _meanwhile(self, direct: list[Leg], due: float | None) -> Meanwhile:
+        """Return what goes on while a drone is on its way.
 
         direct : legs that take about as long; due : when the drone has to be there, if it has to
         """
         until = due
         if until is None:
             until = self.clock + AMPLE * sum(leg_time(self.mission, self.drone, leg) for leg in direct)
-        span = (self.clock, max(self.clock, until))
-        return replace(self.flight, rooms=with_sweeps(self.flight.rooms, self.traffic.moving, span))
-
-    def _through(self, stops: list[Pose], path: KeyPath) -> list[Leg] | None:
-        """Return the legs from each of some poses to the next."""
-        legs: list[Leg] = []
-        for a, b in pairwise(stops):
-            way = way_to(self.flight, a, b, path)
-            if not isinstance(way, list):
-                return None
-            legs += way
-        return legs
+        return Meanwhile(self.traffic, (self.clock, max(self.clock, until)))
 
     def _path(self, shot: ShotCurve) -> Trouble | None:
         timing = shot.shot.shot.timing
@@ -150,6 +200,7 @@ class Itinerary:
         self.legs.append(leg)
         self.clock += leg_time(self.mission, self.drone, leg)
         self.ends[shot.shot.shot.id] = self.clock
+        self.last = None
         return None
 
     def _way(
@@ -170,35 +221,11 @@ class Itinerary:
         if not isinstance(direct, list):
             return direct
 
-        def ways() -> Iterator[list[Leg]]:
-            yield [*lift, *direct]
-            around = way_to(self._beside([*lift, *direct], due), pose, near, path)
-            if isinstance(around, list):
-                yield [*lift, *around]
-            for metres in LIFTS:
-                high = max(pose[2], near[2]) + metres
-                # Straight up from a pad there is the take-off already.
-                stops = [pose, *([] if lift else [_at(pose, high)]), _at(near, high), near]
-                found = self._through(stops, path)
-                if found is not None:
-                    yield [*lift, *found]
-            if lift:
-                yield from self._lifted(goal, near, path)
-
-        found = choose(self.mission, self.drone, self.traffic, ways(), When(self.clock, due), then)
+        wanted = Transit(self.mission, self.flight, pose, near, path)
+        ways = ways_to(wanted, (lift, goal), direct, self._meanwhile([*lift, *direct], due))
+        found = choose(self.mission, self.drone, self.traffic, ways, When(self.clock, due), then)
         assert found is not None
         return found
-
-    def _lifted(self, goal: Pose, near: Pose, path: KeyPath) -> Iterator[list[Leg]]:
-        """Return ways from the pad that rise higher straight up, where there is room for it."""
-        for metres in LIFTS:
-            higher = raised(self.mission, self.flight, metres)
-            if higher is None:
-                return
-            lift = take_off(higher, goal)
-            rest = way_to(higher, end_of([lift]), near, path)
-            if isinstance(rest, list):
-                yield [lift, *rest]
 
     def _timed(self, placed: PlacedShot) -> Trouble | None:
         shot = placed.shot
@@ -208,8 +235,11 @@ class Itinerary:
             before = lead_in(self.mission, self.drone, shot, self.clock).seconds
             start = max(ready, self.clock + before, self._since(placed))
             reached = put_off(self.mission, self._reached, placed, start, self._about(placed))
-            if isinstance(reached, NoMotion):  # its target may still be where no drone may go
-                reached = self._later(placed, start) or reached
+            # Its target may still be where no drone may go.
+            if isinstance(reached, NoMotion):
+                reached = self._later(placed, start, _in_its_place) or self._later(placed, start) or reached
+            elif isinstance(reached, Reached) and not _in_its_place(reached):
+                reached = self._later(placed, start, _in_its_place) or reached
         else:
             reached = self._reached(placed, fixed)
         if not isinstance(reached, Reached):
@@ -223,14 +253,19 @@ class Itinerary:
                 reached = freer or reached
             if reached.way.met is not None:
                 return Meets(reached.way.met, None if freer is None else freer.shot.leg.start)
+        self._add(placed, reached)
+        return None
+
+    def _add(self, placed: PlacedShot, reached: Reached) -> None:
+        """Add a shot on its own clock with the way to it."""
+        self.last = _Last(placed, reached.shot.leg.start, self._state())
         self._take(reached.way)
         leg = _shifted(reached.shot.leg, turns_to(reached.shot.leg.pose, end_of(self.legs)))
         self.legs.append(leg)
         self.clock = float(leg.curve.end)
-        self.ends[shot.id] = leg.end
+        self.ends[placed.shot.id] = leg.end
         self.deviations += reached.shot.deviations
         self.stats += reached.shot.stats
-        return None
 
     def _late(self, placed: PlacedShot, reached: Reached) -> Trouble | None:
         """Return what is wrong with when a shot is reached, or with how long it can last then."""
@@ -260,27 +295,31 @@ class Itinerary:
         run_up = leg.start - float(leg.curve.start)
         return TooLate(asked.late, leg.start if there else None, short, tuple(before), run_up)
 
-    def _later(self, placed: PlacedShot, start: float) -> Reached | None:
-        """Return the first of some later starts to which there is a way on which nothing is met."""
+    def _later(
+        self, placed: PlacedShot, start: float, fine: Callable[[Reached], bool] = lambda _: True
+    ) -> Reached | None:
+        """Return the first of some later starts that is fine, and to which a way meets nothing."""
         for more in LATER:
             reached = self._reached(placed, start + more)
-            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear:
+            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear and fine(reached):
                 return reached
         return None
 
     def _reached(self, placed: PlacedShot, start: float) -> Reached | Trouble:
         """Plan a shot for a start, and the way to it.
 
-        Where every way to where it begins comes too near to a target, it begins farther off, if that helps.
+        Where every way to where it begins comes too near to a target, it begins aside or farther off, if that
+        helps.
         """
         short = outside(self.mission, placed, start)
         if short is not None:
             return short
         near = self._reached_as(placed, start, ASKED)
         if isinstance(near, Reached) and near.way.met is not None:
-            far = self._reached_as(placed, start, FROM_AFAR)
-            if isinstance(far, Reached) and far.way.met is None and far.late <= max(0.0, near.late):
-                return far
+            for asked in (FROM_ASIDE, FROM_AFAR):
+                far = self._reached_as(placed, start, asked)
+                if isinstance(far, Reached) and far.way.met is None and far.late <= max(0.0, near.late):
+                    return far
         return near
 
     def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | Trouble:
@@ -311,13 +350,14 @@ class Itinerary:
         return max((track.since for track in tracks if track is not None), default=0.0)
 
     def _take(self, way: Way) -> None:
+        self.room = way.room
         self.legs += way.legs
         self.clock = way.end
 
 
-def _at(pose: Pose, height: float) -> Pose:
-    """Return a pose moved straight up or down to a height."""
-    return (*pose[:2], height, *pose[3:])
+def _in_its_place(reached: Reached) -> bool:
+    """Tell whether no zone keeps a shot out of the place that it asks for."""
+    return not any(d.cause.startswith("zone ") for d in reached.shot.deviations)
 
 
 def _near(goal: Pose, pose: Pose) -> Pose:

@@ -139,9 +139,9 @@ def _line(rooms: Rooms, wide: Room, near: Array) -> Line | None:
 
 
 def _joined(a: Array, route: Array, b: Array) -> Array:
-    """Return a route with the places before and after it, where they are others than its ends."""
-    before, after = ([p] if (p != q).any() else [] for p, q in ((a, route[0]), (b, route[-1])))
-    return np.array([*before, *route, *after])
+    """Return a route with its ends a and b; what is an end but for rounding is that end."""
+    between = [p for p in route if min(np.linalg.norm(p - a), np.linalg.norm(p - b)) > ROUNDING]
+    return np.array([a, *between, b])
 
 
 def _settled(room: Room, ends: Array) -> Room:

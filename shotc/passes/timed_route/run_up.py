@@ -9,7 +9,7 @@ of rest is free, so nothing else counts.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from math import hypot, sqrt
 
@@ -36,11 +36,13 @@ class RunUp:
     """A way between rest and an end of a film.
 
     seconds : that it takes; place, velocity : at the film's end of it, shape (3,), metres and m/s
+    aside : from where it would be at rest to where it is, shape (3,), metres
     """
 
     seconds: float
     place: Array
     velocity: Array
+    aside: Array = field(default_factory=partial(np.zeros, 3))
 
     @property
     def rest(self) -> Array:
@@ -51,14 +53,25 @@ class RunUp:
         """Return the way that takes so many times as long."""
         return replace(self, seconds=times * self.seconds)
 
+    def led(self, aside: Array, limits: Limits) -> RunUp:
+        """Return the way that ends so far aside, and takes the time for that."""
+        level, rise = float(np.hypot(aside[0], aside[1])), abs(float(aside[2]))
+        needed = max(
+            rest_to_rest(level, limits.speed, limits.acceleration, limits.jerk),
+            rest_to_rest(rise, min(limits.climb, limits.descent), limits.acceleration, limits.jerk),
+        )
+        return replace(self, seconds=max(self.seconds, SPLINE * needed + SETTLE), aside=aside)
+
     def at(self, away: Array) -> Array:
         """Return places (M, 3) so many seconds from the film, negative before it; at rest beyond the way.
 
-        The speed goes evenly eased from nothing to the film's.
+        The speed goes evenly eased from nothing to the film's, and so does the place from aside.
         """
         x = np.clip(1.0 - np.abs(away) / self.seconds, 0.0, 1.0)
         flown = self.seconds * (0.5 - x**3 + 0.5 * x**4)
-        return np.asarray(self.place + (np.sign(away) * flown)[:, None] * self.velocity)
+        beside = 1.0 - x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
+        straight = self.place + (np.sign(away) * flown)[:, None] * self.velocity
+        return np.asarray(straight + beside[:, None] * self.aside)
 
 
 def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> RunUp:

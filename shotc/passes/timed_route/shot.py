@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
-from shotc.geom.corridor import breaches
+from shotc.geom.corridor import Room, breaches
 from shotc.geom.runs import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed
@@ -26,10 +26,12 @@ from shotc.passes.timed_route.clock import Clock, clock_of
 from shotc.passes.timed_route.keyed import marks_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly, standing_by
-from shotc.passes.timed_route.run_up import run_ups
+from shotc.passes.timed_route.resting import LONG, aside_of_what_passes
+from shotc.passes.timed_route.run_up import RunUp, run_ups
 from shotc.passes.timed_route.sights import Sights
 from shotc.solvers.conic import Status
 
+LESS = 0.8  # of what a motion leaves its place, with which another is better
 NOTICE = 0.5  # metres off the ideal that are worth telling
 LEFT = 0.1  # metres off that belong to a stretch worth telling
 LONGER = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
@@ -43,17 +45,25 @@ class Ask(NamedTuple):
     """What is asked of the ends of a motion.
 
     stand : seconds that the drone may stand there; longer : times as long as need be that the ways into the
-    film and out of it take
+    film and out of it take; aside : whether it rests where nothing passes, before the film and after it
     """
 
     stand: float
     longer: float
+    aside: tuple[bool, bool] = (False, False)
 
 
 ASKED = (Ask(3.0, 1.0), Ask(1.0, 1.0), Ask(0.0, 1.0), Ask(0.0, 2.0))
 """The first with which there is a motion is taken."""
 FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
 """The same where no way leads to where such a motion begins: it begins farther off."""
+FROM_ASIDE = (Ask(3.0, 1.0, (True, False)), Ask(0.0, 1.0, (True, False)), Ask(0.0, 2.0, (True, False)))
+"""The same: it begins aside."""
+TO_ASIDE = tuple(
+    tuple(Ask(stand, longer, (begins, True)) for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0)))
+    for begins in (False, True)
+)
+"""The same where none leads away from where such a motion ends: it ends aside."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,26 +151,51 @@ def timed_shot(
 def _flown(
     looker: Looker, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
 ) -> tuple[Task, Flown]:
-    """Return the first motion of some for which ever less is asked, or the last one that was not found."""
+    """Return the first motion of some for which ever less is asked, or the last one that was not found.
+
+    What is asked of the ends is not to move the film: one that leaves its place gives way to one that does so
+    much less.
+    """
+    found: list[tuple[float, Task, Flown]] = []
     for ask in asked:
         task = _task(looker, around, shot, start, ask)
         flown = fly(task)
-        if flown.curve is not None:
+        if flown.curve is None:
+            continue
+        off = float(_away(task, flown.curve)[1].max())
+        if not found or off < LESS * found[0][0]:
+            found = [(off, task, flown)]
+        if off <= NOTICE:
             break
-    return task, flown
+    return found[0][1:] if found else (task, flown)
 
 
 def _task(looker: Looker, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
     """Return what is to be flown, from where to where so much is asked."""
     rooms, traffic = around
-    before, after = run_ups(looker.mission, looker.drone, shot, start)
-    ways = before.lasting(ask.longer), after.lasting(ask.longer)
-    clock = clock_of(shot, start, ways)
     near = (*standing(rooms), *traffic.moving)
+    ways = _ways(looker, shot, start, ask, (near, rooms.flight))
+    clock = clock_of(shot, start, ways)
     motions = tuple(evened(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, ask.stand)
     bound = bounds_of(looker.mission, shot, start)
     return Task(looker, shot, clock, ways, rooms.flight, motions, passing, traffic.sights, bound)
+
+
+def _ways(
+    looker: Looker, shot: Shot, start: float, ask: Ask, around: tuple[tuple[Moving, ...], Room]
+) -> tuple[RunUp, RunUp]:
+    """Return the ways into a film and out of it; around : what stands and moves, and the room."""
+    limits, end = looker.drone.limits, start + (shot.timing.duration or 0.0)
+    before, after = (way.lasting(ask.longer) for way in run_ups(looker.mission, looker.drone, shot, start))
+    if ask.aside[0]:
+        begin = start - before.seconds
+        rest = before.at(np.array([-before.seconds]))[0]
+        before = before.led(aside_of_what_passes(*around, rest, (begin - LONG, begin)), limits)
+    if ask.aside[1]:
+        rest, stop = after.at(np.array([after.seconds]))[0], end + after.seconds
+        after = after.led(aside_of_what_passes(*around, rest, (stop, stop + LONG)), limits)
+    return before, after
 
 
 def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Missed | None:
@@ -204,14 +239,10 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[FramingSpan,
 
 def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
     """Return, for each stretch on which the motion leaves the ideal, the worst of it."""
-    times = np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
-    ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
     assert flown.curve is not None
-    away = np.linalg.norm(flown.curve(times) - ideal, axis=1)
+    times, away = _away(task, flown.curve)
     found = tuple(
-        Deviation(
-            task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, ideal[i], float(times[i]))
-        )
+        Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
     if is_keyed(task.shot):
@@ -220,7 +251,15 @@ def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
     return found
 
 
-def _cause(task: Task, flown: Flown, ideal: Array, t: float) -> str:
+def _away(task: Task, curve: Piecewise) -> tuple[Array, Array]:
+    """Return times of the film, and how far the camera is from its ideal then, metres; both shape (M,)."""
+    times = np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
+    ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
+    return times, np.linalg.norm(curve(times) - ideal, axis=1)
+
+
+def _cause(task: Task, flown: Flown, t: float) -> str:
+    ideal = np.array(ideal_place(task.mission, task.shot, task.clock.start, t))
     near = breaches(task.room, ideal)
     if near:
         return near[0].owner

@@ -91,6 +91,13 @@ def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Se
     assert all(setting.apart(asked, chosen) <= setting.apart(asked, p) + 1e-7 for p in good)
 
 
+def test_a_target_moved_until_it_fits_is_whole_and_not_only_but_for_rounding() -> None:
+    near = Setting((10.627, -6.247, -0.99), 3.84, 4.02, radians(50), 16 / 9, (radians(-90), radians(30)))
+    chosen = nearest_on_verticals(near, THIRDS, (0.0, -0.9))
+    assert chosen is not None
+    assert 0.0 <= near.slack(chosen) <= 2 * TOUCH
+
+
 @given(settings, places)
 def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_on_verticals(setting, THIRDS, asked)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,9 +20,19 @@ COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so t
 FREE = 1.0  # metres of slack of what means nothing: a constraint needs an interior
 WEIGHTS = ("place", "jerk", "turn", "price", "hidden", "field", "touch", "picture")
 UNFILMED = 1e3
-WIDE = 5e-4  # half the width of the box about the given states of both ends, m and so on
+ENDS = 5e-4  # half the width of the box about the given states of both ends, m and so on
 HELD = 2e-4  # half the width of the box about a keyframe's place; of its velocity and acceleration at rest
 SAME = 1e-9  # seconds
+
+
+class Use(NamedTuple):
+    """What a programme may use.
+
+    share : of each limit; ends : half the width of the box about the given states of both ends, m and so on
+    """
+
+    share: float
+    ends: float = ENDS
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,10 +106,10 @@ def problem(
     breaks: Array,
     wanted: ClockWishes,
     planes: Planes,
-    share: float,
+    use: Use,
     start: tuple[Array, Array],
 ) -> ClockProblem:
-    """Return the programme; share : of each limit that is used; start : as ``guess`` returns.
+    """Return the programme; start : as ``guess`` returns.
 
     The slacks of ellipsoids begin at one unit each.
     """
@@ -110,12 +121,12 @@ def problem(
     if not sizes.subjects:
         least[SLACK] = 0.0
     speed, acceleration, jerk = (
-        (share * bound) ** 2 for bound in (limits.speed, limits.acceleration, limits.jerk)
+        (use.share * bound) ** 2 for bound in (limits.speed, limits.acceleration, limits.jerk)
     )
     low = np.zeros(sizes.limits + count * POINTS + sizes.screens + sizes.bodies)
-    low[:3] = -inf, -inf, -share * limits.descent
+    low[:3] = -inf, -inf, -use.share * limits.descent
     high = np.full_like(low, inf)
-    high[:3] = jerk, speed, share * limits.climb
+    high[:3] = jerk, speed, use.share * limits.climb
     rows = [wanted.past, wanted.bodies, wanted.subjects]
     flat = [row.reshape(len(breaks), -1) for row in rows]
     moves = start[1][:, : sizes.moves]
@@ -125,7 +136,7 @@ def problem(
         _unit(wanted),
         start[0],
         np.column_stack([moves, np.ones((len(moves), sizes.inputs - sizes.moves))]),
-        _bounds(subject, breaks, sizes, share),
+        _bounds(subject, breaks, sizes, use),
         least,
         (np.full(3, -inf), np.array([speed, acceleration, 1.0])),
         (low, high),
@@ -133,18 +144,18 @@ def problem(
     return replace(made, inputs=np.column_stack([moves, made.units[:, sizes.moves :]]))
 
 
-def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, share: float) -> tuple[Array, Array]:
+def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tuple[Array, Array]:
     """Return the bounds of all states: at both ends those of the guide."""
     limits, leg = subject.drone.limits, subject.leg
     low = np.full((len(breaks), sizes.states), -inf)
     high = -low
-    low[:, 5], high[:, 5] = -share * limits.descent, share * limits.climb
+    low[:, 5], high[:, 5] = -use.share * limits.descent, use.share * limits.climb
     if sizes.subjects:
-        low[:, PLACED:], high[:, PLACED:] = turning_room(subject.drone, share)
+        low[:, PLACED:], high[:, PLACED:] = turning_room(subject.drone, use.share)
     camera = leg.curve if sizes.subjects else None
     rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]], camera)[0]
     for k, given in zip((0, -1), rest, strict=True):
-        low[k], high[k] = given - WIDE, given + WIDE
+        low[k], high[k] = given - use.ends, given + use.ends
     for bound in subject.bound:
         at = (breaks >= bound.start - SAME) & (breaks <= bound.end + SAME)
         low[at, :3], high[at, :3] = np.array(bound.place) - HELD, np.array(bound.place) + HELD

@@ -22,7 +22,7 @@ from shotc.refiner_api import (
 from shotc_casadi.clock.aside import led_past
 from shotc_casadi.clock.bodies import Body, bodies_of, kept_from
 from shotc_casadi.clock.curve import curve_of, filmed
-from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
+from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
 from shotc_casadi.clock.screens import Screen, looked_past
@@ -36,6 +36,8 @@ REACH = 8.0  # metres beyond its clearance within which a wall counts
 SHARE = 0.5  # of the room beside a wall that is kept
 NEARLY = 0.998  # of each limit that is used, so that rounding breaks none
 ALLOWED = 0.01  # rad by which a camera may miss its aim, if its guide misses it by less
+FIRST = Use(NEARLY)
+NARROWER = 0.1  # of what the ends may be off, which is taken back beside walls that nodes are held to
 GAIN = 0.01  # of the cost: a round that gains less is the last
 
 
@@ -101,7 +103,7 @@ class _Round:
 
     course : the motion that the surroundings are put beside; start : the first guess
     over : ways over the target that are held to their side; aside : whether the guess is led aside
-    reach, share : of what stands near, metres; of each limit that is used
+    reach : of what stands near, metres; use : of the limits, and of where the ends are
     rounds, last, seconds : how often it was solved, what came of it last, and how long all of it took
     first : the solver that failed before one that did not
     """
@@ -112,7 +114,7 @@ class _Round:
     over: tuple[Pass, ...]
     aside: bool
     reach: float = REACH
-    share: float = NEARLY
+    use: Use = FIRST
     rounds: int = 0
     seconds: float = 0.0
     last: Solution | None = None
@@ -154,7 +156,7 @@ def _next(shot: _Shot, now: _Round) -> _Round:
     """Return the round after one: set up about its course, solved, and proved at every instant."""
     wanted = looked_past(shot.screens, now.wanted, now.course(shot.breaks), shot.shown)
     wanted = kept_from(shot.bodies, wanted, now.course(shot.breaks))
-    task = problem(shot.subject, shot.breaks, wanted, _planes(shot, now), now.share, now.start)
+    task = problem(shot.subject, shot.breaks, wanted, _planes(shot, now), now.use, now.start)
     optional = now.best is not None or now.aside
     solution, failed = attempt = by_one_of(SOLVERS[:1] if optional else SOLVERS, partial(solve, task))
     seconds = now.seconds + attempt.seconds
@@ -191,8 +193,8 @@ def _unsolved(shot: _Shot, after: _Round) -> _Round:
 def _tightened(after: _Round, gap: Gap) -> _Round:
     """Return what follows a round that does not hold, from the same first guess."""
     if gap.unit == "m":
-        return replace(after, reach=2 * after.reach)
-    return replace(after, share=after.share * NEARLY)
+        return replace(after, reach=2 * after.reach, use=after.use._replace(ends=NARROWER * after.use.ends))
+    return replace(after, use=after.use._replace(share=after.use.share * NEARLY))
 
 
 def _improved(after: _Round, found: _Best, *, anew: bool) -> _Round:
