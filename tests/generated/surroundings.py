@@ -113,17 +113,34 @@ def clear_of_subjects(take: Take, camera: Camera, subjects: Sequence[Subject], r
 
 def in_sight(take: Take, subjects: Sequence[Subject]) -> bool:
     """Tell whether what a shot films is hidden behind other subjects from few of its places at most."""
-    placed = [s for s in subjects if not s.moves or take.times is not None]
-    centres = {s.name: s.at(take.times) if s.moves and take.times is not None else s.points for s in placed}
-    along = np.linspace(0.0, 1.0, 60)[:, None, None]
-    for filmed in (s for s in placed if s.name in take.subjects):
-        sight = take.places + along * (centres[filmed.name] - take.places)  # (60, n, 3)
-        for other in (s for s in placed if s is not filmed):
-            d = sight - centres[other.name]
+    for filmed, sight in _sights(take, subjects):
+        for other in (s for s in subjects if s is not filmed and (take.times is not None or not s.moves)):
+            d = sight - (other.points if take.times is None else other.at(take.times))
             inside = (np.hypot(d[..., 0], d[..., 1]) < other.radius) & (np.abs(d[..., 2]) < other.height / 2)
             if inside.any(axis=0).mean() > HIDDEN:
                 return False
     return True
+
+
+def _sights(take: Take, subjects: Sequence[Subject]) -> list[tuple[Subject, Array]]:
+    """Return what a shot films whose place is known, and places on the lines to it, (60, n, 3)."""
+    along = np.linspace(0.0, 1.0, 60)[:, None, None]
+    found = []
+    for filmed in (s for s in subjects if s.name in take.subjects):
+        if take.times is not None or not filmed.moves:
+            centre = filmed.points if take.times is None else filmed.at(take.times)
+            found.append((filmed, take.places + along * (centre - take.places)))
+    return found
+
+
+def _hides(solid: Solid, takes: Sequence[Take], subjects: Sequence[Subject]) -> bool:
+    """Tell whether a solid hides what a shot films from many of its places."""
+    for take in takes:
+        for _, sight in _sights(take, subjects):
+            inside = solid.away(sight.reshape(-1, 3)).reshape(sight.shape[:2]) <= 0.0
+            if inside.any(axis=0).mean() > HIDDEN:
+                return True
+    return False
 
 
 def in_between(take: Take, other: Take, subjects: Sequence[Subject]) -> bool:
@@ -185,11 +202,13 @@ def zones(
     passing = ways(subjects, 120.0)
     if dice.chance(0.35):
         solid = _in_the_way(dice, takes, pads)
-        if solid is not None and _stands_free(solid, _bound(takes, solid), pads, passing, body):
+        free = solid is not None and _stands_free(solid, _bound(takes, solid), pads, passing, body)
+        if solid is not None and free and not _hides(solid, takes, subjects):
             found["mast"] = {"keep": "out", **solid.wanted}
     for i in range(dice.weighted({0: 3, 1: 2, 2: 1, 3: 1})):
         solid = _somewhere(dice, takes)
-        if _stands_free(solid, [dense(_drawn_out(t)) for t in takes], pads, passing, body):
+        free = _stands_free(solid, [dense(_drawn_out(t)) for t in takes], pads, passing, body)
+        if free and not _hides(solid, takes, subjects):
             found[f"{dice.pick(('tree', 'house', 'shed', 'pylon'))}{i + 1}"] = {"keep": "out", **solid.wanted}
     if dice.chance(0.3):
         found["field"] = _fence(dice, takes, pads)
