@@ -35,6 +35,7 @@ UNSEEN = 0.005  # weight of jerk beyond the film's ends, against that in the fil
 ROUNDS = 6
 LOOKS = 5  # rounds in which pictures are kept free
 SAME = 0.02  # of its distance from whom it films, that a camera is moved by for what is not written down
+NEAR = 0.35  # metres beyond a clearance, within which a place of rest is held: planes keep COMFORT
 LOOKS_APART = 3  # rounds in which the clearances of ways between shots are sought
 REACH = 4.0  # metres beyond its clearance within which something that stands counts
 SHARES = (0.5, 0.95)  # as in solve_path_qp.position
@@ -341,6 +342,14 @@ def standing_by(
     windows = np.array([[begin - seconds, begin], [end, end + seconds]])
     before, after = (tuple(evened(m, window) for m in motions) for window in windows)
     return before, after
+
+
+def held_where_it_rests(task: Task, curve: Piecewise) -> bool:
+    """Tell whether a motion rests so near to what passes there that this may move it."""
+    return any(
+        shortfalls(passing, place).max(initial=-inf) > -NEAR
+        for passing, place, _ in _stands(task, curve.ctrl)
+    )
 
 
 def _stands(task: Task, hulls: Array) -> tuple[tuple[tuple[Even, ...], Array, int], ...]:

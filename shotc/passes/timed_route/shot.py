@@ -25,13 +25,14 @@ from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock, clock_of
 from shotc.passes.timed_route.keyed import marks_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
-from shotc.passes.timed_route.position import Flown, Task, fly, standing_by
+from shotc.passes.timed_route.position import Flown, Task, fly, held_where_it_rests, standing_by
 from shotc.passes.timed_route.resting import LONG, aside_of_what_passes
 from shotc.passes.timed_route.run_up import RunUp, run_ups
 from shotc.passes.timed_route.sights import Sights
 from shotc.solvers.conic import Status
 
 LESS = 0.8  # of what a motion leaves its place, with which another is better
+FAR = 5.0  # metres off the ideal, which are not worth where a drone rests, even if something else may hold it
 NOTICE = 0.5  # metres off the ideal that are worth telling
 LEFT = 0.1  # metres off that belong to a stretch worth telling
 LONGER = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
@@ -165,7 +166,7 @@ def _flown(
         off = float(_away(task, flown.curve)[1].max())
         if not found or off < LESS * found[0][0]:
             found = [(off, task, flown)]
-        if off <= NOTICE:
+        if off <= NOTICE or (off <= FAR and not held_where_it_rests(task, flown.curve)):
             break
     return found[0][1:] if found else (task, flown)
 
