@@ -16,7 +16,6 @@ from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
 from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
-from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.occlusion import others_of
@@ -38,6 +37,7 @@ from shotc.passes.timed_route.bounds import Bound, bounds_of
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock
 from shotc.passes.timed_route.flights import FlownShot, flights, flown_shot
+from shotc.passes.timed_route.ideals import ideal_places
 from shotc.passes.timed_route.keyed import Keyed
 from shotc.passes.timed_route.pictures import least_out
 from shotc.passes.timed_route.surroundings import Planes, Surroundings, surroundings
@@ -94,7 +94,7 @@ __all__ = [
     "flying_times",
     "frustum_margins",
     "given_up",
-    "ideal_place",
+    "ideal_places",
     "kept",
     "lateness",
     "least_out",

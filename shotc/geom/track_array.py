@@ -6,7 +6,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict
-from shotc.geom.track import Track
+from shotc.geom.track import AROUND, MOVES, Track
 
 
 def places(track: Track, t: Array) -> Array:
@@ -14,6 +14,17 @@ def places(track: Track, t: Array) -> Array:
     times, points = np.array(track.times), np.array(track.points)
     inside = np.column_stack([np.interp(t, times, points[:, k]) for k in range(3)])
     return np.asarray(inside + np.maximum(t - times[-1], 0.0)[:, None] * np.array(track.after))
+
+
+def headings(track: Track, t: Array) -> Array:
+    """Return where the target faces at times of shape (M,), rad, shape (M,); as ``Track.heading``."""
+    if track.headings:
+        return np.array([track.heading(float(u)) for u in t])
+    moved = places(track, t + AROUND)[:, :2] - places(track, t - AROUND)[:, :2]
+    found = np.arctan2(moved[:, 1], moved[:, 0])
+    for k in np.flatnonzero(np.hypot(moved[:, 0], moved[:, 1]) < MOVES):
+        found[k] = track.heading(float(t[k]))
+    return np.asarray(found)
 
 
 def seen_from(curve: Piecewise, track: Track) -> Piecewise:

@@ -6,7 +6,8 @@ knot after knot, each begun where the last one ended. What is silent is free, an
 - a bearing: the one from which the drone comes, else the nearest to it from which nothing stands before the
   subjects and the camera has room, over the whole shot;
 - an elevation: level with the subject, or as little above as the ground clearance asks;
-- a size: ``viewpoint.LONG``, where no subject has one;
+- a size: ``viewpoint.LONG``, where no subject has one; of one subject the largest up to that with which it is
+  whole, if it is wider than the frame is then;
 - a place on screen: of one subject, the place of its composition nearest to the middle where it is whole; of
   several, each place of the composition once.
 """
@@ -50,6 +51,9 @@ BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects d
 BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed
 AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
+SMALLER = tuple(
+    LONG * 0.95**k for k in range(60)
+)  # sizes of one subject that is asked none, the first that fits
 
 
 class Course(NamedTuple):
@@ -203,17 +207,15 @@ def _alone(scene: _Scene) -> Course:
     target = scene.mission.target(subject.target)
     lowest = min((target.at(t) for t in scene.looks), key=lambda c: c[2])
     wanted = wanted_at(scene.mission, subject, scene.start)._replace(centre=lowest)
-    size = LONG if subject.size is None else subject.size
-    options = []
-    for uv in places_of(subject.composition):
-        trial = wanted._replace(uv=uv)
-        offset = stand(trial, scene.lens, scene.room, wanted.azimuth or 0.0, size)
-        options.append((offset, uv))
-        if not trial.whole or whole(_aimed(lowest, offset, uv, scene.lens), scene.lens, trial):
-            break
-    else:
-        del options[1:]
-    offset, uv = options[-1]
+    sizes = SMALLER if subject.size is None else (subject.size,)
+    places = places_of(subject.composition)
+    tried = ((_stood(scene, wanted, uv, size), uv) for size in sizes for uv in places)
+    fits = (
+        (offset, uv)
+        for offset, uv in tried
+        if not wanted.whole or whole(_aimed(lowest, offset, uv, scene.lens), scene.lens, wanted)
+    )
+    offset, uv = next(fits, None) or (_stood(scene, wanted, places[0], sizes[0]), places[0])
     offset = offset if wanted.azimuth is not None else _clear_bearing(scene, target, offset)
     ideal = scene.shot.ideal
     assert ideal is not None
@@ -224,6 +226,11 @@ def _alone(scene: _Scene) -> Course:
     poses = tuple(_aimed(target.at(t), offset, uv, scene.lens) for t in scene.times)
     blocked, hidden = scene.shares([(t, plus(target.at(t), offset)) for t in scene.looks])
     return Course(shot, scene.times, poses, blocked, hidden)
+
+
+def _stood(scene: _Scene, wanted: Wanted, uv: Vec2, size: float) -> Vec3:
+    """Return the camera's offset from a subject that it shows at a place on screen in a size."""
+    return stand(wanted._replace(uv=uv), scene.lens, scene.room, wanted.azimuth or 0.0, size)
 
 
 def _clear_bearing(scene: _Scene, target: Target, offset: Vec3) -> Vec3:

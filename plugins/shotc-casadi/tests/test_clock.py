@@ -24,7 +24,7 @@ from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.path import CAM_PITCH, CAM_YAW, TimedLeg
 from shotc.passes.base import PassContext
-from shotc.refiner_api import ideal_place, restrict, surroundings
+from shotc.refiner_api import ideal_places, restrict, surroundings
 
 RUN = """\
 shotc: 1
@@ -69,7 +69,7 @@ def peaks(leg: TimedLeg) -> np.ndarray:
 
 def off(of: ClockSubject) -> float:
     t = np.linspace(of.leg.start, of.leg.end, 401)
-    ideal = [ideal_place(of.mission, of.placed.shot, of.leg.start, float(u)) for u in t]
+    ideal = ideal_places(of.mission, of.placed.shot, of.leg.start, t)
     return float(np.linalg.norm(of.leg.curve(t)[:, :3] - np.array(ideal), axis=1).max())
 
 

@@ -17,7 +17,7 @@ from shotc_casadi.clock.wishes import ClockSubject, wishes
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.ir.preference import MOST_MOVED
 from shotc.passes.base import PassContext
-from shotc.refiner_api import ideal_place
+from shotc.refiner_api import ideal_places
 
 MISSION = """\
 shotc: 1
@@ -54,7 +54,7 @@ def in_frame(text: str, refiner: str = "ours") -> float:
 def flown(of: ClockSubject) -> tuple[np.ndarray, np.ndarray]:
     """The distances from the ideal place in the film, and those of that place from the target, metres."""
     t = np.linspace(of.leg.start, of.leg.end, 4001)
-    ideal = np.array([ideal_place(of.mission, of.placed.shot, of.leg.start, float(u)) for u in t])
+    ideal = ideal_places(of.mission, of.placed.shot, of.leg.start, t)
     target = np.array([of.mission.target("walker").at(float(u)) for u in t])
     place = of.leg.curve(t)[:, :3]
     return np.linalg.norm(place - ideal, axis=1), np.linalg.norm(target - ideal, axis=1)

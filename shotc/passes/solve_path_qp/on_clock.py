@@ -41,6 +41,7 @@ from shotc.passes.solve_path_qp.starts import (
     Reached,
     TooLate,
     Trouble,
+    inside,
     outside,
     put_off,
 )
@@ -50,17 +51,19 @@ from shotc.passes.timed_route.run_up import lead_in, way_time
 from shotc.passes.timed_route.shot import (
     ASKED,
     FROM_AFAR,
-    FROM_ASIDE,
-    TO_ASIDE,
+    LESS,
     Ask,
     NoMotion,
     Traffic,
+    aside,
     timed_shot,
 )
 from shotc.rounding import up
 
-LATER = (2.0, 5.0, 10.0, 20.0, 40.0)  # seconds that a shot may begin later, for a motion or a way to it
+LATER = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
+"""Seconds that a shot may begin later, for a motion or a way to it."""
 LATE = 1e-6  # seconds
+SLIGHT = 0.02  # metres
 AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
 
 
@@ -138,8 +141,8 @@ class Itinerary:
             return False
         placed, start, before = self.last
         self._restore(before)
-        for asked in TO_ASIDE:
-            reached = self._reached_as(placed, start, asked)
+        for begins in (False, True):
+            reached = self._reached_as(placed, start, aside(begins, True))
             if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE:
                 self._add(placed, reached)
                 return True
@@ -233,13 +236,16 @@ class Itinerary:
         if fixed is None:
             ready = self.ends.get(shot.timing.after or "", 0.0)
             before = lead_in(self.mission, self.drone, shot, self.clock).seconds
-            start = max(ready, self.clock + before, self._since(placed))
-            reached = put_off(self.mission, self._reached, placed, start, self._about(placed))
-            # Its target may still be where no drone may go.
-            if isinstance(reached, NoMotion):
-                reached = self._later(placed, start, _in_its_place) or self._later(placed, start) or reached
-            elif isinstance(reached, Reached) and not _in_its_place(reached):
-                reached = self._later(placed, start, _in_its_place) or reached
+            start = inside(
+                self.mission, self.flight.room, placed, max(ready, self.clock + before, self._since(placed))
+            )
+            reached = self._put_off(placed, start)
+            if isinstance(reached, Reached):
+                begins = reached.shot.leg.start
+                later = inside(self.mission, self.flight.room, placed, begins)
+                reached = self._put_off(placed, later) if later > begins else reached
+            elif isinstance(reached, NoMotion):
+                reached = self._later(placed, start) or reached
         else:
             reached = self._reached(placed, fixed)
         if not isinstance(reached, Reached):
@@ -274,7 +280,7 @@ class Itinerary:
             return outside(self.mission, placed, start)
         if fixed is None:
             return self._too_late(reached, reached, None)
-        first = put_off(self.mission, self._reached, placed, up(fixed), self._about(placed))
+        first = self._put_off(placed, up(fixed))
         if isinstance(first, OutsideTrack):
             return self._too_late(reached, reached, first)
         if not isinstance(first, Reached):
@@ -295,13 +301,11 @@ class Itinerary:
         run_up = leg.start - float(leg.curve.start)
         return TooLate(asked.late, leg.start if there else None, short, tuple(before), run_up)
 
-    def _later(
-        self, placed: PlacedShot, start: float, fine: Callable[[Reached], bool] = lambda _: True
-    ) -> Reached | None:
-        """Return the first of some later starts that is fine, and to which a way meets nothing."""
+    def _later(self, placed: PlacedShot, start: float) -> Reached | None:
+        """Return the first of some later starts to which there is a way on which nothing is met."""
         for more in LATER:
             reached = self._reached(placed, start + more)
-            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear and fine(reached):
+            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear:
                 return reached
         return None
 
@@ -309,17 +313,21 @@ class Itinerary:
         """Plan a shot for a start, and the way to it.
 
         Where every way to where it begins comes too near to a target, it begins aside or farther off, if that
-        helps.
+        helps; where the ways into the film or out of it lack the clearances of ways between shots, these lead
+        aside.
         """
         short = outside(self.mission, placed, start)
         if short is not None:
             return short
         near = self._reached_as(placed, start, ASKED)
-        if isinstance(near, Reached) and near.way.met is not None:
-            for asked in (FROM_ASIDE, FROM_AFAR):
-                far = self._reached_as(placed, start, asked)
-                if isinstance(far, Reached) and far.way.met is None and far.late <= max(0.0, near.late):
-                    return far
+        if not isinstance(near, Reached):
+            return near
+        into, out = (lack > SLIGHT for lack in near.shot.lacks)
+        tries = (aside(True, out), FROM_AFAR) if near.way.met else (aside(into, out),) if into or out else ()
+        for asked in tries:
+            far = self._reached_as(placed, start, asked)
+            if isinstance(far, Reached) and _better(far, near):
+                return far
         return near
 
     def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | Trouble:
@@ -331,6 +339,10 @@ class Itinerary:
         begins = float(made.leg.curve.start)
         way = self._way(made.leg.pose, placed, begins)
         return Reached(made, way, way.end - begins) if isinstance(way, Way) else way
+
+    def _put_off(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+        """Plan a shot for the first start, from one on, at which the drone is there."""
+        return put_off(self.mission, self._reached, placed, start, self._about(placed))
 
     def _about(self, placed: PlacedShot) -> Callable[[float], float]:
         """Return by how many seconds the drone is late for a start of a shot, if it flies straight there."""
@@ -355,9 +367,13 @@ class Itinerary:
         self.clock = way.end
 
 
-def _in_its_place(reached: Reached) -> bool:
-    """Tell whether no zone keeps a shot out of the place that it asks for."""
-    return not any(d.cause.startswith("zone ") for d in reached.shot.deviations)
+def _better(far: Reached, near: Reached) -> bool:
+    """Tell whether a shot whose ends lead elsewhere is better than one whose ways are in trouble."""
+    if far.way.met is not None or far.late > max(0.0, near.late):
+        return False
+    return near.way.met is not None or (
+        max(far.shot.lacks) < LESS * max(near.shot.lacks) and far.shot.off <= near.shot.off + SLIGHT
+    )
 
 
 def _near(goal: Pose, pose: Pose) -> Pose:

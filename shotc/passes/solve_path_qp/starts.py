@@ -11,12 +11,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
 
+import numpy as np
+
+from shotc.geom.corridor import Room, bounds_slack
 from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
+from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.solve_path_qp.departure import Meeting, Way
 from shotc.passes.solve_path_qp.shots import Failure
+from shotc.passes.timed_route.ideals import ideal_places
 from shotc.passes.timed_route.shot import NoMotion, TimedShot
 from shotc.rounding import down, up
 
@@ -30,6 +35,8 @@ FINE = 0.1  # seconds between the first starts that are looked at
 COARSER = 100  # of them, after which they lie twice as far apart
 SHORTEST = 1.0  # seconds of track that are worth a shot
 ROUNDING = 1e-6  # seconds
+SOON, WHOLE = 40.0, 1.0
+"""Seconds by which a start is put off for a fence, and between the starts that are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +102,23 @@ def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrac
         if track is not None and end > track.until + ROUNDING:
             return OutsideTrack(name, start, max(0.0, track.until - start))
     return None
+
+
+def inside(mission: MissionIR, room: Room, placed: PlacedShot, start: float) -> float:
+    """Return the first start, from one on, at which no fence keeps the camera from its place.
+
+    Its target may still be where no drone may go. The start that is given, where there is none soon.
+    """
+    lasts = placed.shot.timing.duration or 0.0
+    for more in np.arange(0.0, SOON + WHOLE, WHOLE):
+        first = start + float(more)
+        if outside(mission, placed, first) is not None:
+            break
+        there = placed_at(mission, placed, first).shot
+        times = first + np.append(np.arange(0.0, lasts, WHOLE), lasts)
+        if bounds_slack(room, ideal_places(mission, there, first, times)).min() >= 0.0:
+            return first
+    return start
 
 
 def put_off(

@@ -38,16 +38,27 @@ class Lack(NamedTuple):
 
 def lacking(motions: Sequence[Even], course: Piecewise, span: Span) -> Lack:
     """Return by how much the ways into and out of a film lack the clearances of ways between shots."""
-    worst = Lack(0.0, 0.0)
-    for film, times in zip(span, _times(course, span), strict=True):
-        places = course(np.clip(times, course.start, course.end))[:, :3]
-        for motion in motions:
-            taper = _taper(motion.what, course, film, SLOPE)
-            if taper is None:
-                continue
-            beside = places - motion.what.at(times)
-            lack = float((taper.needs(beside) - distances(motion.what.part, beside)).max(initial=0.0))
-            worst = Lack(max(worst.required, lack if motion.what.required else 0.0), max(worst.any, lack))
+    into, out = lacking_each(motions, course, span)
+    return Lack(max(into.required, out.required), max(into.any, out.any))
+
+
+def lacking_each(motions: Sequence[Even], course: Piecewise, span: Span) -> tuple[Lack, Lack]:
+    """Return the same of the way into a film, and of that out of it."""
+    into, out = (
+        _lack(motions, course, film, times) for film, times in zip(span, _times(course, span), strict=True)
+    )
+    return into, out
+
+
+def _lack(motions: Sequence[Even], course: Piecewise, film: float, times: Array) -> Lack:
+    places, worst = course(np.clip(times, course.start, course.end))[:, :3], Lack(0.0, 0.0)
+    for motion in motions:
+        taper = _taper(motion.what, course, film, SLOPE)
+        if taper is None:
+            continue
+        beside = places - motion.what.at(times)
+        lack = float((taper.needs(beside) - distances(motion.what.part, beside)).max(initial=0.0))
+        worst = Lack(max(worst.required, lack if motion.what.required else 0.0), max(worst.any, lack))
     return worst
 
 

@@ -11,7 +11,6 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
 from shotc.geom.corridor import Room, shortfall
-from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.preference import Price, prefers_free_pictures
 from shotc.passes.corridor.rows import Around, with_corridor
@@ -19,6 +18,7 @@ from shotc.passes.timed_route.aims import Looker
 from shotc.passes.timed_route.between import lacking, sides_apart, standing_apart
 from shotc.passes.timed_route.bounds import Bound, at_rest, limits_of
 from shotc.passes.timed_route.clock import Clock
+from shotc.passes.timed_route.ideals import ideal_places
 from shotc.passes.timed_route.moving import Even, Moving, Sides, evened, floors_of, shortfalls, sides
 from shotc.passes.timed_route.preferred import cost
 from shotc.passes.timed_route.run_up import RunUp
@@ -273,7 +273,7 @@ def _ideal(task: Task, times: Array) -> Array:
     """Return where the camera would be: at its ideal in the film, on straight ways before and after it."""
     clock, (before, after) = task.clock, task.ways
     inside = np.clip(times, clock.start, clock.end)
-    filmed = np.array([ideal_place(task.mission, task.shot, clock.start, float(t)) for t in inside])
+    filmed = ideal_places(task.mission, task.shot, clock.start, inside)
     early, late = (times < clock.start)[:, None], (times > clock.end)[:, None]
     led = np.where(early, before.at(times - clock.start), filmed)
     return np.asarray(np.where(late, after.at(times - clock.end), led))

@@ -27,6 +27,9 @@ SPLINE = (
 SETTLE = 0.4  # seconds beyond that, in which the camera comes to its turn too, and the place settles
 SHORTEST = 2.0  # seconds of any way: a shorter one has too few pieces for a refiner to ease it
 
+GOES_ON, ACROSS = 0.4, 0.7
+"""Shares of a way to aside: for which it goes on as fast as the film, and in which it is aside."""
+
 Places = Callable[[float], tuple[float, float, float]]
 """Where a camera is to be at a mission time, metres."""
 
@@ -47,7 +50,7 @@ class RunUp:
     @property
     def rest(self) -> Array:
         """Where a drone is at rest before the film, shape (3,), metres."""
-        return self.place - 0.5 * self.seconds * self.velocity
+        return np.asarray(self.at(np.array([-self.seconds]))[0])
 
     def lasting(self, times: float) -> RunUp:
         """Return the way that takes so many times as long."""
@@ -60,16 +63,22 @@ class RunUp:
             rest_to_rest(level, limits.speed, limits.acceleration, limits.jerk),
             rest_to_rest(rise, min(limits.climb, limits.descent), limits.acceleration, limits.jerk),
         )
-        return replace(self, seconds=max(self.seconds, SPLINE * needed + SETTLE), aside=aside)
+        least = max(self.seconds, SPLINE * needed / ACROSS + SETTLE)
+        return replace(self, seconds=least / (1.0 - GOES_ON) if aside.any() else self.seconds, aside=aside)
 
     def at(self, away: Array) -> Array:
         """Return places (M, 3) so many seconds from the film, negative before it; at rest beyond the way.
 
-        The speed goes evenly eased from nothing to the film's, and so does the place from aside.
+        The speed goes evenly eased from nothing to the film's. A way from aside, or to there, goes at the
+        film's for a while: what follows the camera would run into one that slows down first.
         """
         x = np.clip(1.0 - np.abs(away) / self.seconds, 0.0, 1.0)
-        flown = self.seconds * (0.5 - x**3 + 0.5 * x**4)
-        beside = 1.0 - x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
+        goes_on = GOES_ON if self.aside.any() else 0.0
+        y = np.minimum(x / (1.0 - goes_on), 1.0)
+        evenly = np.minimum(1.0 - x, goes_on)
+        flown = self.seconds * (evenly + (1.0 - goes_on) * (0.5 - y**3 + 0.5 * y**4))
+        z = np.minimum((1.0 - x) / ACROSS, 1.0)
+        beside = z**3 * (10.0 - 15.0 * z + 6.0 * z**2)
         straight = self.place + (np.sign(away) * flown)[:, None] * self.velocity
         return np.asarray(straight + beside[:, None] * self.aside)
 

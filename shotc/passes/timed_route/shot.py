@@ -14,15 +14,17 @@ from shotc.geom.runs import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Shot
+from shotc.ir.mission import Drone, Shot
 from shotc.ir.path import Deviation, FramingSpan, TimedLeg
 from shotc.ir.preference import noted
 from shotc.passes.corridor.room import Rooms
 from shotc.passes.place_keyframes.keyed import placed_at, slowed
 from shotc.passes.timed_route.aims import Looker, looker_of
+from shotc.passes.timed_route.between import lacking_each
 from shotc.passes.timed_route.bounds import bounds_of
 from shotc.passes.timed_route.camera import Watch, turn
 from shotc.passes.timed_route.clock import Clock, clock_of
+from shotc.passes.timed_route.ideals import ideal_places
 from shotc.passes.timed_route.keyed import marks_of
 from shotc.passes.timed_route.moving import Moving, evened, standing
 from shotc.passes.timed_route.position import Flown, Task, fly, held_where_it_rests, standing_by
@@ -37,6 +39,7 @@ NOTICE = 0.5  # metres off the ideal that are worth telling
 LEFT = 0.1  # metres off that belong to a stretch worth telling
 LONGER = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
 ON_PLACE = 1e-3  # metres
+SETTLES = 2  # times that a place aside is looked for
 STEP = 0.1  # seconds between the places that are compared with the ideal
 LIMITS = "the drone's limits"
 PICTURES = "the pictures of other drones"
@@ -58,13 +61,13 @@ ASKED = (Ask(3.0, 1.0), Ask(1.0, 1.0), Ask(0.0, 1.0), Ask(0.0, 2.0))
 """The first with which there is a motion is taken."""
 FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
 """The same where no way leads to where such a motion begins: it begins farther off."""
-FROM_ASIDE = (Ask(3.0, 1.0, (True, False)), Ask(0.0, 1.0, (True, False)), Ask(0.0, 2.0, (True, False)))
-"""The same: it begins aside."""
-TO_ASIDE = tuple(
-    tuple(Ask(stand, longer, (begins, True)) for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0)))
-    for begins in (False, True)
-)
-"""The same where none leads away from where such a motion ends: it ends aside."""
+
+
+def aside(before: bool, after: bool) -> tuple[Ask, ...]:
+    """Return the same where the drone rests aside of what passes, before the film or after it or both."""
+    return tuple(
+        Ask(stand, longer, (before, after)) for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0))
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,11 +84,17 @@ Around = tuple[Rooms, Traffic]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TimedShot:
-    """A planned shot, what of its ideal was given up, and what the solvers reported."""
+    """A planned shot, what of its ideal was given up, and what the solvers reported.
+
+    off : metres that it leaves its ideal by at most
+    lacks : metres by which the ways into the film and out of it lack the clearances of ways between shots
+    """
 
     leg: TimedLeg
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
+    off: float
+    lacks: tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +155,9 @@ def timed_shot(
         (f"{shot.id}.qp_status", str(flown.status)),
         *(() if flown.given_up is None else noted(shot.id, flown.given_up)),
     )
-    return TimedShot(leg, _deviations(task, flown), stats)
+    lacks = lacking_each(task.motions, flown.curve, (clock.start, clock.end))
+    off = float(_away(task, flown.curve)[1].max())
+    return TimedShot(leg, _deviations(task, flown), stats, off, (lacks[0].any, lacks[1].any))
 
 
 def _flown(
@@ -187,16 +198,27 @@ def _ways(
     looker: Looker, shot: Shot, start: float, ask: Ask, around: tuple[tuple[Moving, ...], Room]
 ) -> tuple[RunUp, RunUp]:
     """Return the ways into a film and out of it; around : what stands and moves, and the room."""
-    limits, end = looker.drone.limits, start + (shot.timing.duration or 0.0)
+    end = start + (shot.timing.duration or 0.0)
     before, after = (way.lasting(ask.longer) for way in run_ups(looker.mission, looker.drone, shot, start))
     if ask.aside[0]:
-        begin = start - before.seconds
-        rest = before.at(np.array([-before.seconds]))[0]
-        before = before.led(aside_of_what_passes(*around, rest, (begin - LONG, begin)), limits)
+        before = _led(before, -1.0, start, around, looker.drone)
     if ask.aside[1]:
-        rest, stop = after.at(np.array([after.seconds]))[0], end + after.seconds
-        after = after.led(aside_of_what_passes(*around, rest, (stop, stop + LONG)), limits)
+        after = _led(after, 1.0, end, around, looker.drone)
     return before, after
+
+
+def _led(
+    way: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], Room], drone: Drone
+) -> RunUp:
+    """Return a way before a film, sign -1, or after it, 1, that leads aside of what passes where it rests."""
+    led = way
+    for _ in range(SETTLES):  # farther aside takes longer, and the film's motion leads on meanwhile
+        rest = film + sign * led.seconds
+        straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
+        # What would pass there while the drone is on its way would meet it on its way.
+        span = (rest - LONG, film) if sign < 0.0 else (film, rest + LONG)
+        led = way.led(aside_of_what_passes(*around, straight, span), drone.limits)
+    return led
 
 
 def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Missed | None:
@@ -255,7 +277,7 @@ def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
 def _away(task: Task, curve: Piecewise) -> tuple[Array, Array]:
     """Return times of the film, and how far the camera is from its ideal then, metres; both shape (M,)."""
     times = np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
-    ideal = np.array([ideal_place(task.mission, task.shot, task.clock.start, float(t)) for t in times])
+    ideal = ideal_places(task.mission, task.shot, task.clock.start, times)
     return times, np.linalg.norm(curve(times) - ideal, axis=1)
 
 

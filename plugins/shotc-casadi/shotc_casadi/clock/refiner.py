@@ -20,7 +20,7 @@ from shotc.refiner_api import (
     TimedLeg,
     TimedPath,
     given_up,
-    ideal_place,
+    ideal_places,
     least_out,
     placed_at,
     prefers_free_pictures,
@@ -147,8 +147,8 @@ def _deviations(subject: ClockSubject, before: tuple[Deviation, ...], why: str) 
     """Return the worst of every stretch off the ideal; what moved the guide nearest to there is why."""
     leg = subject.leg
     t = np.append(np.arange(leg.start, leg.end, STEP), leg.end)
-    ideal = [ideal_place(subject.mission, subject.placed.shot, leg.start, float(u)) for u in t]
-    away = np.linalg.norm(leg.curve(t)[:, :3] - np.array(ideal), axis=1)
+    ideal = ideal_places(subject.mission, subject.placed.shot, leg.start, t)
+    away = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1)
     off = np.flatnonzero(away > LEFT)
     runs = np.split(off, np.flatnonzero(np.diff(off) > 1) + 1) if len(off) else []
     worst = [int(run[away[run].argmax()]) for run in runs]

@@ -22,7 +22,7 @@ from shotc.refiner_api import (
     PlacedSubject,
     TimedLeg,
     bounds_of,
-    ideal_place,
+    ideal_places,
     looker_of,
     places,
 )
@@ -179,7 +179,7 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
 def _ideal_at(subject: ClockSubject, t: Array) -> Array:
     """Return the ideal places at mission times, shape (M, 3), W, metres."""
     shot, start = subject.placed.shot, subject.leg.start
-    return np.array([ideal_place(subject.mission, shot, start, float(u)) for u in t])
+    return ideal_places(subject.mission, shot, start, t)
 
 
 def followed(placed: PlacedShot, keyed: Keyed) -> PlacedSubject | None:
