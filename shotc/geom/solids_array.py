@@ -122,7 +122,8 @@ def _overlap(part: Solid, eyes: Array, along: Array) -> tuple[Array, Array]:
 
 def _clip(enter: Array, leave: Array, excess: Array, slope: Array) -> tuple[Array, Array]:
     # Keep the shares x at which excess + slope x <= 0.
-    crossing = -excess / np.where(slope == 0, 1.0, slope)
+    with np.errstate(over="ignore"):  # all but level, it is crossed beyond all numbers: at infinity
+        crossing = -excess / np.where(slope == 0, 1.0, slope)
     never = (slope == 0) & (excess > 0)
     enter = np.where(slope < 0, np.maximum(enter, crossing), np.where(never, 1.0, enter))
     leave = np.where(slope > 0, np.minimum(leave, crossing), np.where(never, 0.0, leave))

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from shotc_casadi.clock import program, symbols, weights
 from shotc_casadi.clock.bodies import NONE, Body, inscribed, kept_from
-from shotc_casadi.clock.problem import ClockProblem, breaks_of, guess, problem
+from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.refiner import subject_of
 from shotc_casadi.clock.rounds import NEARLY
 from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, wishes
@@ -84,7 +84,12 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
     body = Body(np.eye(3), centres, 1.5, 1.0)
     wanted = kept_from((body,), wishes(of, breaks), course)
     made = problem(
-        of, breaks, wanted, Planes(none, np.zeros((0, 3)), np.zeros((0, 2))), NEARLY, guess(guide, breaks)
+        of,
+        breaks,
+        wanted,
+        Planes(none, np.zeros((0, 3)), np.zeros((0, 2))),
+        Use(NEARLY),
+        guess(guide, breaks),
     )
     table, names = made.parameters.copy(), list(symbols.FIELDS)
     for name, value in (("touch", touch), ("field", field)):
