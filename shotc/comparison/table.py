@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from math import isfinite
 
 from shotc.emit.screen import off_place, percent
 from shotc.ir.comparison import Comparison, Condition, FlownShot, Score
+from shotc.rounding import up
 
 HEADING = (
     "refiner",
@@ -22,7 +24,8 @@ HEADING = (
 )
 UNKNOWN, ALL = "-", "all"
 LEGEND = (
-    "error: from the wanted place on screen, in half frames, over all frames that the shot frames its target",
+    "error: from the wanted place on screen, in half frames, over all frames that the shot frames its "
+    "target; the worst is rounded up",
     "whole in frame: share of frames with the whole target in the frame, by its exact silhouette; "
     "four points: by the four points of Gebhardt and Hilliges",
     "filmed: how long the shots last; rounds: how often the refiner solved them",
@@ -82,7 +85,12 @@ def _rounds(shots: Iterable[FlownShot]) -> str:
 
 
 def _cells(score: Score) -> tuple[str, ...]:
-    errors = (score.error_mean, score.error_p95, score.error_worst)
+    worst = score.error_worst
+    errors = (
+        score.error_mean,
+        score.error_p95,
+        up(worst, 4) if worst is not None and isfinite(worst) else worst,
+    )
     shares = (score.in_frame, score.in_frame_four_points)
     return (
         *(UNKNOWN if error is None else off_place(error) for error in errors),
