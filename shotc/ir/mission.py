@@ -320,6 +320,13 @@ class MissionIR(NamedTuple):
         """Return the target of that name; KeyError if there is none."""
         return next_named(self.targets, name)
 
+    def shot(self, name: str) -> "Shot":
+        """Return the shot of that id; KeyError if there is none."""
+        for shot in self.shots:
+            if shot.id == name:
+                return shot
+        raise KeyError(name)
+
     def fleet(self, name: str) -> "Fleet":
         """Return the fleet of that name; KeyError if there is none."""
         return next_named(self.fleets, name)

@@ -130,7 +130,7 @@ def same(a: Leg | TimedLeg, b: Leg | TimedLeg) -> bool:
 def kept(before: PathIR, seat: Seat, shot: str, faults: list[Fault]) -> Diagnostic:
     """Return the warning of a shot whose convex path is flown, with what was wrong with the other."""
     mission = before.keyframes.mission
-    (path,) = (s.path for s in mission.shots if s.id == shot)
+    path = mission.shot(shot).path
     about = [fault.told for fault in faults if fault.shot in (shot, None)]
     notes = [note for d in about or [f.told for f in faults] for note in (d.message, *d.notes)]
     return Diagnostic(

@@ -26,7 +26,7 @@ def left_places(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Di
 
 def _left_place(mission: MissionIR, stretches: list[Deviation]) -> Diagnostic:
     worst = max(stretches, key=lambda d: d.distance)
-    shot = next(s for s in mission.shots if s.id == worst.shot)
+    shot = mission.shot(worst.shot)
     labels: list[Label] = [mission.origins.value((*shot.path, "kind"))]
     causes = []
     for cause in dict.fromkeys(d.cause for d in (worst, *stretches)):
