@@ -11,6 +11,7 @@ KeyframeIR --place-goals--> GoalIR --assign-goals--> ShowIR --bound-splines--> S
 
 import time
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -118,8 +119,10 @@ def run_refined(
 
     seat : as in ``default_passes``. Where the mission allows it, the unrefined path is flown instead. Where
     the refiner gives no path, the later passes judge the unrefined one, and its errors say what came of it.
+    Where a refined shot does not fit into the time of its unrefined path, all is planned again with more.
     """
-    from shotc.passes.refine_path import blame, shortest_refined, still_true
+    from shotc.passes.refine_path import blame, needed, shortest_refined, still_true
+    from shotc.passes.solve_path_qp import SolvePathQp
 
     done = run(passes, value, ctx, stop_after)
     k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), 0)
@@ -129,6 +132,12 @@ def run_refined(
     if outputs[k] is None:
         return _with_convex(done, passes[k + 1 :], outputs[k - 1], ctx)
     convex, refined = outputs[k - 1], outputs[k]
+    longer, solve = needed(refined), passes[k - 1]
+    if longer and isinstance(solve, SolvePathQp) and not solve.durations:
+        slower = (*passes[: k - 1], replace(solve, durations=longer), *passes[k:])
+        again = run_refined(slower, value, ctx, seat, stop_after)
+        if not has_errors(again.diagnostics):
+            return again
     late = tuple(d for report in done.reports[k + 1 :] for d in report.diagnostics)
     if not has_errors(late):
         true = done._replace(diagnostics=still_true((convex, refined), done.diagnostics))

@@ -28,6 +28,7 @@ from shotc.passes.parameterize_time.estimate import lateness, leg_time, rough_ti
 from shotc.passes.parameterize_time.marks import flying_times
 from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.refine_path.faults import leg_of
+from shotc.passes.refine_path.needs import with_need
 from shotc.passes.solve_path_qp.angles import smoother
 from shotc.passes.solve_path_qp.rejoin import rejoined
 from shotc.passes.solve_path_qp.turns import steady
@@ -122,6 +123,7 @@ __all__ = [
     "turn",
     "viewpoint",
     "with_camera",
+    "with_need",
     "within",
     "wrapped",
 ]

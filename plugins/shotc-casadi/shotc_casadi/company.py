@@ -27,6 +27,7 @@ from shotc.refiner_api import (
     quintic_hermite,
     rejoined,
     surroundings,
+    with_need,
 )
 from shotc_casadi.clock.refiner import IN_PICTURE, OUT, refine_one
 from shotc_casadi.conditions import Condition
@@ -67,7 +68,7 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
 
 def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[PathIR, list[Diagnostic]]:
     """Return the path with one shot on a path refined, and what has to be said of it."""
-    shot, task, why = subject.placed.shot.id, subject, ""
+    shot, task, why, needs = subject.placed.shot.id, subject, "", None
     plain: tuple[Refined, PathIR] | None = None  # where nothing but a preference stands against it
     for tries in range(1, TRIES + 2):
         refined = refine_shot(task, condition)
@@ -79,7 +80,7 @@ def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[Path
             try:
                 moved = rejoined(path, {shot: refined.camera})
             except NoTransit as fault:
-                why = f"refined, it cannot keep {fault}"
+                why, needs = f"refined, it cannot keep {fault}", fault.least
                 if task.leg.duration is not None:
                     break
                 task = task._replace(leg=_in_its_time(subject))
@@ -94,7 +95,8 @@ def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[Path
         task = task._replace(beside=_Passing(course, subject, flown_shot(course, shot)).half_spaces)
     if plain is not None:
         return _told(path, plain[1], plain[0], condition)
-    return path, [unrefined(path, shot, why)]
+    left = path if needs is None else with_need(path, shot, needs)
+    return left, [unrefined(path, shot, why)]
 
 
 def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:

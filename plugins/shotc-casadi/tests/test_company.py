@@ -180,3 +180,33 @@ def test_a_shot_that_cannot_keep_its_time_is_told_with_what_it_takes(monkeypatch
     assert "it cannot keep the 29.550 s of its convex path" in told[0].message
     assert outcome.value is not None
     assert same(filmed(before, "fly-past"), filmed(outcome.value, "fly-past"))
+
+
+MAST = """\
+shotc: 1
+mission: mast
+world:
+  zones: {mast: {keep: out, cylinder: {center: [-23.8, 3.8], radius: 2.5, height: [0, 9.6]}}}
+targets: {barn: {at: [0, 0, 3.5], radius: 7.3, height: 7}}
+drones:
+  cam1: {model: mini, camera: {hfov: 49 deg}, priority: 1, home: [37.8, -37.5, 0]}
+  cam2: {model: pro, priority: 2, home: [-17.9, 20, 0]}
+rules: {composition: thirds-lines, ground_clearance: 3, target_clearance: 1, separation: 3}
+output: {emit: [csv]}
+shots:
+  - {id: rise, kind: elevator, drone: cam1, target: barn, azimuth: 153 deg, distance: 47.3,
+     altitude: [13.9, 4]}
+  - {id: round, kind: orbit, drone: cam2, target: barn, radius: 24.1, altitude: 4, start_azimuth: 256 deg,
+     sweep: -44.2 deg, require: {in_frame: 100 %}}
+"""
+
+
+def test_a_shot_that_needs_more_time_than_its_convex_path_gets_it_where_its_time_is_free() -> None:
+    """Round the mast it backs off from the barn, which takes half a second more."""
+    assert "R014" not in codes(MAST)
+    assert refined(MAST)["round"] == "yes"
+    shot = next(t for t in times(MAST, BESIDE) if t[0] == "cam2 shot round")
+    free = next(t for t in times(MAST, "none") if t[0] == "cam2 shot round")
+    assert shot[2] - shot[1] > 1.05 * (free[2] - free[1])
+    given = MAST.replace("require: {in_frame: 100 %}", f"timing: {{duration: {free[2] - free[1]:.3f} s}}")
+    assert "R014" in codes(given)

@@ -17,6 +17,7 @@ from shotc.passes.refine_path.account import account
 from shotc.passes.refine_path.ask import ask
 from shotc.passes.refine_path.blame import blame, shortest_refined, still_true
 from shotc.passes.refine_path.instead import with_convex
+from shotc.passes.refine_path.needs import needed
 from shotc.passes.refine_path.seat import REFINER, KeepPath, Refiner, Seat, Unusable
 from shotc.passes.refine_path.settle import settle
 
@@ -29,6 +30,7 @@ __all__ = [
     "Unusable",
     "account",
     "blame",
+    "needed",
     "shortest_refined",
     "still_true",
     "with_convex",

@@ -10,7 +10,6 @@ from math import isfinite, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.passes.verify.numbers import measure
@@ -93,7 +92,7 @@ def fallback(path: PathIR, shot: str, solvers: tuple[str, str], why: str) -> Dia
     return Diagnostic(
         "R013",
         f"shot `{shot}` was refined by {second}, since {first} did not converge",
-        (path.keyframes.mission.origins.key(shot_named(path.keyframes.mission, shot).path),),
+        (path.keyframes.mission.origins.key(path.keyframes.mission.shot(shot).path),),
         (f"{first}: {why}",),
         "the plan is proved as any other; it only took longer",
     )
@@ -105,18 +104,10 @@ def unrefined(path: PathIR, shot: str, why: str) -> Diagnostic:
     return Diagnostic(
         UNREFINED,
         f"shot `{shot}` is not refined: {why}",
-        (mission.origins.key(shot_named(mission, shot).path, "flies its convex path"),),
+        (mission.origins.key(mission.shot(shot).path, "flies its convex path"),),
         (),
         "the plan is proved as any other; only the framing between keyframes may be worse",
     )
-
-
-def shot_named(mission: MissionIR, name: str) -> Shot:
-    """Return the shot of that name; KeyError if there is none."""
-    for shot in mission.shots:
-        if shot.id == name:
-            return shot
-    raise KeyError(name)
 
 
 def nearest_keyframe(leg: Leg, s: float) -> int | None:
@@ -172,7 +163,7 @@ def _who(state: SolverState) -> str:
 
 def _labels(path: PathIR, state: SolverState) -> tuple[Label, ...]:
     mission = path.keyframes.mission
-    first = mission.origins.key(shot_named(mission, state.shot).path, "this shot")
+    first = mission.origins.key(mission.shot(state.shot).path, "this shot")
     if not state.limit:
         return (first,)
     second = mission.origins.value(state.limit, f"{state.constraint} was worst")

@@ -8,9 +8,9 @@ keyframes that the user placed are passed exactly.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
@@ -55,23 +55,36 @@ class _Planned:
     diagnostics: tuple[Diagnostic, ...]
 
 
+class _Known(NamedTuple):
+    """What drones planned one after the other know: of shots their durations, as in the pass, and ends on the
+    mission's clock; the flights of those planned so far.
+    """
+
+    durations: Mapping[str, float]
+    ends: dict[str, float]
+    flights: dict[str, DroneTrajectory]
+
+
 @dataclass(frozen=True, slots=True)
 class SolvePathQp:
-    """The geometry stage."""
+    """The geometry stage.
 
+    durations : seconds, by shot id, that shots take whose time the mission leaves free
+    """
+
+    durations: Mapping[str, float] = field(default_factory=dict)
     name: ClassVar[str] = "solve-path-qp"
 
     def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[PathIR]:
         """Plan every drone's path, in order of priority."""
         paths: list[DronePath] = []
         timed: list[TimedPath] = []
-        ends: dict[str, float] = {}
-        flights: dict[str, DroneTrajectory] = {}
+        known = _Known(self.durations, {}, {})
         deviations: list[Deviation] = []
         stats: list[tuple[str, float | str]] = []
         diagnostics: list[Diagnostic] = []
         for drone in _by_need(ir):
-            planned = _plan(ir, drone, ctx, ends, flights)
+            planned = _plan(ir, drone, ctx, known)
             diagnostics += planned.diagnostics
             deviations += planned.deviations
             stats += planned.stats
@@ -124,14 +137,9 @@ def _plan(
     ir: KeyframeIR,
     drone: Drone,
     ctx: PassContext,
-    ends: dict[str, float],
-    flights: dict[str, DroneTrajectory],
+    known: _Known,
 ) -> _Planned:
-    """Plan one drone's legs.
-
-    ends : of the shots planned so far on the mission's clock; flights : of the drones planned so far; both
-        are added to
-    """
+    """Plan one drone's legs, and add what the drones after it have to know."""
     mission = ir.mission
     mine = [placed for placed in ir.shots if placed.shot.drone == drone.name]
     if not mine:
@@ -141,6 +149,7 @@ def _plan(
     rooms = rooms_of(mission, drone)
     top = transit_point(rooms.flight, pad_room(mission, drone), drone)
     shots, faults = _curves(mission, drone, rooms.flight, mine, ctx)
+    shots = [replace(s, duration=known.durations.get(s.shot.shot.id)) for s in shots]
     if isinstance(top, PadBlocked):
         return _stopped(pad_blocked(mission, drone, top), *faults)
     if faults:
@@ -149,12 +158,13 @@ def _plan(
     flight, warnings = Flight(drone, rooms, top), _warnings(mission, drone, shots)
     if not on_clock(ir):
         return _in_a_row(mission, flight, shots, warnings)
-    moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, flights))
-    itinerary = Itinerary(mission, flight, Traffic(moving, sights_of(mission, drone, flights)), ends)
+    moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, known.flights))
+    traffic = Traffic(moving, sights_of(mission, drone, known.flights))
+    itinerary = Itinerary(mission, flight, traffic, known.ends)
     curves = {s.shot.shot.id: s for s in shots}
     planned = _on_clock(itinerary, [curves.get(p.shot.id, p) for p in mine], warnings, ctx)
     if planned.legs:
-        flights[drone.name] = itinerary.track()
+        known.flights[drone.name] = itinerary.track()
     return planned
 
 

@@ -54,7 +54,7 @@ def lasting(mission: MissionIR, drone: Drone, old: Leg, new: Leg) -> Leg:
         whose = "the way" if old.shot is None else "its convex path"
         least = leg_time(mission, drone, replace(new, duration=None, pace=1.0))
         more = f", for it takes {least:.3f} s at full limits" if least > asked else ""
-        raise NoTransit(f"the {asked:.3f} s of {whose}{more}")
+        raise NoTransit(f"the {asked:.3f} s of {whose}{more}", least if old.shot is not None else None)
     return made
 
 

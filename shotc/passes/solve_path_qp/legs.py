@@ -149,7 +149,7 @@ def shot_leg(shot: ShotCurve) -> Leg:
         marks=shot.marks,
         framing=shot.framing,
         pace=shot.shot.shot.pace,
-        duration=timing.duration,
+        duration=shot.duration if timing.duration is None else timing.duration,
         start=timing.start,
         path=shot.shot.shot.path,
     )

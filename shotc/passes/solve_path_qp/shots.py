@@ -30,6 +30,7 @@ class ShotCurve:
     """A shot's geometry on its own s from 0; ``curve`` is None for a still camera at ``pose``.
 
     pose : channels as in ir.path at the start
+    duration : seconds that it is to take, where the mission leaves its time free and something else does not
     """
 
     shot: PlacedShot
@@ -42,6 +43,7 @@ class ShotCurve:
     cuts: tuple[Cut, ...]
     swing: Swing | None
     stats: tuple[tuple[str, float | str], ...]
+    duration: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

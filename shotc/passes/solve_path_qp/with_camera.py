@@ -19,7 +19,14 @@ SAME_END = 1e-9  # metres or radians
 
 
 class NoTransit(Exception):
-    """A refined shot has no body or no way to it; the text says what cannot be kept."""
+    """A refined shot has no body or no way to it; the text says what cannot be kept.
+
+    least : seconds that the shot would have to be given, where it is its time that cannot
+    """
+
+    def __init__(self, what: str, least: float | None = None) -> None:
+        super().__init__(what)
+        self.least = least
 
 
 @lru_cache(maxsize=64)
