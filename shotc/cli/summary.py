@@ -12,7 +12,7 @@ from shotc.cli.fleet_summary import display_rows, headline, nearest
 from shotc.cli.table import clock, table
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.ir.parked import parked, parked_fleets
-from shotc.ir.path import Deviation
+from shotc.ir.path import Deviation, from_what_was_asked
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.sight import OUT_OF_PICTURE
@@ -93,7 +93,8 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
             f"{ways['exact']} by arithmetic, {ways['sampled']} at every output sample",
         )
     )
-    facts += [("bent", text) for text in _bent(plan.trajectory.deviations)]
+    mission, flown = plan.trajectory.keyframes.mission, plan.trajectory
+    facts += [("bent", text) for text in _bent(from_what_was_asked(mission, flown.deviations))]
     facts += [("refined", text) for text in _refined(plan)]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
     return facts + [("note", note) for note in notes]

@@ -6,12 +6,15 @@ own clock is a ``TimedLeg``, the one kind of leg that is a curve over mission ti
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
 from shotc.geom.bernstein import Piecewise
+from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Vec2
+from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 
 PhaseName = Literal["takeoff", "transit", "shot", "return", "land"]
@@ -137,6 +140,18 @@ class Deviation:
     distance: float
     s: float
     cause: str
+
+
+LIMITS = "the drone's limits"
+"""How causes end that are neither a thing in the way nor a picture."""
+
+
+def from_what_was_asked(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Deviation, ...]:
+    """Return the deviations from places that somebody asked for.
+
+    Nobody did between the keyframes of a shot on its own clock: only what stands in the way counts there.
+    """
+    return tuple(d for d in deviations if not (is_keyed(mission.shot(d.shot)) and d.cause.endswith(LIMITS)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

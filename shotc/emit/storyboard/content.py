@@ -15,6 +15,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Drone, MissionIR, Shot, Target
+from shotc.ir.path import from_what_was_asked
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
 from shotc.rounding import at_least
 
@@ -109,7 +110,9 @@ def _board(
     shot, (start, end) = placed.shot, interval
     times = [k for k in flight.keyframes if k.shot == shot.id]
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
-    deviations = [d for d in plan.trajectory.deviations if d.shot == shot.id]
+    flown = plan.trajectory
+    asked = from_what_was_asked(flown.keyframes.mission, flown.deviations)
+    deviations = [d for d in asked if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(
         shot=shot,

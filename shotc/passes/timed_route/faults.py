@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.path import Deviation
+from shotc.ir.path import Deviation, from_what_was_asked
 from shotc.passes.corridor.room import GROUND, named, owner_path
 from shotc.passes.timed_route.shot import PICTURES, Missed, NoMotion
 from shotc.rounding import at_least, up
@@ -17,7 +17,7 @@ SILENT = "rules: {mutual_visibility: {strength: off}}"
 
 def left_places(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Diagnostic, ...]:
     """Warn, once a shot, of the stretches on which it leaves its place beside its target."""
-    every = tuple(deviations)
+    every = from_what_was_asked(mission, deviations)
     return tuple(
         _left_place(mission, [d for d in every if d.shot == shot])
         for shot in dict.fromkeys(d.shot for d in every)

@@ -12,10 +12,9 @@ from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, breaches
 from shotc.geom.runs import worst_of_runs
 from shotc.ir.ideal import ideal_place
-from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot
-from shotc.ir.path import Deviation, FramingSpan, TimedLeg
+from shotc.ir.path import LIMITS, Deviation, FramingSpan, TimedLeg
 from shotc.ir.preference import noted
 from shotc.passes.corridor.room import Rooms
 from shotc.passes.place_keyframes.keyed import placed_at, slowed
@@ -41,7 +40,6 @@ LONGER = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes
 ON_PLACE = 1e-3  # metres
 SETTLES = 2  # times that a place aside is looked for
 STEP = 0.1  # seconds between the places that are compared with the ideal
-LIMITS = "the drone's limits"
 PICTURES = "the pictures of other drones"
 
 
@@ -264,14 +262,10 @@ def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
     """Return, for each stretch on which the motion leaves the ideal, the worst of it."""
     assert flown.curve is not None
     times, away = _away(task, flown.curve)
-    found = tuple(
+    return tuple(
         Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
-    if is_keyed(task.shot):
-        # Between keyframes nobody asked for a way: only what stands in it is worth telling.
-        return tuple(d for d in found if d.cause != LIMITS)
-    return found
 
 
 def _away(task: Task, curve: Piecewise) -> tuple[Array, Array]:

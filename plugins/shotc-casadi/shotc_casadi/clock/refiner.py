@@ -152,13 +152,11 @@ def _deviations(subject: ClockSubject, before: tuple[Deviation, ...], why: str) 
     off = np.flatnonzero(away > LEFT)
     runs = np.split(off, np.flatnonzero(np.diff(off) > 1) + 1) if len(off) else []
     worst = [int(run[away[run].argmax()]) for run in runs]
-    found = tuple(
+    return tuple(
         Deviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
         for k in worst
         if away[k] > NOTICE
     )
-    # Between keyframes nobody asked for a way.
-    return tuple(d for d in found if d.cause != CALM) if subject.looker.keyed is not None else found
 
 
 def _cause(before: tuple[Deviation, ...], t: float, why: str) -> str:
