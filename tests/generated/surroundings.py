@@ -22,6 +22,7 @@ WAY_ROOM = 3.0  # metres from a zone to the sides of subjects
 RUN_UP = 15.0  # metres by which ways are drawn out at both ends before zones are put
 FENCE_ROOM = (35.0, 60.0)  # metres between a fence and all places, and over the highest
 BODY = 0.8  # metres from a line of sight, at which a drone is not between
+NOWHERE = 1e6  # metres from everything
 HIDDEN = 0.25  # share of a shot's places from which something hides what is filmed, at most
 STEP = 1.0  # metres, or half a second, between places that are looked at
 
@@ -144,24 +145,24 @@ def _hides(solid: Solid, takes: Sequence[Take], subjects: Sequence[Subject]) -> 
 
 
 def in_between(take: Take, other: Take, subjects: Sequence[Subject]) -> bool:
-    """Tell whether another drone, in its shot, is between a camera and what it films for long."""
-    if take.times is None or other.times is None:
-        return False
-    t = take.times[(take.times >= other.times[0]) & (take.times <= other.times[-1])]
-    if not len(t):
-        return False
-    here, there = (
-        np.column_stack([np.interp(t, x.times, x.places[:, k]) for k in range(3)])
-        for x in (take, other)
-        if x.times is not None
-    )
-    for filmed in (s for s in subjects if s.name in take.subjects):
-        ray = (filmed.at(t) if filmed.moves else np.tile(filmed.points, (len(t), 1))) - here
-        along = np.clip(((there - here) * ray).sum(axis=1) / (ray * ray).sum(axis=1), 0.0, 1.0)
-        beside = np.linalg.norm(there - here - along[:, None] * ray, axis=1)
-        if (beside < BODY).sum() > HIDDEN * len(take.times):
+    """Tell whether another drone, in its shot, may be between a camera and what it films for long."""
+    for filmed, sight in _sights(take, subjects):
+        here, ray = sight[0], sight[-1] - sight[0]
+        there = _meanwhile(take, other)
+        along = np.einsum("mnk,nk->mn", there - here, ray) / np.maximum((ray * ray).sum(axis=1), 1e-9)
+        beside = np.linalg.norm(there - here - np.clip(along, 0.0, 1.0)[..., None] * ray, axis=2)
+        if (beside.min(axis=0) < BODY + 0.1 * filmed.radius).mean() > HIDDEN:
             return True
     return False
+
+
+def _meanwhile(take: Take, other: Take) -> Array:
+    """Return where another drone may be while a shot is at its places, (m, n, 3)."""
+    if take.times is None or other.times is None:
+        return np.tile(dense(other.places)[:, None], (1, len(take.places), 1))
+    there = np.column_stack([np.interp(take.times, other.times, other.places[:, k]) for k in range(3)])
+    there[(take.times < other.times[0]) | (take.times > other.times[-1])] = NOWHERE
+    return there[None]
 
 
 def pad(

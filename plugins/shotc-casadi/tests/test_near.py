@@ -150,3 +150,37 @@ def test_the_ways_into_and_out_of_the_film_are_free() -> None:
     breaks = breaks_of(of)
     film = (breaks >= of.leg.start) & (breaks <= of.leg.end)
     assert (np.isfinite(wishes(of, breaks).reach) == film).all()
+
+
+BENT = """\
+shotc: 1
+mission: bent
+targets:
+  rider: {track: {points: [[4.53, -117.06, 1.265], [3.05, -95.96, 1.265], [0.17, -69.1, 1.265],
+    [1.11, -20.95, 1.265], [-0.87, 16.36, 1.265], [-18.11, 52.06, 1.265], [-24.28, 89.15, 1.265],
+    [-43.83, 131.01, 1.265]], speed: 3.45 m/s}, radius: 1.15, height: 2.53}
+drones:
+  cam1: {model: mini, home: [-28.1, 0.5, 0]}
+rules: {composition: center, ground_clearance: 0.5, target_clearance: 1}
+shots:
+  - id: a1
+    kind: keyframes
+    drone: cam1
+    target: rider
+    keyframes:
+      - {at: {from: rider, offset: [-3.5, 0.12, 6.6], turn: course}, look_at: rider}
+      - {at: {from: rider, offset: [-5.33, -1.73, 2.0], turn: course}, look_at: rider}
+      - {at: {from: rider, offset: [-4.82, -6.63, 1.8], turn: course}, look_at: rider}
+    timing: {start: 36, duration: 12}
+    require: {in_frame: 100 %}
+"""
+
+
+def test_what_the_way_between_keyframes_is_left_by_is_in_the_plan_and_no_reason_to_refuse_it() -> None:
+    done = compile_source(BENT.encode(), "m.yaml", None, PlanOptions())
+    assert done.plan is not None, done.diagnostics
+    assert "M008" not in {d.code for d in done.diagnostics}
+    ways = [c for c in done.plan.certificate if c.constraint == "distance from its place"]
+    left = max((d.distance for d in done.plan.trajectory.deviations), default=0.0)
+    assert [c.worst > 1.0 for c in ways] == [True]
+    assert left > 1.0
