@@ -48,7 +48,7 @@ WIDE = pi / 6  # and for several
 NEARLY = 0.02  # of cost by which another bearing is as good
 LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
 BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects do not go faster themselves
-BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed
+BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed if one is clear
 AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
 SMALLER = tuple(
@@ -140,6 +140,13 @@ class _Scene:
         unseen = sum(self._hidden(eye, t) for t, eye in eyes)
         return no_room / len(eyes), unseen / len(eyes)
 
+    def covered(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
+        """Return how much of the subjects is hidden from places, 0 to 1: half of that by their middles."""
+        parts = [before(self.mission, s.target, eye, t) for t, eye in eyes for s in self.shot.subjects]
+        weights = (0.5, 0.25, 0.25)
+        hidden = sum(w for part in parts for w, found in zip(weights, part, strict=True) if found is not None)
+        return hidden / len(parts)
+
     def _hidden(self, eye: Vec3, t: float) -> bool:
         return any(hides(self.mission, s.target, eye, t) is not None for s in self.shot.subjects)
 
@@ -161,7 +168,12 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
 
 
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
-    """Return what stands between a camera and a target's middle or one of its sides, or None.
+    """Return what stands between a camera and a target's middle or one of its sides, or None."""
+    return next((found for found in before(mission, name, eye, t) if found is not None), None)
+
+
+def before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
+    """Yield what stands between a camera and a target's middle, its left and its right side, or None.
 
     What overlaps or touches the target is a part of the same thing, and hides nothing of it.
     """
@@ -173,7 +185,8 @@ def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
     solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
     others = (o for o in mission.targets if o.name != name and not _parts_of_one(o, target, t))
     solids += [(o.name, _cylinder(o, t)) for o in others]
-    return next((n for n, solid in solids if any(crosses(solid, eye, p) for p in points)), None)
+    for p in points:
+        yield next((n for n, solid in solids if crosses(solid, eye, p)), None)
 
 
 def _parts_of_one(a: Target, b: Target, t: float) -> bool:
@@ -286,16 +299,18 @@ def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
             pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, scene.room, pose)
         found.append((cost, pose, settled))
     least = min(cost for cost, _, _ in found)
-    good = [f for f in found if f[0] <= least + NEARLY][:BEST]
+    good = [f for f in found if f[0] <= least + NEARLY]
     if len(good) == 1:
         return _polished(scene, good[0])
     every = max(1, len(scene.times) // 6)
     times = scene.times[::every]
-    scores = []
+    scores: list[tuple[float, float, int]] = []
     for i, (_, pose, settled) in enumerate(good):
         poses = _follow(scene, settled, pose, times)
         eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
-        scores.append((*scene.shares(eyes), i))
+        scores.append((scene.shares(eyes)[0], scene.covered(eyes), i))
+        if i + 1 >= BEST and min(scores)[:2] == (0.0, 0.0):
+            break
     return _polished(scene, good[min(scores)[2]])
 
 
