@@ -143,6 +143,8 @@ def _arc(case: Case, shot: dict[str, Any], flight: Flight, phase: Phase) -> Find
     sweep = number(shot.get("sweep", "360 deg"))
     if abs(round_[-1] - round_[0] - sweep) > TURN:
         yield Finding("sweep", shot["id"], float(round_[-1] - round_[0]), sweep)
+    if round_[-1] == round_[0]:
+        return
     if "start_azimuth" in shot:
         off = (np.pi / 2 - round_[0] - number(shot["start_azimuth"]) + np.pi) % (2 * np.pi) - np.pi
         if abs(off) > TURN:

@@ -130,8 +130,8 @@ class Itinerary:
         self._restore(before)
         if self._ended_aside():
             again = add()
-            if not isinstance(again, Meets) and self.room >= 0.0:
-                return again
+            if again is None and self.room >= 0.0:
+                return None
         self._restore(planned)
         return found
 

@@ -1,0 +1,35 @@
+"""The missions whose plans are recorded, and their plans as text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from shotc.api import Compilation, PlanOptions, compile_source
+from tests.golden.sample import sampled
+
+HERE = Path(__file__).parent
+SPECS = Path(__file__).parents[2] / "specs"
+DRAWN = HERE / "drawn"
+SHOW = "fleets:"
+
+
+def missions() -> dict[str, Path]:
+    """Return the files of all missions that film, by name."""
+    films = [path for path in sorted(SPECS.glob("*.yaml")) if SHOW not in path.read_text(encoding="utf-8")]
+    return {p.stem: p for p in films} | {p.parent.name: p for p in sorted(DRAWN.glob("*/mission.yaml"))}
+
+
+def recorded(name: str) -> Path:
+    """Return where the plan of a mission is recorded."""
+    return DRAWN / name / "plan.txt" if (DRAWN / name).is_dir() else HERE / "specs" / f"{name}.txt"
+
+
+def compiled(path: Path) -> Compilation:
+    """Plan a mission as `shotc plan` does."""
+    return compile_source(path.read_bytes(), path.name, path.parent, PlanOptions())
+
+
+def as_text(done: Compilation) -> str:
+    """Return a plan as text; AssertionError where there is none."""
+    assert done.plan is not None, [(d.code, d.message) for d in done.diagnostics]
+    return sampled(done.plan, done.diagnostics)

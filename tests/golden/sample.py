@@ -1,0 +1,73 @@
+"""A plan as text that a person can read in a diff, and the comparison of two of them.
+
+What is written is good to a millimetre and a milliradian, so that the same text comes from another processor
+and from another version of a solver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.path import CHANNELS
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+
+EVERY = 2.0
+"""Seconds between the rows of a drone."""
+
+SAME = 1.5e-3
+"""Metres, radians, seconds or shares by which two numbers may differ: half of it is rounding."""
+
+IN_FRAME = " in frame"
+
+
+def sampled(plan: VerifiedIR, diagnostics: Sequence[Diagnostic]) -> str:
+    """Return a plan as text: what is said of it, what its shots show, and where its drones are."""
+    codes = sorted(d.code for d in diagnostics)
+    lines = [f"told {' '.join(codes)}".rstrip(), *_shown(plan)]
+    for track in plan.trajectory.drones:
+        lines += _drone(track)
+    return "\n".join([*lines, ""])
+
+
+def _shown(plan: VerifiedIR) -> Iterator[str]:
+    for claim in plan.certificate:
+        if claim.shot is not None and claim.constraint.endswith(IN_FRAME):
+            yield f"shot {claim.shot} {claim.constraint.removesuffix(IN_FRAME)} {claim.worst:.3f}"
+
+
+def _drone(track: DroneTrajectory) -> Iterator[str]:
+    yield ""
+    yield f"drone {track.drone}"
+    for phase in track.phases:
+        yield f"{phase.start:9.3f} {phase.end:9.3f} {phase.name} {phase.shot or ''}".rstrip()
+    yield f"{'t':>9} {' '.join(f'{name:>9}' for name in CHANNELS)}"
+    times = np.append(np.arange(0.0, track.curve.end, EVERY), track.curve.end)
+    for t, row in zip(times, track.curve(times), strict=True):
+        yield f"{t:9.3f} {' '.join(f'{value + 0.0:9.3f}' for value in row)}"
+
+
+def differences(recorded: str, now: str) -> list[str]:
+    """Return the lines that differ by more than numbers may, as a diff shows them; empty where none does."""
+    old, new = recorded.splitlines(), now.splitlines()
+    found = [
+        line
+        for a, b in zip(old, new, strict=False)
+        if not _alike(a.split(), b.split())
+        for line in (f"- {a}", f"+ {b}")
+    ]
+    longer = [f"- {a}" for a in old[len(new) :]] + [f"+ {b}" for b in new[len(old) :]]
+    return found + longer
+
+
+def _alike(old: Sequence[str], new: Sequence[str]) -> bool:
+    return len(old) == len(new) and all(map(_same, old, new))
+
+
+def _same(a: str, b: str) -> bool:
+    try:
+        return abs(float(a) - float(b)) <= SAME
+    except ValueError:
+        return a == b

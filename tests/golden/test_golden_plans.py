@@ -1,0 +1,67 @@
+"""Plans are as they were recorded; ``--bless`` records them anew, and the diff shows what became of them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.golden.missions import as_text, compiled, missions, recorded
+from tests.golden.sample import SAME, differences
+
+MISSIONS = missions()
+PLAN = """\
+told V033
+shot a1 tower 1.000
+
+drone cam
+    0.000     2.420 takeoff
+    0.000     1.000    -2.000
+"""
+
+
+@pytest.mark.parametrize("name", MISSIONS)
+def test_a_plan_is_as_recorded(name: str, pytestconfig: pytest.Config) -> None:
+    now, path = as_text(compiled(MISSIONS[name])), recorded(name)
+    if pytestconfig.getoption("--bless"):
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(now, encoding="utf-8")
+    found = differences(path.read_text(encoding="utf-8"), now)
+    assert not found, "\n".join(found[:40])
+
+
+def test_drawn_missions_of_all_kinds_are_among_them() -> None:
+    drawn = [path.read_text(encoding="utf-8") for path in MISSIONS.values() if path.name == "mission.yaml"]
+    kinds = {kind for text in drawn for kind in re.findall(r"kind: ([a-z-]+)", text)}
+    assert len(drawn) >= 40
+    assert kinds >= {
+        *("keyframes", "static", "orbit", "spiral", "elevator", "dolly", "crane", "top-down", "follow-path"),
+        *("chase", "lead", "lateral", "flyby", "framing"),
+    }
+
+
+def test_every_record_has_its_mission() -> None:
+    here = Path(__file__).parent
+    assert sorted([*here.glob("*/*.txt"), *here.glob("*/*/*.txt")]) == sorted(map(recorded, MISSIONS))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("V033", "V031"),
+        ("1.000\n\n", "0.998\n\n"),
+        ("takeoff", "transit"),
+        ("-2.000", f"{-2.0 + 2 * SAME:.3f}"),
+        ("-2.000\n", "-2.000\n    1.000     1.000    -2.000\n"),
+        ("    0.000     1.000    -2.000\n", ""),
+        ("drone cam\n", "drone cam\ndrone cam\n"),
+    ],
+)
+def test_what_differs_is_told(old: str, new: str) -> None:
+    assert old in PLAN
+    assert differences(PLAN, PLAN.replace(old, new))
+
+
+def test_what_is_rounding_is_no_difference() -> None:
+    assert not differences(PLAN, PLAN.replace("-2.000", "-2.001").replace("2.420", "2.421"))
