@@ -40,8 +40,9 @@ PASSED: tuple[CodeInfo, ...] = (
         "On its ways between shots a drone keeps 5 m from what the mission films, and 3 m from other targets and from "
         "keep-out zones, wherever there is room for it: the defaults of `rules.transit_clearance`. Where a shot begins "
         "or ends nearer to something, or the pad is nearer, the way may begin and end so near, and keeps half a metre "
-        "more with each metre from there. Here it is nearer than that, for a narrow gap, a detour that would be too "
-        "long, or no time to wait. Write down the clearance that is to be kept, and it is; or give the way more room "
+        "more with each metre from there. Here it is nearer than that by more than a tenth, for a narrow gap, a detour "
+        "that would be too long, or no time to wait. Write down the clearance that is to be kept, and it is; or give "
+        "the way more room "
         "or time.",
         _GAP.replace("WIDE", "44"),
         _GAP.replace("WIDE", "36"),

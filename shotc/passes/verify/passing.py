@@ -24,6 +24,7 @@ from shotc.passes.verify.transits import ENDING, on_way, taper_of
 from shotc.rounding import at_most
 
 HARD, SOFT = "V035", "V034"
+WORTH = 0.1  # of a clearance that nobody wrote down; what lacks less is in summary and certificate alone
 PLAY = 0.1  # metres that a clearance is told below what is kept: planning keeps a little more than is asked
 
 
@@ -44,7 +45,10 @@ class Pass(NamedTuple):
 
 
 def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
-    """Report broken claims of clearances on ways: what is required one by one, else one warning a way."""
+    """Report broken claims of clearances on ways: what is required one by one, else one warning a way.
+
+    A clearance that nobody wrote down is worth a warning where a tenth of it lacks.
+    """
     broken = [c for c in claims if not c.holds and c.constraint.endswith(ENDING)]
     soft: dict[tuple[str, Way], list[tuple[Claim, Pass]]] = {}
     for claim in broken:
@@ -52,7 +56,7 @@ def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnos
         if claim.hard:
             yield _refused(ir, claim, found[0])
             continue
-        for one in found:
+        for one in (p for p in found if p.needs - p.has > WORTH * p.needs):
             soft.setdefault((claim.subject, one.way), []).append((claim, one))
     for together in soft.values():
         yield _told(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))

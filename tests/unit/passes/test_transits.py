@@ -136,11 +136,12 @@ rules: {"""
 THROUGH = "  - {id: see, kind: static, drone: cam, at: [0, 20, 3], look_at: person}\n"
 
 
-def through_gap(rules: str) -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
+def through_gap(rules: str, aside: float = 22.0) -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
+    """Plan a mission whose way leads between two boxes of 40 m; aside : of their middles, metres."""
     head = HEAD.replace("TARGETS", PERSON.replace("[0, 0, 0.9]", "[0, 40, 0.9]")).replace(
         "HOME", "[0, -30, 0]"
     )
-    text = head.replace("RULES", GAP + rules + "}") + THROUGH
+    text = head.replace("RULES", GAP.replace("22", f"{aside}") + rules + "}") + THROUGH
     done = compile_source(text.encode(), "m.yaml", Path.cwd(), PlanOptions(refiner="none"))
     return done.plan, done.diagnostics
 
@@ -156,6 +157,16 @@ def test_a_gap_too_narrow_is_flown_through_and_told_once_a_way() -> None:
     (line,) = {d.help for d in told if d.code == "V034" and "on the way home" in d.message}
     assert line is not None
     assert "`rules: {transit_clearance: {other: 1." in line
+
+
+@pytest.mark.parametrize(("aside", "told"), [(23.4, False), (23.2, True)])
+def test_what_lacks_less_than_a_tenth_is_in_the_certificate_and_not_told(aside: float, told: bool) -> None:
+    plan, found = through_gap("", aside)
+    assert plan is not None
+    claim = claim_of(plan.certificate, "zone a on transits")
+    assert not claim.holds
+    assert claim.worst == pytest.approx(aside - 20.6, abs=0.02)
+    assert ("V034" in codes(found)) == told
 
 
 def test_what_is_told_may_be_written_down() -> None:
