@@ -13,13 +13,14 @@ from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, silhouett
 from shotc.geom.convex import bounded, distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
+from shotc.geom.runs import worst_of_runs
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
 from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.occlusion import others_of
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath
+from shotc.ir.path import BODY_YAW, CALM, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath
 from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
@@ -47,6 +48,7 @@ from shotc.solvers.spline_fit import Fit, fit, within
 
 __all__ = [
     "BODY_YAW",
+    "CALM",
     "CAM_PITCH",
     "CAM_YAW",
     "HFOV",
@@ -125,5 +127,6 @@ __all__ = [
     "with_camera",
     "with_need",
     "within",
+    "worst_of_runs",
     "wrapped",
 ]

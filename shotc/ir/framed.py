@@ -51,9 +51,8 @@ BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects d
 BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed if one is clear
 AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
-SMALLER = tuple(
-    LONG * 0.95**k for k in range(60)
-)  # sizes of one subject that is asked none, the first that fits
+SMALLER = tuple(LONG * 0.95**k for k in range(60))
+"""Sizes of one subject that is asked none: the first with which it is whole."""
 
 
 class Course(NamedTuple):
@@ -136,13 +135,17 @@ class _Scene:
 
     def shares(self, eyes: Sequence[tuple[float, Vec3]]) -> tuple[float, float]:
         """Return the shares of places at which there is no room, and from which a subject is hidden."""
-        no_room = sum(any(True for _ in lacks(self.mission, self.drone, eye, t)) for t, eye in eyes)
-        unseen = sum(self._hidden(eye, t) for t, eye in eyes)
-        return no_room / len(eyes), unseen / len(eyes)
+        return self.blocked(eyes), sum(self._hidden(eye, t) for t, eye in eyes) / len(eyes)
+
+    def blocked(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
+        """Return the share of places at which there is no room."""
+        return sum(any(True for _ in lacks(self.mission, self.drone, eye, t)) for t, eye in eyes) / len(eyes)
 
     def covered(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
         """Return how much of the subjects is hidden from places, 0 to 1: half of that by their middles."""
-        parts = [before(self.mission, s.target, eye, t) for t, eye in eyes for s in self.shot.subjects]
+        parts = [
+            standing_before(self.mission, s.target, eye, t) for t, eye in eyes for s in self.shot.subjects
+        ]
         weights = (0.5, 0.25, 0.25)
         hidden = sum(w for part in parts for w, found in zip(weights, part, strict=True) if found is not None)
         return hidden / len(parts)
@@ -169,10 +172,10 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
 
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
     """Return what stands between a camera and a target's middle or one of its sides, or None."""
-    return next((found for found in before(mission, name, eye, t) if found is not None), None)
+    return next((found for found in standing_before(mission, name, eye, t) if found is not None), None)
 
 
-def before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
+def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
     """Yield what stands between a camera and a target's middle, its left and its right side, or None.
 
     What overlaps or touches the target is a part of the same thing, and hides nothing of it.
@@ -308,7 +311,7 @@ def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
     for i, (_, pose, settled) in enumerate(good):
         poses = _follow(scene, settled, pose, times)
         eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
-        scores.append((scene.shares(eyes)[0], scene.covered(eyes), i))
+        scores.append((scene.blocked(eyes), scene.covered(eyes), i))
         if i + 1 >= BEST and min(scores)[:2] == (0.0, 0.0):
             break
     return _polished(scene, good[min(scores)[2]])

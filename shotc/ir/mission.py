@@ -320,7 +320,7 @@ class MissionIR(NamedTuple):
         """Return the target of that name; KeyError if there is none."""
         return next_named(self.targets, name)
 
-    def shot(self, name: str) -> "Shot":
+    def shot(self, name: str | None) -> "Shot":
         """Return the shot of that id; KeyError if there is none."""
         for shot in self.shots:
             if shot.id == name:

@@ -142,8 +142,8 @@ class Deviation:
     cause: str
 
 
-LIMITS = "the drone's limits"
-"""How causes end that are neither a thing in the way nor a picture."""
+LIMITS, CALM = "the drone's limits", "a calmer camera, and the drone's limits"
+"""Causes that are neither a thing in the way nor a picture."""
 
 
 def from_what_was_asked(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Deviation, ...]:
@@ -151,7 +151,7 @@ def from_what_was_asked(mission: MissionIR, deviations: Iterable[Deviation]) -> 
 
     Nobody did between the keyframes of a shot on its own clock: only what stands in the way counts there.
     """
-    return tuple(d for d in deviations if not (is_keyed(mission.shot(d.shot)) and d.cause.endswith(LIMITS)))
+    return tuple(d for d in deviations if not (is_keyed(mission.shot(d.shot)) and d.cause in (LIMITS, CALM)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -32,16 +32,16 @@ def small(seed: int) -> Mission:
 
 @pytest.mark.parametrize("seed", FEW)
 def test_a_small_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> None:
-    is_planned_and_whole(small(seed))
+    assert_planned_and_whole(small(seed))
 
 
 @pytest.mark.fuzz
 @pytest.mark.parametrize("seed", MANY)
 def test_a_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> None:
-    is_planned_and_whole(mission(seed))
+    assert_planned_and_whole(mission(seed))
 
 
-def is_planned_and_whole(asked: Mission) -> None:
+def assert_planned_and_whole(asked: Mission) -> None:
     verdict = judge(asked)
     assert not verdict.errors
     assert not [shot for shot in verdict.shots if shot.falls_short]

@@ -93,7 +93,7 @@ def zooms(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
         hfov = flight.curve(np.linspace(phase.start, phase.end, 101))[:, HFOV]
         if phase.shot is None or np.ptp(hfov) < ZOOM_LEAST:
             continue
-        shot = mission.shot(str(phase.shot))
+        shot = mission.shot(phase.shot)
         low, high = degrees(hfov.min()), degrees(hfov.max())
         out.append(
             Diagnostic(

@@ -18,6 +18,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import BoolArray, distances
 from shotc.geom.corridor import MARGIN, Obstacle, Room, bounds_slack, taper
+from shotc.geom.directions import directions
 from shotc.geom.route import find_route, length
 from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
@@ -192,7 +193,7 @@ def _outside(flight: Room, wide: Room, end: Array, goal: Array) -> Array | None:
         return end
     # What is needed grows by the slope at least until it is had.
     reach = np.arange(STEP, (lack + PLAY) / SLOPE + 2.0 * STEP, STEP)
-    points = end + reach[:, None] * _rays()[:, None, :]
+    points = end + reach[:, None] * directions(TURNS, RISES)[:, None, :]
     fine = _keeps(wide, points)
     inside = bounds_slack(flight, points.reshape(-1, 3)).reshape(fine.shape) >= MARGIN
     there = np.logical_and.accumulate(fine & inside, axis=1) & _keeps(replace(wide, ends=()), points, PLAY)
@@ -207,7 +208,7 @@ def _bent(flight: Room, wide: Room, a: Array, b: Array) -> Array | None:
     """
     apart = float(np.linalg.norm(b - a))
     reach = np.arange(STEP, 0.5 * apart + 2.0 * STEP, STEP)
-    places = (0.5 * (a + b) + reach[:, None] * _rays()[:, None, :]).reshape(-1, 3)
+    places = (0.5 * (a + b) + reach[:, None] * directions(TURNS, RISES)[:, None, :]).reshape(-1, 3)
     places = places[_keeps(wide, places) & (bounds_slack(flight, places) >= MARGIN)]
     order = np.argsort(np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1), kind="stable")
     ways = (np.stack([a, place, b]) for place in places[order[:TRIED]])
@@ -218,14 +219,6 @@ def _shortest(a: Array, places: Array, b: Array) -> Array | None:
     """Return the place, of some, shape (N, 3), over which it is the shortest from one place to another."""
     ways = np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1)
     return None if not len(places) else np.asarray(places[int(ways.argmin())])
-
-
-def _rays() -> Array:
-    """Return unit vectors to all sides, level, up and down; shape (N, 3)."""
-    turn = 2.0 * np.pi * np.arange(TURNS) / TURNS
-    flat = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(TURNS)])
-    up = np.array([0.0, 0.0, 1.0])
-    return np.concatenate([*(np.cos(rise) * flat + np.sin(rise) * up for rise in RISES), up[None]])
 
 
 def _ends(way: Array) -> tuple[Vec3, Vec3]:

@@ -14,6 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import distances
 from shotc.geom.corridor import MARGIN, Room, bounds_slack
+from shotc.geom.directions import directions
 from shotc.passes.timed_route.moving import COMFORT, Moving
 
 LONG = 20.0  # seconds before a film, or after it, for which nothing comes near
@@ -32,7 +33,7 @@ def aside_of_what_passes(near: Sequence[Moving], room: Room, rest: Array, span: 
     times = np.arange(span[0], span[1] + STEP, STEP)
     tracks = [(what, what.at(times)) for what in near]
     for ring in np.arange(0.0, FARTHEST + RING, RING):
-        shifts = ring * _directions() if ring else np.zeros((1, 3))
+        shifts = ring * directions(TURNS, RISES) if ring else np.zeros((1, 3))
         places = rest + shifts
         fine = bounds_slack(room, places) >= MARGIN
         for what, at in tracks:
@@ -42,11 +43,3 @@ def aside_of_what_passes(near: Sequence[Moving], room: Room, rest: Array, span: 
         if fine.any():
             return np.asarray(shifts[int(fine.argmax())])
     return np.zeros(3)
-
-
-def _directions() -> Array:
-    """Return unit vectors to all sides, level first, then rising, then up; shape (N, 3)."""
-    turn = 2.0 * np.pi * np.arange(TURNS) / TURNS
-    level = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(TURNS)])
-    up = np.array([0.0, 0.0, 1.0])
-    return np.concatenate([*(np.cos(rise) * level + np.sin(rise) * up for rise in RISES), up[None]])

@@ -132,7 +132,7 @@ def timed_shot(
     """
     mission, drone = looker.mission, looker.drone
     placed = placed_at(mission, placed, start)
-    task, flown = _flown(looker_of(mission, drone, placed, start), around, placed.shot, start, asked)
+    task, flown, away = _flown(looker_of(mission, drone, placed, start), around, placed.shot, start, asked)
     shot, looker, clock = task.shot, task.looker, task.clock
     if flown.curve is None:
         missed = _missed(task, around, placed, start) if task.bound else None
@@ -154,30 +154,33 @@ def timed_shot(
         *(() if flown.given_up is None else noted(shot.id, flown.given_up)),
     )
     lacks = lacking_each(task.motions, flown.curve, (clock.start, clock.end))
-    off = float(_away(task, flown.curve)[1].max())
-    return TimedShot(leg, _deviations(task, flown), stats, off, (lacks[0].any, lacks[1].any))
+    deviations = _deviations(task, flown, away)
+    return TimedShot(leg, deviations, stats, float(away.max()), (lacks[0].any, lacks[1].any))
 
 
 def _flown(
     looker: Looker, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
-) -> tuple[Task, Flown]:
+) -> tuple[Task, Flown, Array]:
     """Return the first motion of some for which ever less is asked, or the last one that was not found.
+
+    The last value is as ``_away`` returns, empty where there is no motion.
 
     What is asked of the ends is not to move the film: one that leaves its place gives way to one that does so
     much less.
     """
-    found: list[tuple[float, Task, Flown]] = []
+    best: tuple[Task, Flown, Array] | None = None
     for ask in asked:
         task = _task(looker, around, shot, start, ask)
         flown = fly(task)
         if flown.curve is None:
             continue
-        off = float(_away(task, flown.curve)[1].max())
-        if not found or off < LESS * found[0][0]:
-            found = [(off, task, flown)]
+        away = _away(task, flown.curve)
+        off = away.max()
+        if best is None or off < LESS * best[2].max():
+            best = (task, flown, away)
         if off <= NOTICE or (off <= FAR and not held_where_it_rests(task, flown.curve)):
             break
-    return found[0][1:] if found else (task, flown)
+    return best or (task, flown, np.zeros(0))
 
 
 def _task(looker: Looker, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
@@ -258,21 +261,25 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[FramingSpan,
     return tuple(spans)
 
 
-def _deviations(task: Task, flown: Flown) -> tuple[Deviation, ...]:
-    """Return, for each stretch on which the motion leaves the ideal, the worst of it."""
-    assert flown.curve is not None
-    times, away = _away(task, flown.curve)
+def _deviations(task: Task, flown: Flown, away: Array) -> tuple[Deviation, ...]:
+    """Return, for each stretch on which the motion leaves the ideal, the worst of it; as ``_away`` has it."""
+    times = _filmed(task)
     return tuple(
         Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
 
 
-def _away(task: Task, curve: Piecewise) -> tuple[Array, Array]:
-    """Return times of the film, and how far the camera is from its ideal then, metres; both shape (M,)."""
-    times = np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
+def _filmed(task: Task) -> Array:
+    """Return the times of the film at which it is compared with its ideal, shape (M,)."""
+    return np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
+
+
+def _away(task: Task, curve: Piecewise) -> Array:
+    """Return how far the camera is from its ideal at those times, metres, shape (M,)."""
+    times = _filmed(task)
     ideal = ideal_places(task.mission, task.shot, task.clock.start, times)
-    return times, np.linalg.norm(curve(times) - ideal, axis=1)
+    return np.asarray(np.linalg.norm(curve(times) - ideal, axis=1))
 
 
 def _cause(task: Task, flown: Flown, t: float) -> str:

@@ -60,7 +60,7 @@ def _another_time(sight: Sight, phase: Phase) -> Iterator[str]:
 def _turned(sight: Sight, times: Array, phase: Phase) -> str:
     """Say how far a camera that is told its heading turns away; empty for one that follows something."""
     mission = sight.mission
-    shot = mission.shot(str(phase.shot))
+    shot = mission.shot(phase.shot)
     if not shot.keyframes or any(k.aim is None or len(k.aim) != 2 for k in shot.keyframes):
         return ""
     film, away = sight.film.curve(times), sight.other.curve(times)[:, :3]

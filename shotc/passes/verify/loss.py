@@ -61,7 +61,7 @@ def _loss(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
     why = (
         f"at its limit there: {', '.join(binding)}" if binding else "no limit of gimbal or space is met there"
     )
-    shot = mission.shot(str(claim.shot))
+    shot = mission.shot(claim.shot)
     remedy = "move the keyframes next to it"
     if len(shot.subjects) > 1:
         remedy = "ask less of its subjects at once"

@@ -77,7 +77,7 @@ def _labels(
 
 
 def _shot(mission: MissionIR, phase: Phase) -> Shot:
-    return mission.shot(str(phase.shot))
+    return mission.shot(phase.shot)
 
 
 def _notes(ir: TrajectoryIR, claim: Claim, pair: tuple[DroneTrajectory, ...]) -> Iterator[str]:

@@ -111,7 +111,7 @@ def _enough(track: DroneTrajectory, phase: Phase, pan: Pan, free: bool) -> float
 
 
 def _told(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: Pan) -> Diagnostic:
-    shot = mission.shot(str(phase.shot))
+    shot = mission.shot(phase.shot)
     help_ = "film it from farther away, or with a wider field of view"
     if shot.ideal is None:
         seconds = at_least(_enough(track, phase, pan, shot.timing.duration is None), 1)

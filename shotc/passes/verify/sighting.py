@@ -84,7 +84,7 @@ def _overlap(a: Phase, b: Phase) -> bool:
 
 def _labels(mission: MissionIR, claim: Claim) -> Iterator[Label]:
     origins = mission.origins
-    shot = mission.shot(str(claim.shot))
+    shot = mission.shot(claim.shot)
     yield origins.key(shot.path, "seen in this shot")
     if PATH in origins.keys or PATH in origins.values:
         yield origins.key(PATH, "required here" if claim.hard else "preferred here")

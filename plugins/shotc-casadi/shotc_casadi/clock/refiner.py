@@ -16,6 +16,7 @@ from shotc.plugin_api import (
     unrefined,
 )
 from shotc.refiner_api import (
+    CALM,
     Deviation,
     TimedLeg,
     TimedPath,
@@ -24,6 +25,7 @@ from shotc.refiner_api import (
     least_out,
     placed_at,
     prefers_free_pictures,
+    worst_of_runs,
 )
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
@@ -39,7 +41,6 @@ GUIDE_BETTER = "its guide films the subject as well or better by what the refine
 SHOWS_LESS = "its guide shows more of its subjects"
 IN_PICTURE = "refined, a drone would come into another's picture"
 OUT = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
-CALM = "a calmer camera, and the drone's limits"
 SIGHT = "what would hide the subject"
 WHOLE = "the whole subject in the frame, and the drone's limits"
 SAME = 2.0  # seconds between a place that moved the guide and one that is off for the same reason
@@ -149,13 +150,9 @@ def _deviations(subject: ClockSubject, before: tuple[Deviation, ...], why: str) 
     t = np.append(np.arange(leg.start, leg.end, STEP), leg.end)
     ideal = ideal_places(subject.mission, subject.placed.shot, leg.start, t)
     away = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1)
-    off = np.flatnonzero(away > LEFT)
-    runs = np.split(off, np.flatnonzero(np.diff(off) > 1) + 1) if len(off) else []
-    worst = [int(run[away[run].argmax()]) for run in runs]
     return tuple(
         Deviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
-        for k in worst
-        if away[k] > NOTICE
+        for k in worst_of_runs(away, LEFT, NOTICE)
     )
 
 
