@@ -6,7 +6,8 @@ size anew, which takes longer than solving it.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +15,30 @@ from numpy.typing import NDArray
 from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 # Columns and their values, one entry a row.
 Term = tuple[NDArray[Any], Array]
 
+USABLE = frozenset({Status.SOLVED, Status.INACCURATE})
+BESIDE = 4  # cones to each side of a broken one that are asked with it: the rows of a curve lie in its order
 REFINED = 1e-3  # of a tolerance: to which the linear systems of a step are solved
 ROUNDING = 1e-13  # the same where that is not enough
+
+
+class Near(NamedTuple):
+    """A guess of the unknowns, and the share of its bound at which a cone is asked at first."""
+
+    x: Array
+    share: float
+
+
+class _Block(NamedTuple):
+    """Cones of one kind and dimension; rows : of all of them."""
+
+    kind: str
+    dim: int
+    cones: int
+    rows: slice
 
 
 class ConeRows:
@@ -65,42 +85,69 @@ class ConeRows:
         self._count += dim * cones
 
     def solve(
-        self, cost: Array, tolerance: float, hessian: Any = None, *, scaled: bool = False
+        self,
+        cost: Array,
+        tolerance: float,
+        hessian: Any = None,
+        *,
+        scaled: bool = False,
+        near: Near | None = None,
     ) -> tuple[Status, Array]:
         """Minimise cost.x + x.hessian.x / 2; returns the status and x (meaningless unless SOLVED).
 
         hessian : a sparse matrix, or an array that is the diagonal of one; None for a linear cost
         scaled : whether every unknown and every row is in a unit of its own already, so that Clarabel is not
             to look for others, which only make it slower then
+        near : asks for constraint generation: few of a curve's bounds are ever near. The cones that a guess
+            reaches are asked, then those that the solution breaks, too. A solution that breaks none of the
+            others is the whole programme's; where some of them have no solution, all have none.
         """
-        import clarabel
-        from scipy.sparse import csc_matrix
+        from scipy.sparse import csr_matrix
 
-        shape = (self._count, self.unknowns)
         places = (np.concatenate(self._rows), np.concatenate(self._cols))
-        # Clarabel's form is A x + s = rhs with s in the cone: s is our expression, so A = -terms.
-        lhs = csc_matrix((-np.concatenate(self._values), places), shape=shape)
-        cones: list[Any] = []
-        for kind, dim, count in self._cones:
-            if kind == "cone":
-                cones.extend([clarabel.SecondOrderConeT(dim)] * count)
+        terms = csr_matrix((np.concatenate(self._values), places), shape=(self._count, self.unknowns))
+        constants, square = np.concatenate(self._constants), self._square(hessian)
+        settings = _settings(tolerance, scaled=scaled)
+        asked = [np.ones(block.cones, dtype=np.bool_) for block in self._blocks()]
+        if near is not None:
+            asked = self._reached(near.share, constants + terms @ near.x, constants)
+        while True:
+            rows = np.concatenate([_rows(*part) for part in zip(self._blocks(), asked, strict=True)])
+            cones = [cone for part in zip(self._blocks(), asked, strict=True) for cone in _cones(*part)]
+            # Clarabel's form is A x + s = rhs with s in the cone: s is our expression, so A = -terms.
+            status, x = _solved((square, cost, -terms[rows].tocsc(), constants[rows], cones), settings)
+            if status is Status.INFEASIBLE or all(part.all() for part in asked):
+                return status, x
+            if status in USABLE:
+                reached = self._reached(1.0 + tolerance, constants + terms @ x, constants)
+                broken = [new & ~old for new, old in zip(reached, asked, strict=True)]
+                if not any(part.any() for part in broken):
+                    return status, x
+                asked = [old | _widened(new) for new, old in zip(broken, asked, strict=True)]
             else:
-                cones.append((clarabel.ZeroConeT if kind == "zero" else clarabel.NonnegativeConeT)(count))
-        settings = clarabel.DefaultSettings()
-        settings.verbose = False
-        settings.max_threads = 1
-        settings.presolve_enable = False
-        settings.equilibrate_enable = not scaled
-        settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
-        programme = (self._square(hessian), cost, lhs, np.concatenate(self._constants), cones)
-        # What is solved no finer than that is solved sooner, but a few programmes make no progress so.
-        for refined in (REFINED * tolerance, ROUNDING):
-            settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = refined
-            solution = clarabel.DefaultSolver(*programme, settings).solve()
-            status = _STATUS.get(str(solution.status), Status.FAILED)
-            if status is not Status.FAILED:
-                break
-        return status, np.asarray(solution.x)
+                asked = [np.ones_like(part) for part in asked]
+
+    def _blocks(self) -> Iterator[_Block]:
+        first = 0
+        for kind, dim, cones in self._cones:
+            yield _Block(kind, dim, cones, slice(first, first + dim * cones))
+            first += dim * cones
+
+    def _reached(self, share: float, values: Array, constants: Array) -> list[BoolArray]:
+        """Return the cones of each block that values reach a share of; equalities always.
+
+        values, constants : of all rows; a half-space's bound is its constant
+        """
+        found = []
+        for block in self._blocks():
+            value = values[block.rows].reshape(block.cones, block.dim)
+            if block.kind == "cone":
+                found.append(np.linalg.norm(value[:, 1:], axis=1) >= share * value[:, 0])
+            elif block.kind == "positive":
+                found.append(value[:, 0] <= (1.0 - share) * np.abs(constants[block.rows]))
+            else:
+                found.append(np.ones(block.cones, dtype=np.bool_))
+        return found
 
     def _square(self, hessian: Any) -> Any:
         """Return the upper triangle of a hessian as ``solve`` takes one, in columns."""
@@ -112,6 +159,58 @@ class ConeRows:
             each = np.arange(self.unknowns)
             return csc_matrix((hessian, (each, each)))
         return triu(hessian, format="csc")
+
+
+def _rows(block: _Block, asked: BoolArray) -> NDArray[np.int_]:
+    """Return the rows of the cones of a block that are asked."""
+    each = np.arange(block.rows.start, block.rows.stop).reshape(block.cones, block.dim)
+    return each[asked].ravel()
+
+
+def _cones(block: _Block, asked: BoolArray) -> Sequence[Any]:
+    """Return the cones of a block that are asked, as Clarabel takes them."""
+    import clarabel
+
+    count = int(asked.sum())
+    if block.kind == "cone":
+        return [clarabel.SecondOrderConeT(block.dim)] * count
+    kind = clarabel.ZeroConeT if block.kind == "zero" else clarabel.NonnegativeConeT
+    return [kind(count)] if count else []
+
+
+def _widened(chosen: BoolArray) -> BoolArray:
+    """Return those that are chosen, and those beside them."""
+    out = chosen.copy()
+    for step in range(1, BESIDE + 1):
+        out[step:] |= chosen[:-step]
+        out[:-step] |= chosen[step:]
+    return out
+
+
+def _settings(tolerance: float, *, scaled: bool) -> Any:
+    import clarabel
+
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.max_threads = 1
+    settings.presolve_enable = False
+    settings.equilibrate_enable = not scaled
+    settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = tolerance
+    return settings
+
+
+def _solved(programme: tuple[Any, ...], settings: Any) -> tuple[Status, Array]:
+    """Return what Clarabel makes of a programme."""
+    import clarabel
+
+    # What is solved no finer than that is solved sooner, but a few programmes make no progress so.
+    for refined in (REFINED * settings.tol_feas, ROUNDING):
+        settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = refined
+        solution = clarabel.DefaultSolver(*programme, settings).solve()
+        status = _STATUS.get(str(solution.status), Status.FAILED)
+        if status is not Status.FAILED:
+            break
+    return status, np.asarray(solution.x)
 
 
 _STATUS = {

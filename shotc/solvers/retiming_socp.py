@@ -21,13 +21,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.solvers.cone_rows import ConeRows, Term
+from shotc.solvers.cone_rows import ConeRows, Near, Term
 from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
 
 # Rows of a norm that stay below this share of its limit cannot matter and are left out.
 NEGLIGIBLE = 1e-9
+NEAR = 0.6  # of its limit that a norm reaches in the last iterate where it may matter in the next
 NEWTON_STEPS = 6  # to the middle of a cell: five leave 1e-10 of it, six nothing
 
 
@@ -103,7 +104,8 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
     for limit in problem.jerks:
         model.jerk(limit)
     model.times()
-    status, x = model.rows.solve(model.total_time(), tolerance, scaled=True)
+    near = Near(model.start(), NEAR)
+    status, x = model.rows.solve(model.total_time(), tolerance, scaled=True, near=near)
     inside = slice(1, -1)
     b, a = np.zeros_like(around.b), np.zeros_like(around.b)
     if status in {Status.SOLVED, Status.INACCURATE}:
@@ -275,6 +277,12 @@ class _Model:
             [self.d(self.cell, sign * share), self.d(self.cell + 1, sign * share)] for sign in (1.0, -1.0)
         )
         self.rows.second_order(0.0 * one, [[e, *more], [e, *less], []], rest=[0.0 * one, 2.0 * one])
+
+    def start(self) -> Array:
+        """Return the last iterate."""
+        b, a = self.around.b, self.around.a
+        parts = (b / self.b_unit, a / self.a_unit, np.sqrt(b) / self.d_unit, np.ones(len(self.cell)))
+        return np.concatenate(parts)
 
     def total_time(self) -> Array:
         """Return the cost of the fastest profile: its time, about 1."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import Rows
-from shotc.solvers.cone_rows import ConeRows, Term
+from shotc.solvers.cone_rows import ConeRows, Near, Term
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import EVERY, Cones, SplineProblem, centred, scalar_map, terms
 
@@ -151,7 +151,8 @@ def programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
             at += len(one)
         _bounded(rows, problem.size, cone, more)
     hessian, slope = _quadratic(problem, slacks)
-    status, x = rows.solve((slope + np.concatenate(price)) / unit, TOLERANCE, hessian / unit)
+    near = Near(np.zeros(rows.unknowns), 1.0)
+    status, x = rows.solve((slope + np.concatenate(price)) / unit, TOLERANCE, hessian / unit, near=near)
     if status not in {Status.SOLVED, Status.INACCURATE}:
         return SplineSolution(status, None, float("nan"), float("nan"))
     coef = np.ascontiguousarray(x[: 3 * problem.size].reshape(3, problem.size).T)

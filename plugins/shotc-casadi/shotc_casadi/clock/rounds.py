@@ -38,7 +38,7 @@ NEARLY = 0.998  # of each limit that is used, so that rounding breaks none
 ALLOWED = 0.01  # rad by which a camera may miss its aim, if its guide misses it by less
 FIRST = Use(NEARLY)
 NARROWER = 0.1  # of what the ends may be off, which is taken back beside walls that nodes are held to
-GAIN = 0.01  # of the cost: a round that gains less is the last
+GAIN = 0.02  # of the cost: a round that gains less is the last
 
 
 @dataclass(frozen=True, slots=True, eq=False)
