@@ -90,7 +90,7 @@ def _stage() -> Stage:
 @cache
 def programme(steps: int, solver: str) -> Any:
     """Return the solver of all problems with so many steps."""
-    return built(differentiated(_stage()), steps, solver, TOLERANCE)  # type: ignore[arg-type]
+    return built(differentiated(_stage()), steps, solver, TOLERANCE, b"")  # type: ignore[arg-type]
 
 
 def solve(task: Chase, solver: str = "fatrop") -> Flight:

@@ -104,9 +104,10 @@ def solved(task: Instance, solver: Solver) -> Solution:
     if not (np.isfinite(start).all() and np.isfinite(task.parameters).all()):
         # fatrop does not end on numbers that are none.
         return _nothing("nan", task, solver, 0.0)
-    programme = built(task.kind, task.stages, solver, task.tolerance)
     lower, upper = _rows(task, 0), _rows(task, 1)
     low, high = (_flat(task.state_bounds[side], task.input_bounds[side]) for side in (0, 1))
+    bounded = np.packbits(np.isfinite(np.concatenate([low, high, lower, upper]))).tobytes()
+    programme = built(task.kind, task.stages, solver, task.tolerance, bounded)
     given = {
         "x0": start,
         "p": task.parameters.ravel(),

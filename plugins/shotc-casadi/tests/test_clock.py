@@ -196,6 +196,19 @@ def test_two_solvers_find_the_same_motion() -> None:
     assert max(a.residual, b.residual) < program.FEASIBLE
 
 
+def test_a_problem_is_solved_alike_whatever_was_solved_before_it() -> None:
+    made = task(subject(compiled(FLYBY)))
+    lower, upper = (bound.copy() for bound in made.state_bounds)
+    node = len(lower) // 2
+    lower[node], upper[node] = made.states[node] - 5.0, made.states[node] + 5.0
+    solving.built.cache_clear()
+    first = program.solve(made, "fatrop")
+    program.solve(replace(made, state_bounds=(lower, upper)), "fatrop")
+    again = program.solve(made, "fatrop")
+    assert again.iterations == first.iterations
+    assert np.array_equal(again.states, first.states)
+
+
 def test_the_solver_takes_no_small_curvature_for_none() -> None:
     # With a cost that next to nothing hangs on it adds to the diagonal, and creeps: 30 steps and more.
     assert program.solve(task(subject(compiled(FLYBY))), "fatrop").iterations < 15

@@ -62,7 +62,7 @@ def plain(made):
 def test_the_solution_meets_the_kkt_conditions(solver, monkeypatch):
     made, seen = task(walled()), {}
     assert made.planes > 0
-    nlp = built(derived(made.visibility, made.planes), made.stages, solver, TOLERANCE)
+    nlp = built(derived(made.visibility, made.planes), made.stages, solver, TOLERANCE, b"")
 
     class Spy:
         stats = nlp.stats
