@@ -8,7 +8,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import Deviation, from_what_was_asked
 from shotc.passes.corridor.room import GROUND, named, owner_path
-from shotc.passes.timed_route.shot import PICTURES, Missed, NoMotion
+from shotc.passes.timed_route.shot import PICTURES, Away, Missed, NoMotion
 from shotc.rounding import at_least, up
 
 TOLD = 5  # stretches of a shot that are told one by one
@@ -74,10 +74,16 @@ def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagn
 
 def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
     """Say which keyframes the drone cannot pass at their times, and what would let it."""
-    keyframes = [shot.keyframes[i] for i, _ in missed.away] or list(shot.keyframes[:1])
-    labels = tuple(mission.origins.value((*k.path, "at")) for k in dict.fromkeys(keyframes))
-    notes = tuple(f"the nearest motion is {at_least(m)} m from keyframe {i + 1} then" for i, m in missed.away)
+    keyframes = [shot.keyframes[a.keyframe] for a in missed.away] or list(shot.keyframes[:1])
+    blocked = [a for a in missed.away if a.owner is not None]
+    owners = dict.fromkeys(a.owner for a in missed.away if a.owner is not None)
+    labels = (
+        *(mission.origins.value((*k.path, "at")) for k in dict.fromkeys(keyframes)),
+        *(mission.origins.key(owner_path(mission, owner), "too near then") for owner in owners),
+    )
     remedies = ["raise its `limits`", "move them nearer to the way of the target"]
+    if blocked:
+        remedies = [f"move {_these(blocked)} by so much", "give the shot another time"]
     if missed.longer is not None:
         lasts = up((shot.timing.duration or 0.0) * missed.longer, 1)
         timed = any(k.time for k in shot.keyframes)
@@ -87,6 +93,21 @@ def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
         "M015",
         f"drone `{shot.drone}` cannot pass the keyframes of shot `{shot.id}` at their times",
         labels,
-        notes,
+        tuple(map(_passed, missed.away)),
         ", or ".join(remedies),
     )
+
+
+def _passed(away: Away) -> str:
+    """Say how near a motion comes to a keyframe, and what is too near to it."""
+    text = f"the nearest motion is {at_least(away.distance)} m from keyframe {away.keyframe + 1} then"
+    if away.owner is None:
+        return text
+    return (
+        f"{text}: at t = {away.t:.1f} s its place is {at_least(away.lack)} m too near to {named(away.owner)}"
+    )
+
+
+def _these(blocked: list[Away]) -> str:
+    numbers = " and ".join(str(a.keyframe + 1) for a in sorted(blocked))
+    return f"keyframe {numbers}" if len(blocked) == 1 else f"keyframes {numbers}"

@@ -95,15 +95,29 @@ class TimedShot:
     lacks: tuple[float, float]
 
 
+class Away(NamedTuple):
+    """How far the motion nearest to its shot's way passes a keyframe, metres, and when.
+
+    keyframe : its index
+    owner : of what is too near to its place then, if anything is; lack : by how much, metres
+    """
+
+    keyframe: int
+    distance: float
+    t: float
+    owner: str | None
+    lack: float
+
+
 @dataclass(frozen=True, slots=True)
 class Missed:
-    """Keyframes that a drone cannot pass at their times within its limits.
+    """Keyframes that a drone cannot pass at their times.
 
-    away : (index of the keyframe, metres from it) of the motion nearest to the shot's way, the farthest first
+    away : the farthest first
     longer : times as long that the shot and its keyframes' times would do, or None where none was found
     """
 
-    away: tuple[tuple[int, float], ...]
+    away: tuple[Away, ...]
     longer: float | None
 
 
@@ -227,8 +241,12 @@ def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Mis
     free = fly(replace(task, free=True)).curve
     if free is None:
         return None
-    away = [(b.index, float(np.linalg.norm(free(b.start) - np.array(b.place)))) for b in task.bound]
-    far = tuple(sorted((pair for pair in away if pair[1] > ON_PLACE), key=lambda pair: -pair[1]))
+    away = []
+    for b in task.bound:
+        place = np.array(b.place)
+        owner, lack = _in_the_way(task, place, b.start) or (None, 0.0)
+        away.append(Away(b.index, float(np.linalg.norm(free(b.start) - place)), b.start, owner, lack))
+    far = tuple(sorted((a for a in away if a.distance > ON_PLACE), key=lambda a: -a.distance))
     for longer in LONGER:
         slower = slowed(task.mission, placed, start, longer)
         looker = looker_of(task.mission, task.drone, slower, start)
@@ -283,12 +301,20 @@ def _away(task: Task, curve: Piecewise) -> Array:
 
 
 def _cause(task: Task, flown: Flown, t: float) -> str:
-    ideal = np.array(ideal_place(task.mission, task.shot, task.clock.start, t))
-    near = breaches(task.room, ideal)
-    if near:
-        return near[0].owner
-    for motion in task.motions:
-        relative = ideal[None] - motion.what.at(np.array([t]))
-        if float(distances(motion.what.part, relative)[0]) < motion.what.clearance:
-            return motion.what.owner
+    near = _in_the_way(task, np.array(ideal_place(task.mission, task.shot, task.clock.start, t)), t)
+    if near is not None:
+        return near[0]
     return PICTURES if flown.freed else LIMITS
+
+
+def _in_the_way(task: Task, place: Array, t: float) -> tuple[str, float] | None:
+    """Return the owner of what a place, shape (3,), is too near to at a time, and by how much, metres."""
+    near = breaches(task.room, place)
+    if near:
+        return near[0].owner, near[0].lack
+    for motion in task.motions:
+        relative = place[None] - motion.what.at(np.array([t]))
+        lack = motion.what.clearance - float(distances(motion.what.part, relative)[0])
+        if lack > 0.0:
+            return motion.what.owner, lack
+    return None

@@ -253,3 +253,37 @@ class TestRefused:
         angles, start = re.findall(r"`(heading: [^`]*|start: [^`]*)`", fault.help)
         mended = KEYS.replace("[45, -22, 9], look_at: walker", f"[45, -22, 9], {angles}")
         planned(mended, f"{{{start}, duration: 20}}")
+
+    def test_a_keyframe_that_another_drone_is_too_near_to_is_told_with_both(self) -> None:
+        beside = """\
+shotc: 1
+mission: beside
+targets:
+  walker: {track: {points: [[0, 0, 0.9], [90, 0, 0.9]], speed: 1.5 m/s}, radius: 0.4, height: 1.8}
+drones:
+  cam1: {model: x500, home: [20, -20, 0], priority: 1}
+  cam2: {model: x500, home: [40, 20, 0], priority: 2}
+rules: {separation: 6 m}
+shots:
+  - {id: a, drone: cam1, kind: lateral, target: walker, side: left, distance: 5, altitude: 6,
+    timing: {start: 20, duration: 8}}
+  - id: b
+    drone: cam2
+    kind: keyframes
+    target: walker
+    keyframes:
+      - {at: {from: walker, offset: [1, 6, 4]}, look_at: walker}
+      - {at: {from: walker, offset: [9, 6, 5]}, look_at: walker}
+    timing: {start: 24, duration: 9}
+"""
+        done = compile_source(beside.encode(), "beside.yaml", None, PlanOptions())
+        (fault,) = [d for d in done.diagnostics if d.code == "M015"]
+        assert done.plan is None
+        (lack,) = re.findall(
+            r"at t = 24.0 s its place is ([\d.]+) m too near to drone `cam1`", fault.notes[0]
+        )
+        assert 0.0 < float(lack) < 6.0
+        assert fault.labels[-1].text == "too near then"
+        assert fault.labels[-1].span.line == 6
+        assert "move keyframe 1 by so much" in fault.help
+        assert "`limits`" not in fault.help
