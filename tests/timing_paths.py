@@ -12,7 +12,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import OriginMap
 from shotc.ir.path import DronePath, Leg, Mark, PathIR, PhaseName, Stop
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.parameterize_time.limits import Ceiling
+from shotc.planning.timing.limits import Ceiling
 from shotc.source.file import Span
 from tests.records import replace
 from tests.samples import orbit_mission

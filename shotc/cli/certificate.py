@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from math import isfinite
 
 from shotc.cli.table import clock, table
+from shotc.ir.measures import measure, told_apart
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.numbers import measure, told_apart
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 
 WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}

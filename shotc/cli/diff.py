@@ -12,8 +12,8 @@ import typer
 from shotc.cli import console
 from shotc.cli.plans import proved
 from shotc.cli.table import table
+from shotc.ir.measures import measure
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.numbers import measure
 from shotc.planfile.compare import Comparison, FleetChange, ShotChange, compare
 
 Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the folder that holds it.")]

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from shotc.cli.table import clock
 from shotc.geom.apart import stretch
 from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.measures import measure
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
-from shotc.passes.verify.numbers import measure
 
 PAIR = 2
 

@@ -185,3 +185,21 @@ class PathIR:
                     or abs(leg.stops[-1].s - leg.curve.end) > 1e-9
                 ):
                     raise ValueError(f"{drone.drone}: {name} does not begin and end at rest")
+
+
+def leg_of(path: PathIR, shot: str) -> Leg:
+    """Return the leg that films a shot on a path; KeyError if there is none."""
+    leg = filmed(path, shot)
+    if not isinstance(leg, Leg):
+        raise KeyError(shot)
+    return leg
+
+
+def filmed(path: PathIR, shot: str) -> Leg | TimedLeg:
+    """Return the leg that films a shot, whatever it is a curve over; KeyError if there is none."""
+    every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
+    for drone in every:
+        for leg in drone.legs:
+            if leg.shot == shot:
+                return leg
+    raise KeyError(shot)

@@ -5,6 +5,9 @@ from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeV
 
 from shotc.diag.model import Diagnostic
 
+if TYPE_CHECKING:
+    from shotc.ir.path import PathIR
+
 Value_co = TypeVar("Value_co", covariant=True)
 
 
@@ -30,6 +33,22 @@ class Outcome(NamedTuple, Generic[Value_co]):
 
     value: Value_co | None
     diagnostics: tuple[Diagnostic, ...] = ()
+
+
+class Refiner(Protocol):
+    """What sits in the refiner seat (entry-point group ``shotc.refiners``)."""
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+    api: ClassVar[int]
+
+    def refine(self, path: "PathIR", ctx: PassContext) -> Outcome["PathIR"]:
+        """Return a better path, or errors that say why there is none.
+
+        An error that labels the key of a shot is about that shot alone: return it together with a path
+        that has the shot's convex leg, and the other shots stay refined where the mission allows it.
+        """
+        ...
 
 
 if TYPE_CHECKING:

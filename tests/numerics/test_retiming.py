@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.passes.parameterize_time import move as move_module
-from shotc.passes.parameterize_time.flown import straying, usages
-from shotc.passes.parameterize_time.grid import sample
-from shotc.passes.parameterize_time.limits import EASE, Ceiling
-from shotc.passes.parameterize_time.move import axes_of, time_move, topp_limits
-from shotc.passes.parameterize_time.profile import fly
-from shotc.passes.solve_path_qp.turns import steady
+from shotc.planning.path.turns import steady
+from shotc.planning.timing import move as move_module
+from shotc.planning.timing.flown import straying, usages
+from shotc.planning.timing.grid import sample
+from shotc.planning.timing.limits import EASE, Ceiling
+from shotc.planning.timing.move import axes_of, time_move, topp_limits
+from shotc.planning.timing.profile import fly
 from shotc.solvers.conic import Status
 from shotc.solvers.retiming_socp import cell_times
 from shotc.solvers.topp import fastest

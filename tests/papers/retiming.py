@@ -13,11 +13,11 @@ import numpy as np
 from shotc import plugins
 from shotc.ir.path import Leg, PathIR
 from shotc.passes.base import PassContext
-from shotc.passes.parameterize_time.grid import lay_grid, rough_profile, sample, split_cells
-from shotc.passes.parameterize_time.limits import Ceiling, ceiling_of
-from shotc.passes.parameterize_time.move import axes_of, time_move, topp_limits
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.pipeline import run
+from shotc.planning.timing.grid import lay_grid, rough_profile, sample, split_cells
+from shotc.planning.timing.limits import Ceiling, ceiling_of
+from shotc.planning.timing.move import axes_of, time_move, topp_limits
 from shotc.solvers.conic import Status
 from shotc.solvers.topp import fastest
 from tests.papers.missions import Draft, convex_path

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Leg, Piecewise
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
     Array,

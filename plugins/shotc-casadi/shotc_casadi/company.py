@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from shotc.plugin_api import Diagnostic, Leg, Outcome, PassContext, PathIR, Piecewise, unrefined
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     MOST_MOVED,
     Array,
     FlownShot,
@@ -113,7 +113,7 @@ def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:
 
 def _in_its_time(subject: Subject) -> Leg:
     """Return the leg with the time that it takes as the time that it is to take."""
-    return replace(subject.leg, duration=leg_time(subject.mission, subject.drone, subject.leg))
+    return replace(subject.leg, duration=leg_time(subject.drone, subject.leg))
 
 
 def _told(

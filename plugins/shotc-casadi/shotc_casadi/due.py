@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Leg
-from shotc.refiner_api import Array, flying_times
+from shotc.plugin_api.refiner import Array, flying_times
 
 
 class Due(NamedTuple):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import Array
+from shotc.plugin_api.refiner import Array
 from shotc_casadi.camera import Given
 from shotc_casadi.conditions import OURS
 from shotc_casadi.frames import LEAST, insides

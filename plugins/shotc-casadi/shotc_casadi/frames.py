@@ -13,7 +13,16 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import CAM_PITCH, CAM_YAW, ROUNDING, Array, Mask, View, frustum_margins, subdivide
+from shotc.plugin_api.refiner import (
+    CAM_PITCH,
+    CAM_YAW,
+    ROUNDING,
+    Array,
+    Mask,
+    View,
+    frustum_margins,
+    subdivide,
+)
 from shotc_casadi.conditions import OURS
 from shotc_casadi.stages import Stages
 from shotc_casadi.wishes import Subject, Wishes, fields_of_view, wishes

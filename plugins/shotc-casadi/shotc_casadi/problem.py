@@ -7,7 +7,7 @@ from math import inf
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from shotc.refiner_api import CAM_PITCH, CAM_YAW, Array
+from shotc.plugin_api.refiner import CAM_PITCH, CAM_YAW, Array
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due
 from shotc_casadi.margins import Margins

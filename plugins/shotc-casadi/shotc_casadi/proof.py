@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     lateness,
     rough_times,
     shortfall,

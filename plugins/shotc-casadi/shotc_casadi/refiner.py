@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from shotc.plugin_api import Diagnostic, Outcome, PassContext, PathIR, Piecewise, impossible
-from shotc.refiner_api import NoTransit, rejoined
+from shotc.plugin_api.refiner import NoTransit, rejoined
 from shotc_casadi import conditions
 from shotc_casadi.company import refine_in_company
 from shotc_casadi.conditions import Condition

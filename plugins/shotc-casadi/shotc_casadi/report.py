@@ -7,7 +7,7 @@ from math import isfinite, isnan, nan
 import numpy as np
 
 from shotc.plugin_api import Diagnostic, PathIR, SolverState
-from shotc.refiner_api import Deviation, leg_of
+from shotc.plugin_api.refiner import Deviation, leg_of
 from shotc_casadi.rounds import Gap, Refined
 from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME

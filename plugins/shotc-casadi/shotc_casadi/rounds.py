@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import Array, NoTransit, shortfall
+from shotc.plugin_api.refiner import Array, NoTransit, shortfall
 from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due, unhurried

@@ -5,7 +5,7 @@ from math import cos, sin
 import numpy as np
 
 from shotc.plugin_api import MissionIR
-from shotc.refiner_api import Array, PlacedKeyframe, Room, distances
+from shotc.plugin_api.refiner import Array, PlacedKeyframe, Room, distances
 
 STEPS = 2000
 HORIZON = 1000.0  # metres: how far a ray is followed

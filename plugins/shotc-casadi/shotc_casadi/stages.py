@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from shotc.plugin_api import Leg
-from shotc.refiner_api import Array, Drone, PlacedShot, rough_times
+from shotc.plugin_api.refiner import Array, Drone, PlacedShot, rough_times
 from shotc_casadi.due import due
 
 STAGES = 100

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import Array, IntArray, Room, corridor, kept
+from shotc.plugin_api.refiner import Array, IntArray, Room, corridor, kept
 from shotc_casadi.margins import Margins
 from shotc_casadi.stages import Stages
 

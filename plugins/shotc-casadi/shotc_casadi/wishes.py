@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Leg, MissionIR, PathIR
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
     HFOV,

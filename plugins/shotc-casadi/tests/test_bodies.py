@@ -19,7 +19,7 @@ from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, wishes
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism, Solid, box
-from shotc.refiner_api import Array, Planes, restrict
+from shotc.plugin_api.refiner import Array, Planes, restrict
 from tests import crowd
 from tests.unit.passes.test_several_drones import HEAD, PASS, SIDE
 

@@ -24,7 +24,7 @@ from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.path import CAM_PITCH, CAM_YAW, TimedLeg
 from shotc.passes.base import PassContext
-from shotc.refiner_api import ideal_places, restrict, surroundings
+from shotc.plugin_api.refiner import ideal_places, restrict, surroundings
 
 RUN = """\
 shotc: 1

@@ -11,10 +11,9 @@ from shotc_casadi import company
 from shotc_casadi.refiner import OURS
 
 from shotc.api import Compilation, PlanOptions, compile_source
-from shotc.ir.path import PathIR
+from shotc.ir.path import PathIR, filmed
 from shotc.ir.trajectory import VerifiedIR
 from shotc.passes.base import PassContext
-from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.settle import same
 
 ALONE = (Path(__file__).parents[3] / "specs/tower-fly-past.yaml").read_text()
@@ -173,7 +172,7 @@ def test_a_shot_on_its_own_clock_that_a_condition_leaves_alone_is_told() -> None
 
 
 def test_a_shot_that_cannot_keep_its_time_is_told_with_what_it_takes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shotc.passes.solve_path_qp.in_time.lateness", lambda *_: 0.5)
+    monkeypatch.setattr("shotc.planning.path.in_time.lateness", lambda *_: 0.5)
     before = path_of(LATER, "none", "solve-path-qp")
     outcome = OURS.refine(before, PassContext())
     told = [d for d in outcome.diagnostics if d.code == "R014"]

@@ -14,8 +14,8 @@ from shotc_casadi.rounds import ROUNDS, refine_shot
 from shotc.api import emit_plan
 from shotc.diag.registry import has_errors
 from shotc.geom.corridor import shortfall
-from shotc.passes.parameterize_time.leg import fastest_moves, plan_of
-from shotc.passes.parameterize_time.limits import ceiling_of
+from shotc.planning.timing.leg import fastest_moves, plan_of
+from shotc.planning.timing.limits import ceiling_of
 from tests.path_scenes import assert_continuous, least_room
 from tests.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of, seen
 

@@ -17,7 +17,7 @@ from shotc_casadi.clock.wishes import ClockSubject, wishes
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.ir.preference import MOST_MOVED
 from shotc.passes.base import PassContext
-from shotc.refiner_api import ideal_places
+from shotc.plugin_api.refiner import ideal_places
 
 MISSION = """\
 shotc: 1

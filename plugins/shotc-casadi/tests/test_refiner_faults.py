@@ -16,7 +16,7 @@ from shotc import plugins
 from shotc.diag.registry import has_errors
 from shotc.passes.base import PassContext
 from shotc.passes.refine_path import RefinePath, Seat
-from shotc.refiner_api import NoTransit, rejoined
+from shotc.plugin_api.refiner import NoTransit, rejoined
 from tests.bad_refiners import PASS, ROUND, leg, path
 
 REAL = program.solve

@@ -22,7 +22,7 @@ from shotc.geom import viewpoint
 from shotc.ir.framed import lens_of
 from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
 from shotc.passes.base import PassContext
-from shotc.refiner_api import restrict, surroundings
+from shotc.plugin_api.refiner import restrict, surroundings
 from tests.faces import MISSION, drawn
 
 FRAMES = "{target: a, frame: [-0.3, 0]}, {target: b, frame: [0.3, 0]}"

@@ -9,6 +9,7 @@ fast as its pace of the limits allows. What cannot be met is an error that says 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import isfinite
 from typing import ClassVar
 
@@ -18,8 +19,8 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.parameterize_time.binding import binding
-from shotc.passes.parameterize_time.faults import (
+from shotc.passes.parameterize_time.explain.binding import binding
+from shotc.passes.parameterize_time.explain.times import (
     Remedies,
     endurance_exceeded,
     roughly_timed,
@@ -27,11 +28,11 @@ from shotc.passes.parameterize_time.faults import (
     too_fast,
     without_length,
 )
-from shotc.passes.parameterize_time.flight import Flight
-from shotc.passes.parameterize_time.leg import TINY, LegMotion, Plan, assemble, fastest_moves, plan_of
-from shotc.passes.parameterize_time.limits import Ceiling, ceiling_of
-from shotc.passes.parameterize_time.marks import DueLeg, TooFast, has_times
-from shotc.passes.parameterize_time.move import Move
+from shotc.planning.timing.estimate import LegTiming, can_be_timed, time_leg
+from shotc.planning.timing.flight import Flight
+from shotc.planning.timing.leg import TINY
+from shotc.planning.timing.limits import ceiling_of
+from shotc.planning.timing.move import Move
 
 Stats = list[tuple[str, float | str]]
 
@@ -118,8 +119,8 @@ class _Pilot:
     def _fly(self, leg: Leg, ready: float) -> None:
         name = f"shot {leg.shot}" if leg.shot else f"{self.path.drone} {leg.phase} {self.done}"
         self.ctx.progress(f"timing {name}")
-        ceiling = ceiling_of(self.drone)
-        motion, fault = time_leg(self.mission, self.drone, leg, ceiling)
+        timing = time_leg(leg, ceiling_of(self.drone))
+        motion, fault = timing.motion, _fault(self.mission, self.drone, leg, timing)
         if fault is not None:
             self.faults.append(fault)
         earliest = max(self.flight.clock, ready)
@@ -144,45 +145,14 @@ class _Pilot:
             self.faults.append(endurance_exceeded(self.mission, self.drone, phases))
 
 
-def time_leg(
-    mission: MissionIR, drone: Drone, leg: Leg, ceiling: Ceiling
-) -> tuple[LegMotion | None, Diagnostic | None]:
-    """Return one leg over its own time, and what is wrong with the times it asks for.
-
-    With a fault the motion is the fastest, so that what follows can still be judged; there is none
-    where the leg takes no time.
-    """
-    plan = plan_of(leg)
-    duration = leg.duration
-    fault: Diagnostic | None = None
-    if leg.curve is not None and has_times(leg):
-        fast = fastest_moves(leg, plan, ceiling)
-        timed = _timed_leg(leg, plan, fast, ceiling).meet()
-        if isinstance(timed, TooFast):
-            fault = _explain(mission, drone, leg, plan, fast, timed)
-            duration, moves = None, fast
-        else:
-            plan, moves = timed.plan, timed.moves
-    else:
-        moves = fastest_moves(leg, plan, ceiling.scaled(leg.pace) if leg.phase == "shot" else ceiling)
-    motion = assemble(leg, plan, moves, duration)
-    if motion is None and leg.shot is not None:
-        fault = without_length(mission, leg)
-    return motion, fault
-
-
-def _timed_leg(leg: Leg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> DueLeg:
-    paced = fast if leg.duration is not None else fastest_moves(leg, plan, ceiling.scaled(leg.pace))
-    return DueLeg(leg, plan, fast, paced, ceiling)
-
-
-def _explain(
-    mission: MissionIR, drone: Drone, leg: Leg, plan: Plan, fast: tuple[Move, ...], fault: TooFast
-) -> Diagnostic:
-    def enough(ceiling: Ceiling) -> bool:
-        return _timed_leg(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
-
-    return too_fast(mission, drone, leg, fault, Remedies(binding(leg, fast, ceiling_of(drone)), enough))
+def _fault(mission: MissionIR, drone: Drone, leg: Leg, timing: LegTiming) -> Diagnostic | None:
+    """Return what is wrong with the times that a leg asks for."""
+    if timing.motion is None and leg.shot is not None:
+        return without_length(mission, leg)
+    if timing.too_fast is None:
+        return None
+    remedies = Remedies(binding(leg, timing.fast, ceiling_of(drone)), partial(can_be_timed, leg))
+    return too_fast(mission, drone, leg, timing.too_fast, remedies)
 
 
 def _stats(name: str, move: Move) -> Stats:

@@ -7,28 +7,17 @@ guarantees that every target with a composition is whole in the frame of a camer
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import pairwise
-from math import atan2, hypot, pi
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.angles import direction
-from shotc.geom.camera import aim_at
-from shotc.geom.vec import Vec2, Vec3, minus
 from shotc.ir.flown_order import flown_order
 from shotc.ir.keyed import is_keyed
-from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.keyframes import KeyframeIR, PlacedShot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.place_keyframes.candidates import Setting, nearest_candidate, nearest_on_verticals
-from shotc.passes.place_keyframes.turns import while_following, with_turns
-
-if TYPE_CHECKING:
-    from shotc.passes.place_keyframes.faults import Miss
-
-NORTH = pi / 2
+from shotc.passes.place_keyframes.turns import while_following
+from shotc.planning.framing.placing import Unmet, place_shot
 
 
 class PlaceKeyframes:
@@ -65,7 +54,7 @@ class PlaceKeyframes:
         return Outcome(value, tuple(diagnostics))
 
 
-def _reported(mission: MissionIR, shot: Shot, misses: tuple[Miss, ...]) -> list[Diagnostic]:
+def _reported(mission: MissionIR, shot: Shot, misses: tuple[Unmet, ...]) -> list[Diagnostic]:
     if not misses:
         return []
     from shotc.passes.place_keyframes.faults import report
@@ -80,122 +69,3 @@ def _sized(mission: MissionIR, placed: PlacedShot) -> list[Diagnostic]:
 
     fault = check_size(mission, placed)
     return [] if fault is None else [fault]
-
-
-def place_shot(
-    mission: MissionIR, shot: Shot, moments: Sequence[MissionIR] = ()
-) -> tuple[tuple[PlacedKeyframe, ...], tuple[Miss, ...]]:
-    """Place one shot's keyframes; the misses are what its composition could not give.
-
-    moments : for every keyframe the mission as it is when the camera is there, where something moves
-    """
-    placed: list[PlacedKeyframe] = []
-    misses: list[Miss] = []
-    for index, keyframe in enumerate(shot.keyframes):
-        course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH)
-        done, miss = _place(moments[index] if moments else mission, shot, keyframe, course)
-        placed.append(done)
-        if miss is not None:
-            misses.append(miss)
-    return with_turns(shot.keyframes, tuple(placed)), tuple(misses)
-
-
-def _place(
-    mission: MissionIR, shot: Shot, keyframe: Keyframe, course: float
-) -> tuple[PlacedKeyframe, Miss | None]:
-    drone = mission.drone(shot.drone)
-    if keyframe.target is None:
-        return _placed(keyframe, _own_aim(keyframe, drone, course), None, None), None
-    setting = setting_of(mission, drone, keyframe, course)
-    if shot.size is not None and shot.size > 1.0:
-        # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
-        setting = setting._replace(radius=0.0, height=0.0)
-    aim = own_framing(setting, keyframe, course)
-    # A camera that looks at its target holds it in the middle, to the last bit.
-    asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
-    composition = keyframe.composition
-    if asked is None or composition.keep or composition.watches:
-        from shotc.passes.place_keyframes.faults import keeps
-
-        reference = None if composition.watches else asked
-        return _placed(keyframe, aim, asked, reference), keeps(keyframe, setting, aim)
-    miss: Miss | None = None
-    place = nearest_candidate(setting, composition, asked)
-    if place is None:
-        from shotc.passes.place_keyframes.faults import does_not_fit, off_composition
-
-        place = nearest_on_verticals(setting, composition, asked)
-        miss = (
-            does_not_fit(keyframe, setting, asked)
-            if place is None
-            else off_composition(keyframe, setting, asked, place)
-        )
-    turned = setting.aim(place) if place is not None else None
-    return _placed(keyframe, turned or aim, asked, place), miss
-
-
-def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float) -> Setting:
-    """Return the placement problem of a keyframe that names a target."""
-    assert keyframe.target is not None
-    target = mission.target(keyframe.target)
-    if isinstance(keyframe.aim, tuple) and len(keyframe.aim) == 2:
-        course = keyframe.aim[0]
-    return Setting(
-        offset=minus(target.centre, keyframe.at),
-        radius=target.radius,
-        height=target.height,
-        hfov=keyframe.hfov,
-        aspect=drone.aspect,
-        pitch=drone.gimbal.pitch,
-        yaw_if_vertical=course,
-    )
-
-
-def own_framing(setting: Setting, keyframe: Keyframe, course: float) -> Vec2:
-    """Return (yaw, pitch) of the camera as the user framed it, before composition."""
-    if keyframe.aim is None:
-        return setting.aim((0.0, 0.0)) or (course, 0.0)
-    return explicit_aim(keyframe.at, keyframe.aim, course)
-
-
-def explicit_aim(at: Vec3, aim: Vec2 | Vec3, course: float) -> Vec2:
-    """Return (yaw, pitch) of angles, or of a camera at ``at`` that looks at a point, rad."""
-    if len(aim) == 2:
-        return aim
-    # The middle of the screen can always be turned to a point, whatever the field of view.
-    return aim_at(minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
-
-
-def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
-    return (course, 0.0) if keyframe.aim is None else explicit_aim(keyframe.at, keyframe.aim, course)
-
-
-def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 | None) -> PlacedKeyframe:
-    return PlacedKeyframe(
-        at=keyframe.at,
-        yaw=_direction(aim[0]),
-        pitch=aim[1],
-        hfov=keyframe.hfov,
-        target=keyframe.target,
-        reference=reference,
-        asked=asked,
-        hold=keyframe.hold,
-        time=keyframe.time,
-        placed=keyframe.placed,
-        path=keyframe.path,
-    )
-
-
-def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> float:
-    """Return the yaw of the motion at a keyframe; where it does not move sideways, the last yaw."""
-    around = keyframes[max(0, index - 1) : index + 2]
-    for a, b in reversed(list(pairwise(around))):
-        dx, dy = b.at[0] - a.at[0], b.at[1] - a.at[1]
-        if hypot(dx, dy) > 1e-6:
-            return atan2(dy, dx)
-    return otherwise
-
-
-def _direction(angle: float) -> float:
-    # Not by way of the remainder where it need not be, which would change its last bits.
-    return angle if -pi < angle <= pi else direction(angle)

@@ -9,7 +9,7 @@ from shotc.diag.model import Label
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
-from shotc.passes.place_keyframes.candidates import Setting
+from shotc.planning.framing.candidates import Setting
 from shotc.rounding import at_least, up
 
 FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for

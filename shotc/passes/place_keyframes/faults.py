@@ -8,12 +8,14 @@ from functools import partial
 from math import degrees, hypot, pi, radians
 from typing import NamedTuple
 
-from shotc.diag.model import Diagnostic, Label
+from shotc.diag.model import Diagnostic
 from shotc.geom.vec import Vec2
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.place_keyframes.candidates import (
+from shotc.passes.labels import framing_label
+from shotc.passes.place_keyframes.farther import Fits, farther, least, parameter_label
+from shotc.planning.framing.candidates import (
     TOUCH,
     Setting,
     has_candidate,
@@ -21,7 +23,7 @@ from shotc.passes.place_keyframes.candidates import (
     nearest_on_verticals,
     roomiest,
 )
-from shotc.passes.place_keyframes.farther import Fits, farther, least, parameter_label
+from shotc.planning.framing.placing import Unmet
 from shotc.rounding import at_least, at_most
 
 WIDEST = radians(150)
@@ -40,6 +42,18 @@ class Miss(NamedTuple):
     message: str
     notes: tuple[str, ...] = ()
     help: Callable[[MissionIR, Shot], str] | str = ""
+
+
+def missed(unmet: Unmet) -> Miss:
+    """Return what there is to say of a keyframe that does not have its composition."""
+    keyframe, setting, aim, asked, place = unmet
+    if asked is None:
+        return cropped_or_beyond(keyframe, setting, aim)
+    return (
+        does_not_fit(keyframe, setting, asked)
+        if place is None
+        else off_composition(keyframe, setting, asked, place)
+    )
 
 
 def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Vec2) -> Miss:
@@ -75,13 +89,11 @@ def _kept(keyframe: Keyframe, mission: MissionIR) -> str:
     return "write `frame: keep`" if own else "set `composition: keep`"
 
 
-def keeps(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss | None:
+def cropped_or_beyond(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
     """Tell of a kept framing that the gimbal does not reach, or warn that it crops its target."""
     if not reaches(setting.pitch, aim[1]):
         return _beyond_gimbal(keyframe, setting, aim)
     over = -setting.margin(aim)
-    if over <= TOUCH:
-        return None
     return Miss(
         "G012",
         keyframe,
@@ -177,12 +189,12 @@ def _range(setting: Setting) -> str:
     return f"seen from {hypot(*setting.offset):.1f} m"
 
 
-def report(mission: MissionIR, shot: Shot, misses: Iterable[Miss]) -> list[Diagnostic]:
+def report(mission: MissionIR, shot: Shot, unmet: Iterable[Unmet]) -> list[Diagnostic]:
     """Turn a shot's misses into diagnostics, one for each cause and line of the mission.
 
     A line with an error has no warnings: what is mended for the one changes the other.
     """
-    misses = list(misses)
+    misses = [missed(keyframe) for keyframe in unmet]
     wrong = {miss.keyframe.path for miss in misses if miss.code not in _WARNINGS}
     groups: dict[tuple[KeyPath, str, str], list[Miss]] = {}
     for miss in misses:
@@ -202,10 +214,3 @@ def _diagnostic(mission: MissionIR, shot: Shot, group: list[Miss]) -> Diagnostic
     help_ = worst.help if isinstance(worst.help, str) else worst.help(mission, shot)
     label = parameter_label(mission, shot, worst.keyframe) or framing_label(mission, worst.keyframe)
     return Diagnostic(worst.code, worst.message, (label,), notes, help_)
-
-
-def framing_label(mission: MissionIR, keyframe: Keyframe) -> Label:
-    """Return a label on a keyframe; on the aim of a shot that is one keyframe itself."""
-    written = mission.origins.values
-    own = [(*keyframe.path, key) for key in ("look_at", "heading") if len(keyframe.path) == 2]
-    return mission.origins.value(next((path for path in own if path in written), keyframe.path))

@@ -14,7 +14,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject
-from shotc.passes.place_keyframes.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
+from shotc.planning.framing.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
 from shotc.rounding import at_least
 
 MIDDLE = (0.0, 0.0)

@@ -11,14 +11,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from shotc.ir.needs import needed
 from shotc.ir.path import PathIR
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path.account import account
 from shotc.passes.refine_path.ask import ask
 from shotc.passes.refine_path.blame import blame, shortest_refined, still_true
 from shotc.passes.refine_path.instead import with_convex
-from shotc.passes.refine_path.needs import needed
-from shotc.passes.refine_path.seat import REFINER, KeepPath, Refiner, Seat, Unusable
+from shotc.passes.refine_path.seat import REFINER, KeepPath, Seat, Unusable
 from shotc.passes.refine_path.settle import settle
 
 __all__ = [

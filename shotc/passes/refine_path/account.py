@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.path import PathIR
+from shotc.ir.path import PathIR, filmed
 from shotc.ir.trajectory import VerifiedIR
-from shotc.passes.refine_path.faults import UNREFINED, filmed, unrefined
 from shotc.passes.refine_path.seat import KeepPath, Seat
 from shotc.passes.refine_path.settle import same
+from shotc.passes.solver_reports import UNREFINED, unrefined
 
 KEPT = "R003"
 STANDS = "its camera stands still"

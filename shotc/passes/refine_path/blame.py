@@ -6,12 +6,11 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.path import PathIR
-from shotc.passes.refine_path.faults import filmed
+from shotc.ir.path import PathIR, filmed
 from shotc.passes.refine_path.finding import Fault
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept, same
-from shotc.passes.timed_route.faults import left_places
+from shotc.passes.solve_path_qp.explain.on_clock import left_places
 
 OF_THE_CONVEX = ("Q007",)
 """Warnings of what the convex path cannot frame; verification says it of a path that is flown instead."""

@@ -10,12 +10,12 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import Drone
 from shotc.ir.path import UPRIGHT, FramingSpan, Leg, PathIR, TimedLeg, TimedPath
-from shotc.passes.parameterize_time.estimate import leg_time
+from shotc.ir.tolerances import AT_REST
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.form import SAME, broken, changed_shot, jumps
-from shotc.passes.verify.shape import AT_REST
+from shotc.planning.timing.estimate import leg_time
 
 EQUAL = 1e-9
 """Seconds, metres or radians, m/s and so on: the legs around a shot stay, so it joins them to rounding."""
@@ -37,11 +37,11 @@ def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
             if isinstance(was, TimedLeg) and isinstance(now, TimedLeg):
                 yield from _shot(was, now)
             elif isinstance(was, Leg) and isinstance(now, Leg) and not _alike(was, now):
-                yield from _on_path(mission, drone, was, now)
+                yield from _on_path(drone, was, now)
         yield from _joints(new)
 
 
-def _on_path(mission: MissionIR, drone: Drone, was: Leg, now: Leg) -> Iterator[Finding]:
+def _on_path(drone: Drone, was: Leg, now: Leg) -> Iterator[Finding]:
     """Find what is wrong with a leg that is a curve over its path; it may turn anew, and a shot may move."""
     changed = list(_as_told(was, now))
     if changed:
@@ -50,7 +50,7 @@ def _on_path(mission: MissionIR, drone: Drone, was: Leg, now: Leg) -> Iterator[F
         return
     if now.curve is not None:
         yield from jumps(now, now.curve)
-    took, takes = (leg_time(mission, drone, leg) for leg in (was, now))
+    took, takes = (leg_time(drone, leg) for leg in (was, now))
     if abs(took - takes) > IN_TIME:
         note = f"it takes {takes:.6f} s instead of {took:.6f} s, and others are planned beside it"
         yield Finding("R005", f"changed how long `{drone.name}` flies", (note, f"its {was.phase}"), was.shot)

@@ -10,10 +10,10 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.path import CHANNELS, UPRIGHT, DronePath, FramingSpan, Leg, PathIR, TimedLeg
-from shotc.passes.refine_path.faults import place
+from shotc.ir.tolerances import OFF_LINE
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.joints import ORDERS, largest_jump
-from shotc.passes.verify.reference import OFF
+from shotc.passes.solver_reports import place
 
 SAME = 1e-6
 """Metres, radians or screen units that still count as the same place."""
@@ -203,7 +203,7 @@ def changed_shot(was: Leg, now: Leg) -> Iterator[str]:
         return
     for old, new in zip(was.framing, now.framing, strict=True):
         off = _off(old, new)
-        if off > OFF:
+        if off > OFF_LINE:
             yield f"the wanted place of `{old.target}` on screen is {off:.3f} of half a frame off"
 
 

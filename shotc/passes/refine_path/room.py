@@ -17,11 +17,22 @@ from shotc.geom.corridor import Room, breaches, shortfall
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, sup_channel
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, UPRIGHT, DronePath, Leg, PathIR, TimedLeg, TimedPath
-from shotc.passes.corridor.room import flight_room, named, owner_path
-from shotc.passes.refine_path.faults import leg_of, place
+from shotc.ir.path import (
+    BODY_YAW,
+    CAM_PITCH,
+    CAM_YAW,
+    UPRIGHT,
+    DronePath,
+    Leg,
+    PathIR,
+    TimedLeg,
+    TimedPath,
+    leg_of,
+)
+from shotc.ir.tolerances import ON_PLACE
 from shotc.passes.refine_path.finding import Finding
-from shotc.passes.verify.shots import ON_PLACE
+from shotc.passes.solver_reports import place
+from shotc.planning.obstacles import flight_room, named, owner_path
 
 TOLERANCE = 2e-6
 """Metres and radians beyond a limit that still keep it, as where the convex path is made."""

@@ -1,29 +1,13 @@
-"""Who sits in the refiner seat: what a refiner is, the one that does nothing, and where it comes from."""
+"""Who sits in the refiner seat: the one that does nothing, and where it comes from."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple, Protocol
+from typing import ClassVar, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.path import PathIR
-from shotc.passes.base import Outcome, PassContext
-
-
-class Refiner(Protocol):
-    """What sits in the refiner seat (entry-point group ``shotc.refiners``)."""
-
-    name: ClassVar[str]
-    summary: ClassVar[str]
-    api: ClassVar[int]
-
-    def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
-        """Return a better path, or errors that say why there is none.
-
-        An error that labels the key of a shot is about that shot alone: return it together with a path
-        that has the shot's convex leg, and the other shots stay refined where the mission allows it.
-        """
-        ...
+from shotc.passes.base import Outcome, PassContext, Refiner
 
 
 @dataclass(frozen=True, slots=True)

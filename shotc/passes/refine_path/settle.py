@@ -10,17 +10,16 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.plugin_faults import one_line
-from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg, TimedPath, X, Y, Z
+from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg, TimedPath, X, Y, Z, filmed
 from shotc.passes.base import Outcome
 from shotc.passes.refine_path.ask import Answer
 from shotc.passes.refine_path.clocked import on_clock
-from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.finding import Fault, Finding, tell
 from shotc.passes.refine_path.form import form, structure
 from shotc.passes.refine_path.room import limits
 from shotc.passes.refine_path.seat import Seat
-from shotc.passes.solve_path_qp.rejoin import rejoined
-from shotc.passes.solve_path_qp.with_camera import NoTransit
+from shotc.planning.path.rejoin import rejoined
+from shotc.planning.path.with_camera import NoTransit
 
 CAMERA = (X, Y, Z, CAM_YAW, CAM_PITCH)
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
-from shotc.passes.place_keyframes import place_shot
 from shotc.passes.resolve.obstacles import ROUNDING, obstacles_of
+from shotc.planning.framing.placing import place_shot
 
 STEP = 1.0  # metres between the values that are tried
 MOST = 40.0  # metres by which a value is changed at most

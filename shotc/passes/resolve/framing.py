@@ -12,8 +12,8 @@ from shotc.ir.begins import first_start
 from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.place_keyframes import explicit_aim, setting_of
-from shotc.passes.place_keyframes.candidates import Setting
+from shotc.planning.framing.candidates import Setting
+from shotc.planning.framing.placing import explicit_aim, setting_of
 from shotc.rounding import at_least, at_most
 
 SAME = 1e-3  # metres within which a camera looks at its own place
@@ -41,7 +41,7 @@ def _moments(mission: MissionIR, shot: Shot) -> Iterator[tuple[Keyframe, Mission
     if not is_keyed(shot):
         yield from ((keyframe, mission) for keyframe in shot.keyframes)
         return
-    from shotc.passes.place_keyframes.keyed import is_sure, moments
+    from shotc.planning.framing.moments import is_sure, moments
 
     for keyframe, then in zip(
         shot.keyframes, moments(mission, shot, first_start(mission, shot)), strict=True
@@ -87,7 +87,7 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     off = degrees(_angle_off(setting, aim))
     if off < 90.0 and setting.shows(aim):
         return None
-    from shotc.passes.place_keyframes.faults import framing_label
+    from shotc.passes.labels import framing_label
 
     straight = setting.aim((0.0, 0.0)) or aim
     right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"

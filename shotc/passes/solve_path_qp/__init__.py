@@ -21,10 +21,9 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.corridor.room import pad_room, rooms_of
-from shotc.passes.place_keyframes.keyed import misplaced, placed_at
-from shotc.passes.solve_path_qp.clock_faults import outside_track, too_late, way_met
-from shotc.passes.solve_path_qp.faults import (
+from shotc.passes.place_keyframes.keyed import misplaced
+from shotc.passes.solve_path_qp.explain.on_clock import left_places, stopped_on_clock
+from shotc.passes.solve_path_qp.explain.path import (
     cut_framing,
     failure,
     follow_camera_impossible,
@@ -32,16 +31,18 @@ from shotc.passes.solve_path_qp.faults import (
     pad_blocked,
     swings,
 )
-from shotc.passes.solve_path_qp.legs import Flight, drone_legs
-from shotc.passes.solve_path_qp.on_clock import Itinerary
-from shotc.passes.solve_path_qp.pad import PadBlocked, transit_point
-from shotc.passes.solve_path_qp.shots import ShotCurve, shot_curve
-from shotc.passes.solve_path_qp.starts import Meets, OutsideTrack, TooLate, Trouble
-from shotc.passes.timed_route.faults import left_places, stopped_on_clock
-from shotc.passes.timed_route.moving import moving_targets
-from shotc.passes.timed_route.others import other_drones
-from shotc.passes.timed_route.shot import NoMotion, Traffic
-from shotc.passes.timed_route.sights import sights_of
+from shotc.passes.solve_path_qp.explain.schedule import outside_track, too_late, way_met
+from shotc.planning.clock.itinerary import Itinerary
+from shotc.planning.clock.moving import moving_targets
+from shotc.planning.clock.others import other_drones
+from shotc.planning.clock.shot import NoMotion, Traffic
+from shotc.planning.clock.sights import sights_of
+from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate, Trouble
+from shotc.planning.framing.moments import placed_at
+from shotc.planning.obstacles import pad_room, rooms_of
+from shotc.planning.path.legs import Flight, drone_legs
+from shotc.planning.path.pad import PadBlocked, transit_point
+from shotc.planning.path.shots import ShotCurve, shot_curve
 from shotc.solvers.headings import DEFAULT
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isfinite
 
+from shotc.ir.measures import DIGITS, enough, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.numbers import DIGITS, enough, measure
 from shotc.rounding import at_least, away
 
 REPLAN = "plan the mission again"

@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from math import inf, isfinite
 
+from shotc.ir.measures import told_apart
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import TOLERANCE
-from shotc.passes.verify.numbers import told_apart
 from shotc.units import clip
 
 Key = tuple[str, str | None, str]

@@ -15,11 +15,11 @@ from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed, references, seen, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
-from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 from shotc.passes.verify.close import errors_close, margins_close
 from shotc.passes.verify.hidden import longest
 from shotc.passes.verify.reference import held, wanted_framing
+from shotc.planning.framing.moments import placed_at
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,12 +8,12 @@ from math import degrees
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.ir.measures import measure
 from shotc.ir.path import CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.meeting import filming, put_off
-from shotc.passes.verify.numbers import measure
 from shotc.passes.verify.sight import Sight, ticks
 from shotc.rounding import at_least
 

@@ -15,10 +15,10 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.solids import depth, distance
 from shotc.ir.bodies import cylinder, moved
 from shotc.ir.limits import Vec3
+from shotc.ir.measures import measure
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
-from shotc.passes.verify.numbers import measure
 from shotc.passes.verify.promises import bends
 
 NOTICE = 0.05

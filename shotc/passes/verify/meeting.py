@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.ir.measures import enough, told_apart
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
-from shotc.passes.verify.numbers import enough, told_apart
 from shotc.rounding import at_least
 
 SEPARATION = "separation from "

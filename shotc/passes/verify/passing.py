@@ -13,13 +13,13 @@ from shotc.geom.pieces import cut
 from shotc.geom.proof import inf_distance
 from shotc.geom.solids import Solid, distance
 from shotc.ir.bodies import cylinder
+from shotc.ir.measures import told_apart
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.ir.transits import Way, ways
 from shotc.passes.verify.claims import gap, slack
-from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.transits import ENDING, on_way, taper_of
 from shotc.rounding import at_most
 

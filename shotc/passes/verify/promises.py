@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from math import isfinite
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.measures import enough, told_apart
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.numbers import enough, told_apart
 from shotc.rounding import at_least, away
 
 PROMISES = frozenset({"V019", "V020", "V021"})

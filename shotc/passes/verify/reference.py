@@ -17,11 +17,9 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Promise
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed, references
+from shotc.ir.tolerances import OFF_LINE
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
-
-OFF = 0.01
-"""Screen units that a reference may leave the line between two keyframes' references."""
 
 Mask = NDArray[np.bool_]
 Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
@@ -58,7 +56,7 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
     if errors:
         worst, time = max(errors)
         limit = Limit(
-            "reference off its keyframes", OFF, "of half a frame", shot.path, hard=hard, shot=shot.id
+            "reference off its keyframes", OFF_LINE, "of half a frame", shot.path, hard=hard, shot=shot.id
         )
         yield claim(flight, limit, Worst(worst, time, "sampled"))
 
@@ -82,7 +80,7 @@ def _all_along(flight: Flight, placed: PlacedShot, phase: Phase, *, hard: bool) 
             off, when = float(away[k]), float(t[k])
     for name, limit, worst, unit in (
         ("frames without their target", 0.0, missing, ""),
-        ("reference off its composition", OFF, off, "of half a frame"),
+        ("reference off its composition", OFF_LINE, off, "of half a frame"),
     ):
         found = Limit(name, limit, unit, shot.path, hard=hard, shot=shot.id)
         yield claim(flight, found, Worst(worst, when, "sampled"))

@@ -7,6 +7,7 @@ from math import isfinite
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.allow import HIDDEN
+from shotc.ir.measures import told_apart
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
@@ -15,7 +16,6 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
-from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.passing import told_passes
 from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
 from shotc.passes.verify.sight import OUT_OF_PICTURE

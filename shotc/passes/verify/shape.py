@@ -17,14 +17,12 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array, Piecewise, lift_off
 from shotc.ir.path import CHANNELS, Z
 from shotc.ir.phases import Phase
+from shotc.ir.tolerances import AT_REST
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Flight, Limit, Worst, claim
 
 AT_HOME = 1e-3
 """Metres from home within which a flight begins and ends."""
-
-AT_REST = 1e-6
-"""m/s and rad/s (m/s^2, rad/s^2) of any channel that still count as rest."""
 
 LARGEST = 1e6
 """Metres or radians beyond which nothing is a flight; within it doubles resolve a nanometre."""

@@ -17,8 +17,8 @@ from shotc.ir.mission import Shot
 from shotc.ir.path import HFOV, Z
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock
+from shotc.ir.tolerances import ON_PLACE
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.place_keyframes.keyed import placed_at
 from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
 from shotc.passes.verify.explained import (
     Way,
@@ -28,6 +28,7 @@ from shotc.passes.verify.explained import (
     for_the_picture,
     in_the_way,
 )
+from shotc.planning.framing.moments import placed_at
 
 ON_TIME = 1e-3
 """Seconds within which a duration, a start or a keyframe's time is met."""
@@ -37,9 +38,6 @@ UNTOLD = 1.0
 
 IN_PLACE = 0.01
 """Metres within which a camera stands that the author placed, while it follows what moves."""
-
-ON_PLACE = 1e-3
-"""Metres (radians, for the camera) within which a keyframe is met and a hold stands still."""
 
 
 def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.ir.measures import measure, told_apart
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
@@ -14,7 +15,6 @@ from shotc.ir.preference import MOST_MOVED, Price, given_up, prefers_free_pictur
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.kept_out import kept_out
-from shotc.passes.verify.numbers import measure, told_apart
 from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight, ticks
 from shotc.rounding import at_least
 

@@ -9,7 +9,7 @@ import pytest
 
 from shotc.geom.camera import aim_at
 from shotc.ir.keyframes import PlacedSubject
-from shotc.passes.timed_route.aims import Looker, aims_at
+from shotc.planning.clock.aims import Looker, aims_at
 from tests.front import clean
 
 MISSION = """\

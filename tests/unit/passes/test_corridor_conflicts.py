@@ -9,10 +9,10 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Solid
-from shotc.passes.corridor.room import flight_room
-from shotc.passes.solve_path_qp.faults import failure
-from shotc.passes.solve_path_qp.position import Solved, Stretch, solve_stretch
-from shotc.passes.solve_path_qp.shots import Stuck
+from shotc.passes.solve_path_qp.explain.path import failure
+from shotc.planning.obstacles import flight_room
+from shotc.planning.path.position import Solved, Stretch, solve_stretch
+from shotc.planning.path.shots import Stuck
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_relax import Relaxation
 from tests.path_scenes import FIELD, block, free, inside, legs, mission, out, planned, shot, solve

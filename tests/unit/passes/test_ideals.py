@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.ir.ideal import ideal_place
-from shotc.passes.timed_route.ideals import ideal_places
+from shotc.planning.clock.ideals import ideal_places
 from tests.front import placed
 
 HEAD = """\

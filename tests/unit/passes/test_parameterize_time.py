@@ -12,7 +12,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.path import Stop
 from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
-from shotc.passes.parameterize_time import move as move_module
+from shotc.planning.timing import move as move_module
 from shotc.solvers.conic import Status
 from tests.records import replace
 from tests.timed_flights import (

@@ -13,9 +13,9 @@ from shotc.emit.mavlink.clearance import obstacles_of
 from shotc.ir.mission import Drone
 from shotc.ir.parked import bodies, parked
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
-from shotc.passes.corridor.room import flight_room, pad_room
-from shotc.passes.timed_route.sights import sights_of
 from shotc.passes.verify import judge
+from shotc.planning.clock.sights import sights_of
+from shotc.planning.obstacles import flight_room, pad_room
 from tests import fleets
 from tests.records import replace
 from tests.tampered_plans import CONTEXT, MISSION, PLAN, with_mission

@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import view
 from shotc.ir.mission import Gimbal, Target
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
-from shotc.passes.solve_path_qp.body import BodyTask, body_line
+from shotc.planning.path.body import BodyTask, body_line
 from shotc.solvers.conic import Status
 from tests.path_scenes import (
     ASPECT,

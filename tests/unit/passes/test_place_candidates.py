@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from shotc.geom.camera import silhouette_bounds, view
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
-from shotc.passes.place_keyframes.candidates import (
+from shotc.planning.framing.candidates import (
     TOUCH,
     Line,
     Setting,

@@ -10,9 +10,9 @@ import pytest
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.ir.path import Deviation
 from shotc.ir.preference import MOST_MOVED, Price, given_up, noted
-from shotc.passes.timed_route import position
-from shotc.passes.timed_route.faults import left_places
-from shotc.passes.timed_route.preferred import Cost
+from shotc.passes.solve_path_qp.explain.on_clock import left_places
+from shotc.planning.clock import position
+from shotc.planning.clock.preferred import Cost
 
 FAR = """\
 shotc: 1

@@ -11,7 +11,7 @@ import pytest
 from shotc import plugin_api
 from shotc.api import PlanOptions, compile_source
 from shotc.diag.registry import severity_of
-from shotc.passes.refine_path.faults import SolverState, fallback, impossible, solver_nan, stopped_early
+from shotc.passes.solver_reports import SolverState, fallback, impossible, solver_nan, stopped_early
 
 TEMPLATE = Path(__file__).parents[3] / "shotc" / "templates" / "keyframes.yaml"
 TEXT = TEMPLATE.read_text()

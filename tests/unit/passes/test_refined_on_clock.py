@@ -10,16 +10,15 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedPath, X, Y, Z
+from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedPath, X, Y, Z, filmed
 from shotc.passes.base import Outcome, PassContext
-from shotc.passes.parameterize_time.estimate import leg_time
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.passes.refine_path.account import Account, account
-from shotc.passes.refine_path.faults import filmed
 from shotc.passes.refine_path.settle import same
-from shotc.passes.solve_path_qp.rejoin import rejoined
-from shotc.passes.solve_path_qp.with_camera import NoTransit
-from shotc.passes.timed_route.flights import flown_shot
+from shotc.planning.clock.flights import flown_shot
+from shotc.planning.path.rejoin import rejoined
+from shotc.planning.path.with_camera import NoTransit
+from shotc.planning.timing.estimate import leg_time
 from tests.bad_refiners import Odd
 
 MISSION = """\
@@ -101,10 +100,10 @@ def with_legs(ir: PathIR, drone: str, act) -> PathIR:
 
 def test_a_shot_put_back_keeps_its_time_and_its_neighbours():
     made = rejoined(path(), {"pass": bumped("pass")})
-    mission, drone = made.keyframes.mission, made.keyframes.mission.drone("cam1")
+    drone = made.keyframes.mission.drone("cam1")
     old, new = leg(path(), "pass"), leg(made, "pass")
     assert not same(old, new)
-    assert leg_time(mission, drone, new) == pytest.approx(leg_time(mission, drone, old), abs=1e-9)
+    assert leg_time(drone, new) == pytest.approx(leg_time(drone, old), abs=1e-9)
     around = [a is b for a, b in zip(legs_of(path(), "cam1"), legs_of(made, "cam1"), strict=True)]
     assert around.count(False) == 1
     assert legs_of(made, "cam2") == legs_of(path(), "cam2")
@@ -113,14 +112,14 @@ def test_a_shot_put_back_keeps_its_time_and_its_neighbours():
 
 def test_where_a_shot_looks_elsewhere_at_its_ends_the_ways_beside_it_turn_in_their_time():
     made = rejoined(path(), {"pass": camera("pass", ends=-0.05)})
-    mission, drone = made.keyframes.mission, made.keyframes.mission.drone("cam1")
+    drone = made.keyframes.mission.drone("cam1")
     made.check()
     changed = [
         (a, b) for a, b in zip(legs_of(path(), "cam1"), legs_of(made, "cam1"), strict=True) if a is not b
     ]
     assert [b.phase for _, b in changed] == ["transit", "shot", "transit"]
     for a, b in changed:
-        assert leg_time(mission, drone, b) == pytest.approx(leg_time(mission, drone, a), abs=1e-9)
+        assert leg_time(drone, b) == pytest.approx(leg_time(drone, a), abs=1e-9)
     outcome = refine(lambda ir: Outcome(made))
     assert outcome.value is not None, outcome.diagnostics
 

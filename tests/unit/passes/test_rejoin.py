@@ -11,8 +11,8 @@ import pytest
 from shotc.geom.bernstein import Piecewise, bernstein_basis
 from shotc.geom.bspline import restrict, subdivide
 from shotc.ir.path import BODY_YAW, CAM_YAW, HFOV
-from shotc.passes.solve_path_qp.rejoin import rejoined
-from shotc.passes.solve_path_qp.with_camera import NoTransit, with_camera
+from shotc.planning.path.rejoin import rejoined
+from shotc.planning.path.with_camera import NoTransit, with_camera
 from tests.bad_refiners import PASS, ROUND, leg, path
 from tests.path_scenes import assert_continuous, assert_sound
 

@@ -14,9 +14,9 @@ from shotc.geom.corridor import Room, Wall
 from shotc.geom.solids import Cylinder
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
-from shotc.passes.timed_route.moving import Moving
-from shotc.passes.timed_route.resting import FARTHEST, aside_of_what_passes
-from shotc.passes.timed_route.run_up import RunUp
+from shotc.planning.clock.moving import Moving
+from shotc.planning.clock.resting import FARTHEST, aside_of_what_passes
+from shotc.planning.clock.run_up import RunUp
 
 LIMITS = Limits(
     speed=8.0, climb=3.0, descent=2.0, acceleration=3.0, jerk=8.0, yaw_rate=1.0, yaw_acceleration=1.0

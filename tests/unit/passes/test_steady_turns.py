@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from shotc.passes.solve_path_qp.turns import steady
+from shotc.planning.path.turns import steady
 from tests.path_scenes import framed, free, legs, mission, planned, shot
 
 

@@ -13,9 +13,9 @@ from shotc.geom.bspline import restrict, subdivide
 from shotc.ir.path import PathIR, TimedLeg
 from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
-from shotc.passes.timed_route.aims import Looker
-from shotc.passes.timed_route.flights import flights
-from shotc.passes.timed_route.surroundings import surroundings
+from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.flights import flights
+from shotc.planning.clock.surroundings import surroundings
 
 HEAD = """\
 shotc: 1

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.passes.solve_path_qp.unwrapping import LONGEST, Known, Turning, shifts
+from shotc.planning.path.unwrapping import LONGEST, Known, Turning, shifts
 from shotc.solvers.headings import METHODS
 
 HOW = Turning("winding", 6.0, 1.0, 1.5)

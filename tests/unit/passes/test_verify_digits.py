@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.cli.certificate import certificate_text
+from shotc.ir.measures import told_apart
 from shotc.ir.mission import Promise
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import slack
-from shotc.passes.verify.numbers import told_apart
 from shotc.passes.verify.report import ENDING, RULES, STARTING, report
 from tests.records import replace
 from tests.samples import orbit_plan

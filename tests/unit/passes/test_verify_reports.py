@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from shotc.ir.measures import enough, measure
 from shotc.ir.origin import OriginMap
 from shotc.ir.path import CAM_PITCH
 from shotc.passes.verify import judge
-from shotc.passes.verify.numbers import enough, measure
 from shotc.source.file import Span
 from tests.records import replace
 from tests.tampered_plans import (

@@ -22,18 +22,18 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import Leg
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
-from shotc.passes.corridor.room import Rooms, rooms_of
-from shotc.passes.parameterize_time.estimate import leg_time
-from shotc.passes.solve_path_qp.departure import When, choose
-from shotc.passes.solve_path_qp.legs import Flight, Pose, way_to
-from shotc.passes.solve_path_qp.starts import CLOSE, SPARE, Reached, Trouble, put_off
-from shotc.passes.solve_path_qp.sweeps import with_sweeps
-from shotc.passes.timed_route.aims import Looker
-from shotc.passes.timed_route.moving import Moving
-from shotc.passes.timed_route.run_up import least_time, rest_to_rest
-from shotc.passes.timed_route.shot import TimedShot, Traffic, timed_shot
-from shotc.passes.timed_route.sights import Sights
 from shotc.passes.verify.advice import Rule, advice
+from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.departure import When, choose
+from shotc.planning.clock.moving import Moving
+from shotc.planning.clock.run_up import least_time, rest_to_rest
+from shotc.planning.clock.shot import TimedShot, Traffic, timed_shot
+from shotc.planning.clock.sights import Sights
+from shotc.planning.clock.starts import CLOSE, SPARE, Reached, Trouble, put_off
+from shotc.planning.clock.sweeps import with_sweeps
+from shotc.planning.obstacles import Rooms, rooms_of
+from shotc.planning.path.legs import Flight, Pose, way_to
+from shotc.planning.timing.estimate import leg_time
 from tests.front import placed
 
 EMPTY = Room((), (), ())
@@ -289,7 +289,7 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
 
     hovers = Moving("drone b", point((20.0, 0.0, 5.0)), 3.0, lambda t: np.zeros((len(t), 3)), always=True)
     straight, over = legs(here, there), legs(here, high, above, there)
-    lasts = sum(leg_time(mission, drone, leg) for leg in straight)
+    lasts = sum(leg_time(drone, leg) for leg in straight)
     way = choose(mission, drone, Traffic((hovers,), Sights()), [straight, over], When(0.0, lasts + 0.1))
     assert way is not None
     assert len(way.legs) == 3

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import Array, IntArray, Mask, quintic_hermite
+from shotc.plugin_api.refiner import Array, IntArray, Mask, quintic_hermite
 from shotc_casadi.clock.screens import Screen, covered
 from shotc_casadi.clock.wishes import ClockWishes
 

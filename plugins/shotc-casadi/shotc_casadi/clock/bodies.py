@@ -13,7 +13,7 @@ from math import sqrt
 
 import numpy as np
 
-from shotc.refiner_api import Array, Cylinder, Solid, Surroundings, bounded
+from shotc.plugin_api.refiner import Array, Cylinder, Solid, Surroundings, bounded
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.screens import ellipse
 from shotc_casadi.clock.symbols import BODY

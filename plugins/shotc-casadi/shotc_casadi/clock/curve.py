@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     BODY_YAW,
     CAM_PITCH,
     CAM_YAW,

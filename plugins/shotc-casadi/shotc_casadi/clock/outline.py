@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
-from shotc.refiner_api import View
+from shotc.plugin_api.refiner import View
 
 DEEP = 0.01  # of its distance, by which a subject counts as before the camera at least
 LEVEL = 0.003  # of its distance: a rim that is less above or below the camera is rounded off

@@ -10,7 +10,7 @@ from typing import Any
 
 import casadi as ca
 
-from shotc.refiner_api import View, viewpoint
+from shotc.plugin_api.refiner import View, viewpoint
 from shotc_casadi.clock.outline import outline
 from shotc_casadi.symbols import cut
 

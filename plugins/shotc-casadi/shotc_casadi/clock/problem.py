@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import Array, Planes
+from shotc.plugin_api.refiner import Array, Planes
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.several import angles, turning_room
 from shotc_casadi.clock.symbols import FIELDS, PLACED, PLANE, POINTS, SLACK, Sizes

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from shotc.refiner_api import Array
+from shotc.plugin_api.refiner import Array
 from shotc_casadi.clock.problem import ClockProblem
 from shotc_casadi.clock.symbols import POINTS, Sizes, derived
 from shotc_casadi.horizon import Solver

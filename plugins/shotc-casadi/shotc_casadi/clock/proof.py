@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
     Drone,

@@ -15,7 +15,7 @@ from shotc.plugin_api import (
     SolverState,
     unrefined,
 )
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     CALM,
     Deviation,
     TimedLeg,

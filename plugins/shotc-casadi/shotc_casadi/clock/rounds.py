@@ -10,7 +10,7 @@ from math import inf
 from typing import NamedTuple
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     Array,
     Mask,
     Planes,

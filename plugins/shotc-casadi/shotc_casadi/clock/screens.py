@@ -12,7 +12,7 @@ from math import isfinite, sqrt
 
 import numpy as np
 
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     Array,
     Cylinder,
     Mask,

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from shotc.plugin_api import MissionIR, Piecewise
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
     Array,

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.refiner_api import DroneTrajectory, TimedLeg, flights, others_of, seen
+from shotc.plugin_api.refiner import DroneTrajectory, TimedLeg, flights, others_of, seen
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.screens import screens_of
 from shotc_casadi.clock.wishes import ClockSubject

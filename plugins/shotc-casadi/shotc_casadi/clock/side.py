@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.plugin_api import Piecewise
-from shotc.refiner_api import CAM_YAW, Array, Planes, quintic_hermite
+from shotc.plugin_api.refiner import CAM_YAW, Array, Planes, quintic_hermite
 from shotc_casadi.clock.wishes import ClockSubject, ClockWishes
 
 NEAR = 0.35  # of the usual distance: passes over ground that are nearer are held to their side

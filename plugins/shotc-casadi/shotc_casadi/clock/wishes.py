@@ -9,7 +9,7 @@ from math import pi, tan
 import numpy as np
 
 from shotc.plugin_api import MissionIR, PathIR
-from shotc.refiner_api import (
+from shotc.plugin_api.refiner import (
     MOST_MOVED,
     UNWATCHED,
     Array,

@@ -9,9 +9,9 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.vec import minus
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.place_keyframes.candidates import Setting
 from shotc.passes.resolve.grammar.places import framing
 from shotc.passes.resolve.grammar.sight import begins
+from shotc.planning.framing.candidates import Setting
 
 EMPTY = 0.5  # seconds without its subject that a shot may have
 STEPS = 200  # places at which a shot is looked at

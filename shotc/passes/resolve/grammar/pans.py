@@ -11,11 +11,11 @@ from shotc.geom.pan import WINDOW, slowest, whose
 from shotc.geom.vec import minus
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.passes.place_keyframes import explicit_aim
-from shotc.passes.place_keyframes.turns import ROUNDING
 from shotc.passes.resolve.grammar.places import lasting
 from shotc.passes.resolve.grammar.sight import begins, sight
 from shotc.passes.resolve.timing import SLACK
+from shotc.planning.framing.placing import explicit_aim
+from shotc.planning.framing.turns import ROUNDING
 from shotc.rounding import at_least
 
 STEPS = 120  # pieces of such a shot at most

@@ -15,11 +15,12 @@ from shotc.geom.bernstein import Array
 from shotc.geom.proof import norm
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
+from shotc.ir.tolerances import AT_REST
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN
 from shotc.passes.verify.claims import TOLERANCE, Limit
 from shotc.passes.verify.fleets.flight import FleetFlight, of_drone
-from shotc.passes.verify.shape import AT_HOME, AT_REST, LARGEST, SHORTEST, first_few, gaps
+from shotc.passes.verify.shape import AT_HOME, LARGEST, SHORTEST, first_few, gaps
 
 
 def fleet_structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:

@@ -1,0 +1,190 @@
+"""Says which limits hold a leg back, where, and how far one of them alone would have to rise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
+from math import degrees
+
+import numpy as np
+
+from shotc.diag.model import Label
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import Leg, Mark
+from shotc.planning.timing.flown import usages
+from shotc.planning.timing.limits import Ceiling, ceiling_of
+from shotc.planning.timing.move import Move, axes_of
+from shotc.rounding import up
+from shotc.source.file import Span
+
+# A limit holds a piece back where at least this share of it is used.
+BINDING = 0.97
+# The path itself bends a little with the limits: what is named as enough leaves room for that.
+ROOM = 1.004
+# Raising a limit further than this is no advice; so many halvings find the least within that.
+HIGHEST = 4.0
+HALVINGS = 7
+
+
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    key: tuple[str, str]
+    words: str
+    unit: str
+    angular: bool = False
+
+
+_SHOWN = {
+    "speed": _Shown(("limits", "speed"), "speed", "m/s"),
+    "climb": _Shown(("limits", "climb"), "climb", "m/s"),
+    "descent": _Shown(("limits", "descent"), "descent", "m/s"),
+    "acceleration": _Shown(("limits", "acceleration"), "acceleration", "m/s^2"),
+    "jerk": _Shown(("limits", "jerk"), "jerk", "m/s^3"),
+    "yaw_rate": _Shown(("limits", "yaw_rate"), "yaw rate", "deg/s", True),
+    "yaw_acceleration": _Shown(("limits", "yaw_acceleration"), "yaw acceleration", "deg/s^2", True),
+    "gimbal_rate": _Shown(("gimbal", "rate"), "gimbal rate", "deg/s", True),
+    "gimbal_acceleration": _Shown(("gimbal", "acceleration"), "gimbal acceleration", "deg/s^2", True),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """The seconds between two neighbouring keyframes, and how long each limit binds in them.
+
+    where : which two, in words
+    """
+
+    where: str
+    seconds: float
+    held: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Holdup:
+    """What holds moves at full limits back.
+
+    stretches : those between keyframes where a limit binds, the slowest first
+    names : the limits that bind, the longest first
+    """
+
+    stretches: tuple[Stretch, ...]
+    names: tuple[str, ...]
+
+
+def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
+    """Return what holds the moves of a leg back."""
+    pieces = [_held(move, ceiling) for move in moves]
+    marks = sorted(leg.marks, key=lambda m: (m.s, m.index))
+    stretches = []
+    for a, b in pairwise(marks):
+        held: dict[str, float] = {}
+        seconds = 0.0
+        for middle, step, binds in pieces:
+            inside = (middle > a.s) & (middle < b.s)
+            seconds += float(step[inside].sum())
+            for name, where in binds.items():
+                held[name] = held.get(name, 0.0) + float(step[inside & where].sum())
+        stretches.append(Stretch(_where(marks, a, b), seconds, {n: t for n, t in held.items() if t > 0}))
+    total: dict[str, float] = {}
+    for stretch in stretches:
+        for name, time in stretch.held.items():
+            total[name] = total.get(name, 0.0) + time
+    names = tuple(sorted(total, key=lambda name: -total[name]))
+    bound = sorted((s for s in stretches if s.held), key=lambda s: -s.seconds)
+    return Holdup(tuple(bound), names)
+
+
+def _where(marks: Sequence[Mark], a: Mark, b: Mark) -> str:
+    """Return between which keyframes a stretch is, or, where nobody wrote them, which share of the way."""
+    if len({mark.path for mark in marks}) == len(marks):
+        return f"from keyframe {a.index + 1} to {b.index + 1}"
+    first, whole = marks[0].s, marks[-1].s - marks[0].s or 1.0
+    low, high = ((mark.s - first) / whole for mark in (a, b))
+    return f"from {low:.0%} to {high:.0%} of its way".replace("%", " %")
+
+
+def _held(move: Move, ceiling: Ceiling) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    profile = move.profile
+    limits = axes_of(move.path, (float(profile.s[0]), float(profile.s[-1])), ceiling)
+    held: dict[str, np.ndarray] = {}
+    for usage in usages(move.curve, limits):
+        held[usage.name] = held.get(usage.name, False) | (usage.share > BINDING)
+    return 0.5 * (profile.s[1:] + profile.s[:-1]), np.diff(profile.t), held
+
+
+def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str, ...]:
+    """Return up to three sentences on what holds the drone back and where."""
+    notes = []
+    for stretch in holdup.stretches[:3]:
+        longest = sorted(stretch.held, key=lambda name: -stretch.held[name])[:2]
+        binds = " and ".join(
+            f"{shown_limit(mission, drone, name)} for {stretch.held[name]:.1f} s" for name in longest
+        )
+        notes.append(f"{stretch.where} it takes {stretch.seconds:.1f} s, held back by {binds}")
+    return tuple(notes)
+
+
+def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[Label, ...]:
+    """Return labels on the lines of the limits that bind, at most two, and on the wind that lowers one."""
+    found: dict[Span, Label] = {}
+    for name in holdup.names[:2]:
+        label = mission.origins.value((*drone.path, *_SHOWN[name].key), _SHOWN[name].words)
+        before = found.get(label.span)
+        found[label.span] = (
+            label if before is None else before._replace(text=f"{before.text} and {label.text}")
+        )
+    labels = tuple(
+        label._replace(text=f"{label.text} bind{'' if ' and ' in label.text else 's'}")
+        for label in found.values()
+    )
+    if "speed" in holdup.names[:2] and mission.wind > 0:
+        labels += (mission.origins.value(("world", "wind"), "takes a part of the speed"),)
+    return labels
+
+
+def raises(
+    mission: MissionIR, drone: Drone, names: tuple[str, ...], enough: Callable[[Ceiling], bool]
+) -> list[str]:
+    """Return which of the named limits would do if it alone rose, and how far, as text."""
+    full = ceiling_of(drone)
+    found = []
+    for name in names:
+        factor = _least_factor(partial(_with, enough, full, name))
+        if factor is not None:
+            found.append(
+                f"raise `{'.'.join(_SHOWN[name].key)}` to {limit_text(mission, drone, name, factor)}"
+            )
+    return found
+
+
+def _with(enough: Callable[[Ceiling], bool], full: Ceiling, name: str, factor: float) -> bool:
+    return enough(replace(full, **{name: factor * getattr(full, name)}))
+
+
+def _least_factor(enough: Callable[[float], bool]) -> float | None:
+    low, high = 1.0, HIGHEST
+    if not enough(high):
+        return None
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if enough(middle) else (middle, high)
+    return high
+
+
+def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
+    """Return a limit with its name in words, and what the wind takes of it."""
+    wind = f" less {mission.wind:.2f} m/s of wind" if name == "speed" and mission.wind > 0 else ""
+    return f"{_SHOWN[name].words} {limit_text(mission, drone, name)}{wind}"
+
+
+def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:
+    """Return a limit as the mission writes it, times a factor and then rounded up."""
+    shown = _SHOWN[name]
+    value = factor * getattr(ceiling_of(drone), name)
+    value = degrees(value) if shown.angular else value
+    value += mission.wind if name == "speed" else 0.0
+    if factor != 1.0:
+        value = up(ROOM * value)
+    return f"{value:.2f} {shown.unit}"

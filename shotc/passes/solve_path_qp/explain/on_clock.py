@@ -1,0 +1,113 @@
+"""What a shot on its own clock could not do, told in the author's terms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.path import Deviation, from_what_was_asked
+from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
+from shotc.planning.obstacles import GROUND, named, owner_path
+from shotc.rounding import at_least, up
+
+TOLD = 5  # stretches of a shot that are told one by one
+SILENT = "rules: {mutual_visibility: {strength: off}}"
+
+
+def left_places(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Diagnostic, ...]:
+    """Warn, once a shot, of the stretches on which it leaves its place beside its target."""
+    every = from_what_was_asked(mission, deviations)
+    return tuple(
+        _left_place(mission, [d for d in every if d.shot == shot])
+        for shot in dict.fromkeys(d.shot for d in every)
+    )
+
+
+def _left_place(mission: MissionIR, stretches: list[Deviation]) -> Diagnostic:
+    worst = max(stretches, key=lambda d: d.distance)
+    shot = mission.shot(worst.shot)
+    labels: list[Label] = [mission.origins.value((*shot.path, "kind"))]
+    causes = []
+    for cause in dict.fromkeys(d.cause for d in (worst, *stretches)):
+        stands = cause == GROUND or cause.startswith(("zone ", "target ", "drone "))
+        if stands:
+            labels.append(mission.origins.key(owner_path(mission, cause), "what stands there"))
+        causes.append(named(cause) if stands else cause)
+    notes = [f"what stands against it: {', '.join(causes)}, and that it is flown smoothly"]
+    if len(stretches) > 1:
+        often = ", ".join(f"{d.distance:.2f} m at t = {d.s:.1f} s" for d in stretches[:TOLD])
+        more = f" and {len(stretches) - TOLD} more" if len(stretches) > TOLD else ""
+        notes.append(f"on {len(stretches)} stretches: {often}{more}")
+    return Diagnostic(
+        "M008",
+        f"shot `{shot.id}` leaves its place by {worst.distance:.2f} m at t = {worst.s:.1f} s",
+        tuple(labels),
+        tuple(notes),
+        "give the shot more room, or the drone higher limits"
+        + (f", or let drones be seen by `{SILENT}`" if PICTURES in causes else ""),
+    )
+
+
+def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagnostic:
+    """Say why a shot on its own clock has no motion."""
+    label = mission.origins.value((*shot.path, "kind"))
+    if trouble.missed is not None:
+        return _out_of_reach(mission, shot, trouble.missed)
+    if not trouble.lacks:
+        message = f"no motion was found for the {trouble.what} of shot `{shot.id}`"
+        notes: tuple[str, ...] = (f"the solver says: {trouble.status}",)
+        return Diagnostic("M009", message, (label,), notes, "give the shot more room or more time")
+    most = max(trouble.lacks, key=lambda pair: pair[1])
+    labels = (label, mission.origins.key(owner_path(mission, most[0]), "what is most in the way"))
+    notes = tuple(
+        f"{named(owner)} would have to give way by {at_least(lack)} m" for owner, lack in trouble.lacks
+    )
+    return Diagnostic(
+        "M009",
+        f"shot `{shot.id}` cannot be flown clear of {named(most[0])}",
+        labels,
+        notes,
+        "move the shot or what is in its way by so much",
+    )
+
+
+def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
+    """Say which keyframes the drone cannot pass at their times, and what would let it."""
+    keyframes = [shot.keyframes[a.keyframe] for a in missed.away] or list(shot.keyframes[:1])
+    blocked = [a for a in missed.away if a.owner is not None]
+    owners = dict.fromkeys(a.owner for a in missed.away if a.owner is not None)
+    labels = (
+        *(mission.origins.value((*k.path, "at")) for k in dict.fromkeys(keyframes)),
+        *(mission.origins.key(owner_path(mission, owner), "too near then") for owner in owners),
+    )
+    remedies = ["raise its `limits`", "move them nearer to the way of the target"]
+    if blocked:
+        remedies = [f"move {_these(blocked)} by so much", "give the shot another time"]
+    if missed.longer is not None:
+        lasts = up((shot.timing.duration or 0.0) * missed.longer, 1)
+        timed = any(k.time for k in shot.keyframes)
+        later = f", and every `time` {missed.longer:g} times as late" if timed else ""
+        remedies.insert(0, f"give the shot `duration: {lasts:.1f} s`{later}")
+    return Diagnostic(
+        "M015",
+        f"drone `{shot.drone}` cannot pass the keyframes of shot `{shot.id}` at their times",
+        labels,
+        tuple(map(_passed, missed.away)),
+        ", or ".join(remedies),
+    )
+
+
+def _passed(away: Away) -> str:
+    """Say how near a motion comes to a keyframe, and what is too near to it."""
+    text = f"the nearest motion is {at_least(away.distance)} m from keyframe {away.keyframe + 1} then"
+    if away.owner is None:
+        return text
+    return (
+        f"{text}: at t = {away.t:.1f} s its place is {at_least(away.lack)} m too near to {named(away.owner)}"
+    )
+
+
+def _these(blocked: list[Away]) -> str:
+    numbers = " and ".join(str(a.keyframe + 1) for a in sorted(blocked))
+    return f"keyframe {numbers}" if len(blocked) == 1 else f"keyframes {numbers}"

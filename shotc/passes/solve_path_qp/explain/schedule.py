@@ -1,0 +1,155 @@
+"""What stood in the way of a shot on the clock, or of the way to it, said in the mission's own terms."""
+
+from __future__ import annotations
+
+from math import dist
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.framed import at_start
+from shotc.ir.ideal import TO_CATCH_UP, ideal_place
+from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.passes.labels import phases_in_words, timing_label
+from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate
+from shotc.planning.obstacles import named, owner_path
+from shotc.rounding import at_least, down, plain, up
+
+ALONE = "or have the drone start nearer"
+WINDOW = 2.0  # seconds over which the speed of a place is told
+
+
+def outside_track(mission: MissionIR, shot: Shot, found: OutsideTrack) -> Diagnostic:
+    """Return M010: the drone is there so late that the track ends before the shot does."""
+    track = mission.target(found.target).track
+    until = 0.0 if track is None else track.until
+    end = found.start + (shot.timing.duration or 0.0)
+    labels = (
+        mission.origins.value((*shot.path, "id")),
+        mission.origins.value((*mission.target(found.target).path, "track"), "the track"),
+    )
+    short = _shortened(found)
+    remedy = f"give it {short}" if short else "give the track more rows"
+    later = "let its recording begin later by `begins`, " if _recorded(mission, shot) else ""
+    return Diagnostic(
+        "M010",
+        f"the track of `{found.target}` ends before shot `{shot.id}` does",
+        labels,
+        (
+            f"the drone is in place at {found.start:.1f} s at the earliest, so the shot ends at {end:.1f} s; "
+            f"the track ends at {until:.1f} s",
+        ),
+        f"{remedy}, {later}{ALONE}",
+    )
+
+
+def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
+    """Return T003: the drone is not there at the start of a shot of what moves on meanwhile."""
+    asked, short = shot.timing.start, found.outside
+    label = mission.origins.key(shot.path) if asked is None else timing_label(mission, shot.path, "start")
+    begins = "has no start" if asked is None else f"starts at {plain(asked)} s"
+    labels, told = [label], f"shot `{shot.id}` {begins}"
+    sum_up = f"{at_least(found.before[-1].end)} s, the last {found.run_up:.1f} s to come up to speed"
+    notes = [f"before it come {phases_in_words(found.before)}: {sum_up}"]
+    remedies = []
+    if found.earliest is not None:
+        message = f"{told}, but {at_least(found.earliest)} s is the earliest possible"
+        remedies.append(
+            f"give it `start: {at_least(found.earliest)} s`" + (" or later" if short is None else "")
+        )
+    elif short is not None:
+        message = f"{told}, and the track of `{short.target}` ends before its drone is there"
+    else:
+        message = f"{told}, and its drone does not catch up with what it films"
+        remedies += _catching_up(mission, shot, found.before[-1].end)
+    if short is not None:
+        path = mission.target(short.target).path
+        labels.append(mission.origins.value((*path, "track"), f"{short.left:.1f} s are left of it then"))
+        remedies = [f"{remedy} and {_shortened(short)}" for remedy in remedies]
+    if asked is not None:
+        remedies += _begun_later(mission, shot, asked, up(found.late))
+    remedies.append(f"shorten what comes before, {ALONE}")
+    return Diagnostic("T003", message, tuple(labels), tuple(notes), ", or ".join(remedies))
+
+
+def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
+    """Return the speed at which a slower drone catches up with a place that goes on as it does then."""
+    drone = mission.drone(shot.drone)
+    begun = at_start(mission, shot, time)
+    places = [ideal_place(mission, begun, time, time + t) for t in (0.0, WINDOW)]
+    speed = dist(places[0][:2], places[1][:2]) / WINDOW * TO_CATCH_UP
+    if speed <= drone.limits.speed:
+        return []
+    return [
+        f"raise `limits: {{speed: {at_least(speed + mission.wind, 1)} m/s}}` of `{drone.name}` "
+        "if it flies that"
+    ]
+
+
+def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -> Diagnostic:
+    """Return M011: every way to a shot, or back home where that is None, meets a target."""
+    met = found.met
+    if met.phase != "transit":
+        return _pad_met(mission, drone, found)
+    lead = "on its way home" if shot is None else f"on every way to shot `{shot.id}`"
+    where = (
+        mission.origins.value((*drone.path, "home"), "on the way back here")
+        if shot is None
+        else mission.origins.key(shot.path, "on the way to this shot")
+    )
+    remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
+    remedies.append(f"put `home` where {named(met.owner)} is not between it and the shots")
+    return Diagnostic(
+        "M011",
+        f"`{drone.name}` comes too near to {named(met.owner)} {lead}",
+        (where, mission.origins.key(owner_path(mission, met.owner), "is in the way")),
+        (
+            f"on the best of them its body is {at_least(met.lack)} m nearer than "
+            f"`target_clearance` allows, at t = {met.time:.1f} s",
+            "straight, round and over what is in the way were tried, and setting out at other times",
+        ),
+        ", or ".join(remedies),
+    )
+
+
+def _pad_met(mission: MissionIR, drone: Drone, found: Meets) -> Diagnostic:
+    """Return M013: a target is over the pad whenever the drone could take off from it, or land."""
+    met = found.met
+    target = next(t for t in mission.targets if met.owner == f"target {t.name}")
+    verb = "take off" if met.phase == "takeoff" else "land"
+    labels = (
+        mission.origins.value((*drone.path, "home")),
+        mission.origins.value((*target.path, "track"), "comes over the pad"),
+    )
+    notes = (
+        f"at t = {met.time:.1f} s the target reaches {at_least(met.lack)} m into the body, at the "
+        f"best of the times to {verb} that were tried",
+    )
+    away = at_least(target.radius + drone.radius + mission.rules.target_clearance)
+    remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
+    remedies.append(f"put `home` where the axis of `{target.name}` comes no nearer than {away} m")
+    message = f"`{drone.name}` cannot {verb} clear of target `{target.name}`"
+    return Diagnostic("M013", message, labels, notes, ", or ".join(remedies))
+
+
+def _shortened(found: OutsideTrack) -> str:
+    left = down(found.left, 1)
+    return f"`duration: {left:.1f} s` or less" if left > 0 else ""
+
+
+def _begun_later(mission: MissionIR, shot: Shot, asked: float, later: float) -> list[str]:
+    """Return what lets the recordings of a shot, and so all of its shots, begin later; empty without any."""
+    recorded = _recorded(mission, shot)
+    if not recorded:
+        return []
+    begins = " and ".join(f"`begins: {plain(first + later)} s` of `{name}`" for name, first in recorded)
+    shots = f"every shot of it as much later, this one at `start: {plain(asked + later)} s`"
+    return [f"let its track begin {plain(later)} s later, or more ({begins}), and {shots}"]
+
+
+def _recorded(mission: MissionIR, shot: Shot) -> list[tuple[str, float]]:
+    """Return the targets that move in a shot, and when their tracks begin; none unless all are recorded."""
+    names = {s.target for s in shot.subjects} or ({shot.subject} if shot.subject else set())
+    moving = [(mission.target(name), mission.target(name).track) for name in sorted(names)]
+    tracks = [(target, track) for target, track in moving if track is not None]
+    if any((*target.path, "track", "file") not in mission.origins.values for target, _ in tracks):
+        return []
+    return [(target.name, track.times[0]) for target, track in tracks]

@@ -1,0 +1,166 @@
+"""What a refiner reports of its solver: the words for every way in which it does not succeed.
+
+A refiner builds these from plain values and returns them beside the path. Each error labels the shot it
+is about, which is how the refine-path pass knows whose convex path to keep where the mission allows it.
+"""
+
+from __future__ import annotations
+
+from math import isfinite, radians
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.measures import measure
+from shotc.ir.origin import KeyPath
+from shotc.ir.path import Leg, PathIR, TimedLeg, filmed
+
+UNREFINED = "R014"
+EVERYTHING = "all constraints"
+NO_NUMBERS = "the solver left no numbers by which a place or a constraint could be told"
+NOTHING_BROKEN = (
+    "where it stopped no constraint is broken; it had not settled, so nothing there can be loosened"
+)
+STEEP = radians(80.0)  # pitch of a camera that is all but straight above or below what it films
+
+
+class SolverState(NamedTuple):
+    """Where the problem of one shot stood when its solver gave up.
+
+    shot, refiner, solver : their names
+    stage : index of the worst stage from 0, of ``stages`` intervals, None where nothing was broken or the
+        solver left no numbers; s : its path parameter in metres, or mission time of a shot on its own clock
+    time : seconds from the shot's first frame, None where the solver had none
+    constraint : what was worst, as people call it ("gimbal pitch rate", "zone tree"), empty where none is
+    excess : by how much it was broken, in ``unit``, in SI and radians; NaN where it is not known
+    limit : where the mission writes the limit down; its shot where empty
+    inner : whether the constraint is the solver's own, which no mission can loosen
+    """
+
+    shot: str
+    refiner: str
+    solver: str
+    stage: int | None
+    stages: int
+    s: float
+    time: float | None
+    constraint: str
+    excess: float
+    unit: str
+    limit: KeyPath = ()
+    inner: bool = False
+
+
+def solver_nan(path: PathIR, state: SolverState) -> Diagnostic:
+    """Return the error of a solver whose iterate is not a number; ``state`` is the last one that was."""
+    return Diagnostic(
+        "R010",
+        f"{_who(state)} reached values that are not numbers in shot `{state.shot}`",
+        _labels(path, state),
+        _notes(path, state),
+        "bring no keyframe straight above or below a target" if _steep(path, state.shot) else "",
+    )
+
+
+def stopped_early(path: PathIR, state: SolverState, after: str) -> Diagnostic:
+    """Return the error of a solver that stopped before it was done; after : e.g. "300 iterations"."""
+    return Diagnostic(
+        "R011",
+        f"{_who(state)} stopped after {after} in shot `{state.shot}`, before it had a path",
+        _labels(path, state),
+        _notes(path, state),
+        _help(path, state, "add a keyframe there"),
+    )
+
+
+def impossible(path: PathIR, state: SolverState) -> Diagnostic:
+    """Return the error of a problem in which constraints contradict one another near ``state``."""
+    return Diagnostic(
+        "R012",
+        f"{_who(state)} finds no path for shot `{state.shot}` that keeps {state.constraint or EVERYTHING}",
+        _labels(path, state),
+        _notes(path, state),
+        _help(path, state, "move the keyframes next to it"),
+    )
+
+
+def fallback(path: PathIR, shot: str, solvers: tuple[str, str], why: str) -> Diagnostic:
+    """Return the warning of a shot that a second solver had to solve.
+
+    solvers : the one that failed and the one used; why : the first one's word, e.g. "300 iterations"
+    """
+    first, second = solvers
+    return Diagnostic(
+        "R013",
+        f"shot `{shot}` was refined by {second}, since {first} did not converge",
+        (path.keyframes.mission.origins.key(path.keyframes.mission.shot(shot).path),),
+        (f"{first}: {why}",),
+        "the plan is proved as any other; it only took longer",
+    )
+
+
+def unrefined(path: PathIR, shot: str, why: str) -> Diagnostic:
+    """Return the warning of a shot that stays as it was; why : a clause, e.g. "no path is clear"."""
+    mission = path.keyframes.mission
+    return Diagnostic(
+        UNREFINED,
+        f"shot `{shot}` is not refined: {why}",
+        (mission.origins.key(mission.shot(shot).path, "flies its convex path"),),
+        (),
+        "the plan is proved as any other; only the framing between keyframes may be worse",
+    )
+
+
+def nearest_keyframe(leg: Leg, s: float) -> int | None:
+    """Return the index of the keyframe nearest to a path parameter, None where the leg has none."""
+    return min(leg.marks, key=lambda mark: abs(mark.s - s)).index if leg.marks else None
+
+
+def place(leg: Leg | TimedLeg, s: float) -> str:
+    """Write where on a leg something is."""
+    if isinstance(leg, TimedLeg):
+        return f"at t = {s:.2f} s of the mission"
+    near = nearest_keyframe(leg, s)
+    keyframe = "" if near is None else f", nearest keyframe {near + 1}"
+    return f"{s - leg.stops[0].s:.1f} m along the {leg.phase}{keyframe}"
+
+
+def _help(path: PathIR, state: SolverState, keyframes: str) -> str:
+    """Return what to change, if that is known; keyframes : of a shot that has any."""
+    if state.stage is None:
+        return ""
+    clocked = isinstance(filmed(path, state.shot), TimedLeg)
+    loosen = [] if state.inner or state.excess <= 0.0 else [f"loosen {state.constraint}"]
+    return ", or ".join([*loosen, *([] if clocked else [keyframes])])
+
+
+def _steep(path: PathIR, shot: str) -> bool:
+    """Tell whether a keyframe of a shot is all but straight above or below what it films."""
+    placed = next(p for p in path.keyframes.shots if p.shot.id == shot)
+    return any(abs(keyframe.pitch) > STEEP for keyframe in placed.keyframes)
+
+
+def _who(state: SolverState) -> str:
+    return f"{state.solver} of refiner `{state.refiner}`"
+
+
+def _labels(path: PathIR, state: SolverState) -> tuple[Label, ...]:
+    mission = path.keyframes.mission
+    first = mission.origins.key(mission.shot(state.shot).path, "this shot")
+    if not state.limit:
+        return (first,)
+    second = mission.origins.value(state.limit, f"{state.constraint} was worst")
+    return (first,) if second.span == first.span else (first, second)
+
+
+def _notes(path: PathIR, state: SolverState) -> tuple[str, ...]:
+    if state.stage is None:
+        if state.constraint:
+            return (f"where {state.constraint} is worst is not known",)
+        return (NOTHING_BROKEN if isfinite(state.excess) else NO_NUMBERS,)
+    time = "" if state.time is None else f", {state.time:.2f} s into the shot"
+    where = (
+        f"worst at stage {state.stage} of {state.stages}{time}, {place(filmed(path, state.shot), state.s)}"
+    )
+    if not isfinite(state.excess):
+        return (where, f"{state.constraint} was worst there, its excess is not a number")
+    return (where, f"{state.constraint} was broken by {measure(state.excess, state.unit)} there")

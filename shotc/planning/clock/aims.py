@@ -1,0 +1,134 @@
+"""Where a camera has to look for its subjects to be at their places on screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import View
+from shotc.geom.pieces import Mask
+from shotc.geom.track_array import places as track_places
+from shotc.ir.keyframes import PlacedShot, PlacedSubject
+from shotc.ir.mission import Drone, MissionIR
+from shotc.planning.clock.keyed import Keyed, keyed_of
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Looker:
+    """A drone that frames subjects, the first one foremost; none where it looks where it goes.
+
+    keyed : what its camera does instead, where keyframes tell it
+    """
+
+    mission: MissionIR
+    drone: Drone
+    subjects: tuple[PlacedSubject, ...]
+    keyed: Keyed | None = None
+
+    @property
+    def watches(self) -> bool:
+        """Whether the camera films anything that the author named."""
+        return bool(self.subjects) or self.keyed is not None
+
+    def hfov(self, times: Array) -> Array:
+        """Return its field of view at mission times (M,), rad."""
+        return np.full(len(times), self.drone.hfov) if self.keyed is None else self.keyed.hfov(times)
+
+
+def looker_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> Looker:
+    """Return who films a shot that is placed for its start, seconds."""
+    return Looker(mission, drone, placed.subjects, keyed_of(mission, drone, placed, start))
+
+
+ROUNDS = 12  # of Gauss and Newton, from a good first guess
+NUDGE = 1e-6  # rad
+VERTICAL = 1e-9  # share of a distance that is over ground: with less a ray has no yaw
+MOST = 0.2  # rad of a step
+
+
+def aims_at(looker: Looker, times: Array, places: Array) -> Array:
+    """Return the yaw and the pitch that put subjects in their places, from places (M, 3) at times (M,).
+
+    Where keyframes tell the shot they say it. Of several subjects with a place the squares of their distances
+    from it on screen are least, each counting alike.
+    Shape (M, 2), rad, not unwrapped.
+    """
+    if looker.keyed is not None:
+        return looker.keyed.aims(times, places)
+    mission, drone, subjects = looker.mission, looker.drone, looker.subjects
+    placed = [s for s in subjects if s.reference is not None] or list(subjects[:1])
+    each = np.stack([_aim(mission, drone, s, times, places) for s in placed])
+    if len(placed) == 1:
+        return np.asarray(each[0])
+    yaw = np.arctan2(np.sin(each[:, :, 0]).mean(axis=0), np.cos(each[:, :, 0]).mean(axis=0))
+    found = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
+    offsets = np.stack([_centres(mission, s, times) - places for s in placed])
+    wanted = np.array([s.reference or (0.0, 0.0) for s in placed])
+    for _ in range(ROUNDS):
+        here = _errors(drone, offsets, wanted, found)
+        slopes = np.stack(
+            [(_errors(drone, offsets, wanted, found + NUDGE * step) - here) / NUDGE for step in np.eye(2)],
+            axis=2,
+        )
+        normal = np.einsum("mri,mrj->mij", slopes, slopes) + 1e-9 * np.eye(2)
+        down = np.einsum("mri,mr->mi", slopes, here)
+        found = found - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST, MOST)
+    return found
+
+
+def _aim(mission: MissionIR, drone: Drone, subject: PlacedSubject, times: Array, places: Array) -> Array:
+    """Return the aim at one subject, shape (M, 2); where no camera has it there, that of the time before.
+
+    ``geom.camera.aim_at`` for many times at once.
+    """
+    offset = _centres(mission, subject, times) - places
+    half = np.tan(drone.hfov / 2)
+    u, v = subject.reference or (0.0, 0.0)
+    ray = np.array([u * half, v * half / drone.aspect, 1.0])  # right, up, forward
+    right, up, forward = ray / np.linalg.norm(ray)
+    length = np.linalg.norm(offset, axis=1)
+    reach, wanted = np.hypot(up, forward), offset[:, 2] / np.maximum(length, 1e-300)
+    lean = np.arctan2(up, forward)
+    rise = np.arctan2(wanted, np.sqrt(np.maximum(0.0, reach**2 - wanted**2)))
+    both = np.stack([rise - lean, np.pi - rise - lean])
+    both = np.arctan2(np.sin(both), np.cos(both))
+    pitch = np.where(np.abs(both[0]) <= np.abs(both[1]), both[0], both[1])
+    along = forward * np.cos(pitch) - up * np.sin(pitch)
+    yaw = np.arctan2(offset[:, 1], offset[:, 0]) + np.arctan2(right, along)
+    found = np.column_stack([np.arctan2(np.sin(yaw), np.cos(yaw)), pitch])
+    none = (length == 0.0) | (np.abs(wanted) > reach)
+    upright = ~none & (np.hypot(offset[:, 0], offset[:, 1]) < VERTICAL * length)
+    return _carried(found, none, upright)
+
+
+def _carried(found: Array, none: Mask, upright: Mask) -> Array:
+    """Return aims with what is missing from the time before: both angles, or the yaw straight up or down."""
+    for missing, columns in ((none, [0, 1]), (upright, [0])):
+        before = np.maximum.accumulate(np.where(missing, -1, np.arange(len(found))))
+        rows = np.flatnonzero(missing)
+        last = np.where(before[rows, None] < 0, 0.0, found[np.maximum(before[rows], 0)])
+        found[rows[:, None], columns] = last[:, columns]
+    return found
+
+
+def _centres(mission: MissionIR, subject: PlacedSubject, times: Array) -> Array:
+    target = mission.target(subject.target)
+    if target.track is None:
+        return np.tile(np.array(target.centre), (len(times), 1))
+    return np.asarray(track_places(target.track, times))
+
+
+def _errors(drone: Drone, offsets: Array, wanted: Array, aim: Array) -> Array:
+    """Return how far subjects are from their places on screen, shape (M, 2 K)."""
+    half = np.tan(drone.hfov / 2)
+    yaw, pitch = aim.T
+    camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)
+    found = []
+    for offset, uv in zip(offsets, wanted, strict=True):
+        x, y, z = offset.T
+        right, down, forward = camera.to_camera((x, y, z))
+        forward = np.maximum(forward, 0.1 * np.linalg.norm(offset, axis=1))
+        found += [right / (forward * half) - uv[0], -down / (forward * camera.half_height) - uv[1]]
+    return np.stack(found, axis=1)

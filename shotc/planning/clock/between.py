@@ -1,0 +1,127 @@
+"""The clearances of ways between shots, where a shot on its own clock is led into and out of its film."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.convex import distances
+from shotc.geom.corridor import STEEPER
+from shotc.geom.pieces import Mask
+from shotc.geom.taper import SLOPE, Taper
+from shotc.planning.clock.moving import Even, Moving, Sides, evened, relative_to, sides
+
+STEP = 0.05  # seconds between the places that are compared
+STAND = 1.0  # seconds that a drone stands at least where it has come from far, or leaves for there
+
+Span = tuple[float, float]
+"""Mission times of the first and the last filmed frame, seconds."""
+
+
+class Standing(NamedTuple):
+    """What passes a drone that stands, even meanwhile, and where it stands, shape (1, 6, 3)."""
+
+    motions: tuple[Even, ...]
+    stands: Array
+
+
+class Lack(NamedTuple):
+    """Metres by which a course is nearer than is needed: to what the mission writes down, and to anything."""
+
+    required: float
+    any: float
+
+
+def lacking(motions: Sequence[Even], course: Piecewise, span: Span) -> Lack:
+    """Return by how much the ways into and out of a film lack the clearances of ways between shots."""
+    into, out = lacking_each(motions, course, span)
+    return Lack(max(into.required, out.required), max(into.any, out.any))
+
+
+def lacking_each(motions: Sequence[Even], course: Piecewise, span: Span) -> tuple[Lack, Lack]:
+    """Return the same of the way into a film, and of that out of it."""
+    into, out = (
+        _lack(motions, course, film, times) for film, times in zip(span, _times(course, span), strict=True)
+    )
+    return into, out
+
+
+def _lack(motions: Sequence[Even], course: Piecewise, film: float, times: Array) -> Lack:
+    places, worst = course(np.clip(times, course.start, course.end))[:, :3], Lack(0.0, 0.0)
+    for motion in motions:
+        taper = _taper(motion.what, course, film, SLOPE)
+        if taper is None:
+            continue
+        beside = places - motion.what.at(times)
+        lack = float((taper.needs(beside) - distances(motion.what.part, beside)).max(initial=0.0))
+        worst = Lack(max(worst.required, lack if motion.what.required else 0.0), max(worst.any, lack))
+    return worst
+
+
+def sides_apart(motions: Sequence[Even], course: Piecewise, span: Span) -> Sides:
+    """Put planes between the pieces before and after a film and what is near, at the clearances there."""
+    found = sides(widened(motions, course, span), course.ctrl[:, :, :3])
+    unfilmed = ~_filmed(course, span)[found.piece]
+    return Sides(found.piece[unfilmed], found.normal[unfilmed], found.offset[unfilmed], found.owner[unfilmed])
+
+
+def widened(motions: Sequence[Even], course: Piecewise, span: Span) -> tuple[Even, ...]:
+    """Return motions with the clearances that are kept on the pieces of a course before and after a film."""
+    filmed = _filmed(course, span)
+    before = course.breaks[:-1] < span[0]
+    return tuple(_widened(motion, course, (span, filmed, before)) for motion in motions)
+
+
+def standing_apart(motions: Sequence[Even], course: Piecewise, span: Span) -> tuple[Standing, Standing]:
+    """Return what passes while the drone stands where such ways begin and end, and the clearances from it."""
+    begin, end = float(course.start), float(course.end)
+    found = []
+    for film, window, place in (
+        (span[0], (begin - STAND, begin), course.ctrl[0, 0, :3]),
+        (span[1], (end, end + STAND), course.ctrl[-1, -1, :3]),
+    ):
+        stands = np.tile(place, (1, 6, 1))
+        evens = (evened(motion.what, np.array(window)) for motion in motions)
+        found.append(Standing(tuple(_standing(even, course, film, stands) for even in evens), stands))
+    return found[0], found[1]
+
+
+def _standing(motion: Even, course: Piecewise, film: float, stands: Array) -> Even:
+    taper = _taper(motion.what, course, film, STEEPER * SLOPE)
+    if taper is None:
+        return motion
+    return replace(motion, wide=np.maximum(taper.needs(relative_to(motion, stands)), motion.what.clearance))
+
+
+def _widened(motion: Even, course: Piecewise, parts: tuple[Span, Mask, Mask]) -> Even:
+    span, filmed, before = parts
+    what, points = motion.what, course.ctrl[:, :, :3]
+    relative, wide = relative_to(motion, points), np.full(points.shape[:2], what.clearance)
+    for film, which in ((span[0], ~filmed & before), (span[1], ~filmed & ~before)):
+        taper = _taper(what, course, film, STEEPER * SLOPE)
+        if taper is not None and which.any():
+            wide[which] = np.maximum(taper.needs(relative[which]), what.clearance)
+    return replace(motion, wide=wide)
+
+
+def _taper(what: Moving, course: Piecewise, film: float, slope: float) -> Taper | None:
+    """Return what is needed beside a film that begins or ends at a time; None where that is nothing more."""
+    if what.apart <= what.clearance:
+        return None
+    at = np.array([film])
+    end = course(at)[:, :3] - what.at(at)
+    return Taper(what.apart, slope, end, distances(what.part, end))
+
+
+def _times(course: Piecewise, span: Span) -> tuple[Array, Array]:
+    begin, end = float(course.start) - STAND, float(course.end) + STAND
+    return np.append(np.arange(begin, span[0], STEP), span[0]), np.append(np.arange(span[1], end, STEP), end)
+
+
+def _filmed(course: Piecewise, span: Span) -> Mask:
+    middle = 0.5 * (course.breaks[:-1] + course.breaks[1:])
+    return np.asarray((middle > span[0]) & (middle < span[1]))

@@ -1,0 +1,182 @@
+"""Where the camera looks and the body heads: as near to its subjects as the gimbal and the body turn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import Rows, control_rows, count, energy_rows, hull_rows, spline, value_rows
+from shotc.geom.vec import Vec2
+from shotc.ir.mission import Drone
+from shotc.planning.clock.aims import Looker, aims_at
+from shotc.planning.clock.bounds import NEARLY, at_rest
+from shotc.planning.clock.clock import Clock
+from shotc.planning.clock.position import UNSEEN
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
+from shotc.solvers.spline_qp import minimise
+
+SAMPLES = 4  # of the aim, a piece
+FAINT = 1e-2  # weight of the aim beyond the film's ends, against that in the film
+SMOOTH = (0.12, 0.12, 0.6)  # seconds below which wiggles of the camera's yaw, its pitch and the body vanish
+FOLLOW = 0.05  # weight of the body's wish against the camera's aim
+LEVEL = 0.5  # m/s below which a motion has no course
+UNIT = 1e-4  # rad^2 s: what the cost of turning is measured in, for one of 0.1 rad is a large one
+YAW, PITCH, BODY = range(3)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Turned:
+    """Camera yaw, pitch and body yaw over mission time, or None and the solver's word."""
+
+    curve: Piecewise | None
+    status: Status
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Watch:
+    """Whose camera turns, and how.
+
+    kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the looker's subjects
+    course : (yaw, pitch) that it is to have at times (M,), shape (M, 2), unwrapped, where somebody has found
+        them already
+    ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
+    """
+
+    looker: Looker
+    kept: Vec2 | None = None
+    ends: Array | None = None
+    course: Callable[[Array], Array] | None = None
+
+
+def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
+    """Return the camera's angles along a position curve."""
+    drone = watch.looker.drone
+    breaks = clock.breaks
+    inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
+    rows = value_rows(breaks, times)
+    aims = _aims(watch, times, position)
+    step = np.diff(breaks)[rows.piece] / SAMPLES
+    filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT) * step
+    across = np.maximum(np.cos(aims[:, 1]), 0.03)
+    wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
+    weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
+    goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(clock)
+    problem = SplineProblem(count(breaks), goals, _ends(watch, breaks), _bounds(drone, breaks), ())
+    solved = minimise(problem, UNIT)
+    if solved.coef is None:
+        return Turned(None, solved.status)
+    coef = solved.coef.copy()
+    if drone.body == "follow-camera":
+        coef[:, BODY] = coef[:, YAW]
+    return Turned(spline(breaks, coef), solved.status)
+
+
+def _ends(watch: Watch, breaks: Array) -> Equalities:
+    """Return the rest at both ends, and the angles there where they are given."""
+    rest = at_rest(breaks)
+    still = np.zeros((len(rest.piece), 3))
+    if watch.ends is None:
+        return Equalities(rest, still)
+    values = control_rows(breaks)
+    rows = Rows(
+        np.concatenate([rest.piece, values.piece[[0, -1]]]),
+        np.concatenate([rest.weight, values.weight[[0, -1]]]),
+    )
+    return Equalities(rows, np.concatenate([still, watch.ends]))
+
+
+def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
+    """Return the yaw and the pitch that put the subjects in their places, unwrapped; shape (M, 2)."""
+    if watch.kept is not None:
+        return np.tile(np.array(watch.kept), (len(times), 1))
+    if watch.course is not None:
+        return watch.course(times)
+    if not watch.looker.watches:
+        yaw = _motion(position.derivative()(times)[:, :2])
+        return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])
+    found = aims_at(watch.looker, times, position(times)[:, :3])
+    low, high = watch.looker.drone.gimbal.pitch
+    return np.column_stack([_wound(watch, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
+
+
+def _wound(watch: Watch, yaw: Array) -> Array:
+    """Return a yaw by whole turns on the winding of the angle that it begins in, if one is given."""
+    if watch.ends is None:
+        return yaw
+    return np.asarray(yaw + 2 * np.pi * np.round((watch.ends[0, YAW] - yaw[0]) / (2 * np.pi)))
+
+
+def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Array:
+    """Return where the body would head, within what the gimbal reaches from there."""
+    if drone.body != "forward":
+        return yaw
+    course = _motion(position.derivative()(times)[:, :2])
+    low, high = drone.gimbal.yaw
+    relative = np.unwrap(yaw - course)
+    # Most of the time counts: at its ends a slow motion may go any way.
+    relative -= 2 * np.pi * np.round((np.median(relative) - 0.5 * (low + high)) / (2 * np.pi))
+    return np.asarray(yaw - np.clip(relative, low, high))
+
+
+def _motion(velocity: Array) -> Array:
+    """Return the course of a motion, unwrapped; while it hardly moves, that of the nearest time it did."""
+    moves = np.flatnonzero(np.linalg.norm(velocity, axis=1) >= LEVEL)
+    if not len(moves):
+        return np.full(len(velocity), np.pi / 2)
+    course = np.unwrap(np.arctan2(velocity[moves, 1], velocity[moves, 0]))
+    return np.asarray(np.interp(np.arange(len(velocity)), moves, course))
+
+
+def _goals(rows: Rows, root: Array, wanted: Array) -> tuple[Goal, ...]:
+    """Return one goal a channel, weighted by the squares of ``root``, shape (M, 3)."""
+    goals = []
+    for channel in range(3):
+        value = np.zeros_like(wanted)
+        value[:, channel] = root[:, channel] * wanted[:, channel]
+        goals.append(Goal(_scaled(rows, root[:, channel]), value, (channel,)))
+    return tuple(goals)
+
+
+def _smooth(clock: Clock) -> tuple[Goal, ...]:
+    energy = energy_rows(clock.breaks, 3)
+    none = np.zeros((len(energy.piece), 3))
+    gentle = np.sqrt(np.where(clock.filmed, 1.0, UNSEEN))[energy.piece]
+    return tuple(Goal(_scaled(energy, s**3 * gentle), none, (c,)) for c, s in enumerate(SMOOTH))
+
+
+def _bounds(drone: Drone, breaks: Array) -> tuple[Floors, ...]:
+    """Return the ranges, rates and accelerations of gimbal and body as half-spaces of control points."""
+    limits, gimbal = drone.limits, drone.gimbal
+    found = []
+
+    def keep(order: int, along: tuple[float, float, float], low: float, high: float) -> None:
+        rows = hull_rows(breaks, order)
+        number = len(rows.piece)
+        normal = np.tile(np.array(along), (number, 1))
+        owner = np.zeros(number, dtype=np.intp)
+        found.append(Floors(rows, normal, np.full(number, low), owner))
+        found.append(Floors(rows, -normal, np.full(number, -high), owner))
+
+    keep(0, (0.0, 1.0, 0.0), *gimbal.pitch)
+    for order, body, axis in (
+        (1, limits.yaw_rate, gimbal.rate),
+        (2, limits.yaw_acceleration, gimbal.acceleration),
+    ):
+        keep(order, (0.0, 1.0, 0.0), -NEARLY * axis, NEARLY * axis)
+        if drone.body == "follow-camera":
+            keep(order, (1.0, 0.0, 0.0), -NEARLY * body, NEARLY * body)
+            continue
+        keep(order, (0.0, 0.0, 1.0), -NEARLY * body, NEARLY * body)
+        keep(order, (1.0, 0.0, -1.0), -NEARLY * axis, NEARLY * axis)
+    if drone.body != "follow-camera":
+        keep(0, (1.0, 0.0, -1.0), *gimbal.yaw)
+    return tuple(found)
+
+
+def _scaled(rows: Rows, factor: Array) -> Rows:
+    return Rows(rows.piece, rows.weight * factor[:, None])

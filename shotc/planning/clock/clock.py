@@ -1,0 +1,75 @@
+"""The knots of a shot on its own clock: a way into its motion, the film, and a way out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
+from shotc.ir.keyed import arrivals, is_keyed
+from shotc.ir.mission import Shot
+from shotc.planning.clock.run_up import RunUp
+
+PIECE = 0.5  # seconds of a piece of the spline, of a shot that is not very long
+FEWEST, MOST = 16, 240  # pieces of the film
+FINE = 0.4  # seconds of a piece of a way into the film or out of it
+LEAST = 5  # pieces of such a way: fewer are not as quick as its time allows
+PARTS = 4  # pieces at least from a keyframe to the next, so that a smooth way bends between them
+ROUNDING = 1e-9  # seconds
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Clock:
+    """Knots over mission time.
+
+    breaks : shape (P + 1,), seconds; start, end : of the film, two of them
+    """
+
+    breaks: Array
+    start: float
+    end: float
+
+    @property
+    def filmed(self) -> Mask:
+        """Whether each piece belongs to the film, shape (P,)."""
+        middle = 0.5 * (self.breaks[:-1] + self.breaks[1:])
+        return np.asarray((middle > self.start) & (middle < self.end))
+
+
+def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp]) -> Clock:
+    """Return the knots of a shot whose first frame is at ``start``, with the ways into and out of it."""
+    duration = shot.timing.duration or 0.0
+    end = start + duration
+    pieces = int(min(MOST, max(FEWEST, ceil(duration / PIECE))))
+    before, after = (way.seconds for way in ways)
+    first, last = (max(LEAST, ceil(seconds / FINE)) for seconds in (before, after))
+    breaks = np.concatenate(
+        [
+            np.linspace(start - before, start, first + 1)[:-1],
+            _filmed(shot, start, duration / pieces)
+            if is_keyed(shot)
+            else np.linspace(start, end, pieces + 1),
+            np.linspace(end, end + after, last + 1)[1:],
+        ]
+    )
+    return Clock(breaks, start, end)
+
+
+def _filmed(shot: Shot, start: float, step: float) -> Array:
+    """Return the knots of a film told by keyframes: each is reached and left at one of them.
+
+    step : seconds of a piece where there is no reason for a shorter one
+    """
+    duration = shot.timing.duration or 0.0
+    stops = [(t, t + k.hold) for t, k in zip(arrivals(shot), shot.keyframes, strict=True)]
+    ends = sorted({0.0, duration, *(min(t, duration) for stop in stops for t in stop)})
+    kept = ends[:1] + [b for a, b in pairwise(ends) if b - a > ROUNDING]
+    kept[-1] = duration
+    knots = [
+        start + np.linspace(a, b, max(PARTS, ceil((b - a) / step)), endpoint=False) for a, b in pairwise(kept)
+    ]
+    return np.append(np.concatenate(knots), start + duration)

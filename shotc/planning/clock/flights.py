@@ -1,0 +1,83 @@
+"""The flights of drones on the mission's clock, as the time pass will fly their legs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import Leg, PathIR, TimedLeg, TimedPath
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.timing.estimate import leg_motion
+from shotc.planning.timing.flight import Flight
+from shotc.planning.timing.profile import Profile
+
+LATE = 1e-6  # seconds
+
+
+def flights(path: PathIR) -> dict[str, DroneTrajectory]:
+    """Return the flights of the drones of a path on the clock, by name; one has no others."""
+    return {} if len(path.timed) < 2 else _all(path)
+
+
+def _all(path: PathIR) -> dict[str, DroneTrajectory]:
+    ends: dict[str, float] = {}
+    return {flown.drone: flight(path.keyframes.mission, flown, ends) for flown in path.timed}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FlownShot:
+    """A shot on a path as the time pass flies it in a mission with a clock.
+
+    start : mission time of its first frame, seconds
+    profile : its path parameter over seconds from the start; curve : channels CHANNELS over mission time
+    """
+
+    start: float
+    profile: Profile
+    curve: Piecewise
+
+    def times(self, s: Array) -> Array:
+        """Return the mission times at which places on the path are first reached; s, times : shape (M,)."""
+        return np.array([self.start + self.profile.arrival(float(at)) for at in s])
+
+
+def flown_shot(path: PathIR, shot: str) -> FlownShot:
+    """Return a shot on a path of a drone on the mission's clock, timed; KeyError where there is none."""
+    for flown in path.timed:
+        leg = next((leg for leg in flown.legs if leg.shot == shot and isinstance(leg, Leg)), None)
+        if leg is not None:
+            mission = path.keyframes.mission
+            motion = leg_motion(mission.drone(flown.drone), leg)
+            phase = next(p for p in _all(path)[flown.drone].phases if p.shot == shot)
+            assert motion is not None
+            over = Piecewise(phase.start + motion.curve.breaks, motion.curve.ctrl)
+            return FlownShot(phase.start, motion.profile, over)
+    raise KeyError(shot)
+
+
+def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> DroneTrajectory:
+    """Return a drone's flight as the time pass will fly it, up to a shot that it would be late for.
+
+    ends : of the shots of drones before it, by id, seconds; its own are added
+    """
+    drone, made = mission.drone(flown.drone), Flight(flown.drone)
+    after = {shot.id: shot.timing.after for shot in mission.shots}
+    for leg in flown.legs:
+        if isinstance(leg, TimedLeg):
+            if made.clock > leg.curve.start + LATE:
+                break
+            made.wait(float(leg.curve.start), leg.pose)
+            made.film(leg)
+            ends[leg.shot] = leg.end
+            continue
+        motion = leg_motion(drone, leg)
+        waited = ends.get(after.get(leg.shot or "") or "", 0.0)
+        made.wait(max(made.clock, leg.start or 0.0, waited), leg.pose)
+        if motion is not None:
+            made.fly(leg, motion)
+        if leg.shot is not None:
+            ends[leg.shot] = made.clock
+    return made.trajectory()

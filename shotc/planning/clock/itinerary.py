@@ -1,0 +1,390 @@
+"""The legs of a drone that films something on its own clock: each shot is planned for when it is flown.
+
+A shot of a moving target has to know its first frame's time before it can be planned, so the legs before
+it are timed here as the time pass will time them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import partial
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Piecewise
+from shotc.ir.keyed import carriers
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg, TimedPath
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.departure import Then, Way, When, choose
+from shotc.planning.clock.detours import Meanwhile, Transit, ways_home, ways_to
+from shotc.planning.clock.flights import flight
+from shotc.planning.clock.run_up import lead_in, way_time
+from shotc.planning.clock.shot import (
+    ASKED,
+    FROM_AFAR,
+    LESS,
+    Ask,
+    NoMotion,
+    Traffic,
+    aside,
+    timed_shot,
+)
+from shotc.planning.clock.starts import (
+    Meets,
+    OutsideTrack,
+    Reached,
+    TooLate,
+    Trouble,
+    inside,
+    outside,
+    put_off,
+)
+from shotc.planning.path.legs import (
+    Flight,
+    Pose,
+    end_of,
+    shot_leg,
+    take_off,
+    turned,
+    turns_to,
+    way_home,
+    way_to,
+)
+from shotc.planning.path.shots import Failure, ShotCurve
+from shotc.planning.timing.estimate import leg_time
+from shotc.rounding import up
+
+LATER = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
+"""Seconds that a shot may begin later, for a motion or a way to it."""
+LATE = 1e-6  # seconds
+SLIGHT = 0.02  # metres
+AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
+
+
+class _State(NamedTuple):
+    """How far a drone's legs are planned: what an itinerary holds, by the same names."""
+
+    legs: tuple[Leg | TimedLeg, ...]
+    clock: float
+    deviations: tuple[Deviation, ...]
+    stats: tuple[tuple[str, float | str], ...]
+    ends: dict[str, float]
+    last: _Last | None
+    room: float
+
+
+class _Last(NamedTuple):
+    """The last shot, where it is on its own clock: its start, and the state before it."""
+
+    placed: PlacedShot
+    start: float
+    before: _State
+
+
+@dataclass(slots=True)
+class Itinerary:
+    """The legs of one drone while they grow, and the clock at their end.
+
+    ends : of the shots of drones planned before, by id; this drone's are added
+    last : its last shot; room : least distance beyond a clearance on the last way, metres
+    """
+
+    mission: MissionIR
+    flight: Flight
+    traffic: Traffic
+    ends: dict[str, float]
+    legs: list[Leg | TimedLeg] = field(default_factory=list)
+    clock: float = 0.0
+    deviations: list[Deviation] = field(default_factory=list)
+    stats: list[tuple[str, float | str]] = field(default_factory=list)
+    last: _Last | None = None
+    room: float = inf
+
+    @property
+    def drone(self) -> Drone:
+        """Who flies."""
+        return self.flight.drone
+
+    def film(self, shot: ShotCurve | PlacedShot) -> Trouble | None:
+        """Add a shot and the way to it."""
+        add = partial(self._path, shot) if isinstance(shot, ShotCurve) else partial(self._timed, shot)
+        return self._leaving(add)
+
+    def home(self) -> Trouble | None:
+        """Add the way home."""
+        return self._leaving(self._home)
+
+    def _leaving(self, add: Callable[[], Trouble | None]) -> Trouble | None:
+        """Add what follows the last shot, which ends aside where something is met then, if that helps."""
+        before = self._state()
+        found = add()
+        if not isinstance(found, Meets) and self.room >= 0.0:
+            return found
+        planned = self._state()
+        self._restore(before)
+        if self._ended_aside():
+            again = add()
+            if again is None and self.room >= 0.0:
+                return None
+        self._restore(planned)
+        return found
+
+    def _ended_aside(self) -> bool:
+        """Plan the last shot again, so that it ends where nothing passes; tell whether that can be."""
+        if self.last is None:
+            return False
+        placed, start, before = self.last
+        self._restore(before)
+        for begins in (False, True):
+            reached = self._reached_as(placed, start, aside(begins, True))
+            if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE:
+                self._add(placed, reached)
+                return True
+        return False
+
+    def _state(self) -> _State:
+        lists = tuple(self.legs), self.clock, tuple(self.deviations), tuple(self.stats)
+        return _State(*lists, dict(self.ends), self.last, self.room)
+
+    def _restore(self, state: _State) -> None:
+        self.legs, self.clock = list(state.legs), state.clock
+        self.deviations, self.stats = list(state.deviations), list(state.stats)
+        self.last, self.room = state.last, state.room
+        self.ends.clear()
+        self.ends.update(state.ends)
+
+    def _home(self) -> Trouble | None:
+        pose = end_of(self.legs)
+        back = way_home(self.flight, pose)
+        if not isinstance(back, list):
+            return back
+        ways = ways_home(self.flight, pose, back, self._meanwhile(back, None))
+        stays = max(self.ends.values(), default=0.0)
+        way = choose(self.mission, self.drone, self.traffic, ways, When(self.clock, stays=stays))
+        assert way is not None
+        if way.met is not None:
+            return Meets(way.met)
+        self._take(way)
+        return None
+
+    def track(self) -> DroneTrajectory:
+        """Return the drone's flight as far as it is planned, as the time pass will fly it."""
+        return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
+
+    def _meanwhile(self, direct: list[Leg], due: float | None) -> Meanwhile:
+        """Return what goes on while a drone is on its way.
+
+        direct : legs that take about as long; due : when the drone has to be there, if it has to
+        """
+        until = due
+        if until is None:
+            until = self.clock + AMPLE * sum(leg_time(self.drone, leg) for leg in direct)
+        return Meanwhile(self.traffic, (self.clock, max(self.clock, until)))
+
+    def _path(self, shot: ShotCurve) -> Trouble | None:
+        timing = shot.shot.shot.timing
+        ready = max(timing.start or 0.0, self.ends.get(timing.after or "", 0.0))
+        way = self._way(shot.pose, shot, timing.start, ready)
+        if not isinstance(way, Way):
+            return way
+        if way.met is not None:
+            return Meets(way.met)
+        pose = end_of(way.legs) if way.legs else end_of(self.legs)
+        placed = turned(self.drone, shot, pose)
+        self._take(way)
+        leg = shot_leg(placed)
+        self.clock = max(self.clock, ready)
+        self.legs.append(leg)
+        self.clock += leg_time(self.drone, leg)
+        self.ends[shot.shot.shot.id] = self.clock
+        self.last = None
+        return None
+
+    def _way(
+        self, goal: Pose, shot: ShotCurve | PlacedShot, due: float | None, ready: float = 0.0
+    ) -> Way | Failure:
+        """Return the unfilmed legs from here, or from the pad, to a shot's first pose.
+
+        due : when the drone has to be there, if it has to; ready : when a shot on a path may begin
+        """
+        lift = [] if self.legs else [take_off(self.flight, goal)]
+        pose = end_of(lift or self.legs)
+        path = (shot.shot.shot if isinstance(shot, ShotCurve) else shot.shot).path
+        near, then = _near(goal, pose), None
+        if isinstance(shot, ShotCurve):
+            placed = turned(self.drone, shot, pose)
+            near, then = placed.pose, Then(shot_leg(placed), ready)
+        direct = way_to(self.flight, pose, near, path)
+        if not isinstance(direct, list):
+            return direct
+
+        wanted = Transit(self.mission, self.flight, pose, near, path)
+        ways = ways_to(wanted, (lift, goal), direct, self._meanwhile([*lift, *direct], due))
+        found = choose(self.mission, self.drone, self.traffic, ways, When(self.clock, due), then)
+        assert found is not None
+        return found
+
+    def _timed(self, placed: PlacedShot) -> Trouble | None:
+        shot = placed.shot
+        fixed = shot.timing.start
+        if fixed is None:
+            ready = self.ends.get(shot.timing.after or "", 0.0)
+            before = lead_in(self.mission, self.drone, shot, self.clock).seconds
+            start = inside(
+                self.mission, self.flight.room, placed, max(ready, self.clock + before, self._since(placed))
+            )
+            reached = self._put_off(placed, start)
+            if isinstance(reached, Reached):
+                begins = reached.shot.leg.start
+                later = inside(self.mission, self.flight.room, placed, begins)
+                reached = self._put_off(placed, later) if later > begins else reached
+            elif isinstance(reached, NoMotion):
+                reached = self._later(placed, start) or reached
+        else:
+            reached = self._reached(placed, fixed)
+        if not isinstance(reached, Reached):
+            return reached
+        trouble = self._late(placed, reached)
+        if trouble is not None:
+            return trouble
+        if not reached.way.clear and (fixed is None or reached.way.met is not None):
+            freer = self._later(placed, reached.shot.leg.start)
+            if fixed is None:
+                reached = freer or reached
+            if reached.way.met is not None:
+                return Meets(reached.way.met, None if freer is None else freer.shot.leg.start)
+        self._add(placed, reached)
+        return None
+
+    def _add(self, placed: PlacedShot, reached: Reached) -> None:
+        """Add a shot on its own clock with the way to it."""
+        self.last = _Last(placed, reached.shot.leg.start, self._state())
+        self._take(reached.way)
+        leg = _shifted(reached.shot.leg, turns_to(reached.shot.leg.pose, end_of(self.legs)))
+        self.legs.append(leg)
+        self.clock = float(leg.curve.end)
+        self.ends[placed.shot.id] = leg.end
+        self.deviations += reached.shot.deviations
+        self.stats += reached.shot.stats
+
+    def _late(self, placed: PlacedShot, reached: Reached) -> Trouble | None:
+        """Return what is wrong with when a shot is reached, or with how long it can last then."""
+        start, fixed = reached.shot.leg.start, placed.shot.timing.start
+        if reached.late <= LATE:
+            return outside(self.mission, placed, start)
+        if fixed is None:
+            return self._too_late(reached, reached, None)
+        first = self._put_off(placed, up(fixed))
+        if isinstance(first, OutsideTrack):
+            return self._too_late(reached, reached, first)
+        if not isinstance(first, Reached):
+            return first
+        short = outside(self.mission, placed, first.shot.leg.start) if first.late <= LATE else None
+        return self._too_late(reached, first, short)
+
+    def _too_late(self, asked: Reached, first: Reached, short: OutsideTrack | None) -> TooLate:
+        """Return by how much a shot is late.
+
+        first : the same shot at the first start at which it is not, or the last that was tried
+        """
+        leg, there = first.shot.leg, first.late <= LATE
+        path = TimedPath(self.drone.name, (*self.legs, *first.way.legs, leg))
+        before = [p for p in flight(self.mission, path, dict(self.ends)).phases if p.end <= leg.start + LATE]
+        if not there:
+            before[-1] = replace(before[-1], end=leg.start + first.late)
+        run_up = leg.start - float(leg.curve.start)
+        return TooLate(asked.late, leg.start if there else None, short, tuple(before), run_up)
+
+    def _later(self, placed: PlacedShot, start: float) -> Reached | None:
+        """Return the first of some later starts to which there is a way on which nothing is met."""
+        for more in LATER:
+            reached = self._reached(placed, start + more)
+            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear:
+                return reached
+        return None
+
+    def _reached(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+        """Plan a shot for a start, and the way to it.
+
+        Where every way to where it begins comes too near to a target, it begins aside or farther off, if that
+        helps; where the ways into the film or out of it lack the clearances of ways between shots, these lead
+        aside.
+        """
+        short = outside(self.mission, placed, start)
+        if short is not None:
+            return short
+        near = self._reached_as(placed, start, ASKED)
+        if not isinstance(near, Reached):
+            return near
+        into, out = (lack > SLIGHT for lack in near.shot.lacks)
+        tries = (aside(True, out), FROM_AFAR) if near.way.met else (aside(into, out),) if into or out else ()
+        for asked in tries:
+            far = self._reached_as(placed, start, asked)
+            if isinstance(far, Reached) and _better(far, near):
+                return far
+        return near
+
+    def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | Trouble:
+        """Plan the same with what is asked of where the shot begins and ends."""
+        looker = Looker(self.mission, self.drone, placed.subjects)
+        made = timed_shot(looker, (self.flight.rooms, self.traffic), placed, start, asked)
+        if isinstance(made, NoMotion):
+            return made
+        begins = float(made.leg.curve.start)
+        way = self._way(made.leg.pose, placed, begins)
+        return Reached(made, way, way.end - begins) if isinstance(way, Way) else way
+
+    def _put_off(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+        """Plan a shot for the first start, from one on, at which the drone is there."""
+        return put_off(self.mission, self._reached, placed, start, self._about(placed))
+
+    def _about(self, placed: PlacedShot) -> Callable[[float], float]:
+        """Return by how many seconds the drone is late for a start of a shot, if it flies straight there."""
+        shot, limits = placed.shot, self.drone.limits
+        here, ready = np.array(end_of(self.legs)[:3] if self.legs else self.flight.top), self.clock
+        if not self.legs:
+            ready += way_time(limits, here - np.array(self.drone.home))
+
+        def about(start: float) -> float:
+            before = lead_in(self.mission, self.drone, shot, start)
+            return ready + way_time(limits, before.rest - here) - (start - before.seconds)
+
+        return about
+
+    def _since(self, placed: PlacedShot) -> float:
+        tracks = (self.mission.target(name).track for name in carriers(placed.shot))
+        return max((track.since for track in tracks if track is not None), default=0.0)
+
+    def _take(self, way: Way) -> None:
+        self.room = way.room
+        self.legs += way.legs
+        self.clock = way.end
+
+
+def _better(far: Reached, near: Reached) -> bool:
+    """Tell whether a shot whose ends lead elsewhere is better than one whose ways are in trouble."""
+    if far.way.met is not None or far.late > max(0.0, near.late):
+        return False
+    return near.way.met is not None or (
+        max(far.shot.lacks) < LESS * max(near.shot.lacks) and far.shot.off <= near.shot.off + SLIGHT
+    )
+
+
+def _near(goal: Pose, pose: Pose) -> Pose:
+    shift, near = turns_to(goal, pose), list(goal)
+    near[CAM_YAW] += shift
+    near[BODY_YAW] += shift
+    return tuple(near)
+
+
+def _shifted(leg: TimedLeg, turns: float) -> TimedLeg:
+    ctrl = leg.curve.ctrl.copy()
+    ctrl[:, :, CAM_YAW] += turns
+    ctrl[:, :, BODY_YAW] += turns
+    return replace(leg, curve=Piecewise(leg.curve.breaks, ctrl))

@@ -1,0 +1,216 @@
+"""What a shot is flown clear of: targets and drones that move, and everything that stands.
+
+On each piece of a spline its motion is taken as even; by how much it leaves that is added to the
+clearance, so that a plane beside the even motion keeps clear of the true one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.convex import separate, support
+from shotc.geom.corridor import MARGIN, six
+from shotc.geom.pieces import Mask
+from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.track_array import places
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.transits import from_target
+from shotc.planning.corridor import points_of
+from shotc.planning.obstacles import Rooms
+from shotc.solvers.spline_problem import Floors
+
+SAMPLES = 8  # a piece, at which motion is compared with even motion
+REACH = 4.0  # metres beyond its clearance within which something that moves counts
+TOUCH = 1e-3  # metres by which a proved piece may seem too near
+COMFORT = 0.3  # metres kept beyond a clearance where there is room
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """A convex solid about the origin of a motion, kept ``clearance`` metres away from.
+
+    owner : as in geom.corridor; at : places p_W (M, 3) at times (M,)
+    always : whether it is kept away from while a drone rises from its pad or sinks to it, too
+    apart : the clearance on ways between shots, metres; required : whether the mission writes that down
+    """
+
+    owner: str
+    part: Solid
+    clearance: float
+    at: Callable[[Array], Array]
+    always: bool = False
+    apart: float = 0.0
+    required: bool = False
+
+
+def standing(rooms: Rooms) -> tuple[Moving, ...]:
+    """Return the obstacles of rooms, as motions that stay where they are."""
+    return tuple(
+        Moving(o.owner, o.part, o.clearance, _nowhere, apart=w.clearance, required=o.owner in rooms.required)
+        for o, w in zip(rooms.flight.obstacles, rooms.transit.obstacles, strict=True)
+    )
+
+
+def _nowhere(times: Array) -> Array:
+    return np.zeros((len(times), 3))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Even:
+    """A motion made even on each piece: its ends (P, 2, 3), and how far the true one strays (P,).
+
+    wide : the clearance at each control point of the pieces, (P, 6), where it is not that of all phases
+    """
+
+    what: Moving
+    ends: Array
+    stray: Array
+    wide: Array | None = None
+
+    @property
+    def needs(self) -> Array:
+        """What is needed of the distance at the control points of the pieces, shape (P, 6), metres."""
+        clearance = np.full((len(self.stray), 6), self.what.clearance) if self.wide is None else self.wide
+        return np.asarray(clearance + self.stray[:, None])
+
+
+def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
+    """Return the targets that move, each a cylinder about its centre."""
+    clearance = drone.radius + mission.rules.target_clearance
+    found = []
+    for target in mission.targets:
+        if target.track is not None:
+            half = target.height / 2
+            name, part = f"target {target.name}", Cylinder((0.0, 0.0), target.radius, -half, half)
+            kept = from_target(mission, target.name)
+            apart = clearance if kept is None else drone.radius + kept.metres + MARGIN
+            required = kept is not None and kept.required
+            at = partial(places, target.track)
+            found.append(Moving(name, part, clearance, at, apart=apart, required=required))
+    return tuple(found)
+
+
+def evened(what: Moving, breaks: Array) -> Even:
+    """Make a motion even on the pieces between breaks."""
+    share = np.linspace(0.0, 1.0, SAMPLES + 1)
+    times = breaks[:-1, None] + np.diff(breaks)[:, None] * share
+    at = what.at(times.ravel()).reshape(*times.shape, 3)
+    ends = at[:, [0, -1]]
+    even = ends[:, :1] + share[:, None] * (ends[:, 1:] - ends[:, :1])
+    # A track may have a corner between two samples: at most its neighbours' distance from the line.
+    stray = np.linalg.norm(at - even, axis=2).max(axis=1)
+    return Even(what, ends, 1.2 * stray)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sides:
+    """Half-spaces for the control points of pieces, relative to a motion: n . (p - even) >= offset.
+
+    piece : shape (R,); normal : (R, 3); offset : (R, 6), for each of a piece's six points, in W
+    owner : shape (R,), index of the motion
+    """
+
+    piece: IntArray
+    normal: Array
+    offset: Array
+    owner: IntArray
+
+
+def sides(motions: Sequence[Even], hulls: Array) -> Sides:
+    """Put a plane between every piece and everything that comes near it.
+
+    hulls : shape (P, m, 3), points whose hull holds each piece, evenly in time from its start to its end
+    Where a run of pieces comes too near, all of them pass on one side.
+    """
+    rows = []
+    for index, motion in enumerate(motions):
+        relative = relative_to(motion, hulls)
+        need = motion.needs
+        normal, gap = separate(motion.what.part, relative)
+        slack = _slack(motion, relative, normal, gap)
+        for run in _runs(slack < -TOUCH):
+            normal[run] = _way_round(motion.what.part, relative[run], need[run].max(axis=1))
+            gap[run] = -_push(motion.what.part, relative[run], np.zeros(len(run)), normal[run])
+        slack = _slack(motion, relative, normal, gap)
+        near = np.flatnonzero(slack < REACH)
+        if not len(near):
+            continue
+        points = np.einsum("nmd,nd->nm", relative[near], normal[near]).min(axis=1)
+        keep = need[near] + np.minimum(COMFORT, 0.5 * np.maximum(slack[near], 0.0))[:, None]
+        border = (points - gap[near])[:, None] + keep
+        even = np.linspace(0.0, 1.0, 6)[None, :, None]
+        carried = motion.ends[near][:, :1] + even * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
+        offset = border + np.einsum("nmd,nd->nm", carried, normal[near])
+        rows.append((near, normal[near], offset, np.full(len(near), index)))
+    if not rows:
+        none = np.zeros(0, dtype=np.intp)
+        return Sides(none, np.zeros((0, 3)), np.zeros((0, 6)), none)
+    pieces, normals, offsets, owners = zip(*rows, strict=True)
+    return Sides(*map(np.concatenate, (pieces, normals, offsets, owners)))
+
+
+def floors_of(breaks: Array, beside: Sides, first: int) -> Floors:
+    """Return the half-spaces as rows of a programme; first : index of the first motion among the owners."""
+    normal, owner = np.repeat(beside.normal, 6, axis=0), first + np.repeat(beside.owner, 6)
+    return Floors(points_of(breaks, beside.piece), normal, beside.offset.ravel(), owner)
+
+
+def _slack(motion: Even, relative: Array, normal: Array, gap: Array) -> Array:
+    """Return by how much pieces are farther away than is needed, as planes with these normals tell, (P,)."""
+    if motion.wide is None:
+        return np.asarray(gap - motion.needs[:, 0])
+    along = np.einsum("pmd,pd->pm", relative, normal)
+    border = along.min(axis=1) - gap
+    points = np.einsum("pmd,pd->pm", six(relative), normal)
+    return np.asarray((points - border[:, None] - motion.needs).min(axis=1))
+
+
+def shortfalls(motions: Sequence[Even], hulls: Array) -> Array:
+    """Return by how much each piece fails to prove its clearances, metres; shape (P,), <= 0 is proved."""
+    worst = np.full(len(hulls), -np.inf)
+    for motion in motions:
+        _, gap = separate(motion.what.part, relative_to(motion, hulls))
+        worst = np.maximum(worst, motion.what.clearance + motion.stray - gap)
+    return worst
+
+
+def relative_to(motion: Even, hulls: Array) -> Array:
+    """Return hulls (P, m, 3), evenly in time over their pieces, as a motion sees them."""
+    share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
+    return np.asarray(hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1])))
+
+
+def _runs(too_near: Mask) -> list[IntArray]:
+    """Return the pieces that are too near, in runs without a gap of more than one piece."""
+    found = np.flatnonzero(too_near)
+    if not len(found):
+        return []
+    return np.split(found, np.flatnonzero(np.diff(found) > 2) + 1)
+
+
+def _way_round(part: Solid, relative: Array, need: Array) -> Array:
+    """Return the direction in which a run of pieces is pushed out of a solid by the least, shape (3,).
+
+    Over it, or to either side of the way past it.
+    """
+    way = relative[-1, -1] - relative[0, 0]
+    across = np.array([-way[1], way[0], 0.0])
+    if np.linalg.norm(across) < 1e-6:
+        across = np.array([1.0, 0.0, 0.0])
+    across /= np.linalg.norm(across)
+    options = [across, -across, np.array([0.0, 0.0, 1.0])]
+    costs = [float(np.maximum(_push(part, relative, need, n), 0.0).sum()) for n in options]
+    return options[int(np.argmin(costs))]
+
+
+def _push(part: Solid, relative: Array, need: Array, normal: Array) -> Array:
+    """Return by how much pieces have to be moved along a direction to be clear; negative is clear."""
+    n = np.broadcast_to(normal, (len(relative), 3))
+    reach = np.einsum("pmd,pd->pm", relative, n).min(axis=1)
+    return np.asarray(support(part, n) + need - reach)

@@ -1,0 +1,32 @@
+"""The other drones, as what a drone keeps away from: in flight, and on their pads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+
+import numpy as np
+
+from shotc.geom.solids import point
+from shotc.ir.bodies import flying, standing_at
+from shotc.ir.mission import MissionIR
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.clock.moving import Moving
+
+POINT = point((0.0, 0.0, 0.0))
+
+
+def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTrajectory]) -> tuple[Moving, ...]:
+    """Return every drone but one that films something; those that do not are part of the room.
+
+    flights : by drone, of those that are planned; the others count as standing on their pads
+    """
+    parked = {drone.name for drone in mission.parked}
+    found = []
+    for drone in mission.drones:
+        if drone.name == name or drone.name in parked:
+            continue
+        flight = flights.get(drone.name)
+        at = partial(standing_at, np.array(drone.home)) if flight is None else partial(flying, flight.curve)
+        found.append(Moving(f"drone {drone.name}", POINT, mission.rules.separation, at, always=True))
+    return tuple(found)

@@ -1,0 +1,42 @@
+"""How far the drones of a path are out of each other's pictures, sampled: for whoever changes a path."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+
+from shotc.geom.framing import Cameras
+from shotc.geom.sight import off_axis, outside
+from shotc.ir.bodies import flying
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathIR
+from shotc.planning.clock.flights import flights
+
+STEP = 0.1  # seconds between the pictures that are looked at
+
+
+def least_out(path: PathIR) -> float:
+    """Return how far a drone is out of the picture of one that films at worst; negative inside.
+
+    Metres, or, where the rules keep a cone free, radians out of that; infinite where nobody looks.
+    """
+    mission = path.keyframes.mission
+    rules, found, least = mission.rules, flights(path), inf
+    if rules.visibility == "off":
+        return inf
+    for name, flight in found.items():
+        for phase in (p for p in flight.phases if p.shot is not None):
+            times = np.append(np.arange(phase.start, phase.end, STEP), phase.end)
+            pose = flight.curve(times)
+            aspect = mission.drone(name).aspect
+            cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)
+            for other, seen in found.items():
+                if other == name:
+                    continue
+                places, radius = flying(seen.curve, times), mission.drone(other).radius
+                if rules.half_angle is None:
+                    least = min(least, float(outside(cameras, places, radius).min()))
+                else:
+                    away = off_axis(cameras, places, radius) - rules.half_angle
+                    least = min(least, float(away.min()))
+    return least

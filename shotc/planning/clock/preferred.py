@@ -1,0 +1,71 @@
+"""What it may cost a shot that drones are only preferred to keep out of each other's pictures.
+
+By ``ir.preference`` it moves a camera by at most a share of its distance to whom it films, and crops nobody
+whom the shot would show whole. Where that does not free the pictures the shot stays as it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.framing import Cameras, frames
+from shotc.geom.pieces import Mask
+from shotc.geom.track_array import places as track_places
+from shotc.ir.bodies import cylinder
+from shotc.ir.mission import Target
+from shotc.ir.preference import MOST_MOVED, UNWATCHED
+from shotc.planning.clock.aims import Looker, aims_at
+
+STEP = 0.1  # seconds between the moments that are looked at
+
+
+@dataclass(frozen=True, slots=True)
+class Cost:
+    """What a preference takes from a shot, where it takes the largest share of what it may.
+
+    moved : metres from the place without it; share : the same over the distance from whom it films
+    crops : whether somebody is cropped whom the shot would show whole
+    """
+
+    moved: float
+    share: float
+    crops: bool
+
+    @property
+    def little(self) -> bool:
+        """Whether the rule allows it."""
+        return self.share <= MOST_MOVED and not self.crops
+
+
+def cost(looker: Looker, span: tuple[float, float], plain: Piecewise, freer: Piecewise) -> Cost:
+    """Return what a course that keeps pictures free costs against the plain one.
+
+    span : of the film, seconds
+    """
+    times = np.linspace(*span, max(2, round((span[1] - span[0]) / STEP)) + 1)
+    before, after = plain(times)[:, :3], freer(times)[:, :3]
+    targets = [looker.mission.target(s.target) for s in looker.subjects]
+    far = [np.linalg.norm(_places(target, times) - before, axis=1) for target in targets]
+    away = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
+    moved = np.linalg.norm(after - before, axis=1)
+    share = moved / np.maximum(away, STEP)
+    k = int(share.argmax())
+    crops = any((_whole(looker, t, times, before) & ~_whole(looker, t, times, after)).any() for t in targets)
+    return Cost(float(moved[k]), float(share[k]), bool(crops))
+
+
+def _whole(looker: Looker, target: Target, times: Array, places: Array) -> Mask:
+    """Tell when a target is whole in the frame of a camera that looks where it has to, (M,)."""
+    aims = aims_at(looker, times, places)
+    still = places - _places(target, times) + np.array(target.centre)
+    cameras = Cameras(still, aims[:, 0], aims[:, 1], looker.hfov(times), looker.drone.aspect)
+    return np.asarray(frames(cameras, cylinder(target)).in_frame)
+
+
+def _places(target: Target, times: Array) -> Array:
+    if target.track is None:
+        return np.tile(np.array(target.centre), (len(times), 1))
+    return np.asarray(track_places(target.track, times))

@@ -1,0 +1,45 @@
+"""Where a drone rests before a film or after it so that nothing passes it there for long.
+
+A way into a film goes straight on, and so does one out of it: beside a subject that follows the camera, both
+begin or end where the subject is some seconds earlier or later. Where no way leads to such a place, or away
+from it, the drone rests aside of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.convex import distances
+from shotc.geom.corridor import MARGIN, Room, bounds_slack
+from shotc.geom.directions import directions
+from shotc.planning.clock.moving import COMFORT, Moving
+
+LONG = 20.0  # seconds before a film, or after it, for which nothing comes near
+STEP = 0.1  # seconds between the moments that are looked at
+FARTHEST, RING = 15.0, 1.0  # metres aside that are tried, and from one ring of places to the next
+TURNS = 16  # places on a ring
+RISES = (0.0, 0.5, 1.0)  # rad by which they lie over the place, besides straight up
+
+
+def aside_of_what_passes(near: Sequence[Moving], room: Room, rest: Array, span: tuple[float, float]) -> Array:
+    """Return the shortest of some shifts of a place to one where nothing passes; none where there is none.
+
+    near : what stands and what moves; room : what the drone is held to
+    rest : W, shape (3,), metres; span : from when to when, mission time, seconds
+    """
+    times = np.arange(span[0], span[1] + STEP, STEP)
+    tracks = [(what, what.at(times)) for what in near]
+    for ring in np.arange(0.0, FARTHEST + RING, RING):
+        shifts = ring * directions(TURNS, RISES) if ring else np.zeros((1, 3))
+        places = rest + shifts
+        fine = bounds_slack(room, places) >= MARGIN
+        for what, at in tracks:
+            needs = max(what.apart, what.clearance) + COMFORT
+            away = distances(what.part, (places[:, None] - at[None]).reshape(-1, 3))
+            fine &= away.reshape(len(places), -1).min(axis=1) >= needs
+        if fine.any():
+            return np.asarray(shifts[int(fine.argmax())])
+    return np.zeros(3)

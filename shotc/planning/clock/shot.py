@@ -1,0 +1,320 @@
+"""A shot on its own clock, planned: its leg from rest to rest, and how far it leaves its ideal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.convex import distances
+from shotc.geom.corridor import Room, breaches
+from shotc.geom.runs import worst_of_runs
+from shotc.ir.ideal import ideal_place
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.mission import Drone, Shot
+from shotc.ir.path import LIMITS, Deviation, FramingSpan, TimedLeg
+from shotc.ir.preference import noted
+from shotc.planning.clock.aims import Looker, looker_of
+from shotc.planning.clock.between import lacking_each
+from shotc.planning.clock.bounds import bounds_of
+from shotc.planning.clock.camera import Watch, turn
+from shotc.planning.clock.clock import Clock, clock_of
+from shotc.planning.clock.ideals import ideal_places
+from shotc.planning.clock.keyed import marks_of
+from shotc.planning.clock.moving import Moving, evened, standing
+from shotc.planning.clock.position import Flown, Task, fly, held_where_it_rests, standing_by
+from shotc.planning.clock.resting import LONG, aside_of_what_passes
+from shotc.planning.clock.run_up import RunUp, run_ups
+from shotc.planning.clock.sights import Sights
+from shotc.planning.framing.moments import placed_at, slowed
+from shotc.planning.obstacles import Rooms
+from shotc.solvers.conic import Status
+
+LESS = 0.8  # of what a motion leaves its place, with which another is better
+FAR = 5.0  # metres off the ideal, which are not worth where a drone rests, even if something else may hold it
+NOTICE = 0.5  # metres off the ideal that are worth telling
+LEFT = 0.1  # metres off that belong to a stretch worth telling
+LONGER = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
+ON_PLACE = 1e-3  # metres
+SETTLES = 2  # times that a place aside is looked for
+STEP = 0.1  # seconds between the places that are compared with the ideal
+PICTURES = "the pictures of other drones"
+
+
+class Ask(NamedTuple):
+    """What is asked of the ends of a motion.
+
+    stand : seconds that the drone may stand there; longer : times as long as need be that the ways into the
+    film and out of it take; aside : whether it rests where nothing passes, before the film and after it
+    """
+
+    stand: float
+    longer: float
+    aside: tuple[bool, bool] = (False, False)
+
+
+ASKED = (Ask(3.0, 1.0), Ask(1.0, 1.0), Ask(0.0, 1.0), Ask(0.0, 2.0))
+"""The first with which there is a motion is taken."""
+FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
+"""The same where no way leads to where such a motion begins: it begins farther off."""
+
+
+def aside(before: bool, after: bool) -> tuple[Ask, ...]:
+    """Return the same where the drone rests aside of what passes, before the film or after it or both."""
+    return tuple(
+        Ask(stand, longer, (before, after)) for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0))
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Traffic:
+    """What goes on around a shot: what moves, and whose pictures count."""
+
+    moving: tuple[Moving, ...]
+    sights: Sights
+
+
+Around = tuple[Rooms, Traffic]
+"""What stands around a shot, and what moves."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimedShot:
+    """A planned shot, what of its ideal was given up, and what the solvers reported.
+
+    off : metres that it leaves its ideal by at most
+    lacks : metres by which the ways into the film and out of it lack the clearances of ways between shots
+    """
+
+    leg: TimedLeg
+    deviations: tuple[Deviation, ...]
+    stats: tuple[tuple[str, float | str], ...]
+    off: float
+    lacks: tuple[float, float]
+
+
+class Away(NamedTuple):
+    """How far the motion nearest to its shot's way passes a keyframe, metres, and when.
+
+    keyframe : its index
+    owner : of what is too near to its place then, if anything is; lack : by how much, metres
+    """
+
+    keyframe: int
+    distance: float
+    t: float
+    owner: str | None
+    lack: float
+
+
+@dataclass(frozen=True, slots=True)
+class Missed:
+    """Keyframes that a drone cannot pass at their times.
+
+    away : the farthest first
+    longer : times as long that the shot and its keyframes' times would do, or None where none was found
+    """
+
+    away: tuple[Away, ...]
+    longer: float | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NoMotion:
+    """Why a shot has no motion: the solver's word, and by how much each owner would have to give way.
+
+    missed : which keyframes are out of reach, where that is why
+    """
+
+    status: Status
+    lacks: tuple[tuple[str, float], ...]
+    what: str = "position"
+    missed: Missed | None = None
+
+
+def timed_shot(
+    looker: Looker, around: Around, placed: PlacedShot, start: float, asked: tuple[Ask, ...] = ASKED
+) -> TimedShot | NoMotion:
+    """Return the motion of a shot whose first frame is at mission time ``start``.
+
+    asked : what is asked of its ends, the first with which there is a motion
+
+    Where it begins and ends nothing passes for some seconds before and after, if that can be, so that a drone
+    that comes or leaves has time to. The ways to and from there are held to what passes by themselves.
+    """
+    mission, drone = looker.mission, looker.drone
+    placed = placed_at(mission, placed, start)
+    task, flown, away = _flown(looker_of(mission, drone, placed, start), around, placed.shot, start, asked)
+    shot, looker, clock = task.shot, task.looker, task.clock
+    if flown.curve is None:
+        missed = _missed(task, around, placed, start) if task.bound else None
+        return NoMotion(flown.status, _lacks(task, flown), missed=missed)
+    kept = None if shot.ideal is None else shot.ideal.aim
+    turned = turn(Watch(looker, kept), clock, flown.curve)
+    if turned.curve is None:
+        return NoMotion(turned.status, (), "camera")
+    lens = _lens(looker, clock)
+    curve = Piecewise(clock.breaks, np.concatenate([flown.curve.ctrl, turned.curve.ctrl, lens], axis=2))
+    keyed, marks = looker.keyed, marks_of(placed, start)
+    framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.spans()
+    leg = TimedLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, marks)
+    stats: tuple[tuple[str, float | str], ...] = (
+        (f"{shot.id}.pieces", float(len(curve.ctrl))),
+        (f"{shot.id}.qp_objective", flown.objective),
+        (f"{shot.id}.qp_rounds", float(flown.rounds)),
+        (f"{shot.id}.qp_status", str(flown.status)),
+        *(() if flown.given_up is None else noted(shot.id, flown.given_up)),
+    )
+    lacks = lacking_each(task.motions, flown.curve, (clock.start, clock.end))
+    deviations = _deviations(task, flown, away)
+    return TimedShot(leg, deviations, stats, float(away.max()), (lacks[0].any, lacks[1].any))
+
+
+def _flown(
+    looker: Looker, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
+) -> tuple[Task, Flown, Array]:
+    """Return the first motion of some for which ever less is asked, or the last one that was not found.
+
+    The last value is as ``_away`` returns, empty where there is no motion.
+
+    What is asked of the ends is not to move the film: one that leaves its place gives way to one that does so
+    much less.
+    """
+    best: tuple[Task, Flown, Array] | None = None
+    for ask in asked:
+        task = _task(looker, around, shot, start, ask)
+        flown = fly(task)
+        if flown.curve is None:
+            continue
+        away = _away(task, flown.curve)
+        off = away.max()
+        if best is None or off < LESS * best[2].max():
+            best = (task, flown, away)
+        if off <= NOTICE or (off <= FAR and not held_where_it_rests(task, flown.curve)):
+            break
+    return best or (task, flown, np.zeros(0))
+
+
+def _task(looker: Looker, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
+    """Return what is to be flown, from where to where so much is asked."""
+    rooms, traffic = around
+    near = (*standing(rooms), *traffic.moving)
+    ways = _ways(looker, shot, start, ask, (near, rooms.flight))
+    clock = clock_of(shot, start, ways)
+    motions = tuple(evened(m, clock.breaks) for m in near)
+    passing = standing_by(near, clock.breaks, ask.stand)
+    bound = bounds_of(looker.mission, shot, start)
+    return Task(looker, shot, clock, ways, rooms.flight, motions, passing, traffic.sights, bound)
+
+
+def _ways(
+    looker: Looker, shot: Shot, start: float, ask: Ask, around: tuple[tuple[Moving, ...], Room]
+) -> tuple[RunUp, RunUp]:
+    """Return the ways into a film and out of it; around : what stands and moves, and the room."""
+    end = start + (shot.timing.duration or 0.0)
+    before, after = (way.lasting(ask.longer) for way in run_ups(looker.mission, looker.drone, shot, start))
+    if ask.aside[0]:
+        before = _led(before, -1.0, start, around, looker.drone)
+    if ask.aside[1]:
+        after = _led(after, 1.0, end, around, looker.drone)
+    return before, after
+
+
+def _led(
+    way: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], Room], drone: Drone
+) -> RunUp:
+    """Return a way before a film, sign -1, or after it, 1, that leads aside of what passes where it rests."""
+    led = way
+    for _ in range(SETTLES):  # farther aside takes longer, and the film's motion leads on meanwhile
+        rest = film + sign * led.seconds
+        straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
+        # What would pass there while the drone is on its way would meet it on its way.
+        span = (rest - LONG, film) if sign < 0.0 else (film, rest + LONG)
+        led = way.led(aside_of_what_passes(*around, straight, span), drone.limits)
+    return led
+
+
+def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Missed | None:
+    """Return which keyframes are out of reach, or None where the shot cannot be flown without them either."""
+    free = fly(replace(task, free=True)).curve
+    if free is None:
+        return None
+    away = []
+    for b in task.bound:
+        place = np.array(b.place)
+        owner, lack = _in_the_way(task, place, b.start) or (None, 0.0)
+        away.append(Away(b.index, float(np.linalg.norm(free(b.start) - place)), b.start, owner, lack))
+    far = tuple(sorted((a for a in away if a.distance > ON_PLACE), key=lambda a: -a.distance))
+    for longer in LONGER:
+        slower = slowed(task.mission, placed, start, longer)
+        looker = looker_of(task.mission, task.drone, slower, start)
+        if fly(_task(looker, around, slower.shot, start, ASKED[-1])).curve is not None:
+            return Missed(far, longer)
+    return Missed(far, None)
+
+
+def _lens(looker: Looker, clock: Clock) -> Array:
+    """Return the control points of the field of view on the pieces of a clock, shape (P, 6, 1)."""
+    if looker.keyed is not None:
+        return looker.keyed.lens(clock.breaks).ctrl
+    return np.full((len(clock.breaks) - 1, 6, 1), looker.drone.hfov)
+
+
+def _lacks(task: Task, flown: Flown) -> tuple[tuple[str, float], ...]:
+    if flown.relaxation is None:
+        return ()
+    found = zip(task.owners, flown.relaxation.floor_lack, strict=True)
+    return tuple((owner, float(lack)) for owner, lack in found if lack > 1e-3)
+
+
+def _framing(placed: PlacedShot, start: float, end: float) -> tuple[FramingSpan, ...]:
+    spans = []
+    for subject in placed.subjects:
+        wanted = None
+        if subject.reference is not None:
+            wanted = Piecewise(np.array([start, end]), np.tile(np.array(subject.reference), (1, 6, 1)))
+        spans.append(FramingSpan(subject.target, start, end, wanted))
+    return tuple(spans)
+
+
+def _deviations(task: Task, flown: Flown, away: Array) -> tuple[Deviation, ...]:
+    """Return, for each stretch on which the motion leaves the ideal, the worst of it; as ``_away`` has it."""
+    times = _filmed(task)
+    return tuple(
+        Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
+        for i in worst_of_runs(away, LEFT, NOTICE)
+    )
+
+
+def _filmed(task: Task) -> Array:
+    """Return the times of the film at which it is compared with its ideal, shape (M,)."""
+    return np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
+
+
+def _away(task: Task, curve: Piecewise) -> Array:
+    """Return how far the camera is from its ideal at those times, metres, shape (M,)."""
+    times = _filmed(task)
+    ideal = ideal_places(task.mission, task.shot, task.clock.start, times)
+    return np.asarray(np.linalg.norm(curve(times) - ideal, axis=1))
+
+
+def _cause(task: Task, flown: Flown, t: float) -> str:
+    near = _in_the_way(task, np.array(ideal_place(task.mission, task.shot, task.clock.start, t)), t)
+    if near is not None:
+        return near[0]
+    return PICTURES if flown.freed else LIMITS
+
+
+def _in_the_way(task: Task, place: Array, t: float) -> tuple[str, float] | None:
+    """Return the owner of what a place, shape (3,), is too near to at a time, and by how much, metres."""
+    near = breaches(task.room, place)
+    if near:
+        return near[0].owner, near[0].lack
+    for motion in task.motions:
+        relative = place[None] - motion.what.at(np.array([t]))
+        lack = motion.what.clearance - float(distances(motion.what.part, relative)[0])
+        if lack > 0.0:
+            return motion.what.owner, lack
+    return None

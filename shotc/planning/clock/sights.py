@@ -1,0 +1,165 @@
+"""Pictures that drones keep out of: those of the drones planned before, and those of them in their own.
+
+How far a body is out of a picture is linearised about the last course, so that the guide stays convex;
+a few rounds settle it. What is claimed of the result is verification's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import value_rows
+from shotc.geom.framing import Cameras
+from shotc.geom.sight import off_axis, outside
+from shotc.ir.bodies import flying, standing_at
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.preference import prefers_free_pictures
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.clock.aims import Looker, aims_at
+from shotc.solvers.spline_problem import Floors
+
+MARGIN = 0.3  # metres that a body is kept out of a picture by
+NEAR = 4.0  # metres out of a picture beyond which nothing is asked
+NUDGE = 1e-3  # metres of the numeric slopes
+SAMPLES = 3  # instants a piece
+FLAT = 0.05  # slope below which to move does not help
+
+Outside = Callable[[Array, Array], Array]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Watcher:
+    """Another drone while it films: mission time of its film, and its camera at times (M,)."""
+
+    start: float
+    end: float
+    camera: Callable[[Array], Cameras]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """Another drone as it is seen: its radius, and its places at times (M,)."""
+
+    radius: float
+    at: Callable[[Array], Array]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sights:
+    """Whose pictures a drone keeps out of, and whom it keeps out of its own.
+
+    half_angle : as in ``ir.mission.Rules``; preferred : whether they are kept free only by the rule of
+        ``ir.preference``
+    """
+
+    watchers: tuple[Watcher, ...] = ()
+    bodies: tuple[Body, ...] = ()
+    half_angle: float | None = None
+    preferred: bool = False
+
+
+def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTrajectory]) -> Sights:
+    """Return the sights that count for a drone, of the flights planned before its own."""
+    if mission.rules.visibility == "off":
+        return Sights()
+    watchers, bodies = [], []
+    for name, flight in flights.items():
+        if name == drone.name:
+            continue
+        other = mission.drone(name)
+        camera = partial(_camera, flight.curve, other.aspect)
+        watchers += [Watcher(p.start, p.end, camera) for p in flight.phases if p.shot is not None]
+        bodies.append(Body(other.radius, partial(flying, flight.curve)))
+    if not prefers_free_pictures(mission):
+        # No shot is bent for a pad that is only preferred not to be seen.
+        bodies += [Body(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
+    preferred = prefers_free_pictures(mission)
+    return Sights(tuple(watchers), tuple(bodies), mission.rules.half_angle, preferred)
+
+
+def _camera(curve: Piecewise, aspect: float, times: Array) -> Cameras:
+    pose = curve(times)
+    return Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)
+
+
+def _out(camera: Cameras, places: Array, radius: float, half_angle: float | None) -> Array:
+    """Return how far balls are out of a picture, metres: beyond its edges, or along the arc out of a cone."""
+    if half_angle is None:
+        return outside(camera, places, radius)
+    far = np.linalg.norm(places - camera.position, axis=1)
+    return np.asarray((off_axis(camera, places, radius) - half_angle) * far)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kept:
+    """Half-spaces that keep pictures free, and by how much the course itself is out of them, metres."""
+
+    floors: tuple[Floors, ...]
+    worst: float
+
+
+def keep_free(
+    looker: Looker, sights: Sights, span: tuple[float, float], breaks: Array, course: Callable[[Array], Array]
+) -> Kept:
+    """Return what keeps a course out of others' pictures, and others out of its own.
+
+    span : of the film; course : places at times, about which all is linearised
+    """
+    middle = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    times = (breaks[:-1, None] + np.diff(breaks)[:, None] * middle).ravel()
+    asked: list[tuple[Outside, Array]] = [
+        (
+            partial(_in_theirs, watcher, looker.drone.radius, sights.half_angle),
+            times[(times > watcher.start) & (times < watcher.end)],
+        )
+        for watcher in sights.watchers
+    ]
+    if looker.watches:
+        own = times[(times > span[0]) & (times < span[1])]
+        asked += [(partial(_in_own, looker, body, sights.half_angle), own) for body in sights.bodies]
+    found = [_linear(outside_of, at, breaks, course) for outside_of, at in asked if len(at)]
+    floors = tuple(kept for part in found for kept in part.floors)
+    return Kept(floors, min((part.worst for part in found), default=np.inf))
+
+
+def seen_on(drone: Drone, sights: Sights, times: Array, places: Array) -> float:
+    """Return how far a drone on its way is out of others' pictures at worst, metres; negative inside."""
+    least = np.inf
+    for watcher in sights.watchers:
+        films = (times > watcher.start) & (times < watcher.end)
+        if films.any():
+            found = _in_theirs(watcher, drone.radius, sights.half_angle, times[films], places[films])
+            least = min(least, float(found.min()))
+    return float(least)
+
+
+def _linear(found: Outside, times: Array, breaks: Array, course: Callable[[Array], Array]) -> Kept:
+    places = course(times)
+    here = found(times, places)
+    slope = np.stack([(found(times, places + NUDGE * step) - here) / NUDGE for step in np.eye(3)], axis=1)
+    helps = (here < NEAR) & (np.linalg.norm(slope, axis=1) > FLAT)
+    worst = float(here.min())
+    if not helps.any():
+        return Kept((), worst)
+    normal = slope[helps]
+    offset = (normal * places[helps]).sum(axis=1) - here[helps] + MARGIN
+    owner = np.zeros(len(offset), dtype=np.intp)
+    return Kept((Floors(value_rows(breaks, times[helps]), normal, offset, owner),), worst)
+
+
+def _in_theirs(
+    watcher: Watcher, radius: float, half_angle: float | None, times: Array, places: Array
+) -> Array:
+    return _out(watcher.camera(times), places, radius, half_angle)
+
+
+def _in_own(looker: Looker, body: Body, half_angle: float | None, times: Array, places: Array) -> Array:
+    drone, aims = looker.drone, aims_at(looker, times, places)
+    camera = Cameras(places, aims[:, 0], aims[:, 1], looker.hfov(times), drone.aspect)
+    return _out(camera, body.at(times), body.radius, half_angle)

@@ -1,0 +1,156 @@
+"""All that a shot on its own clock is flown clear of, as half-spaces over time and as a proof.
+
+For refiners: they put their motion beside the same solids as the convex guide, and prove it the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import IntArray, restrict
+from shotc.geom.corridor import Room, kept, shortfall
+from shotc.ir.mission import Drone
+from shotc.ir.path import PathIR, TimedLeg
+from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.between import widened
+from shotc.planning.clock.flights import flights
+from shotc.planning.clock.moving import Even, Moving, evened, moving_targets, shortfalls, sides, standing
+from shotc.planning.clock.others import other_drones
+from shotc.planning.clock.sights import Sights, keep_free, sights_of
+from shotc.planning.obstacles import rooms_of
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surroundings:
+    """What is near a motion over mission time.
+
+    breaks : of the motion's pieces, shape (P + 1,), seconds
+    walls : the room without its obstacles; motions : its obstacles and what moves, even on those pieces
+    pictures : of the other drones' flights, those that count
+    """
+
+    breaks: Array
+    walls: Room
+    motions: tuple[Even, ...]
+    pictures: Sights
+
+    def free(self, looker: Looker, span: tuple[float, float], course: Piecewise) -> Planes:
+        """Put half-spaces beside pictures, linearised about a course on these pieces.
+
+        span : of the film. On each piece the one that the course is nearest to counts, as far as the course
+        itself keeps it.
+        """
+        floors = keep_free(looker, self.pictures, span, self.breaks, course).floors
+        if not floors:
+            return Planes(np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros((0, 2)))
+        piece = np.concatenate([each.rows.piece for each in floors])
+        normal = np.concatenate([each.normal for each in floors])
+        length = np.linalg.norm(normal, axis=1)
+        normal, offset = normal / length[:, None], np.concatenate([each.offset for each in floors]) / length
+        slack = np.einsum("rmd,rd->rm", course.ctrl[piece], normal).min(axis=1) - offset
+        nearest = np.lexsort((slack, piece))
+        nearest = nearest[np.unique(piece[nearest], return_index=True)[1]]
+        borders = (offset + np.minimum(slack, 0.0))[nearest]
+        return Planes(piece[nearest], normal[nearest], np.repeat(borders[:, None], 2, axis=1))
+
+    def lacking(self, hulls: Array) -> Array:
+        """Return by how much pieces fail to prove their clearances, metres; shape (P,), <= 0 is proved.
+
+        hulls : shape (P, 6, 3), Bernstein points
+        """
+        return np.maximum(shortfall(self.walls, hulls), shortfalls(self.motions, hulls))
+
+    def half_spaces(self, hulls: Array, reach: float, share: float) -> Planes:
+        """Put half-spaces between pieces and what is near them.
+
+        hulls : as in ``lacking``; reach : metres beyond its clearance within which a wall counts
+        share : of the room that a piece has beyond a wall, kept
+        """
+        beside = sides(self.motions, hulls)
+        found = [(beside.piece, beside.normal, beside.offset[:, [0, -1]])]
+        for normals, offsets in self._bounds(hulls):
+            slack = np.einsum("pmd,pd->pm", hulls, normals).min(axis=1) - offsets
+            near = np.flatnonzero(slack < reach)
+            ends = np.repeat((offsets[near] + kept(slack[near], share))[:, None], 2, axis=1)
+            found.append((near, normals[near], ends))
+        pieces, every, borders = zip(*found, strict=True)
+        return Planes(np.concatenate(pieces), np.concatenate(every), np.concatenate(borders))
+
+    def _bounds(self, hulls: Array) -> Sequence[tuple[Array, Array]]:
+        """Return normals (P, 3) and offsets (P,) of walls, and of the tangents of discs beside pieces."""
+        found = []
+        for wall in self.walls.walls:
+            n = np.tile(np.array(wall.normal), (len(hulls), 1))
+            found.append((n, np.full(len(hulls), wall.offset)))
+        for disc in self.walls.discs:
+            centre = np.array(disc.centre)
+            away = hulls[:, :, :2].mean(axis=1) - centre
+            away /= np.maximum(np.linalg.norm(away, axis=1), 1e-9)[:, None]
+            n = np.column_stack([-away, np.zeros(len(hulls))])
+            found.append((n, n[:, :2] @ centre - disc.radius))
+        return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Planes:
+    """Half-spaces n.p >= border for all Bernstein points of pieces.
+
+    piece : shape (R,); normal : (R, 3), units
+    border : (R, 2), metres, at the piece's start and end and even between them
+    """
+
+    piece: IntArray
+    normal: Array
+    border: Array
+
+    def and_also(self, other: Planes) -> Planes:
+        """Return these and those of another."""
+        return Planes(
+            np.concatenate([self.piece, other.piece]),
+            np.concatenate([self.normal, other.normal]),
+            np.concatenate([self.border, other.border]),
+        )
+
+
+def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: bool = True) -> Surroundings:
+    """Return what a drone of a path keeps clear of on pieces of mission time.
+
+    standing_too : whether what stands counts, or only what moves: a shot on a path is proved clear of what
+        stands whatever its time
+    """
+    mission = path.keyframes.mission
+    room, stands = Room((), (), ()), tuple[Moving, ...]()
+    if standing_too:
+        rooms = rooms_of(mission, drone)
+        room, stands = rooms.flight, standing(rooms)
+    flown = flights(path)
+    moving = (*stands, *moving_targets(mission, drone), *other_drones(mission, drone.name, flown))
+    return Surroundings(
+        breaks,
+        Room((), room.walls, room.discs),
+        _led(path, drone, tuple(evened(what, breaks) for what in moving), breaks),
+        sights_of(mission, drone, flown),
+    )
+
+
+def _led(path: PathIR, drone: Drone, motions: tuple[Even, ...], breaks: Array) -> tuple[Even, ...]:
+    """Return motions with the clearances that the mission writes down, before the guide's film and after it.
+
+    The others are no reason for a refiner to fail: it begins from a guide that keeps them.
+    """
+    legs = [leg for flown in path.timed if flown.drone == drone.name for leg in flown.legs]
+    guide = next((leg for leg in legs if isinstance(leg, TimedLeg) and _spans(leg, breaks)), None)
+    if guide is None:
+        return motions
+    span, course = (guide.start, guide.end), restrict(guide.curve.channels(0, 1, 2), breaks)
+    wide = widened(motions, course, span)
+    return tuple(w if m.what.required else m for m, w in zip(motions, wide, strict=True))
+
+
+def _spans(leg: TimedLeg, breaks: Array) -> bool:
+    """Tell whether times are those of a leg, cut."""
+    return bool(leg.curve.start == breaks[0] and leg.curve.end == breaks[-1])

@@ -1,0 +1,1 @@
+"""Where targets stand on screen: camera angles of keyframes."""

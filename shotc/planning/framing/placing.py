@@ -1,0 +1,145 @@
+"""Camera angles that put each target on the nearest place of its composition set (framing Eq. 1 and 2)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from math import atan2, hypot, pi
+from typing import NamedTuple
+
+from shotc.geom.angles import direction
+from shotc.geom.camera import aim_at
+from shotc.geom.vec import Vec2, Vec3, minus
+from shotc.ir.keyframes import PlacedKeyframe
+from shotc.ir.limits import reaches
+from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.planning.framing.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
+from shotc.planning.framing.turns import with_turns
+
+NORTH = pi / 2
+
+
+class Unmet(NamedTuple):
+    """A keyframe that does not have its composition.
+
+    aim : (yaw, pitch) as the author framed it, rad
+    asked : the place on screen that is asked for, None where the keyframe keeps what its author framed
+    place : where the target stands instead, None where no place shows it whole
+    """
+
+    keyframe: Keyframe
+    setting: Setting
+    aim: Vec2
+    asked: Vec2 | None
+    place: Vec2 | None
+
+
+def place_shot(
+    mission: MissionIR, shot: Shot, moments: Sequence[MissionIR] = ()
+) -> tuple[tuple[PlacedKeyframe, ...], tuple[Unmet, ...]]:
+    """Place one shot's keyframes; the misses are what its composition could not give.
+
+    moments : for every keyframe the mission as it is when the camera is there, where something moves
+    """
+    placed: list[PlacedKeyframe] = []
+    misses: list[Unmet] = []
+    for index, keyframe in enumerate(shot.keyframes):
+        course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH)
+        done, miss = _place(moments[index] if moments else mission, shot, keyframe, course)
+        placed.append(done)
+        if miss is not None:
+            misses.append(miss)
+    return with_turns(shot.keyframes, tuple(placed)), tuple(misses)
+
+
+def _place(
+    mission: MissionIR, shot: Shot, keyframe: Keyframe, course: float
+) -> tuple[PlacedKeyframe, Unmet | None]:
+    drone = mission.drone(shot.drone)
+    if keyframe.target is None:
+        return _placed(keyframe, _own_aim(keyframe, drone, course), None, None), None
+    setting = setting_of(mission, drone, keyframe, course)
+    if shot.size is not None and shot.size > 1.0:
+        # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
+        setting = setting._replace(radius=0.0, height=0.0)
+    aim = own_framing(setting, keyframe, course)
+    # A camera that looks at its target holds it in the middle, to the last bit.
+    asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
+    composition = keyframe.composition
+    if asked is None or composition.keep or composition.watches:
+        crops = not reaches(setting.pitch, aim[1]) or -setting.margin(aim) > TOUCH
+        unmet = Unmet(keyframe, setting, aim, None, None) if crops else None
+        return _placed(keyframe, aim, asked, None if composition.watches else asked), unmet
+    place, missed = nearest_candidate(setting, composition, asked), None
+    if place is None:
+        place = nearest_on_verticals(setting, composition, asked)
+        missed = Unmet(keyframe, setting, aim, asked, place)
+    turned = setting.aim(place) if place is not None else None
+    return _placed(keyframe, turned or aim, asked, place), missed
+
+
+def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float) -> Setting:
+    """Return the placement problem of a keyframe that names a target."""
+    assert keyframe.target is not None
+    target = mission.target(keyframe.target)
+    if isinstance(keyframe.aim, tuple) and len(keyframe.aim) == 2:
+        course = keyframe.aim[0]
+    return Setting(
+        offset=minus(target.centre, keyframe.at),
+        radius=target.radius,
+        height=target.height,
+        hfov=keyframe.hfov,
+        aspect=drone.aspect,
+        pitch=drone.gimbal.pitch,
+        yaw_if_vertical=course,
+    )
+
+
+def own_framing(setting: Setting, keyframe: Keyframe, course: float) -> Vec2:
+    """Return (yaw, pitch) of the camera as the user framed it, before composition."""
+    if keyframe.aim is None:
+        return setting.aim((0.0, 0.0)) or (course, 0.0)
+    return explicit_aim(keyframe.at, keyframe.aim, course)
+
+
+def explicit_aim(at: Vec3, aim: Vec2 | Vec3, course: float) -> Vec2:
+    """Return (yaw, pitch) of angles, or of a camera at ``at`` that looks at a point, rad."""
+    if len(aim) == 2:
+        return aim
+    # The middle of the screen can always be turned to a point, whatever the field of view.
+    return aim_at(minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
+
+
+def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
+    return (course, 0.0) if keyframe.aim is None else explicit_aim(keyframe.at, keyframe.aim, course)
+
+
+def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 | None) -> PlacedKeyframe:
+    return PlacedKeyframe(
+        at=keyframe.at,
+        yaw=_direction(aim[0]),
+        pitch=aim[1],
+        hfov=keyframe.hfov,
+        target=keyframe.target,
+        reference=reference,
+        asked=asked,
+        hold=keyframe.hold,
+        time=keyframe.time,
+        placed=keyframe.placed,
+        path=keyframe.path,
+    )
+
+
+def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> float:
+    """Return the yaw of the motion at a keyframe; where it does not move sideways, the last yaw."""
+    around = keyframes[max(0, index - 1) : index + 2]
+    for a, b in reversed(list(pairwise(around))):
+        dx, dy = b.at[0] - a.at[0], b.at[1] - a.at[1]
+        if hypot(dx, dy) > 1e-6:
+            return atan2(dy, dx)
+    return otherwise
+
+
+def _direction(angle: float) -> float:
+    # Not by way of the remainder where it need not be, which would change its last bits.
+    return angle if -pi < angle <= pi else direction(angle)

@@ -1,0 +1,1 @@
+"""Paths q(s): the position, the camera and the body along legs that no clock binds."""

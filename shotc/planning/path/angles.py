@@ -1,0 +1,368 @@
+"""Camera angles along a shot: the composition is kept between keyframes, not only at them.
+
+Where two neighbouring keyframes frame a target, its screen place moves from one reference to the next
+(C2 in path parameter), and the angles that put it there follow in closed form; a spline is fitted to
+them, exact at the keyframes. Elsewhere the camera turns steadily from one keyframe to the next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.angles import wrapped
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict, spline, subdivide
+from shotc.geom.camera import aim_at
+from shotc.ir.keyframes import PlacedKeyframe
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import FramingSpan
+from shotc.planning.path.lines import SAME_PLACE
+from shotc.planning.path.turns import steady
+from shotc.planning.path.unwrapping import Known, shifts, turning
+from shotc.solvers.conic import Status
+from shotc.solvers.headings import DEFAULT
+from shotc.solvers.spline_fit import Fit, fit, within
+
+PIECES = 3  # per stretch between keyframes, at least
+SAMPLES = 6  # per piece
+FINER = (1, 2, 4, 8)
+CLOSE = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
+STIFF = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
+FAINT = 1e-2  # weight of samples where nothing is framed against those where something is
+NEAR = (
+    1e-3  # of a piece: a keyframe that the path only passes by may be so near to a break that it is the same
+)
+NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeyedPath:
+    """The keyframes of one shot on its path, in order, one entry a keyframe.
+
+    s      : shape (K,), path parameter, not decreasing
+    exact  : whether the path passes the keyframe itself, so that its angles hold there
+    position : p_WC over s
+    pace : share of the drone's limits; headings : method of ``solvers.headings`` that chooses turns
+    """
+
+    keyframes: tuple[PlacedKeyframe, ...]
+    s: Array
+    exact: tuple[bool, ...]
+    position: Piecewise
+    pace: float = 1.0
+    headings: str = DEFAULT
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cut:
+    """Between which keyframes the gimbal cannot show the target in its place, and by how much.
+
+    excess : rad beyond its pitch range, or None where no roll-free camera could
+    """
+
+    index: int
+    s: float
+    excess: float | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CameraLine:
+    """Camera yaw, pitch and field of view over s: ``angles`` has those three channels.
+
+    error : rad by which the fit misses the wanted direction at worst, at path parameter ``worst``
+    """
+
+    angles: Piecewise
+    status: Status
+    error: float
+    worst: float
+    cuts: tuple[Cut, ...]
+
+
+class _Known(NamedTuple):
+    """Angles at a path parameter; ``group`` as in ``unwrapping.Known``, ``keyframe`` its index or -1."""
+
+    s: float
+    yaw: float
+    pitch: float
+    group: int
+    keyframe: int = -1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Samples:
+    """Wanted angles in tracked stretches, s, yaw, pitch of shape (M,); binding ones at keyframes, (A,)."""
+
+    s: Array
+    yaw: Array
+    pitch: Array
+    anchor_s: Array
+    anchor_yaw: Array
+    anchor_pitch: Array
+    cuts: tuple[Cut, ...]
+
+    def steady(self, limits: tuple[float, float]) -> Piecewise:
+        """Return the turn through the binding angles alone: yaw and pitch."""
+        pitch = np.clip(self.anchor_pitch, *limits)
+        yaw, pitch = (steady(self.anchor_s, v).ctrl for v in (self.anchor_yaw, pitch))
+        return Piecewise(self.anchor_s, np.concatenate([yaw, pitch], axis=2))
+
+
+def camera_line(mission: MissionIR, drone: Drone, keyed: KeyedPath) -> CameraLine:
+    """Return the camera's angles along a shot, on breaks that hold those of the position curve.
+
+    A fit that no grid makes possible, or that is the worse one, gives way to the steady turn from keyframe to
+    keyframe.
+    """
+    base = _grid(keyed)
+    hfov = _hfov(keyed)
+    samples = _sample(mission, drone, keyed, base, hfov)
+    turn = samples.steady(drone.gimbal.pitch)
+    best = _line(restrict(turn, base), samples, hfov, Status.SOLVED)
+    if not len(samples.s):
+        return best
+    fitted: CameraLine | None = None
+    for finer in FINER:
+        breaks = subdivide(base, finer)
+        samples = _sample(mission, drone, keyed, breaks, hfov)
+        status, curve = _fitted(drone, samples, breaks, turn)
+        if status not in {Status.SOLVED, Status.INACCURATE}:
+            continue
+        fitted = _line(curve, samples, hfov, status)
+        if fitted.error < CLOSE:
+            break
+    return best if fitted is None or best.error < fitted.error else fitted
+
+
+def _line(curve: Piecewise, samples: _Samples, hfov: Piecewise, status: Status) -> CameraLine:
+    ctrl = np.concatenate([curve.ctrl, restrict(hfov, curve.breaks).ctrl], axis=2)
+    error, worst = 0.0, curve.start
+    if len(samples.s):
+        at = curve(samples.s)
+        miss = np.hypot(_across(samples.pitch) * (at[:, 0] - samples.yaw), at[:, 1] - samples.pitch)
+        error, worst = float(miss.max()), float(samples.s[int(miss.argmax())])
+    return CameraLine(Piecewise(curve.breaks, ctrl), status, error, worst, samples.cuts)
+
+
+def _across(pitch: Array) -> Array:
+    """Return by how much of itself an error in yaw moves the picture: cos(pitch), never quite nothing."""
+    return np.asarray(np.maximum(np.cos(pitch), 0.03))
+
+
+def framing_spans(keyed: KeyedPath) -> tuple[FramingSpan, ...]:
+    """Return the stretches with one target each; a hand-over is cut in the middle."""
+    spans: list[FramingSpan] = []
+    run: list[int] = []
+    last = len(keyed.keyframes) - 1
+    for i in range(last):
+        a, b = keyed.keyframes[i], keyed.keyframes[i + 1]
+        if keyed.s[i + 1] <= keyed.s[i]:
+            continue
+        same = a.target is not None and a.target == b.target
+        composed = a.reference is not None and b.reference is not None
+        if same and composed:
+            run.append(i)
+            continue
+        spans += _composed(keyed, run)
+        run = []
+        spans += _watched(keyed, i)
+    return (*spans, *_composed(keyed, run))
+
+
+def smoother(x: Array) -> Array:
+    """Return the C2 step 10 x^3 - 15 x^4 + 6 x^5 from 0 to 1."""
+    return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
+
+
+def _composed(keyed: KeyedPath, run: list[int]) -> list[FramingSpan]:
+    if not run:
+        return []
+    ends = [(keyed.keyframes[i], keyed.keyframes[i + 1]) for i in run]
+    breaks = np.array([keyed.s[i] for i in run] + [keyed.s[run[-1] + 1]])
+    ctrl = np.array([[a.reference] * 3 + [b.reference] * 3 for a, b in ends], dtype=np.float64)
+    target = ends[0][0].target
+    assert target is not None
+    return [FramingSpan(target, float(breaks[0]), float(breaks[-1]), Piecewise(breaks, ctrl))]
+
+
+def _watched(keyed: KeyedPath, i: int) -> list[FramingSpan]:
+    a, b = keyed.keyframes[i].target, keyed.keyframes[i + 1].target
+    start, end = float(keyed.s[i]), float(keyed.s[i + 1])
+    middle = 0.5 * (start + end)
+    if a is not None and a == b:
+        return [FramingSpan(a, start, end, None)]
+    first = [FramingSpan(a, start, middle, None)] if a is not None else []
+    second = [FramingSpan(b, middle, end, None)] if b is not None else []
+    return first + second
+
+
+def _grid(keyed: KeyedPath) -> Array:
+    """Return breaks that hold the position's and the keyframes', several to a keyframe interval."""
+    merged = [float(b) for b in keyed.position.breaks]
+    near = NEAR * float(np.diff(merged).min())
+    for s in keyed.s:
+        if min(abs(s - b) for b in merged) > near:
+            merged.append(float(s))
+    breaks = np.array(sorted(merged))
+    keys = np.unique(keyed.s)
+    inside = np.histogram(0.5 * (breaks[:-1] + breaks[1:]), keys)[0] if len(keys) > 1 else np.array([1])
+    parts = int(np.ceil(PIECES / max(1, int(inside[inside > 0].min()))))
+    return subdivide(breaks, parts) if parts > 1 else breaks
+
+
+def _hfov(keyed: KeyedPath) -> Piecewise:
+    """Return the field of view over s: monotone between keyframes, at rest at each of them."""
+    keys = [i for i in range(len(keyed.s)) if i == 0 or keyed.s[i] > keyed.s[i - 1]]
+    wide = [keyed.keyframes[i].hfov for i in keys]
+    ctrl = np.array([[[a]] * 3 + [[b]] * 3 for a, b in pairwise(wide)])
+    return Piecewise(keyed.s[keys], ctrl)
+
+
+def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> tuple[Status, Piecewise]:
+    """Return yaw and pitch near the samples, and where there are none near the steady turn."""
+    spacing = float(breaks[-1] - breaks[0]) / max(len(turn.breaks) - 1, 1)
+    density = (breaks[-1] - breaks[0]) / (len(breaks) - 1) / SAMPLES / spacing
+    stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
+    loose = _untracked(samples.s, breaks)
+    at = np.concatenate([samples.s, loose])
+    yaw, pitch = (np.concatenate(p) for p in zip((samples.yaw, samples.pitch), turn(loose).T, strict=True))
+    weight = density * np.where(np.arange(len(at)) < len(samples.s), 1.0, FAINT)
+    low, high = drone.gimbal.pitch
+    shape = (len(breaks) - 1, 6)
+    bounds = np.full(shape, low), np.full(shape, high)
+    ends = samples.anchor_s, np.clip(samples.anchor_pitch, low, high)
+    yaw_fit = Fit(breaks, at, yaw, weight * _across(pitch) ** 2, samples.anchor_s, samples.anchor_yaw, stiff)
+    yaw_status, yaw_coef = fit(yaw_fit)
+    pitch_status, pitch_coef = fit(Fit(breaks, at, pitch, weight, *ends, stiff, *bounds))
+    curve = spline(breaks, np.column_stack([yaw_coef, pitch_coef]))
+    ctrl = curve.ctrl.copy()
+    ctrl[:, :, 1] = within(ctrl[:, :, 1], low, high)
+    return yaw_status if yaw_status is not Status.SOLVED else pitch_status, Piecewise(breaks, ctrl)
+
+
+def _untracked(tracked: Array, breaks: Array) -> Array:
+    """Return sample parameters on the pieces where no sample speaks."""
+    silent = np.histogram(tracked, breaks)[0] == 0
+    every = subdivide(breaks, SAMPLES)[:-1].reshape(-1, SAMPLES)
+    half = 0.5 * np.diff(breaks)[:, None] / SAMPLES
+    return np.asarray((every + half)[silent].ravel())
+
+
+def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, hfov: Piecewise) -> _Samples:
+    """Return the wanted angles inside tracked stretches and the binding ones, yaw unwrapped."""
+    samples: list[_Known] = []
+    anchors: list[_Known] = []
+    cuts: list[Cut] = []
+    last_yaw, group = keyed.keyframes[0].yaw, 0
+    for i, keyframe in enumerate(keyed.keyframes):
+        free = i > 0 and keyed.s[i] > keyed.s[i - 1] and (keyframe.placed or keyed.keyframes[i - 1].placed)
+        if i > 0 and keyed.s[i] > keyed.s[i - 1]:
+            at = _inner(breaks, float(keyed.s[i - 1]), float(keyed.s[i]))
+            aims, cut = _aims(mission, drone, keyed, i - 1, at, hfov)
+            if cut is not None:
+                cuts.append(cut)
+            for s, aim in zip(at, aims, strict=True):
+                if aim is not None:
+                    last_yaw, free = _near(aim[0], last_yaw), False
+                    samples.append(_Known(float(s), last_yaw, aim[1], group))
+        group += free
+        anchor = _anchor(mission, drone, keyed, i)
+        if anchor is not None and not (anchors and keyed.s[i] <= anchors[-1].s):
+            last_yaw = _near(anchor[0], last_yaw)
+            anchors.append(_Known(float(keyed.s[i]), last_yaw, anchor[1], group, i))
+    if group:
+        shift = shifts(_places(keyed, samples, anchors), turning(drone, keyed.pace, keyed.headings))
+        samples, anchors = (
+            [k._replace(yaw=k.yaw + shift[k.group]) for k in part] for part in (samples, anchors)
+        )
+    wanted, fixed = (np.array([k[:3] for k in part]).reshape(-1, 3) for part in (samples, anchors))
+    return _Samples(
+        wanted[:, 0], wanted[:, 1], wanted[:, 2], fixed[:, 0], fixed[:, 1], fixed[:, 2], tuple(cuts)
+    )
+
+
+def _places(keyed: KeyedPath, samples: list[_Known], anchors: list[_Known]) -> list[Known]:
+    """Return what fixes the turns: the keyframes, and of what is followed the first and the last picture."""
+    ends: dict[int, list[_Known]] = {}
+    for k in samples:
+        ends[k.group] = [ends.get(k.group, [k])[0], k]
+    at = {k.s: k for k in (*(k for pair in ends.values() for k in pair), *anchors)}
+    places = []
+    for k in sorted(at.values()):
+        turn = keyed.keyframes[k.keyframe].turn if k.keyframe >= 0 else None
+        places.append(Known(k.s, k.yaw, k.group, turn, k.keyframe >= 0 and _rests(keyed, k.keyframe)))
+    return places
+
+
+def _rests(keyed: KeyedPath, i: int) -> bool:
+    """Tell whether the camera stands still at a keyframe: it holds there, or turns on the spot."""
+    near = [j for j in (i - 1, i + 1) if 0 <= j < len(keyed.s)]
+    ways = [
+        np.linalg.norm(keyed.position(float(keyed.s[j])) - keyed.position(float(keyed.s[i]))) for j in near
+    ]
+    return keyed.keyframes[i].hold > 0 or any(way < SAME_PLACE for way in ways)
+
+
+def _inner(breaks: Array, start: float, end: float) -> Array:
+    """Return sample parameters in a stretch, evenly on each of its pieces."""
+    eps = 1e-9 * (breaks[-1] - breaks[0])
+    inside = breaks[(breaks >= start - eps) & (breaks <= end + eps)]
+    return subdivide(inside, SAMPLES)[1:-1] if len(inside) > 1 else np.empty(0)
+
+
+def _anchor(mission: MissionIR, drone: Drone, keyed: KeyedPath, i: int) -> tuple[float, float] | None:
+    keyframe = keyed.keyframes[i]
+    if keyed.exact[i] or keyframe.target is None or keyframe.reference is None:
+        return keyframe.yaw, keyframe.pitch
+    if i not in {0, len(keyed.keyframes) - 1}:
+        return None
+    target = mission.target(keyframe.target)
+    p = keyed.position(float(keyed.s[i]))
+    d = (target.centre[0] - p[0], target.centre[1] - p[1], target.centre[2] - p[2])
+    aim = aim_at(d, keyframe.reference, keyframe.hfov, drone.aspect, keyframe.yaw)
+    low, high = drone.gimbal.pitch
+    return (keyframe.yaw, keyframe.pitch) if aim is None else (aim[0], min(max(aim[1], low), high))
+
+
+def _aims(
+    mission: MissionIR, drone: Drone, keyed: KeyedPath, i: int, at: Array, hfov: Piecewise
+) -> tuple[list[tuple[float, float] | None], Cut | None]:
+    a, b = keyed.keyframes[i], keyed.keyframes[i + 1]
+    if a.target is None or b.target is None or a.reference is None or b.reference is None:
+        return [None] * len(at), None
+    x = smoother((at - keyed.s[i]) / (keyed.s[i + 1] - keyed.s[i]))[:, None]
+    uv = (1 - x) * np.array(a.reference) + x * np.array(b.reference)
+    ends = np.array([mission.target(a.target).centre, mission.target(b.target).centre])
+    offset = (1 - x) * ends[0] + x * ends[1] - keyed.position(at)
+    wide = hfov(at)[:, 0]
+    low, high = drone.gimbal.pitch
+    aims: list[tuple[float, float] | None] = []
+    worst: Cut | None = None
+    for k, s in enumerate(at):
+        d, ref = offset[k], uv[k]
+        aim = aim_at(
+            (float(d[0]), float(d[1]), float(d[2])),
+            (float(ref[0]), float(ref[1])),
+            float(wide[k]),
+            drone.aspect,
+            a.yaw,
+        )
+        excess = None if aim is None else max(low - aim[1], aim[1] - high)
+        if excess is None or excess > NOTICE:
+            worst = _worse(worst, Cut(i, float(s), excess))
+        aims.append(None if aim is None else (aim[0], min(max(aim[1], low), high)))
+    return aims, worst
+
+
+def _worse(old: Cut | None, new: Cut) -> Cut:
+    if old is None or new.excess is None:
+        return new
+    return new if old.excess is not None and new.excess > old.excess else old
+
+
+def _near(angle: float, to: float) -> float:
+    return to + wrapped(angle - to)

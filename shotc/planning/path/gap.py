@@ -1,0 +1,134 @@
+"""Why there is no way: which zone alone opens one, and how wide the gap is that would do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.convex import closest_points, support
+from shotc.geom.corridor import MARGIN, Obstacle, Room, Wall
+from shotc.geom.route import find_route
+from shotc.ir.mission import Drone, MissionIR
+from shotc.planning.obstacles import GROUND, flight_room, named
+from shotc.rounding import down
+
+HALVINGS = 7
+MOST = 0.8  # of the body's radius that a smaller drone may lack
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """What fits through: a note with the numbers and what would help."""
+
+    note: str
+    help: str
+
+
+def opening(room: Room, start: Array, end: Array) -> tuple[str, ...]:
+    """Return the owners each of which, taken away alone, leaves a way; the ground cannot be taken away."""
+    names = (name for name in room.owners if name != GROUND)
+    return tuple(name for name in names if find_route(room.without(name), start, end) is not None)
+
+
+def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) -> float | None:
+    """Return the ground clearance, metres, rounded down, that leaves a way; None if none does."""
+
+    def opens(clearance: float) -> bool:
+        rules = mission.rules._replace(ground_clearance=clearance)
+        return find_route(flight_room(mission._replace(rules=rules), drone), start, end) is not None
+
+    low, high = 0.0, mission.rules.ground_clearance
+    if high <= 0.0 or not opens(low):
+        return None
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if opens(middle) else (low, middle)
+    return down(low)
+
+
+def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -> Gap | None:
+    """Return the narrowest place that closes the way and what would have to change; None if nothing fits."""
+    lent = _least_loan(room, start, end)
+    if lent is None:
+        return None
+    pair = _closing_pair(room, openers, lent)
+    if pair is None:
+        return Gap(
+            f"with {lent:.2f} m less clearance to everything there would be a way",
+            f"use a drone with a radius {lent:.2f} m smaller, or make that much room",
+        )
+    (first, second), gap, needed = pair
+    return Gap(
+        f"the gap between {named(first)} and {named(second)} is {gap:.2f} m; the drone needs {needed:.2f} m",
+        f"widen the gap by {needed - gap + MARGIN:.2f} m, or use a drone with a radius {lent:.2f} m smaller",
+    )
+
+
+def _least_loan(room: Room, start: Array, end: Array) -> float | None:
+    """Return the least clearance to give up everywhere so that a way opens, by bisection."""
+    most = MOST * min((o.clearance for o in room.obstacles), default=0.0)
+    if most <= 0.0 or find_route(room.lent(most), start, end) is None:
+        return None
+    low, high = 0.0, most
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if find_route(room.lent(middle), start, end) is None:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def _closing_pair(
+    room: Room, openers: tuple[str, ...], lent: float
+) -> tuple[tuple[str, str], float, float] | None:
+    """Return two owners whose gap is what the loan opens, the gap and what it should be, metres."""
+    best: tuple[float, tuple[str, str], float, float] | None = None
+    for a, b in combinations(room.obstacles, 2):
+        if a.owner == b.owner or (openers and not {a.owner, b.owner} & set(openers)):
+            continue
+        gap = _between(a, b)
+        best = _closer(best, lent, (a.owner, b.owner), gap, a.clearance + b.clearance)
+    for o in room.obstacles:
+        for w in room.walls:
+            gap = _to_wall(o, w)
+            if o.owner != w.owner and (not openers or {o.owner, w.owner} & set(openers)):
+                best = _closer(best, lent, (o.owner, w.owner), gap, o.clearance + w.clearance)
+    return None if best is None else (best[1], best[2], best[3])
+
+
+def _closer(
+    best: tuple[float, tuple[str, str], float, float] | None,
+    lent: float,
+    names: tuple[str, str],
+    gap: float,
+    needed: float,
+) -> tuple[float, tuple[str, str], float, float] | None:
+    # The loan opens exactly the gap that lacks twice the loan (once on either side).
+    lack = needed - gap
+    if lack <= 0.0 or gap <= 0.0:
+        return best
+    off = abs(lack - 2 * lent)
+    if off > 0.3 or (best is not None and best[0] <= off):
+        return best
+    return off, names, gap, needed
+
+
+def _between(a: Obstacle, b: Obstacle) -> float:
+    """Return the distance of two convex solids, by alternating projections, metres."""
+    p = np.array([[0.0, 0.0, 0.0]])
+    q = closest_points(a.part, p)
+    for _ in range(200):
+        p = closest_points(b.part, q)
+        q = closest_points(a.part, p)
+    return float(np.linalg.norm(p - q))
+
+
+def _to_wall(o: Obstacle, w: Wall) -> float:
+    """Return the distance of an obstacle from a wall's border, metres."""
+    n = np.array(w.normal)
+    nearest = -float(support(o.part, -n[None])[0])
+    return nearest - (w.offset - w.clearance)

@@ -1,0 +1,72 @@
+"""Refined shots of a drone on the mission's clock: every leg keeps the time that it took.
+
+Other drones and the shots that wait for these were planned beside the convex legs. So a refined shot begins
+and ends when its convex path did, and where its camera looks elsewhere at its ends, the unfilmed legs beside
+it fly the same places in the same time with other angles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from shotc.geom.bernstein import Piecewise
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import Leg, TimedLeg, TimedPath
+from shotc.planning.path.legs import Pose, end_of, turned_way
+from shotc.planning.path.shots import AngleFailure
+from shotc.planning.path.with_camera import SAME_END, NoTransit, with_camera
+from shotc.planning.timing.estimate import lateness, leg_time
+
+AnyLeg = Leg | TimedLeg
+
+
+def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewise]) -> TimedPath:
+    """Return a drone's legs with some shots' cameras replaced, each leg in its old time.
+
+    cameras : as in ``rejoined``. NoTransit where a leg cannot be flown in its time, or does not join.
+    """
+    if not any(isinstance(leg, Leg) and leg.shot in cameras for leg in flown.legs):
+        return flown
+    drone, legs = mission.drone(flown.drone), list(flown.legs)
+    for k, leg in enumerate(legs):
+        if isinstance(leg, Leg) and leg.shot in cameras:
+            legs[k] = lasting(drone, leg, with_camera(drone, leg, cameras[leg.shot or ""]))
+    for k, leg in enumerate(legs):
+        if isinstance(leg, Leg) and leg.phase in {"transit", "return"}:
+            start = end_of(legs[: k or 1])
+            goal = legs[k + 1].pose
+            legs[k] = _led(drone, leg, start, goal)
+    for a, b in pairwise(legs):
+        if not _same(end_of([a]), b.pose):
+            raise NoTransit("its ends where the next leg joins them")
+    return replace(flown, legs=tuple(legs))
+
+
+def lasting(drone: Drone, old: Leg, new: Leg) -> Leg:
+    """Return a new leg at the length that an old one has; NoTransit where it takes longer at full limits."""
+    asked = leg_time(drone, old)
+    made = replace(new, duration=asked if old.duration is None else old.duration)
+    if lateness(drone, made) > 0.0:
+        whose = "the way" if old.shot is None else "its convex path"
+        least = leg_time(drone, replace(new, duration=None, pace=1.0))
+        more = f", for it takes {least:.3f} s at full limits" if least > asked else ""
+        raise NoTransit(f"the {asked:.3f} s of {whose}{more}", least if old.shot is not None else None)
+    return made
+
+
+def _led(drone: Drone, leg: Leg, start: Pose, goal: Pose) -> Leg:
+    """Return an unfilmed leg between two poses, of which only the angles may be new."""
+    if _same(leg.pose, start) and _same(end_of([leg]), goal):
+        return leg
+    turned = turned_way(drone, leg, start, goal)
+    if isinstance(turned, AngleFailure):
+        raise NoTransit("the body's turn on the way beside it")
+    return lasting(drone, leg, turned)
+
+
+def _same(a: Pose, b: Pose) -> bool:
+    return bool(np.abs(np.array(a) - np.array(b)).max() < SAME_END)

@@ -1,0 +1,242 @@
+"""The unfilmed legs: up from the pad, between shots, back and down; and joining all legs up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import atan2, hypot, pi
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict, subdivide
+from shotc.geom.convex import segment_distances
+from shotc.geom.corridor import Room, bounds_slack, breaches
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop, TimedLeg
+from shotc.planning.obstacles import Rooms, pad_room
+from shotc.planning.path.body import BodyTask, allowed_body, body_line
+from shotc.planning.path.lines import SAME_PLACE, TURN_LENGTH
+from shotc.planning.path.shots import AngleFailure, Failure, ShotCurve, stack
+from shotc.planning.path.transit import transit_curve
+from shotc.solvers.conic import Status
+
+SAME_ANGLE = 1e-6
+ROUNDING = 1e-9  # metres
+PIECES = 4
+
+Pose = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flight:
+    """What every unfilmed leg of one drone needs to know.
+
+    top : the transit point over the pad
+    """
+
+    drone: Drone
+    rooms: Rooms
+    top: Array
+
+    @property
+    def room(self) -> Room:
+        """The room of all phases."""
+        return self.rooms.flight
+
+
+def drone_legs(flight: Flight, shots: list[ShotCurve]) -> tuple[Leg, ...] | tuple[Failure, ShotCurve | None]:
+    """Join the shots of one drone with take-off, transits, return and landing.
+
+    Returns the legs, or what stands in the way together with the shot that it leads to (None: home).
+    """
+    legs = [take_off(flight, shots[0].pose)]
+    for shot in shots:
+        placed = turned(flight.drone, shot, end_of(legs))
+        way = way_to(flight, end_of(legs), placed.pose, shot.shot.shot.path)
+        if isinstance(way, Failure):
+            return way, shot
+        legs += [*way, shot_leg(placed)]
+    back = way_home(flight, end_of(legs))
+    return (back, None) if isinstance(back, Failure) else (*legs, *back)
+
+
+def take_off(flight: Flight, goal: Pose) -> Leg:
+    """Return the leg up from the pad, on the way to a shot that begins at ``goal``."""
+    lift = _lift(flight, _at_pad(flight, goal), "takeoff")
+    assert lift.curve is not None
+    ctrl = lift.curve.ctrl.copy()
+    ctrl[-1, -1, :3] = flight.top
+    return replace(lift, curve=Piecewise(lift.curve.breaks, ctrl))
+
+
+def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
+    """Return the flight with its transit point so much higher; None where that cannot be."""
+    top = flight.top + np.array([0.0, 0.0, metres])
+    home, pad = np.array(flight.drone.home), pad_room(mission, flight.drone)
+    free = bounds_slack(pad, top[None])[0] >= 0.0 and not breaches(flight.room, top)
+    above = (segment_distances(o.part, home[None], top[None])[0] - o.clearance for o in pad.obstacles)
+    return replace(flight, top=top) if free and min(above, default=0.0) >= -ROUNDING else None
+
+
+def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[Leg] | Failure:
+    """Return the unfilmed leg from a pose to a shot's first one, none where they are the same.
+
+    path : of the shot
+    """
+    return _transit(flight, pose, goal, "transit", path)
+
+
+def way_home(flight: Flight, pose: Pose) -> list[Leg] | Failure:
+    """Return the legs from the end of the last shot to the pad."""
+    drone = flight.drone
+    level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
+    goal = (*map(float, flight.top), pose[CAM_YAW], level, pose[BODY_YAW], pose[HFOV])
+    back = _transit(flight, pose, goal, "return", drone.path)
+    if isinstance(back, Failure):
+        return back
+    pose = end_of(back) if back else pose
+    return [*back, _lift(flight, pose, "land")]
+
+
+def _at_pad(flight: Flight, first: Pose) -> Pose:
+    """Return the pad's pose: heading of the first frame, or, flying nose first, of the way there."""
+    drone = flight.drone
+    level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
+    yaw = first[CAM_YAW]
+    way = (first[0] - flight.top[0], first[1] - flight.top[1])
+    wanted = atan2(way[1], way[0]) if drone.body == "forward" and hypot(*way) > 1.0 else yaw
+    body = yaw if drone.body == "follow-camera" else allowed_body(drone, yaw, wanted)
+    return (*map(float, drone.home), yaw, level, body, first[HFOV])
+
+
+def turns_to(goal: Pose, pose: Pose) -> float:
+    """Return the whole turns, rad, that bring a pose's camera nearest to another's."""
+    return 2 * pi * round((pose[CAM_YAW] - goal[CAM_YAW]) / (2 * pi))
+
+
+def turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
+    """Shift a shot's yaws by whole turns, so that its start is nearest to where the last leg ended."""
+    turns = turns_to(shot.pose, pose)
+    start = list(shot.pose)
+    start[CAM_YAW] += turns
+    start[BODY_YAW] += turns
+    if shot.curve is None:
+        if drone.body != "follow-camera":
+            wanted = pose[BODY_YAW]
+            if drone.body == "forward" and hypot(start[0] - pose[0], start[1] - pose[1]) > 1.0:
+                wanted = atan2(start[1] - pose[1], start[0] - pose[0])
+            start[BODY_YAW] = allowed_body(drone, start[CAM_YAW], wanted)
+        return replace(shot, pose=tuple(start))
+    if not turns:
+        return shot
+    ctrl = shot.curve.ctrl.copy()
+    ctrl[:, :, CAM_YAW] += turns
+    ctrl[:, :, BODY_YAW] += turns
+    return replace(shot, pose=tuple(start), curve=Piecewise(shot.curve.breaks, ctrl))
+
+
+def shot_leg(shot: ShotCurve) -> Leg:
+    """Return the leg of a shot whose curve is planned."""
+    timing = shot.shot.shot.timing
+    return Leg(
+        phase="shot",
+        shot=shot.shot.shot.id,
+        curve=shot.curve,
+        pose=shot.pose,
+        stops=shot.stops,
+        marks=shot.marks,
+        framing=shot.framing,
+        pace=shot.shot.shot.pace,
+        duration=shot.duration if timing.duration is None else timing.duration,
+        start=timing.start,
+        path=shot.shot.shot.path,
+    )
+
+
+def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> Leg:
+    home, top = np.array(flight.drone.home), flight.top
+    ends = (home, top) if phase == "takeoff" else (top, home)
+    x = np.linspace(0.0, 1.0, 6)[:, None]
+    ctrl = np.concatenate([(1 - x) * ends[0] + x * ends[1], np.tile(np.array(pose[3:]), (6, 1))], axis=1)
+    breaks = np.array([0.0, float(np.linalg.norm(top - home))])
+    return _plain(phase, Piecewise(breaks, ctrl[None]), flight.drone.path)
+
+
+def _transit(flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: KeyPath) -> list[Leg] | Failure:
+    """Return the leg from one pose to another; none where they are the same."""
+    a, b = np.array(start[:3]), np.array(goal[:3])
+    turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
+    if np.linalg.norm(b - a) < SAME_PLACE:
+        if turn < SAME_ANGLE and np.array_equal(a, b):
+            return []
+        breaks = np.array([0.0, TURN_LENGTH * max(turn, SAME_ANGLE)])
+        position = Piecewise(breaks, np.linspace(a, b, 6)[None])
+    else:
+        found = transit_curve(flight.rooms, flight.drone, a, b)
+        if not isinstance(found, Piecewise):
+            return found
+        position = found
+    curve = _with_angles(flight.drone, position, start, goal, free_end=phase == "return")
+    return curve if isinstance(curve, AngleFailure) else [_plain(phase, curve, path)]
+
+
+def _with_angles(
+    drone: Drone, position: Piecewise, start: Pose, goal: Pose, *, free_end: bool
+) -> Piecewise | AngleFailure:
+    """Let the camera turn evenly along an unfilmed leg, and the body as its mode says."""
+    straight = len(position.breaks) == 2 and (
+        drone.body == "follow-camera" or start[BODY_YAW] == goal[BODY_YAW]
+    )
+    breaks = position.breaks if straight and drone.body != "forward" else subdivide(position.breaks, PIECES)
+    return _stacked(drone, restrict(position, breaks), start, goal, free_end=free_end)
+
+
+def turned_way(drone: Drone, leg: Leg, start: Pose, goal: Pose) -> Leg | AngleFailure:
+    """Return an unfilmed leg through the same places, from other angles to others."""
+    assert leg.curve is not None
+    position = leg.curve.channels(0, 1, 2)
+    if len(position.breaks) == 2:
+        position = restrict(position, subdivide(position.breaks, PIECES))
+    curve = _stacked(drone, position, start, goal, free_end=False)
+    return curve if isinstance(curve, AngleFailure) else replace(leg, curve=curve, pose=start)
+
+
+def _stacked(
+    drone: Drone, position: Piecewise, start: Pose, goal: Pose, *, free_end: bool
+) -> Piecewise | AngleFailure:
+    """Return a position curve with a camera that turns evenly, and the body that goes with it."""
+    breaks = position.breaks
+    camera = restrict(_even(position, start, goal), breaks)
+    yaw = camera.channels(0)
+    end = None if free_end else goal[BODY_YAW]
+    task = BodyTask(position, yaw, start[BODY_YAW], end, drone.limits.speed)
+    status, body = body_line(drone, task)
+    if status not in {Status.SOLVED, Status.INACCURATE}:
+        return AngleFailure("body", status)
+    whole = stack(position, camera.channels(0, 1), body, camera.channels(2))
+    ctrl = whole.ctrl.copy()
+    ctrl[0, 0] = start
+    ctrl[-1, -1, : 5 if free_end else 7] = goal[: 5 if free_end else 7]
+    return Piecewise(breaks, ctrl)
+
+
+def _even(position: Piecewise, start: Pose, goal: Pose) -> Piecewise:
+    """Yaw and pitch linear in s, the field of view from rest to rest; one piece."""
+    x = np.linspace(0.0, 1.0, 6)
+    step = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
+    ctrl = [start[k] + (goal[k] - start[k]) * (step if k == HFOV else x) for k in (CAM_YAW, CAM_PITCH, HFOV)]
+    return Piecewise(np.array([position.start, position.end]), np.stack(ctrl, axis=1)[None])
+
+
+def _plain(phase: PhaseName, curve: Piecewise, path: KeyPath) -> Leg:
+    stops = (Stop(curve.start, 0.0), Stop(curve.end, 0.0))
+    pose = tuple(map(float, curve.ctrl[0, 0]))
+    return Leg(phase, None, curve, pose, stops, (), (), 1.0, None, None, path)
+
+
+def end_of(legs: Sequence[Leg | TimedLeg]) -> Pose:
+    """Return the pose at the end of the last of some legs."""
+    leg = legs[-1]
+    return leg.pose if leg.curve is None else tuple(map(float, leg.curve.ctrl[-1, -1]))

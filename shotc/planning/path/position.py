@@ -1,0 +1,219 @@
+"""The position curve of one stretch: least jerk through its anchors, inside a convex corridor.
+
+The corridor's planes first separate the polyline that was routed, then the curve that came out, until
+the curve stops getting better; every curve handed out has been proved clear by its Bernstein hulls.
+Where the polyline is one straight line, which routing has found to be free, it is the curve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import (
+    Rows,
+    control_rows,
+    count,
+    energy_rows,
+    greville,
+    restrict,
+    spline,
+    subdivide,
+    value_rows,
+)
+from shotc.geom.corridor import Room, shortfall
+from shotc.ir.limits import Limits
+from shotc.planning.corridor import Around, with_corridor
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
+from shotc.solvers.spline_qp import SplineSolution, minimise
+from shotc.solvers.spline_relax import Relaxation, relax
+
+PIECES = 3  # per straight stretch of the polyline
+PULL = 100.0  # weight of a generated keyframe that does not bind, against the energy in m^2
+EXCESS_PRICE = 10.0  # of speed and acceleration above nominal, against the energy in m^2
+ROUNDS = 4
+FIRST_SHARE = 0.5  # of its distance from an obstacle a chord may give up half
+LATER_SHARE = 0.95  # a solved curve hardly any, or the margins would melt away round by round
+FINER = (1, 2, 4)
+STRAIGHT = 1e-9  # metres
+GAIN = 0.01  # a round that improves the objective by less ends the iteration
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """A polyline to be made a smooth curve.
+
+    corners : shape (M, 3); s : shape (M,), path parameter at the corners
+    bound   : indices of corners the curve must pass, ends included
+    pulled  : points it should pass near, with their parameters, shapes (G, 3) and (G,)
+    pace    : share of the limits at which it is to be smooth
+    """
+
+    corners: Array
+    s: Array
+    bound: tuple[int, ...]
+    pulled: Array
+    pulled_at: Array
+    pace: float
+
+    @property
+    def straight(self) -> bool:
+        """Whether the corners lie on one line in order, so that the line itself costs nothing."""
+        if len(self.pulled_at):
+            return False
+        way = self.corners[-1] - self.corners[0]
+        share = (self.s - self.s[0]) / (self.s[-1] - self.s[0])
+        return bool(np.abs(self.corners - self.corners[0] - share[:, None] * way).max() < STRAIGHT)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solved:
+    """A curve, or why there is none.
+
+    curve : position over s, or None
+    status : the solver's word; objective : m^2; rounds : how many programmes were solved
+    relaxation, owners : where no curve was found: the least give-way, per owner of a constraint
+    """
+
+    curve: Piecewise | None
+    status: Status
+    objective: float
+    rounds: int
+    relaxation: Relaxation | None = None
+    owners: tuple[str, ...] = ()
+
+
+def solve_stretch(room: Room, stretch: Stretch, limits: Limits, wide: Room | None = None) -> Solved:
+    """Return the curve of one stretch, proved clear in a room.
+
+    wide : the same with larger clearances, which the curve is to keep as the polyline does
+    """
+    if stretch.straight:
+        return Solved(_line(stretch), Status.SOLVED, 0.0, 0)
+    rounds = 0
+    status, problem = Status.FAILED, None
+    for finer in FINER:
+        breaks = subdivide(stretch.s, PIECES * finer)
+        problem, best, used = _iterate((room, wide or room), stretch, limits, breaks)
+        rounds += used
+        if isinstance(best, SplineSolution):
+            assert best.coef is not None
+            curve = _pinned(spline(breaks, best.coef), stretch)
+            return Solved(curve, best.status, best.objective, rounds)
+        status = best
+        if status in {Status.FAILED, Status.UNBOUNDED}:
+            break
+    owners = room.owners
+    relaxation = relax(problem, len(owners)) if problem and status is Status.INFEASIBLE else None
+    return Solved(None, status, float("nan"), rounds, relaxation, owners)
+
+
+def _line(stretch: Stretch) -> Piecewise:
+    x = np.linspace(0.0, 1.0, 6)[:, None]
+    ctrl = (1 - x) * stretch.corners[0] + x * stretch.corners[-1]
+    line = Piecewise(stretch.s[[0, -1]], ctrl[None])
+    return restrict(line, stretch.s)
+
+
+def _iterate(
+    rooms: tuple[Room, Room], stretch: Stretch, limits: Limits, breaks: Array
+) -> tuple[SplineProblem, SplineSolution | Status, int]:
+    """Return the last programme, its best solution or why there is none, and how many were solved.
+
+    rooms : what solutions are proved in, and what they are held to
+    """
+    room, wide = rooms
+    polyline = np.column_stack([np.interp(breaks, stretch.s, stretch.corners[:, k]) for k in range(3)])
+    chords = np.stack([polyline[:-1], polyline[1:]], axis=1)
+    base = _base_problem(stretch, limits, breaks)
+    reach = max(2.0, 0.25 * float(np.diff(stretch.s).max()))
+    hulls, share = chords, FIRST_SHARE
+    best: SplineSolution | None = None
+    problem = base
+    for used in range(1, ROUNDS + 1):
+        problem = with_corridor(base, Around(wide, breaks, hulls, reach, share))
+        solution = minimise(problem)
+        if solution.coef is None:
+            return problem, best or solution.status, used
+        points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
+        if shortfall(room, points).max() > 1e-6:
+            # The curve swung into something that was out of reach of the corridor: widen it.
+            reach *= 4.0
+            hulls, share = chords, FIRST_SHARE
+            continue
+        total = solution.objective + solution.excess
+        done = best is not None and total > (1 - GAIN) * (best.objective + best.excess)
+        best = solution if best is None or not done else best
+        if done or not problem.floors:
+            break
+        hulls, share = points, LATER_SHARE
+    return problem, best or Status.INFEASIBLE, used
+
+
+def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProblem:
+    corners, s = stretch.corners, stretch.s
+    scale = float(s[-1] - s[0]) / max(len(stretch.bound) + len(stretch.pulled_at) - 1, 1)
+    jerk = _scaled(energy_rows(breaks, 3), scale**2.5)
+    goals = [Goal(jerk, np.zeros((len(jerk.piece), 3)))]
+    direction, speed = _nominal(stretch, limits, breaks)
+    if len(stretch.bound) + len(stretch.pulled_at) < 3:
+        bend = min(float(speed.min()) ** 2 / limits.acceleration, 0.25 * float(s[-1] - s[0]))
+        slope = _scaled(energy_rows(breaks, 1), scale**0.5 * (scale / bend) ** 2)
+        unit = slope.apply(greville(breaks)[:, None])
+        goals.append(Goal(slope, unit * direction[slope.piece]))
+    if len(stretch.pulled_at):
+        rows = _scaled(value_rows(breaks, stretch.pulled_at), PULL**0.5)
+        goals.append(Goal(rows, PULL**0.5 * stretch.pulled))
+    bound = list(stretch.bound)
+    equalities = Equalities(value_rows(breaks, s[bound]), corners[bound])
+    cones = _soft_limits(breaks, speed, limits, scale)
+    return SplineProblem(count(breaks), tuple(goals), equalities, (), cones)
+
+
+def _nominal(stretch: Stretch, limits: Limits, breaks: Array) -> tuple[Array, Array]:
+    """Return each piece's direction q'(s) on the polyline and its nominal path velocity, m/s."""
+    middle = 0.5 * (breaks[:-1] + breaks[1:])
+    leg = np.clip(np.searchsorted(stretch.s, middle) - 1, 0, len(stretch.s) - 2)
+    direction = (np.diff(stretch.corners, axis=0) / np.diff(stretch.s)[:, None])[leg]
+    flat = np.linalg.norm(direction[:, :2], axis=1)
+    vertical = np.where(direction[:, 2] > 0, limits.climb, limits.descent)
+    reach = np.minimum(
+        limits.speed / np.maximum(flat, 1e-9), vertical / np.maximum(np.abs(direction[:, 2]), 1e-9)
+    )
+    return direction, stretch.pace * reach
+
+
+def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> tuple[Cones, ...]:
+    """Return speed and acceleration at nominal path velocity, as priced norm bounds.
+
+    v = q' sd and a = q'' sd^2 at constant sd; the time pass enforces the real limits, these only
+    shape the path.
+    """
+    share = np.diff(breaks) / scale
+    first, second = control_rows(breaks, 1), control_rows(breaks, 2)
+    v1, v2 = speed[first.piece], speed[second.piece]
+    unit = EXCESS_PRICE * scale**2
+
+    def cone(rows: Rows, axes: tuple[int, ...], bound: Array, price: float) -> Cones:
+        zero = np.zeros((len(bound), len(axes)))
+        return Cones(rows, axes, zero, bound, price * share[rows.piece], np.zeros(len(bound), dtype=np.intp))
+
+    return (
+        cone(first, (0, 1), limits.speed / v1, unit),
+        cone(first, (2,), min(limits.climb, limits.descent) / v1, unit),
+        cone(second, (0, 1, 2), limits.acceleration / v2**2, unit * scale),
+    )
+
+
+def _pinned(curve: Piecewise, stretch: Stretch) -> Piecewise:
+    """Put the ends exactly where they belong: the solver is good to 1e-8 m, joints are to be equal."""
+    ctrl = curve.ctrl.copy()
+    ctrl[0, 0], ctrl[-1, -1] = stretch.corners[0], stretch.corners[-1]
+    return Piecewise(curve.breaks, ctrl)
+
+
+def _scaled(rows: Rows, factor: float) -> Rows:
+    return Rows(rows.piece, rows.weight * factor)

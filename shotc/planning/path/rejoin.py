@@ -1,0 +1,76 @@
+"""Refined shots put back into a path: the body turned anew, the unfilmed legs led to the new ends.
+
+What a refiner hands back is where the camera is and where it looks; the rest of the path follows from
+that, so no refiner has to plan transits or bodies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from shotc.geom.bernstein import Piecewise
+from shotc.ir.mission import Drone
+from shotc.ir.path import DronePath, Leg, PathIR
+from shotc.planning.obstacles import pad_room, rooms_of
+from shotc.planning.path.in_time import in_time
+from shotc.planning.path.legs import Flight, drone_legs
+from shotc.planning.path.pad import PadBlocked, transit_point
+from shotc.planning.path.shots import ShotCurve
+from shotc.planning.path.with_camera import NoTransit, same, with_camera
+
+
+def rejoined(path: PathIR, cameras: Mapping[str, Piecewise]) -> PathIR:
+    """Return the path with some shots' cameras replaced.
+
+    cameras : by shot id, curves of x, y, z, cam_yaw, cam_pitch over the leg's own s, quintic, C2, on
+        breaks that hold those of the leg
+    Legs whose ends stay the same keep the unfilmed legs around them. Drones on the mission's clock keep the
+    time of every leg (see ``in_time``). NoTransit where there is no way to a new end, or none in time;
+    ValueError where a curve does not cover its leg.
+    """
+    return replace(
+        path,
+        drones=tuple(_drone(path, drone, cameras) for drone in path.drones),
+        timed=tuple(in_time(path.keyframes.mission, flown, cameras) for flown in path.timed),
+    )
+
+
+def _drone(path: PathIR, flown: DronePath, cameras: Mapping[str, Piecewise]) -> DronePath:
+    if not any(leg.shot in cameras for leg in flown.legs):
+        return flown
+    drone = path.keyframes.mission.drone(flown.drone)
+    legs = [
+        leg if leg.shot not in cameras else with_camera(drone, leg, cameras[leg.shot or ""])
+        for leg in flown.legs
+    ]
+    if all(_same_ends(a, b) for a, b in zip(flown.legs, legs, strict=True)):
+        return replace(flown, legs=tuple(legs))
+    return replace(flown, legs=_led_anew(path, drone, legs))
+
+
+def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
+    mission = path.keyframes.mission
+    rooms = rooms_of(mission, drone)
+    top = transit_point(rooms.flight, pad_room(mission, drone), drone)
+    assert not isinstance(top, PadBlocked), "it was free when the path was first planned"
+    placed = {p.shot.id: p for p in path.keyframes.shots}
+    shots = [
+        ShotCurve(placed[leg.shot], leg.curve, leg.pose, leg.stops, leg.marks, leg.framing, (), (), None, ())
+        for leg in legs
+        if leg.shot is not None
+    ]
+    joined = drone_legs(Flight(drone, rooms, top), shots)
+    if isinstance(joined[0], Leg):
+        return joined
+    before = joined[1]
+    raise NoTransit("a way home" if before is None else f"a way to shot `{before.shot.shot.id}`")
+
+
+def _same_ends(old: Leg, new: Leg) -> bool:
+    if old.curve is None or new.curve is None:
+        return old is new
+    return old is new or (
+        same(old.curve.ctrl[0, 0], new.curve.ctrl[0, 0])
+        and same(old.curve.ctrl[-1, -1], new.curve.ctrl[-1, -1])
+    )

@@ -1,0 +1,95 @@
+"""What would let a smooth path through a corridor that is too tight, tried out before it is said."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from shotc.geom.corridor import Room
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.mission import Drone, MissionIR
+from shotc.planning.obstacles import GROUND, named
+from shotc.planning.path.lines import Line, straight_line
+from shotc.planning.path.shots import ShotCurve, Stuck, shot_curve
+from shotc.planning.path.transit import smooth
+from shotc.rounding import up
+
+LEAST = 5e-3  # metres of give-way that count as part of a conflict: less is printed as nothing
+FACTORS = (1, 2, 4)  # of the least give-way: with more room the way leads along other corners
+
+Gives = Mapping[str, float]
+"""By how many metres owners give way, on every side."""
+
+
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """Owners that cannot all stay as they are, and points of the stretch, most metres first.
+
+    points : index of an anchor of the stretch, and by how far it would have to move
+    """
+
+    owners: tuple[tuple[str, float], ...]
+    points: tuple[tuple[int, float], ...]
+
+
+def conflict(what: Stuck) -> Conflict:
+    """Return the smallest set of requirements in conflict; empty where none need give way."""
+    relaxation = what.solved.relaxation
+    if relaxation is None:
+        return Conflict((), ())
+    owners = [
+        (n, float(x)) for n, x in zip(what.solved.owners, relaxation.floor_lack, strict=False) if x > LEAST
+    ]
+    points = [(k, float(x)) for k, x in enumerate(relaxation.point_shift) if x > LEAST]
+    return Conflict(tuple(sorted(owners, key=lambda item: -item[1])), tuple(points))
+
+
+def remedy(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Stuck) -> str | None:
+    """Return a change with which the stretch was planned, as an imperative; None if none was found."""
+    owners = conflict(what).owners
+    for factor in FACTORS:
+        for some in (owners[:1], owners) if len(owners) > 1 else (owners,):
+            gives = {name: up(factor * lack + 0.01) for name, lack in some}
+            wider = _giving(mission, room, gives)
+            if gives and wider is not None and _fits(mission, drone, wider, shot, what):
+                return " and ".join(_asked(mission, name, metres) for name, metres in gives.items())
+    return None
+
+
+def needed(mission: MissionIR, owner: str, metres: float) -> str:
+    """Say by how much an owner would have to give way."""
+    if owner == GROUND:
+        return f"rules.ground_clearance would have to be {metres:.2f} m lower"
+    change = "wider" if _holds_in(mission, owner) else "smaller"
+    return f"{named(owner)} would have to be {metres:.2f} m {change} on every side"
+
+
+def _asked(mission: MissionIR, owner: str, metres: float) -> str:
+    if owner == GROUND:
+        return f"lower rules.ground_clearance by {metres:.2f} m"
+    verb = "widen" if _holds_in(mission, owner) else "shrink"
+    return f"{verb} {named(owner)} by {metres:.2f} m on every side"
+
+
+def _holds_in(mission: MissionIR, owner: str) -> bool:
+    return any(owner == f"zone {zone.name}" and zone.keep == "in" for zone in mission.zones)
+
+
+def _giving(mission: MissionIR, room: Room, gives: Gives) -> Room | None:
+    """Return the room with owners that give way; None where one would give more than it has.
+
+    To come nearer to a solid by less than its clearance is as good as to shrink it: a shrunk solid grown
+    again by what it lost lies inside the old one.
+    """
+    if gives.get(GROUND, 0.0) > mission.rules.ground_clearance:
+        return None
+    if any(gives.get(o.owner, 0.0) > o.clearance for o in room.obstacles):
+        return None
+    return room.giving(gives)
+
+
+def _fits(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Stuck) -> bool:
+    if shot is not None and what.keyframes:
+        return isinstance(shot_curve(mission, drone, room, shot), ShotCurve)
+    line = straight_line(room, what.corners[0], what.corners[-1])
+    return isinstance(line, Line) and not isinstance(smooth(room, drone, line), Stuck)

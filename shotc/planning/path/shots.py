@@ -1,0 +1,272 @@
+"""One shot as a curve: position, camera angles, body yaw, marks, stops and what is framed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise, concatenate
+from shotc.geom.bspline import restrict
+from shotc.geom.corridor import Room, breaches
+from shotc.geom.runs import worst_of_runs
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import Deviation, FramingSpan, Mark, Stop
+from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
+from shotc.planning.path.body import BodyTask, body_line
+from shotc.planning.path.lines import SAME_PLACE, Line, NoWay, TooNear, shot_line
+from shotc.planning.path.position import Solved, Stretch, solve_stretch
+from shotc.planning.path.swings import Swing, worst_swing
+from shotc.solvers.conic import Status
+from shotc.solvers.headings import DEFAULT
+
+NOTICE = 0.1  # metres off a generated keyframe that are worth telling
+LEFT = 0.02  # metres off that belong to a stretch worth telling
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShotCurve:
+    """A shot's geometry on its own s from 0; ``curve`` is None for a still camera at ``pose``.
+
+    pose : channels as in ir.path at the start
+    duration : seconds that it is to take, where the mission leaves its time free and something else does not
+    """
+
+    shot: PlacedShot
+    curve: Piecewise | None
+    pose: tuple[float, ...]
+    stops: tuple[Stop, ...]
+    marks: tuple[Mark, ...]
+    framing: tuple[FramingSpan, ...]
+    deviations: tuple[Deviation, ...]
+    cuts: tuple[Cut, ...]
+    swing: Swing | None
+    stats: tuple[tuple[str, float | str], ...]
+    duration: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stuck:
+    """A stretch whose programme has no solution; ``first`` is its first keyframe."""
+
+    solved: Solved
+    corners: Array
+    keyframes: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AngleFailure:
+    """The angle programme was not solved."""
+
+    what: str
+    status: Status
+
+
+Failure = NoWay | TooNear | Stuck | AngleFailure
+
+
+def shot_curve(
+    mission: MissionIR, drone: Drone, room: Room, placed: PlacedShot, headings: str = DEFAULT
+) -> ShotCurve | Failure:
+    """Return a shot's geometry, or what stands in its way; ``headings`` is how turns are chosen."""
+    line = shot_line(room, placed.keyframes)
+    if not isinstance(line, Line):
+        return line
+    if line.s[-1] <= 0.0:
+        return _still(placed, line)
+    position = _position(room, drone, placed, line)
+    if isinstance(position, Stuck):
+        return position
+    curve, solved = position
+    keyed = replace(_keyed(placed, line, curve), pace=placed.shot.pace, headings=headings)
+    camera = camera_line(mission, drone, keyed)
+    if camera.status not in {Status.SOLVED, Status.INACCURATE}:
+        return AngleFailure("camera", camera.status)
+    refined = restrict(curve, camera.angles.breaks)
+    speed = placed.shot.pace * drone.limits.speed
+    cam_yaw = camera.angles.channels(0)
+    body_status, body = body_line(drone, BodyTask(refined, cam_yaw, None, None, speed))
+    if body_status not in {Status.SOLVED, Status.INACCURATE}:
+        return AngleFailure("body", body_status)
+    whole = stack(refined, camera.angles.channels(0, 1), body, camera.angles.channels(2))
+    return ShotCurve(
+        shot=placed,
+        curve=whole,
+        pose=tuple(map(float, whole.ctrl[0, 0])),
+        stops=_stops(placed.keyframes, keyed, line),
+        marks=_marks(placed, keyed),
+        framing=framing_spans(keyed),
+        deviations=_deviations(room, placed, keyed),
+        cuts=camera.cuts,
+        swing=worst_swing(mission, keyed, camera),
+        stats=_stats(placed, solved, camera, whole),
+    )
+
+
+def stack(*curves: Piecewise) -> Piecewise:
+    """Put curves on the same breaks side by side."""
+    return Piecewise(curves[0].breaks, np.concatenate([c.ctrl for c in curves], axis=2))
+
+
+def _still(placed: PlacedShot, line: Line) -> ShotCurve:
+    first = placed.keyframes[0]
+    asked = placed.shot.timing.duration
+    times = _standing(placed.keyframes, asked)
+    hold = asked if asked is not None else times[-1] + placed.keyframes[-1].hold
+    pose = (*map(float, line.corners[0]), first.yaw, first.pitch, first.yaw, first.hfov)
+    spans: tuple[FramingSpan, ...] = ()
+    if first.target is not None:
+        reference = None
+        if first.reference is not None:
+            reference = Piecewise(np.array([0.0, 1.0]), np.tile(np.array(first.reference), (1, 6, 1)))
+        spans = (FramingSpan(first.target, 0.0, 0.0, reference),)
+    marks = tuple(
+        Mark(0.0, t, i, k.path) for i, (t, k) in enumerate(zip(times, placed.keyframes, strict=True))
+    )
+    return ShotCurve(placed, None, pose, (Stop(0.0, hold),), marks, spans, (), (), None, ())
+
+
+def _standing(keyframes: tuple[PlacedKeyframe, ...], duration: float | None) -> list[float]:
+    """Return when a camera that stands is at each of its keyframes, s: in order, the last at the end."""
+    times: list[float] = []
+    now = 0.0
+    for k in keyframes:
+        times.append(now if k.time is None else k.time)
+        now = times[-1] + k.hold
+    if duration is not None and len(keyframes) > 1 and keyframes[-1].time is None:
+        times[-1] = max(times[-1], duration - keyframes[-1].hold)
+    return times
+
+
+def _position(
+    room: Room, drone: Drone, placed: PlacedShot, line: Line
+) -> tuple[Piecewise, list[Solved]] | Stuck:
+    """Solve stretch by stretch; the drone rests wherever the camera turns on the spot."""
+    curves: list[Piecewise] = []
+    solved: list[Solved] = []
+    for first, last in _sections(line):
+        s = line.s[first : last + 1]
+        if last == first + 1 and np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE:
+            still = np.tile(line.corners[first], (1, 6, 1))
+            curves.append(Piecewise(s, still))
+            continue
+        result = solve_stretch(room, _stretch(placed, line, first, last), drone.limits)
+        if result.curve is None:
+            owners = tuple(k for k in line.of[first : last + 1] if k >= 0)
+            return Stuck(result, line.corners[first : last + 1], owners)
+        curves.append(result.curve)
+        solved.append(result)
+    return concatenate(curves), solved
+
+
+def _sections(line: Line) -> list[tuple[int, int]]:
+    """Cut the polyline where the camera turns on the spot; repeated keyframes fall out."""
+    moving = np.linalg.norm(np.diff(line.corners, axis=0), axis=1) >= SAME_PLACE
+    sections: list[tuple[int, int]] = []
+    for i, moves in enumerate(moving):
+        if line.s[i + 1] <= line.s[i]:
+            continue
+        if moves and sections and sections[-1][1] == i and moving[i - 1]:
+            sections[-1] = (sections[-1][0], i + 1)
+        else:
+            sections.append((i, i + 1))
+    return sections
+
+
+def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
+    bound, pulled, pulled_at = [0], [], []
+    for i in range(first + 1, last):
+        k = line.of[i]
+        if k < 0:
+            continue
+        if line.dropped and not placed.keyframes[k].placed:
+            pulled.append(placed.keyframes[k].at)
+            pulled_at.append(line.s[i])
+        else:
+            bound.append(i - first)
+    bound.append(last - first)
+    s = line.s[first : last + 1]
+    return Stretch(
+        corners=line.corners[first : last + 1],
+        s=s,
+        bound=tuple(bound),
+        pulled=np.array(pulled).reshape(-1, 3),
+        pulled_at=np.array(pulled_at),
+        pace=placed.shot.pace,
+    )
+
+
+def _keyed(placed: PlacedShot, line: Line, curve: Piecewise) -> KeyedPath:
+    """Say where on the curve every keyframe is; dropped ones where the curve comes nearest."""
+    keyframes = placed.keyframes
+    s = np.full(len(keyframes), np.nan)
+    for corner, k in enumerate(line.of):
+        if k >= 0:
+            s[k] = line.s[corner]
+    exact = [not np.isnan(value) for value in s]
+    last = len(keyframes) - 1
+    for k, keyframe in enumerate(keyframes):
+        if not exact[k]:
+            ahead = min(s[j] for j in range(k + 1, last + 1) if exact[j])
+            s[k] = _nearest(curve, keyframe, float(s[k - 1]), float(ahead))
+        elif line.dropped and not keyframe.placed:
+            exact[k] = False if k not in {0, last} else not line.moved[int(k == last)]
+    for k in (0, last):
+        exact[k] = exact[k] and not line.moved[int(k == last)]
+    return KeyedPath(keyframes, s, tuple(exact), curve)
+
+
+def _nearest(curve: Piecewise, keyframe: PlacedKeyframe, low: float, high: float) -> float:
+    # Kept off both ends, so that parameters increase.
+    at = np.linspace(low, high, 66)[1:-1]
+    away = np.linalg.norm(curve(at) - np.array(keyframe.at), axis=1)
+    return float(at[int(away.argmin())])
+
+
+def _stops(keyframes: tuple[PlacedKeyframe, ...], keyed: KeyedPath, line: Line) -> tuple[Stop, ...]:
+    holds = {float(line.s[0]): 0.0, float(line.s[-1]): 0.0}
+    for first, last in _sections(line):
+        if np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE and last == first + 1:
+            holds.setdefault(float(line.s[first]), 0.0)
+            holds.setdefault(float(line.s[last]), 0.0)
+    for keyframe, s in zip(keyframes, keyed.s, strict=True):
+        if keyframe.hold > 0:
+            holds[float(s)] = holds.get(float(s), 0.0) + keyframe.hold
+    return tuple(Stop(s, holds[s]) for s in sorted(holds))
+
+
+def _marks(placed: PlacedShot, keyed: KeyedPath) -> tuple[Mark, ...]:
+    return tuple(
+        Mark(float(s), k.time, i, k.path)
+        for i, (s, k) in enumerate(zip(keyed.s, placed.keyframes, strict=True))
+    )
+
+
+def _deviations(room: Room, placed: PlacedShot, keyed: KeyedPath) -> tuple[Deviation, ...]:
+    """Return, for each run of keyframes that the path leaves, the worst of it."""
+    points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
+    away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
+    return tuple(
+        Deviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(room, points[i]))
+        for i in worst_of_runs(away, LEFT, NOTICE)
+    )
+
+
+def _cause(room: Room, point: Array) -> str:
+    near = breaches(room, point)
+    return near[0].owner if near else "what lies between its keyframes"
+
+
+def _stats(
+    placed: PlacedShot, solved: list[Solved], camera: CameraLine, whole: Piecewise
+) -> tuple[tuple[str, float | str], ...]:
+    name = placed.shot.id
+    return (
+        (f"{name}.length", whole.end - whole.start),
+        (f"{name}.pieces", float(len(whole.ctrl))),
+        (f"{name}.qp_objective", float(sum(r.objective for r in solved))),
+        (f"{name}.qp_rounds", float(sum(r.rounds for r in solved))),
+        (f"{name}.qp_status", next((str(r.status) for r in solved if r.status != "solved"), "solved")),
+        (f"{name}.camera_fit_error", camera.error),
+    )

@@ -1,0 +1,226 @@
+"""The position curve of an unfilmed leg, which keeps the clearances of transits from what stands.
+
+Where an end of the leg is nearer to something, the way leads out from there to where there is room, as short
+as the taper of the clearances allows (``geom.taper``), and in to the other end likewise. Where no way has
+such clearances, or only one that is much longer, it keeps less, from as few things as it must; verification
+tells what it comes nearer to, or refuses it where the mission writes its clearances down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.convex import BoolArray, distances
+from shotc.geom.corridor import MARGIN, Obstacle, Room, bounds_slack, taper
+from shotc.geom.directions import directions
+from shotc.geom.route import find_route, length
+from shotc.geom.taper import SLOPE
+from shotc.geom.vec import Vec3
+from shotc.ir.mission import Drone
+from shotc.planning.obstacles import Rooms
+from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
+from shotc.planning.path.position import Stretch, solve_stretch
+from shotc.planning.path.shots import Stuck
+
+TIMES_LONGER, MORE = 1.5, 20.0  # how much longer than without the clearances a way may be, times and metres
+HALVINGS = 4  # of the share to which clearances are lessened where there is no way with all of them
+STEP = 0.2  # metres between the places of a ray that are compared
+TURNS = 24  # rays around an end
+RISES = (0.0, 0.6, 1.2, -0.6)  # rad that rays point upwards
+TRIED = 60  # places beside a short way that it may lead over
+PLAY = 3.0 * MARGIN  # metres beyond the clearances at which a way out of an end is at its end
+ROUNDING = 1e-6  # metres
+
+
+def transit_curve(rooms: Rooms, drone: Drone, a: Array, b: Array) -> Piecewise | NoWay | TooNear | Stuck:
+    """Return the position curve from one place to another that are not the same."""
+    near = straight_line(rooms.flight, a, b)
+    if not isinstance(near, Line):
+        return near
+    for wide in _widest(rooms, near.corners):
+        line = _line(rooms, wide, near.corners)
+        if line is not None:
+            curve = smooth(rooms.flight, drone, line, replace(wide, ends=_ends(near.corners)))
+            if not isinstance(curve, Stuck):
+                return curve
+    return smooth(rooms.flight, drone, near)
+
+
+def smooth(room: Room, drone: Drone, line: Line, wide: Room | None = None) -> Piecewise | Stuck:
+    """Return the position curve of an unfilmed leg along a polyline; wide : as in ``solve_stretch``."""
+    none = np.zeros(0)
+    ends = (0, len(line.corners) - 1)
+    stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
+    solved = solve_stretch(room, stretch, drone.limits, wide)
+    return Stuck(solved, line.corners, ()) if solved.curve is None else solved.curve
+
+
+def _widest(rooms: Rooms, near: Array) -> Iterator[Room]:
+    """Return rooms with the widest clearances for which there may be a way: all, else few of them less.
+
+    near : the way without them, shape (K, 3)
+    """
+    if rooms.transit == rooms.flight:
+        return
+    yield rooms.transit
+    every = frozenset(rooms.transit.owners)
+    for owners in dict.fromkeys((every - rooms.required, every)):
+        share = _greatest(rooms, owners, near)
+        if share is not None:
+            yield _lessened(rooms, _needed(rooms, owners, share, near), share)
+
+
+def _greatest(rooms: Rooms, owners: frozenset[str], near: Array) -> float | None:
+    """Return the greatest share, for some owners, of their clearances with which there is a way."""
+    low, high = 0.0, 1.0
+    if not owners or _line(rooms, _lessened(rooms, owners, low), near) is None:
+        return None
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        found = _line(rooms, _lessened(rooms, owners, middle), near) is not None
+        low, high = (middle, high) if found else (low, middle)
+    return low
+
+
+def _needed(rooms: Rooms, owners: frozenset[str], share: float, near: Array) -> frozenset[str]:
+    """Return those of some owners whose clearances have to be lessened for a way."""
+    found = _line(rooms, _lessened(rooms, owners, share), near)
+    assert found is not None
+    less = owners & _passed_nearer(replace(rooms.transit, ends=_ends(near)), found.corners)
+    for owner in sorted(less):
+        if len(less) > 1 and _line(rooms, _lessened(rooms, less - {owner}, share), near) is not None:
+            less = less - {owner}
+    return less
+
+
+def _lessened(rooms: Rooms, owners: frozenset[str], share: float) -> Room:
+    """Return the room of transits with a share of what it asks beyond that of all phases, of some owners."""
+    pairs = zip(rooms.flight.obstacles, rooms.transit.obstacles, strict=True)
+    obstacles = tuple(
+        replace(wide, clearance=own.clearance + share * (wide.clearance - own.clearance))
+        if wide.owner in owners
+        else wide
+        for own, wide in pairs
+    )
+    return replace(rooms.transit, obstacles=obstacles)
+
+
+def _passed_nearer(room: Room, corners: Array) -> frozenset[str]:
+    points = _along(corners)
+    return frozenset(
+        o.owner for o in room.obstacles if (distances(o.part, points) < taper(room, o).needs(points)).any()
+    )
+
+
+def _line(rooms: Rooms, wide: Room, near: Array) -> Line | None:
+    """Return a polyline that keeps clearances that taper towards its ends; None where none is short enough.
+
+    near : the polyline that keeps those of all phases, shape (K, 3)
+    """
+    a, b, flight = near[0], near[-1], rooms.flight
+    full, wide = _settled(wide, near[[0, -1]]), replace(wide, ends=_ends(near))
+    if _kept(wide, near):
+        return _of(near)
+    short = length(near) <= 2.0 * max(o.clearance for o in wide.obstacles) / SLOPE
+    bent = _bent(flight, wide, a, b) if short else None
+    found = [bent] if bent is not None else []
+    away, back = (_outside(flight, replace(full, ends=wide.ends), *pair) for pair in ((a, b), (b, a)))
+    route = None if away is None or back is None else find_route(full, away, back)
+    if route is not None:
+        found.append(_joined(a, route, b))
+    best = min(found, key=length, default=None)
+    most = inf if rooms.required else TIMES_LONGER * length(near) + MORE
+    return None if best is None or length(best) > most else _of(best)
+
+
+def _joined(a: Array, route: Array, b: Array) -> Array:
+    """Return a route with its ends a and b; what is an end but for rounding is that end."""
+    between = [p for p in route if min(np.linalg.norm(p - a), np.linalg.norm(p - b)) > ROUNDING]
+    return np.array([a, *between, b])
+
+
+def _settled(room: Room, ends: Array) -> Room:
+    """Return the room with clearances that an end of a way all but has as large as the end has them."""
+
+    def settled(o: Obstacle) -> Obstacle:
+        gap = float(distances(o.part, ends).min())
+        return replace(o, clearance=gap) if o.clearance - PLAY <= gap < o.clearance else o
+
+    return replace(room, obstacles=tuple(map(settled, room.obstacles)))
+
+
+def _of(corners: Array) -> Line:
+    s = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))])
+    return Line(corners, s, tuple([-1] * len(corners)))
+
+
+def _kept(room: Room, corners: Array) -> bool:
+    """Tell whether a polyline keeps clearances that taper."""
+    points = _along(corners)
+    return bool(_keeps(room, points).all())
+
+
+def _along(corners: Array) -> Array:
+    """Return places along a polyline, at most STEP apart."""
+    parts = [
+        p + np.linspace(0.0, 1.0, 1 + int(np.ceil(np.linalg.norm(q - p) / STEP)) + 1)[:, None] * (q - p)
+        for p, q in pairwise(corners)
+    ]
+    return np.concatenate(parts)
+
+
+def _keeps(room: Room, points: Array, more: float = -ROUNDING) -> BoolArray:
+    """Tell which places (..., 3) are as far from everything as is needed there, and so much more."""
+    fine = np.ones(points.shape[:-1], dtype=np.bool_)
+    for o in room.obstacles:
+        fine &= distances(o.part, points) >= taper(room, o).needs(points) + more
+    return fine
+
+
+def _outside(flight: Room, wide: Room, end: Array, goal: Array) -> Array | None:
+    """Return where a straight way out of an end first has the full clearances, nearest on the way to a goal.
+
+    The end itself where it has them; None where no way out is clear.
+    """
+    lack = max((o.clearance - float(distances(o.part, end)) for o in wide.obstacles), default=0.0)
+    if lack <= 0.0:
+        return end
+    # What is needed grows by the slope at least until it is had.
+    reach = np.arange(STEP, (lack + PLAY) / SLOPE + 2.0 * STEP, STEP)
+    points = end + reach[:, None] * directions(TURNS, RISES)[:, None, :]
+    fine = _keeps(wide, points)
+    inside = bounds_slack(flight, points.reshape(-1, 3)).reshape(fine.shape) >= MARGIN
+    there = np.logical_and.accumulate(fine & inside, axis=1) & _keeps(replace(wide, ends=()), points, PLAY)
+    first = points[np.arange(len(there)), there.argmax(axis=1)][there.any(axis=1)]
+    return _shortest(end, first, goal)
+
+
+def _bent(flight: Room, wide: Room, a: Array, b: Array) -> Array | None:
+    """Return the shortest way over one place beside the middle that keeps clearances; None without one.
+
+    Between two near ends the clearances do not grow to the full ones, so that no way has to lead out so far.
+    """
+    apart = float(np.linalg.norm(b - a))
+    reach = np.arange(STEP, 0.5 * apart + 2.0 * STEP, STEP)
+    places = (0.5 * (a + b) + reach[:, None] * directions(TURNS, RISES)[:, None, :]).reshape(-1, 3)
+    places = places[_keeps(wide, places) & (bounds_slack(flight, places) >= MARGIN)]
+    order = np.argsort(np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1), kind="stable")
+    ways = (np.stack([a, place, b]) for place in places[order[:TRIED]])
+    return next((corners for corners in ways if _kept(wide, corners)), None)
+
+
+def _shortest(a: Array, places: Array, b: Array) -> Array | None:
+    """Return the place, of some, shape (N, 3), over which it is the shortest from one place to another."""
+    ways = np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1)
+    return None if not len(places) else np.asarray(places[int(ways.argmin())])
+
+
+def _ends(way: Array) -> tuple[Vec3, Vec3]:
+    (ax, ay, az), (bx, by, bz) = way[[0, -1]].tolist()
+    return (ax, ay, az), (bx, by, bz)

@@ -1,0 +1,67 @@
+"""A refined camera put into its shot's leg, with a body that turns under it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.bspline import restrict
+from shotc.ir.mission import Drone
+from shotc.ir.path import BODY_YAW, HFOV, Leg
+from shotc.planning.path.body import BodyTask, body_line
+from shotc.planning.path.shots import stack
+from shotc.solvers.conic import Status
+
+SAME_END = 1e-9  # metres or radians
+
+
+class NoTransit(Exception):
+    """A refined shot has no body or no way to it; the text says what cannot be kept.
+
+    least : seconds that the shot would have to be given, where it is its time that cannot
+    """
+
+    def __init__(self, what: str, least: float | None = None) -> None:
+        super().__init__(what)
+        self.least = least
+
+
+@lru_cache(maxsize=64)
+def with_camera(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
+    """Return a shot's leg with another camera (see ``rejoined``), and the body that goes with it.
+
+    The same leg for the same camera: a refiner looks at it before it is put back, and what was found of it
+    then (its times above all) holds for it afterwards.
+    """
+    old = leg.curve
+    if old is None or abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
+        raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
+    kept = same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1])
+    body = _body(drone, leg, camera, old) if kept else None
+    kept = body is not None
+    body = body or _body(drone, leg, camera, None)
+    if body is None:
+        raise NoTransit("the gimbal's yaw range")
+    curve = stack(camera, body, restrict(old.channels(HFOV), camera.breaks))
+    if kept:
+        # Fits are good to 1e-9; joints are to be equal.
+        ctrl = curve.ctrl.copy()
+        ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]
+        curve = Piecewise(curve.breaks, ctrl)
+    return replace(leg, curve=curve, pose=tuple(map(float, curve.ctrl[0, 0])))
+
+
+def _body(drone: Drone, leg: Leg, camera: Piecewise, ends: Piecewise | None) -> Piecewise | None:
+    """Return the body's yaw, with the ends of an earlier curve if there is one; None without a solution."""
+    start, end = (None, None) if ends is None else ends.ctrl[[0, -1], [0, -1], BODY_YAW].tolist()
+    task = BodyTask(camera.channels(0, 1, 2), camera.channels(3), start, end, leg.pace * drone.limits.speed)
+    status, body = body_line(drone, task)
+    return body if status in {Status.SOLVED, Status.INACCURATE} else None
+
+
+def same(a: np.ndarray, b: np.ndarray) -> bool:
+    """Tell whether two poses are one."""
+    return bool(np.abs(a - b).max() < SAME_END)

@@ -1,0 +1,1 @@
+"""Timing s(t): legs over time, within limits, by deadlines."""

@@ -1,0 +1,241 @@
+"""Gives every move the time that a leg's duration and its keyframes' times ask for, or says what is too fast.
+
+Times fixed by the mission are anchors; between two of them all moves and parts of moves are slowed
+alike from the fastest that the limits allow. What follows the last anchor keeps its pace.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
+
+import numpy as np
+
+from shotc.ir.path import Leg, Mark
+from shotc.planning.timing.leg import Plan, plan_of
+from shotc.planning.timing.limits import Ceiling
+from shotc.planning.timing.move import Move
+from shotc.planning.timing.profile import SAME
+from shotc.planning.timing.windows import windowed_move
+
+# What a flight is late at least that no single stretch makes late; seconds that are none.
+LITTLE, SOON = 0.01, 1e-3
+# Rounding by which a time may be shorter than the shortest, relative and in seconds; and the share to which
+# the solver knows the shortest, a tenth of what it keeps from the limits: a move may be so much faster.
+ROUNDING, SOLVED_TO = 1e-9, 1e-7
+# The search for the least delay that would do: first try, seconds; doublings; halvings after that.
+FIRST_DELAY, DOUBLINGS, HALVINGS = 0.05, 9, 5
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """The moves at the times asked for, and the plan with the waits that these need."""
+
+    plan: Plan
+    moves: tuple[Move, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TooFast:
+    """The leg cannot be that fast.
+
+    mark : the keyframe that is not reached in time; None for the end of the leg
+    asked, shortest : seconds from the leg's start; shortest is what would do, None if no delay of it does
+    shifts_rest : whether all later times have to move by as much
+    """
+
+    mark: Mark | None
+    asked: float
+    shortest: float | None
+    shifts_rest: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Anchor:
+    """A place with a time: the leg arrives there and leaves again, seconds from its start."""
+
+    s: float
+    arrives: float
+    leaves: float
+    mark: Mark | None = None
+
+    def later(self, seconds: float) -> _Anchor:
+        return replace(self, arrives=self.arrives + seconds, leaves=self.leaves + seconds)
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """A part of a move: where it ends, how long it is to last, how long it does at least; its anchor."""
+
+    move: int
+    end: float
+    seconds: float
+    least: float
+    anchor: int
+
+
+@dataclass(frozen=True, slots=True)
+class _Late:
+    """The anchor that is not reached in time, and by how much if that is known."""
+
+    anchor: int
+    lack: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DueLeg:
+    """A leg with times to meet.
+
+    fast : its moves at full limits, which are ``ceiling``; paced : at its pace, for what has no time
+    """
+
+    leg: Leg
+    plan: Plan
+    fast: tuple[Move, ...]
+    paced: tuple[Move, ...]
+    ceiling: Ceiling
+
+    def possible(self) -> bool:
+        """Tell whether the times can be met."""
+        return isinstance(_attempt(self, _anchors(self.leg, self.plan)), Timed)
+
+    def lateness(self) -> float:
+        """Return by which share of the time between two anchors the fastest flight is late, at least 0."""
+        if self.possible():
+            return 0.0
+        late = LITTLE
+        for a, b in pairwise(_anchors(self.leg, self.plan)):
+            least = sum(seconds for _, _, seconds in _parts(self.plan, self.fast, a.s, b.s))
+            late = max(late, least / max(_room(self.plan, a, b), SOON) - 1.0)
+        return late
+
+    def meet(self) -> Timed | TooFast:
+        """Return the moves at the times asked for, or the first that cannot be met and what could."""
+        anchors = _anchors(self.leg, self.plan)
+        found = _attempt(self, anchors)
+        if isinstance(found, Timed):
+            return found
+        late = anchors[found.anchor]
+        at_end = late.mark is None
+        asked = late.leaves if at_end else late.arrives
+        for shifts_rest in (False, True):
+            delay = _least_delay(self, anchors, found, shifts_rest)
+            if delay is not None:
+                return TooFast(late.mark, asked, asked + delay, shifts_rest)
+        return TooFast(late.mark, asked, None)
+
+
+def has_times(leg: Leg) -> bool:
+    """Tell whether a keyframe's time or the leg's length is given."""
+    return leg.duration is not None or any(mark.time is not None for mark in leg.marks)
+
+
+def flying_times(leg: Leg) -> tuple[tuple[float, float], ...]:
+    """Return the places of a leg that have a time, its start first, each with the seconds of flight to it."""
+    plan = plan_of(leg)
+    anchors = _anchors(leg, plan)
+    flown = accumulate((_room(plan, a, b) for a, b in pairwise(anchors)), initial=0.0)
+    return tuple((anchor.s, t) for anchor, t in zip(anchors, flown, strict=True))
+
+
+def _anchors(leg: Leg, plan: Plan) -> list[_Anchor]:
+    """Return the fixed times in order of s, the start first, one for each place."""
+    first = plan.stops[0]
+    anchors = [_Anchor(first.s, 0.0, first.hold)]
+    for mark in sorted(leg.marks, key=lambda m: (m.s, m.index)):
+        if mark.time is None:
+            continue
+        last = anchors[-1]
+        held = plan.hold_at(mark.s)
+        if mark.s - last.s > SAME:
+            anchors.append(_Anchor(mark.s, mark.time, mark.time + held, mark))
+        elif last.mark is None:
+            anchors[-1] = _Anchor(last.s, 0.0, mark.time + held, mark)
+        else:
+            anchors[-1] = replace(last, leaves=max(last.leaves, mark.time))
+    if leg.duration is not None:
+        end, last = plan.stops[-1], anchors[-1]
+        if end.s - last.s > SAME:
+            anchors.append(_Anchor(end.s, leg.duration - end.hold, leg.duration))
+        else:
+            anchors[-1] = replace(last, leaves=max(last.leaves, leg.duration))
+    return anchors
+
+
+def _room(plan: Plan, a: _Anchor, b: _Anchor) -> float:
+    """Return the seconds that there are for flying from one anchor to the next."""
+    return b.arrives - a.leaves - plan.holds_between(a.s, b.s)
+
+
+def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
+    parts: list[_Part] = []
+    plan = timed.plan.leaving({a.s: a.leaves - a.arrives for a in anchors})
+    for i, (a, b) in enumerate(pairwise(anchors)):
+        found = _parts(plan, timed.fast, a.s, b.s)
+        least = sum(seconds for _, _, seconds in found)
+        room = _room(plan, a, b)
+        lack = least - room
+        if lack > ROUNDING * (1 + room) + SOLVED_TO * least and (
+            room <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))
+        ):
+            return _Late(i + 1, lack)
+        parts += [_Part(m, end, room * seconds / least, seconds, i + 1) for m, end, seconds in found]
+    rest = _parts(plan, timed.paced, anchors[-1].s, plan.stops[-1].s)
+    parts += [_Part(m, end, seconds, seconds, len(anchors)) for m, end, seconds in rest]
+    moves: list[Move] = []
+    for m, move in enumerate(timed.fast):
+        own = [p for p in parts if p.move == m]
+        made = _made(timed, move, own)
+        if made is None:
+            known = [p for p in own if p.anchor < len(anchors)]
+            return _Late(min(known, key=lambda p: p.seconds / p.least).anchor)
+        moves.append(made)
+    return Timed(plan, tuple(moves))
+
+
+def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> list[tuple[int, float, float]]:
+    """Return (move, where its part ends, seconds) for what is flown between two places."""
+    found = []
+    for m, ((s0, s1), move) in enumerate(zip(plan.spans, moves, strict=True)):
+        low, high = max(s0, start), min(s1, end)
+        if high - low > SAME:
+            found.append((m, high, move.profile.arrival(high) - move.profile.departure(low)))
+    return found
+
+
+def _made(timed: DueLeg, fast: Move, parts: list[_Part]) -> Move | None:
+    if len(parts) == 1:
+        return fast.stretched(max(1.0 - SOLVED_TO, parts[0].seconds / fast.duration))
+    span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))
+    ends = np.array([p.end for p in parts])
+    seconds = np.array([p.seconds for p in parts])
+    return windowed_move(fast.path, span, timed.ceiling, ends, seconds)
+
+
+def _least_delay(timed: DueLeg, anchors: list[_Anchor], late: _Late, shifts_rest: bool) -> float | None:
+    """Return by how much the late anchor (and all after it) has to move at least, or None."""
+
+    def enough(delay: float) -> bool:
+        k = late.anchor
+        moved = [a.later(delay) if i == k or (shifts_rest and i > k) else a for i, a in enumerate(anchors)]
+        return isinstance(_attempt(timed, moved), Timed)
+
+    if late.lack > 0 and enough(late.lack):
+        return late.lack
+    return _first_enough(enough, max(FIRST_DELAY, late.lack))
+
+
+def _first_enough(enough: Callable[[float], bool], first: float) -> float | None:
+    high = first
+    for _ in range(DOUBLINGS):
+        if enough(high):
+            break
+        high *= 2.0
+    else:
+        return None
+    low = high / 2.0 if high > first else 0.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if enough(middle) else (middle, high)
+    return high

@@ -1,0 +1,115 @@
+"""Puts the timed legs of one drone on mission time: phases, waits, keyframes, references."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
+from shotc.ir.path import FramingSpan, Leg, TimedLeg
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Reference
+from shotc.planning.timing.leg import TINY, LegMotion, rest
+from shotc.planning.timing.profile import Profile
+
+Array = NDArray[np.float64]
+
+
+@dataclass(slots=True)
+class Flight:
+    """A drone's trajectory while it grows, leg by leg."""
+
+    drone: str
+    clock: float = 0.0
+    curves: list[Piecewise] = field(default_factory=list)
+    phases: list[Phase] = field(default_factory=list)
+    keyframes: list[KeyframeTime] = field(default_factory=list)
+    framing: list[Reference] = field(default_factory=list)
+
+    def wait(self, until: float, pose: tuple[float, ...]) -> None:
+        """Hover until a mission time; the wait belongs to the transit before it, or is one.
+
+        A drone that has not left its pad waits there.
+        """
+        if until - self.clock < TINY:
+            return
+        here = self.curves[-1].ctrl[-1, -1] if self.curves else np.array(pose)
+        self.curves.append(rest(here, np.array([self.clock, until])))
+        if self.phases and self.phases[-1].name == "transit":
+            self.phases[-1] = Phase("transit", None, self.phases[-1].start, until)
+        elif not self.phases:
+            self.phases.append(Phase("takeoff", None, self.clock, until))
+        else:
+            self.phases.append(Phase("transit", None, self.clock, until))
+        self.clock = until
+
+    def fly(self, leg: Leg, motion: LegMotion) -> None:
+        """Add a leg, from now on."""
+        start, end = self.clock, self.clock + motion.duration
+        t = start + motion.profile.t
+        t[-1] = end
+        self.curves.append(Piecewise(t, motion.curve.ctrl))
+        if leg.phase == "takeoff" and self.phases:
+            waited = self.phases.pop()
+            self.phases.append(Phase("takeoff", None, waited.start, end))
+        else:
+            self.phases.append(Phase(leg.phase, leg.shot, start, end))
+        self.clock = end
+        if leg.shot is None:
+            return
+        for mark in leg.marks:
+            at = mark.time if mark.time is not None else motion.profile.arrival(mark.s)
+            self.keyframes.append(KeyframeTime(leg.shot, mark.index, start + at))
+        for span in leg.framing:
+            self.framing.append(_reference(leg.shot, span, leg, motion, start))
+
+    def film(self, leg: TimedLeg) -> None:
+        """Add a shot on its own clock, which begins now; the ways into and out of its motion are transits."""
+        self.curves.append(leg.curve)
+        if self.phases and self.phases[-1].name == "transit":
+            self.phases[-1] = Phase("transit", None, self.phases[-1].start, leg.start)
+        else:
+            self.phases.append(Phase("transit", None, self.clock, leg.start))
+        self.phases.append(Phase("shot", leg.shot, leg.start, leg.end))
+        self.phases.append(Phase("transit", None, leg.end, leg.curve.end))
+        self.keyframes += [KeyframeTime(leg.shot, mark.index, mark.s) for mark in leg.marks]
+        self.framing += [Reference(leg.shot, s.target, s.start, s.end, s.reference) for s in leg.framing]
+        self.clock = float(leg.curve.end)
+
+    def trajectory(self) -> DroneTrajectory:
+        """Return the finished flight."""
+        return DroneTrajectory(
+            self.drone,
+            concatenate(self.curves),
+            tuple(self.phases),
+            tuple(self.keyframes),
+            tuple(self.framing),
+        )
+
+
+def _reference(shot: str, span: FramingSpan, leg: Leg, motion: LegMotion, clock: float) -> Reference:
+    """Return a framing span over mission time; a hold at a joint of two spans belongs to the earlier."""
+    if leg.curve is None:
+        start, end = 0.0, motion.duration
+    else:
+        first = span.start <= leg.curve.start
+        start = motion.profile.arrival(span.start) if first else motion.profile.departure(span.start)
+        end = motion.profile.departure(span.end)
+    wanted = None
+    if span.reference is not None and end - start >= TINY:
+        wanted = _over_time(span.reference, motion.profile, start, end)
+        wanted = Piecewise(clock + wanted.breaks, wanted.ctrl)
+    return Reference(shot, span.target, clock + start, clock + end, wanted)
+
+
+def _over_time(reference: Piecewise, profile: Profile, start: float, end: float) -> Piecewise:
+    """Return reference(s(t)) as quintics between two times, by the chain rule at the knots."""
+    inside = (profile.t > start + TINY) & (profile.t < end - TINY)
+    t = np.concatenate([[start], profile.t[inside], [end]])
+    motion = profile.curve()
+    s, sd, sdd = (motion.derivative(k)(t)[:, :1] if k else motion(t)[:, :1] for k in (0, 1, 2))
+    s = np.clip(s[:, 0], reference.start, reference.end)
+    d1, d2 = reference.derivative(1)(s), reference.derivative(2)(s)
+    return quintic_hermite(t, reference(s), d1 * sd, d2 * sd**2 + d1 * sdd)

@@ -1,0 +1,101 @@
+"""Holds flown quintics to the limits, at every instant, by their control points; and how much to slow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Piecewise, split_half
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
+from shotc.planning.timing.limits import SHARE, Axis, Ceiling
+from shotc.planning.timing.profile import Profile, fly
+
+Array = NDArray[np.float64]
+
+# Each piece is halved this often before its hull is taken: the bound is then tight to about 1e-4.
+HALVINGS = 3
+# Quintics that stray further than this from the path (metres or rad) get more knots, as do those that
+# leave a gimbal's range by more than the second; so many times at most.
+STRAY, AT_END = 5e-4, 1e-7
+SPLITS = 5
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Usage:
+    """How much of one limit each piece uses.
+
+    name : of the limit in Ceiling; order : 1 rate, 2 acceleration, 3 jerk
+    share : shape (P,), upper bound of the norm over the limit
+    """
+
+    name: str
+    order: int
+    limit: float
+    share: Array
+
+    @property
+    def slowdown(self) -> Array:
+        """Return by how much each piece has to be slowed to keep the limit; shape (P,)."""
+        return np.asarray(self.share ** (1.0 / self.order))
+
+
+def usages(curve: Piecewise, limits: tuple[Axis, ...]) -> tuple[Usage, ...]:
+    """Return the use of every limit that a proof will ask for, proved for all t of each piece."""
+    found = []
+    derivatives = {order: curve.derivative(order) for order in (1, 2, 3)}
+    for axis in limits:
+        for order, bound in ((1, axis.rate), (2, axis.acceleration), (3, None if axis.ease else axis.jerk)):
+            if bound is not None:
+                along = derivatives[order].ctrl @ axis.pick.T
+                found.append(Usage(bound[0], order, bound[1], _peak(along, axis.sign) / bound[1]))
+    return tuple(found)
+
+
+def needed_scale(found: tuple[Usage, ...]) -> Array:
+    """Return the slowdown per piece that keeps every limit with a little to spare; may be below 1."""
+    return np.asarray(np.max([u.slowdown for u in found], axis=0) / SHARE)
+
+
+def on_path(path: Piecewise, profile: Profile, ceiling: Ceiling) -> tuple[Profile, Piecewise]:
+    """Fly the profile, with more knots where the quintics would stray from the path or from a range."""
+    flown = fly(path, profile)
+    for _ in range(SPLITS):
+        strays = straying(path, profile, flown, ceiling)
+        if not strays.any():
+            break
+        profile = profile.split(strays)
+        flown = fly(path, profile)
+    return profile, flown
+
+
+def straying(path: Piecewise, profile: Profile, flown: Piecewise, ceiling: Ceiling) -> NDArray[np.bool_]:
+    """Tell which flown pieces are too far from the path at the same s; shape (N,).
+
+    The gimbal's ranges end sharply and the path may run along their ends, so there a piece has to be
+    nearly on the path.
+    """
+    inside = np.array([0.25, 0.5, 0.75])
+    t = profile.t[:-1, None] + inside * np.diff(profile.t)[:, None]
+    s = profile.curve()(t)[..., 0]
+    away = flown(t) - path(s)
+    found = np.abs(away).max(axis=(1, 2)) > STRAY
+    gimbal_yaw = flown.ctrl[:, :, CAM_YAW] - flown.ctrl[:, :, BODY_YAW]
+    for angle, error, (low, high) in (
+        (flown.ctrl[:, :, CAM_PITCH], away[:, :, CAM_PITCH], ceiling.pitch),
+        (gimbal_yaw, away[:, :, CAM_YAW] - away[:, :, BODY_YAW], ceiling.yaw),
+    ):
+        beyond = (angle.min(axis=1) < low - AT_END) | (angle.max(axis=1) > high + AT_END)
+        found |= beyond & (np.abs(error).max(axis=1) > AT_END)
+    return np.asarray(found)
+
+
+def _peak(ctrl: Array, sign: int) -> Array:
+    pieces = len(ctrl)
+    parts = ctrl
+    for _ in range(HALVINGS):
+        left, right = split_half(parts)
+        parts = np.concatenate([left, right])
+    size = np.maximum(sign * parts[..., 0], 0.0) if sign else np.linalg.norm(parts, axis=-1)
+    return np.asarray(size.max(axis=1).reshape(-1, pieces).max(axis=0))

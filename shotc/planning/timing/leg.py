@@ -1,0 +1,139 @@
+"""One leg over time: its moves between stops with the holds put in, at the length it is asked to have."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Piecewise, concatenate
+from shotc.ir.path import Leg, Stop
+from shotc.planning.timing.limits import Ceiling
+from shotc.planning.timing.move import Move, time_move
+from shotc.planning.timing.profile import SAME, Profile
+
+Array = NDArray[np.float64]
+
+# Seconds below which a hold is no hold.
+TINY = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LegMotion:
+    """One leg over its own time from 0.
+
+    profile : s over t, with its holds
+    curve : the seven channels; its breaks are the profile's knots
+    moves : what it is made of
+    """
+
+    profile: Profile
+    curve: Piecewise
+    moves: tuple[Move, ...]
+
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+        return self.profile.duration
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The distinct stops of a leg, in order of s; between them it moves."""
+
+    stops: tuple[Stop, ...]
+
+    @property
+    def spans(self) -> tuple[tuple[float, float], ...]:
+        """Return the stretches of s between stops."""
+        return tuple((a.s, b.s) for a, b in zip(self.stops[:-1], self.stops[1:], strict=True))
+
+    def hold_at(self, s: float) -> float:
+        """Return the seconds it rests at a place, 0 where it does not stop."""
+        return sum(stop.hold for stop in self.stops if abs(stop.s - s) <= SAME)
+
+    def holds_between(self, start: float, end: float) -> float:
+        """Return the seconds it rests strictly between two places."""
+        return sum(stop.hold for stop in self.stops if start + SAME < stop.s < end - SAME)
+
+    def rests_at(self, s: float) -> bool:
+        """Tell whether there is a stop at a place."""
+        return any(abs(stop.s - s) <= SAME for stop in self.stops)
+
+    def leaving(self, holds: dict[float, float]) -> Plan:
+        """Return the plan with other holds at some of its stops, given by place."""
+        stops = self.stops
+        for s, hold in holds.items():
+            stops = tuple(replace(p, hold=hold) if abs(p.s - s) <= SAME else p for p in stops)
+        return Plan(stops)
+
+
+def plan_of(leg: Leg) -> Plan:
+    """Return the leg's stops, those at the same place made one; a still leg lasts as long as asked."""
+    if leg.curve is None:
+        held = leg.duration if leg.duration is not None else sum(stop.hold for stop in leg.stops)
+        return Plan((Stop(0.0, held),))
+    merged: list[Stop] = []
+    for stop in leg.stops:
+        if merged and stop.s - merged[-1].s < SAME:
+            merged[-1] = Stop(merged[-1].s, merged[-1].hold + stop.hold)
+        else:
+            merged.append(stop)
+    return Plan(tuple(merged))
+
+
+def fastest_moves(leg: Leg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...]:
+    """Return every move of the leg as fast as the ceiling allows."""
+    if leg.curve is None:
+        return ()
+    keyframes = tuple(mark.s for mark in leg.marks)
+    return tuple(_timed(leg.curve, span, ceiling, keyframes) for span in plan.spans)
+
+
+# Where shots have their own clock, the legs between them are timed when they are laid out, and again
+# when they are flown.
+_timed = lru_cache(maxsize=256)(time_move)
+
+
+def assemble(leg: Leg, plan: Plan, moves: tuple[Move, ...], duration: float | None) -> LegMotion | None:
+    """Return the leg over time, or None where nothing moves and nothing is held.
+
+    duration : its exact length, to take rounding off the last knot; None to keep the sum
+    """
+    parts: list[tuple[Profile, Piecewise]] = []
+    clock = 0.0
+    pose = np.array(leg.pose)
+    for i, stop in enumerate(plan.stops):
+        if stop.hold >= TINY:
+            ends = np.array([clock, clock + stop.hold])
+            parts.append((Profile(ends, np.full(2, stop.s), np.zeros(2), np.zeros(2)), rest(pose, ends)))
+            clock = float(ends[1])
+        if i < len(moves):
+            profile = moves[i].profile
+            t = clock + profile.t
+            parts.append((replace(profile, t=t), Piecewise(t, moves[i].curve.ctrl)))
+            clock = float(t[-1])
+            pose = moves[i].curve.ctrl[-1, -1]
+    if not parts:
+        return None
+    profile = _joined([p for p, _ in parts])
+    if duration is not None:
+        profile = replace(profile, t=np.concatenate([profile.t[:-1], [duration]]))
+    ctrl = concatenate([c for _, c in parts]).ctrl
+    return LegMotion(profile, Piecewise(profile.t, ctrl), moves)
+
+
+def rest(pose: Array, ends: Array) -> Piecewise:
+    """Return the quintic that stays at one pose, shape (7,), between two times."""
+    return Piecewise(ends, np.tile(pose, (1, 6, 1)))
+
+
+def _joined(parts: list[Profile]) -> Profile:
+    first, *others = parts
+    columns = [
+        np.concatenate([getattr(first, name), *(getattr(p, name)[1:] for p in others)])
+        for name in ("t", "s", "sd", "sdd")
+    ]
+    return Profile(*columns)

@@ -1,0 +1,242 @@
+"""Times one move from rest to rest: TOPP-RA, then a jerk-bounded profile, then the flown quintics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Piecewise
+from shotc.ir.path import HFOV
+from shotc.planning.timing.flown import needed_scale, on_path, usages
+from shotc.planning.timing.grid import (
+    Samples,
+    evened,
+    lay_grid,
+    rate_cap,
+    rough_profile,
+    sample,
+    split_cells,
+)
+from shotc.planning.timing.limits import Axis, Ceiling, axes
+from shotc.planning.timing.profile import Profile, profile_of
+from shotc.solvers.conic import Status
+from shotc.solvers.retiming_socp import (
+    Iterate,
+    NormLimit,
+    RetimingProblem,
+    cell_times,
+    retime,
+    start_from,
+)
+from shotc.solvers.topp import LinearLimits, fastest
+
+Array = NDArray[np.float64]
+
+# The convex steps stop when one changes the time by less than this share, or after so many.
+CHANGE = 5e-3
+STEPS = 6
+# A guess of sdot^2 that vanishes inside is raised to this share of its maximum.
+SLOWEST = 1e-9
+# Share of the last iterate that stays in the next: how the speed runs inside cells is taken from it,
+# which alone would overshoot to and fro by about 0.4 (measured); the first guess deserves less trust.
+KEEP_FIRST, KEEP = 0.15, 0.3
+# A grid is refined where the flown quintics lose more than this share of time to scaling, or all over
+# where the solver gave nothing; so often at most, and not beyond so many cells.
+LOSS = 0.015
+REFINEMENTS = 8
+MOST_CELLS = 20000
+# An inaccurate profile is good enough to be flown and checked.
+USABLE = (Status.SOLVED, Status.INACCURATE)
+# Corners of the polygon that stands for the disc of accelerations in TOPP-RA: 0.1 % of time lost.
+CORNERS = 32
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Move:
+    """One timed move.
+
+    profile : s over local time from 0; curve : the flown quintics over the same knots
+    topp_time : the fastest time without a jerk limit, by TOPP-RA; infinite where it gave none, which
+        costs convex steps but no safety
+    scale : final slowdown, at least 1
+    steps, cells : convex steps solved, and pieces of the curve
+    held : None, or the limit that slows a rough profile down most, where the solver gave no better one
+    """
+
+    path: Piecewise
+    profile: Profile
+    curve: Piecewise
+    topp_time: float
+    scale: float
+    steps: int
+    cells: int
+    held: str | None = None
+
+    @property
+    def duration(self) -> float:
+        """Seconds from rest to rest."""
+        return self.profile.duration
+
+    def stretched(self, factor: float) -> Move:
+        """Return the same move, slower by ``factor``."""
+        curve = Piecewise(self.curve.breaks * factor, self.curve.ctrl)
+        return replace(self, profile=self.profile.stretched(factor), curve=curve)
+
+
+def time_move(
+    path: Piecewise, span: tuple[float, float], ceiling: Ceiling, through: tuple[float, ...] = ()
+) -> Move:
+    """Return the fastest jerk-bounded move along path(s) over a span of s, from rest to rest.
+
+    path : channels ir.path.CHANNELS, at least C2
+    through : places that are passed exactly; between gridpoints quintics may stray a little from the path
+    Where the solver gives no profile on any grid, a rough one is slowed until it keeps every limit.
+    """
+    limits = axes_of(path, span, ceiling)
+    samples, start, topp_time = _opening(path, span, limits, through)
+    first = samples, start
+    steps, best, last = 0, None, np.inf
+    for _ in range(REFINEMENTS + 1):
+        bounded, used = bounded_profile(samples, limits, start, last)
+        steps += used
+        if bounded is None and best is not None:
+            break
+        found = start if bounded is None else bounded
+        coarse = np.ones(len(samples.widths), dtype=np.bool_)
+        if bounded is not None:
+            tried = _Tried(path, samples.grid, bounded, limits, ceiling)
+            best = tried if best is None or tried.seconds < best.seconds else best
+            last = tried.profile.duration
+            coarse = tried.coarse
+        if not coarse.any() or len(coarse) > MOST_CELLS:
+            break
+        grid = split_cells(samples.grid, coarse)
+        start = Iterate(*(np.interp(grid, samples.grid, part) for part in (found.b, found.a)))
+        samples = sample(path, grid)
+    held = None
+    if best is None:
+        samples, start = first
+        calm = start_from(samples.widths, evened(start.b))
+        best = _Tried(path, samples.grid, calm, limits, ceiling)
+        held = best.held
+    cells = len(best.flown.ctrl)
+    move = Move(path, best.profile, best.flown, topp_time, best.slowdown, steps, cells, held)
+    return move.stretched(best.slowdown)
+
+
+def _opening(
+    path: Piecewise, span: tuple[float, float], limits: tuple[Axis, ...], through: tuple[float, ...]
+) -> tuple[Samples, Iterate, float]:
+    """Return the first grid, what to start from on it, and the fastest time without a jerk limit."""
+    rough_s, rough_b = rough_profile(path, *span, limits)
+    grid = lay_grid(path, rough_s, rough_b, np.array(through))
+    samples = sample(path, grid)
+    quickest = fastest(topp_limits(samples, limits))
+    around = np.interp(grid, rough_s, rough_b)
+    if quickest.status is Status.SOLVED:
+        around = np.minimum(around, quickest.b)
+    start = start_from(samples.widths, np.maximum(around, SLOWEST * around.max()))
+    return samples, start, quickest.time
+
+
+class _Tried:
+    """A profile flown.
+
+    slowdown : what keeps every limit, at least 1; held : the limit that asks for it
+    coarse : shape (N,), the cells of the grid that need too much of it
+    """
+
+    def __init__(
+        self, path: Piecewise, grid: Array, bounded: Iterate, limits: tuple[Axis, ...], ceiling: Ceiling
+    ) -> None:
+        self.profile, self.flown = on_path(path, profile_of(grid, bounded.b, bounded.a), ceiling)
+        used = usages(self.flown, limits)
+        scale = needed_scale(used)
+        self.slowdown = max(1.0, float(scale.max()))
+        self.held = max(used, key=lambda u: float(u.slowdown.max())).name
+        self.coarse: NDArray[np.bool_] = np.zeros(len(grid) - 1, dtype=np.bool_)
+        cell = np.searchsorted(grid, self.profile.s[:-1], side="right") - 1
+        self.coarse[np.clip(cell[scale > 1 + LOSS], 0, len(grid) - 2)] = True
+
+    @property
+    def seconds(self) -> float:
+        """How long it takes within every limit."""
+        return self.profile.duration * self.slowdown
+
+
+def axes_of(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> tuple[Axis, ...]:
+    """Return the norms to limit on a span: a zoom on the spot is the one motion without a limit."""
+    s = np.linspace(*span, 9)
+    others = np.delete(path(s) - path(span[0]), HFOV, axis=1)
+    return axes(ceiling, zoom_only=bool(np.abs(others).max() < 1e-9))
+
+
+def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
+    """Return the linear limits for TOPP-RA: discs of accelerations become polygons inside them."""
+    d1 = np.concatenate([samples.d1[:, 0], samples.d1[-1:, 2]])
+    d2 = np.concatenate([samples.d2[:, 0], samples.d2[-1:, 2]])
+    on_a, on_b = [], []
+    for axis in limits:
+        if axis.acceleration is None:
+            continue
+        first, second = (d @ axis.pick.T / axis.acceleration[1] for d in (d1, d2))
+        if len(axis.pick) == 1:
+            on_a += [first, -first]
+            on_b += [second, -second]
+        else:
+            frame = np.asarray(np.linalg.qr(np.stack([first, second], axis=-1), mode="r"))
+            angle = 2 * np.pi * np.arange(CORNERS) / CORNERS
+            normal = np.stack([np.cos(angle), np.sin(angle)]) / np.cos(np.pi / CORNERS)
+            on_a.append(frame[:, :2, 0] @ normal)
+            on_b.append(frame[:, :2, 1] @ normal)
+    return LinearLimits(
+        samples.grid, np.concatenate(on_a, axis=1), np.concatenate(on_b, axis=1), rate_cap(d1, limits)
+    )
+
+
+def bounded_profile(
+    samples: Samples, limits: tuple[Axis, ...], start: Iterate, last: float
+) -> tuple[Iterate | None, int]:
+    """Return b and a at the gridpoints, None where no step was solved, and the convex steps taken.
+
+    start : the better the fewer steps; last : seconds it takes where it is a solution, else infinite
+    Every step keeps the limits but for small change inside cells, so the last good one is kept if
+    a solver gives up.
+    """
+    problem = retiming_problem(samples, limits)
+    best: Iterate | None = None
+    current, steps = start, 0
+    while steps < STEPS:
+        status, found = retime(problem, current)
+        steps += 1
+        if status not in USABLE and best is not None:
+            break
+        if status not in USABLE:
+            # Slower guesses are safer ones.
+            current = start_from(problem.widths, current.b / 4.0)
+            continue
+        best = found
+        time = float(cell_times(problem.widths, found.b, found.a).sum())
+        if abs(last - time) < CHANGE * time:
+            break
+        current = current.blend(found, KEEP_FIRST if last == np.inf else KEEP)
+        last = time
+    return best, steps
+
+
+def retiming_problem(samples: Samples, limits: tuple[Axis, ...]) -> RetimingProblem:
+    """Return the cone program's data."""
+    accelerations, jerks = [], []
+    for axis in limits:
+        d1, d2, d3 = samples.along(axis)
+        if max(np.abs(d).max() for d in (d1, d2, d3)) < 1e-12:
+            continue
+        if axis.acceleration is not None:
+            accelerations.append(NormLimit(*(d / axis.acceleration[1] for d in (d1, d2, d3))))
+        if axis.jerk is not None:
+            jerks.append(NormLimit(*(d / axis.jerk[1] for d in (d1, d2, d3))))
+    cap = rate_cap(np.concatenate([samples.d1[:, 0], samples.d1[-1:, 2]]), limits)
+    middle = rate_cap(samples.d1[:, 1], limits)
+    return RetimingProblem(samples.widths, cap, middle, tuple(accelerations), tuple(jerks))

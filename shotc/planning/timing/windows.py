@@ -1,0 +1,89 @@
+"""A move that passes given places at given times: the smoothest law of s over t that the limits allow."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Piecewise
+from shotc.planning.timing.flown import needed_scale, on_path, usages
+from shotc.planning.timing.grid import rate_cap
+from shotc.planning.timing.limits import Axis, Ceiling
+from shotc.planning.timing.move import Move, axes_of
+from shotc.planning.timing.profile import Profile
+from shotc.solvers.conic import Status
+from shotc.solvers.timed_qp import PathLimits, TimeLaw, time_law
+
+Array = NDArray[np.float64]
+
+# Cells of the time law for the whole move, and at least for each stretch.
+CELLS, LEAST_CELLS = 72, 12
+# Rounds in which the limits are taken anew along the last law.
+ROUNDS = 8
+# The law is laid under this share of the limits, so that what happens inside cells fits too.
+MARGIN = 0.985
+# After so many rounds a law that still overdraws, and hardly less than the last, will go on to.
+SETTLED, LEFT = 3, 1e-3
+# An inaccurate law is good enough to be checked.
+USABLE = (Status.SOLVED, Status.INACCURATE)
+
+
+def windowed_move(
+    path: Piecewise, span: tuple[float, float], ceiling: Ceiling, ends: Array, seconds: Array
+) -> Move | None:
+    """Return the move whose stretches of s, which end at ``ends``, last ``seconds`` each, or None.
+
+    ends, seconds : shape (W,); the last end is that of the span. Places are met by equality
+    constraints, to about 1e-7 s.
+    """
+    limits = axes_of(path, span, ceiling)
+    inner = axes_of(path, span, ceiling.scaled(MARGIN))
+    t, places = _knots(span[0], ends, seconds)
+    law = time_law(t, places, None, None)
+    for steps in range(1, ROUNDS + 1):
+        if law.status not in USABLE:
+            return None
+        profile, flown = on_path(path, _profile(law), ceiling)
+        needed = float(needed_scale(usages(flown, limits)).max())
+        if needed <= 1.0:
+            return Move(path, profile, flown, np.inf, 1.0, steps, len(flown.ctrl))
+        previous, law = law, time_law(t, places, _path_limits(path, inner, law.s), law)
+        if steps >= SETTLED and law.overdraft > max(LEFT, 0.7 * previous.overdraft):
+            return None
+    return None
+
+
+def _knots(start: float, ends: Array, seconds: Array) -> tuple[Array, tuple[tuple[int, float], ...]]:
+    """Return knots of t, even inside each stretch, and the knots at which places are fixed."""
+    total = float(seconds.sum())
+    parts, places, clock = [np.zeros(1)], [(0, start)], 0.0
+    for end, time in zip(ends, seconds, strict=True):
+        cells = max(LEAST_CELLS, round(CELLS * time / total))
+        parts.append(clock + time * np.arange(1, cells + 1) / cells)
+        clock = float(parts[-1][-1])
+        places.append((places[-1][0] + cells, float(end)))
+    return np.concatenate(parts), tuple(places)
+
+
+def _path_limits(path: Piecewise, limits: tuple[Axis, ...], s: Array) -> PathLimits:
+    derivatives = [path.derivative(k)(s) for k in (1, 2, 3)]
+    accelerations, jerks = [], []
+    for axis in limits:
+        d1, d2, d3 = (d @ axis.pick.T for d in derivatives)
+        if max(np.abs(d).max() for d in (d1, d2, d3)) < 1e-12:
+            continue
+        if axis.acceleration is not None:
+            most = axis.acceleration[1]
+            accelerations.append((d1 / most, d2 / most, d3 / most))
+        if axis.jerk is not None:
+            most = axis.jerk[1]
+            jerks.append((d1 / most, d2 / most, d3 / most))
+    speed = np.sqrt(rate_cap(derivatives[0], limits))
+    return PathLimits(speed, tuple(accelerations), tuple(jerks))
+
+
+def _profile(law: TimeLaw) -> Profile:
+    """Return the law as a profile: a cubic between its knots, as s(t) is in both."""
+    v, a = np.maximum(law.v, 0.0), law.a.copy()
+    v[[0, -1]] = a[[0, -1]] = 0.0
+    return Profile(law.t, np.maximum.accumulate(law.s), v, a)

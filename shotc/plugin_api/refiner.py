@@ -1,0 +1,131 @@
+"""What a refiner may use of shotc besides ``plugin_api``: the room, curves, timing, and the way back.
+
+Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it at once.
+"""
+
+from __future__ import annotations
+
+from shotc.geom import viewpoint
+from shotc.geom.angles import wrapped
+from shotc.geom.bernstein import Array, quintic_hermite
+from shotc.geom.bspline import IntArray, restrict, spline, subdivide
+from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, silhouette_bounds
+from shotc.geom.convex import bounded, distances
+from shotc.geom.corridor import Room, corridor, kept, shortfall
+from shotc.geom.pieces import Mask
+from shotc.geom.runs import worst_of_runs
+from shotc.geom.solids import Cylinder, Solid, convex_parts
+from shotc.geom.track_array import places
+from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
+from shotc.ir.mission import Drone
+from shotc.ir.needs import with_need
+from shotc.ir.occlusion import others_of
+from shotc.ir.path import BODY_YAW, CALM, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath, leg_of
+from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
+from shotc.ir.sampling import seen
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.clock.aims import Looker, aims_at, looker_of
+from shotc.planning.clock.bounds import Bound, bounds_of
+from shotc.planning.clock.camera import Watch, turn
+from shotc.planning.clock.clock import Clock
+from shotc.planning.clock.flights import FlownShot, flights, flown_shot
+from shotc.planning.clock.ideals import ideal_places
+from shotc.planning.clock.keyed import Keyed
+from shotc.planning.clock.pictures import least_out
+from shotc.planning.clock.surroundings import Planes, Surroundings, surroundings
+from shotc.planning.framing.moments import placed_at
+from shotc.planning.obstacles import flight_room
+from shotc.planning.path.angles import smoother
+from shotc.planning.path.rejoin import rejoined
+from shotc.planning.path.turns import steady
+from shotc.planning.path.with_camera import NoTransit, with_camera
+from shotc.planning.timing.deadlines import flying_times
+from shotc.planning.timing.estimate import lateness, leg_time, rough_times
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_fit import Fit, fit, within
+
+__all__ = [
+    "BODY_YAW",
+    "CALM",
+    "CAM_PITCH",
+    "CAM_YAW",
+    "HFOV",
+    "MOST_MOVED",
+    "ROUNDING",
+    "UNWATCHED",
+    "Array",
+    "Bound",
+    "Clock",
+    "Cylinder",
+    "Deviation",
+    "Drone",
+    "DroneTrajectory",
+    "Fit",
+    "FlownShot",
+    "IntArray",
+    "Keyed",
+    "Looker",
+    "Mask",
+    "NoTransit",
+    "PlacedKeyframe",
+    "PlacedShot",
+    "PlacedSubject",
+    "Planes",
+    "Room",
+    "Solid",
+    "Status",
+    "Surroundings",
+    "TimedLeg",
+    "TimedPath",
+    "View",
+    "Watch",
+    "aim_at",
+    "aims_at",
+    "bounded",
+    "bounds_of",
+    "convex_parts",
+    "corridor",
+    "cylinder",
+    "distances",
+    "fit",
+    "flight_room",
+    "flights",
+    "flown_shot",
+    "flying",
+    "flying_times",
+    "frustum_margins",
+    "given_up",
+    "ideal_places",
+    "kept",
+    "lateness",
+    "least_out",
+    "leg_of",
+    "leg_time",
+    "looker_of",
+    "moved",
+    "others_of",
+    "parts_of_one",
+    "placed_at",
+    "places",
+    "prefers_free_pictures",
+    "quintic_hermite",
+    "rejoined",
+    "restrict",
+    "rough_times",
+    "seen",
+    "shortfall",
+    "silhouette_bounds",
+    "smoother",
+    "spline",
+    "steady",
+    "subdivide",
+    "surroundings",
+    "turn",
+    "viewpoint",
+    "with_camera",
+    "with_need",
+    "within",
+    "worst_of_runs",
+    "wrapped",
+]
