@@ -5,7 +5,7 @@ Everything here takes bytes and gives values; ``write`` alone touches the disk.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,17 +19,20 @@ from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.lowering import lower, lower_kept, with_autopilot
-from shotc.passes.base import Outcome, PassContext, silent
+from shotc.passes.base import PassContext, silent
 from shotc.passes.resolve.names import AUTO
 from shotc.pipeline import (
-    FRONT_NAMES,
+    ASSIGN,
+    FILM,
+    FRONT,
+    SHOW,
+    VERIFY,
     PassReport,
     Run,
-    default_passes,
-    front_passes,
+    Setting,
+    passes_of,
     run,
     run_refined,
-    show_passes,
 )
 from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load
@@ -125,11 +128,11 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     if loaded.mission is None or has_errors(found):
         return stopped
     ctx = PassContext(options.seed, options.progress, options.headings)
-    chosen = _with_drones(loaded.mission, kinds.plugins, ctx)
-    found += chosen.diagnostics
-    if chosen.value is None:
-        return stopped._replace(diagnostics=tuple(found))
-    front = run(front_passes(kinds.plugins, plugins.names("emitters")), chosen.value, ctx, options.stop_after)
+    missing = _missing_for_choice(loaded.mission)
+    if missing:
+        return stopped._replace(diagnostics=(*found, *missing))
+    setting = Setting(kinds.plugins, plugins.names("emitters"))
+    front = run(passes_of((ASSIGN, *FRONT), setting), loaded.mission, ctx, options.stop_after)
     found += front.diagnostics
     stopped = stopped._replace(reports=front.reports, diagnostics=tuple(found))
     if front.value is None or not isinstance(front.value, KeyframeIR):
@@ -137,29 +140,29 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
         return stopped._replace(diagnostics=(*found, *refusals))
-    back = _lower(front.value, kinds.plugins, options, ctx)
+    back = _lower(front.value, setting, options, ctx)
     found = [*without_answered(found, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
     plan = None if options.stop_after or has_errors(found) else back.value
     return stopped._replace(plan=plan, reports=front.reports + back.reports, diagnostics=tuple(found))
 
 
-def _lower(checked: KeyframeIR, kinds: Mapping[str, Any], options: PlanOptions, ctx: PassContext) -> Run:
+def _lower(checked: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
     """Plan a mission that has passed the front passes: what fleets display, or what cameras film."""
     keyframes = with_autopilot(checked, options.autopilot)
     if checked.mission.displays:
         options.on_mission(checked.mission)
-        return _lower_show(keyframes, options, ctx)
+        return _lower_show(keyframes, setting, options, ctx)
     seat, faults = _seat(options.refiner or plugins.usual_refiner(), checked.mission)
     if seat is None or stops(faults):
         return Run(None, faults, ())
     options.on_mission(checked.mission)
-    passes = default_passes(kinds, seat, options.deadline)[len(FRONT_NAMES) :]
-    done = run_refined(passes, keyframes, ctx, seat, options.stop_after)
+    seated = setting._replace(seat=seat, deadline=options.deadline)
+    done = run_refined(passes_of((*FILM, VERIFY), seated), keyframes, ctx, seat, options.stop_after)
     return done._replace(diagnostics=(*faults, *done.diagnostics))
 
 
-def _lower_show(keyframes: KeyframeIR, options: PlanOptions, ctx: PassContext) -> Run:
+def _lower_show(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
     """Plan what fleets display, with one thread for the sums of linear algebra.
 
     They are many and short: threads cost them several times what they take, and would add up another way on
@@ -167,23 +170,16 @@ def _lower_show(keyframes: KeyframeIR, options: PlanOptions, ctx: PassContext) -
     """
     from threadpoolctl import threadpool_limits
 
-    passes = show_passes()  # loads the libraries that are to be limited
+    passes = passes_of((*SHOW, VERIFY), setting)  # loads the libraries that are to be limited
     with threadpool_limits(1, "blas"):
         return run(passes, keyframes, ctx, options.stop_after)
 
 
-def _with_drones(
-    mission: LoadedMission, kinds: Mapping[str, Any], ctx: PassContext
-) -> Outcome[LoadedMission]:
-    """Choose the drones of shots that leave that open; it takes a solver, so checking does without."""
+def _missing_for_choice(mission: LoadedMission) -> tuple[Diagnostic, ...]:
+    """Say what is not installed where shots leave their drone open: the choice takes a solver."""
     if not any(shot.drone == AUTO for shot in mission.spec.shots):
-        return Outcome(mission)
-    missing = _missing_libraries("planning", SOLVERS)
-    if missing:
-        return Outcome(None, missing)
-    from shotc.passes.assign_drones import AssignDrones
-
-    return AssignDrones(kinds).run(mission, ctx)
+        return ()
+    return _missing_libraries("planning", SOLVERS)
 
 
 def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic, ...]]:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.passes.base import PassContext
-from shotc.pipeline import front_passes, run
+from shotc.pipeline import FRONT, Setting, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import load
 
@@ -31,7 +31,7 @@ def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
     found = [*loaded.diagnostics]
     if loaded.mission is not None:
-        passes = front_passes(kinds.plugins, plugins.names("emitters"))
+        passes = passes_of(FRONT, Setting(kinds.plugins, plugins.names("emitters")))
         found += run(passes, loaded.mission, PassContext()).diagnostics
     return CheckReport(tuple(found), {name: loaded.file})
 

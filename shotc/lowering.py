@@ -17,7 +17,7 @@ from shotc.ir.lowered import Lowered
 from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, kept_files
 from shotc.passes.base import PassContext
 from shotc.passes.resolve.names import AUTO
-from shotc.pipeline import front_passes, run
+from shotc.pipeline import FRONT, Setting, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load
 
@@ -45,7 +45,7 @@ def lower(data: bytes, name: str, folder: Path | KeptFiles | None, chosen: Chose
 def _placed(
     mission: LoadedMission, kinds: Mapping[str, Any], file: SourceFile, autopilot: Autopilot | None
 ) -> Lowered:
-    front = run(front_passes(kinds), mission, PassContext())
+    front = run(passes_of(FRONT, Setting(kinds)), mission, PassContext())
     if not isinstance(front.value, KeyframeIR) or has_errors(front.diagnostics):
         return _stopped(front.diagnostics, file)
     return Lowered(with_autopilot(front.value, autopilot), (), file)

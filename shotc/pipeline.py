@@ -1,24 +1,15 @@
-"""The compiler in one screen: the default passes, and the loop that runs them.
-
-LoadedMission --resolve--> MissionIR --place-keyframes--> KeyframeIR --solve-path-qp--> PathIR
---refine-path--> PathIR --parameterize-time--> TrajectoryIR --verify--> VerifiedIR
-
-and, for what fleets display,
-
-KeyframeIR --place-goals--> GoalIR --assign-goals--> ShowIR --bound-splines--> ShowIR
---keep-apart--> TrajectoryIR --verify--> VerifiedIR
-"""
+"""The compiler in one screen: its routes, and the loop that runs their passes."""
 
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from importlib import import_module
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
 from shotc.passes.base import PassContext
-from shotc.passes.place_keyframes import PlaceKeyframes
-from shotc.passes.resolve import Resolve
 
 if TYPE_CHECKING:
     from shotc.passes.base import Pass
@@ -45,40 +36,72 @@ class Run(NamedTuple):
     reports: tuple[PassReport, ...]
 
 
-def front_passes(kinds: Any, emitters: Any = None) -> tuple[AnyPass, ...]:
-    """Return the passes that need no solver: what ``check`` runs; emitters are the known names, if known."""
-    return (Resolve(kinds, emitters), PlaceKeyframes())
+class Step(NamedTuple):
+    """One pass of a route, known before its module loads.
+
+    name : as commands call it; takes, gives : what it lowers from and to
+    home : module:class; options : the fields of ``Setting`` that it is made with
+    """
+
+    name: str
+    takes: str
+    gives: str
+    home: str
+    options: tuple[str, ...] = ()
 
 
-def default_passes(kinds: Any, seat: Any, deadline: float | None = None) -> tuple[AnyPass, ...]:
-    """Return the whole compiler.
+class Setting(NamedTuple):
+    """What passes are made with.
 
+    kinds : the shot kinds by name; emitters : the names of all, None where they are not known
     seat : the refiner and where it comes from (``refine_path.Seat``); deadline : seconds that it may take
     """
-    from shotc.passes.parameterize_time import ParameterizeTime
-    from shotc.passes.refine_path import RefinePath
-    from shotc.passes.solve_path_qp import SolvePathQp
-    from shotc.passes.verify import Verify
 
-    refine = RefinePath(seat, deadline)
-    return (*front_passes(kinds), SolvePathQp(), refine, ParameterizeTime(), Verify())
+    kinds: Any
+    emitters: Any = None
+    seat: Any = None
+    deadline: float | None = None
 
 
-def show_passes() -> tuple[AnyPass, ...]:
-    """Return what follows the front passes in a mission with displays."""
-    from shotc.passes.assign_goals import AssignGoals
-    from shotc.passes.bound_splines import BoundSplines
-    from shotc.passes.keep_apart import KeepApart
-    from shotc.passes.place_goals import PlaceGoals
-    from shotc.passes.verify import Verify
+ASSIGN = Step(
+    "assign-drones", "LoadedMission", "LoadedMission", "shotc.passes.assign_drones:AssignDrones", ("kinds",)
+)
+FRONT = (
+    Step("resolve", "LoadedMission", "MissionIR", "shotc.passes.resolve:Resolve", ("kinds", "emitters")),
+    Step("place-keyframes", "MissionIR", "KeyframeIR", "shotc.passes.place_keyframes:PlaceKeyframes"),
+)
+"""What needs no solver: ``check`` runs it."""
 
-    return (PlaceGoals(), AssignGoals(), BoundSplines(), KeepApart(), Verify())
+VERIFY = Step("verify", "TrajectoryIR", "VerifiedIR", "shotc.passes.verify:Verify")
+FILM = (
+    Step("solve-path-qp", "KeyframeIR", "PathIR", "shotc.passes.solve_path_qp:SolvePathQp"),
+    Step("refine-path", "PathIR", "PathIR", "shotc.passes.refine_path:RefinePath", ("seat", "deadline")),
+    Step("parameterize-time", "PathIR", "TrajectoryIR", "shotc.passes.parameterize_time:ParameterizeTime"),
+)
+SHOW = (
+    Step("place-goals", "KeyframeIR", "GoalIR", "shotc.passes.place_goals:PlaceGoals"),
+    Step("assign-goals", "GoalIR", "ShowIR", "shotc.passes.assign_goals:AssignGoals"),
+    Step("bound-splines", "ShowIR", "ShowIR", "shotc.passes.bound_splines:BoundSplines"),
+    Step("keep-apart", "ShowIR", "TrajectoryIR", "shotc.passes.keep_apart:KeepApart"),
+)
+ROUTES = {"film": (ASSIGN, *FRONT, *FILM, VERIFY), "show": (ASSIGN, *FRONT, *SHOW, VERIFY)}
+"""From a mission to a verified plan: what cameras film, and what fleets display."""
+
+PASS_NAMES = tuple(step.name for step in (ASSIGN, *FRONT, *FILM, *SHOW, VERIFY))
 
 
-FRONT_NAMES = ("resolve", "place-keyframes")
-CAMERA_NAMES = (*FRONT_NAMES, "solve-path-qp", "refine-path", "parameterize-time", "verify")
-SHOW_NAMES = (*FRONT_NAMES, "place-goals", "assign-goals", "bound-splines", "keep-apart", "verify")
-PASS_NAMES = tuple(dict.fromkeys((*CAMERA_NAMES[:-1], *SHOW_NAMES)))
+def passes_of(steps: Sequence[Step], setting: Setting) -> tuple[AnyPass, ...]:
+    """Return the passes of a part of a route; ValueError where one does not take what the last one gives."""
+    for last, step in pairwise(steps):
+        if last.gives != step.takes:
+            raise ValueError(f"{last.name} gives {last.gives}, {step.name} takes {step.takes}")
+    return tuple(_made(step, setting) for step in steps)
+
+
+def _made(step: Step, setting: Setting) -> AnyPass:
+    module, _, name = step.home.partition(":")
+    made: AnyPass = getattr(import_module(module), name)(*(getattr(setting, o) for o in step.options))
+    return made
 
 
 def run(
@@ -117,7 +140,7 @@ def run_refined(
 ) -> Run:
     """Run passes, and where a refined path is refused that could be flown unrefined, blame its refiner.
 
-    seat : as in ``default_passes``. Where the mission allows it, the unrefined path is flown instead. Where
+    seat : as in ``Setting``. Where the mission allows it, the unrefined path is flown instead. Where
     the refiner gives no path, the later passes judge the unrefined one, and its errors say what came of it.
     Where a refined shot does not fit into the time of its unrefined path, all is planned again with more.
     """

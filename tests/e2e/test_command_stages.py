@@ -9,12 +9,13 @@ from pathlib import Path
 import pytest
 
 from shotc.cli import app, console
-from shotc.pipeline import CAMERA_NAMES
+from shotc.pipeline import ROUTES
 from tests.e2e.command import PLAN, SMALL, Result
 
 pytestmark = pytest.mark.xdist_group("command")
 
-GIVES = ("MissionIR", "KeyframeIR", "PathIR", "PathIR", "TrajectoryIR", "VerifiedIR")
+FILM = ROUTES["film"]
+NAMES = [step.name for step in FILM]
 Shotc = Callable[..., Result]
 
 
@@ -34,7 +35,7 @@ def shotc(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captur
     return call
 
 
-@pytest.mark.parametrize(("name", "gives"), list(zip(CAMERA_NAMES, GIVES, strict=True)))
+@pytest.mark.parametrize(("name", "gives"), [(step.name, step.gives) for step in FILM])
 def test_every_pass_can_be_dumped(shotc: Shotc, name: str, gives: str) -> None:
     result = shotc(*PLAN, "small.yaml", "--dump-ir", name)
     assert (result.code, result.err) == (0, "")
@@ -44,12 +45,12 @@ def test_every_pass_can_be_dumped(shotc: Shotc, name: str, gives: str) -> None:
     assert not Path("out").exists()
 
 
-@pytest.mark.parametrize("name", CAMERA_NAMES)
+@pytest.mark.parametrize("name", NAMES)
 def test_stopping_after_a_pass_times_the_passes_and_writes_nothing(shotc: Shotc, name: str) -> None:
     result = shotc(*PLAN, "small.yaml", "--stop-after", name, "--time-passes")
     assert (result.code, result.out) == (0, "")
     times = [line.split() for line in result.err.splitlines()]
-    assert [words[2] for words in times] == list(CAMERA_NAMES[: CAMERA_NAMES.index(name) + 1])
+    assert [words[2] for words in times] == NAMES[: NAMES.index(name) + 1]
     assert all(float(words[0]) >= 0 and words[1] == "s" for words in times)
     assert not Path("out").exists()
 

@@ -1,8 +1,6 @@
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import ClassVar, get_args, get_type_hints
 
 import pytest
@@ -11,15 +9,7 @@ from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import Seat
-from shotc.pipeline import (
-    CAMERA_NAMES,
-    SHOW_NAMES,
-    AnyPass,
-    default_passes,
-    front_passes,
-    run,
-    show_passes,
-)
+from shotc.pipeline import FRONT, PASS_NAMES, ROUTES, VERIFY, Setting, passes_of, run
 
 
 @dataclass(frozen=True)
@@ -54,31 +44,25 @@ class Spell:
         return Outcome(str(ir.value))
 
 
-def mismatches(passes: Sequence[AnyPass]) -> list[str]:
-    """Name every joint of a pipeline at which one pass's output type is not the next one's input."""
-    found = []
-    for first, second in pairwise(passes):
-        (given,) = get_args(get_type_hints(first.run)["return"])
-        wanted = get_type_hints(second.run)["ir"]
-        if given is not wanted:
-            found.append(f"{first.name} gives {given.__name__}, {second.name} takes {wanted.__name__}")
-    return found
+@pytest.mark.parametrize("route", ROUTES)
+def test_the_passes_of_a_route_are_what_it_says_of_them(route: str) -> None:
+    passes = passes_of(ROUTES[route], Setting(plugins.discover("kinds").plugins, (), Seat()))
+    for step, made in zip(ROUTES[route], passes, strict=True):
+        hints = get_type_hints(made.run)
+        (given,) = get_args(hints["return"])
+        assert (made.name, hints["ir"].__name__, given.__name__) == (step.name, step.takes, step.gives)
 
 
-def test_the_default_passes_fit_together_and_bear_their_names():
-    passes = default_passes(plugins.discover("kinds").plugins, Seat())
-    assert mismatches(passes) == []
-    assert tuple(p.name for p in passes) == CAMERA_NAMES
+@pytest.mark.parametrize("route", ROUTES)
+def test_a_route_leads_from_a_mission_to_a_verified_plan(route: str) -> None:
+    steps = ROUTES[route]
+    assert (steps[0].takes, steps[-1].gives) == ("LoadedMission", "VerifiedIR")
+    assert {step.name for step in steps} <= set(PASS_NAMES)
 
 
-def test_the_passes_of_a_show_fit_together_and_bear_their_names():
-    passes = (*front_passes(plugins.discover("kinds").plugins), *show_passes())
-    assert mismatches(passes) == []
-    assert tuple(p.name for p in passes) == SHOW_NAMES
-
-
-def test_a_joint_that_does_not_fit_is_named():
-    assert mismatches([Spell(), Add(1)]) == ["spell gives str, add takes Number"]
+def test_passes_that_do_not_fit_together_are_not_made() -> None:
+    with pytest.raises(ValueError, match="resolve gives MissionIR, verify takes TrajectoryIR"):
+        passes_of((FRONT[0], VERIFY), Setting({}))
 
 
 def test_passes_run_in_turn_and_are_timed():

@@ -8,15 +8,17 @@ places at once. Where there is no such choice, it says at which time more drones
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from shotc.diag.model import Diagnostic
 from shotc.kinds.base import Kind
-from shotc.passes.assign_drones.choice import Choice, choose
-from shotc.passes.assign_drones.tasks import Task, busiest, later, tasks_of
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.names import AUTO, nobody
 from shotc.spec.load import LoadedMission
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.passes.assign_drones.choice import Choice
+    from shotc.passes.assign_drones.tasks import Task
 
 
 class AssignDrones:
@@ -28,9 +30,14 @@ class AssignDrones:
         self.kinds: Final = kinds
 
     def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[LoadedMission]:
-        """Choose the drones of one mission."""
-        ctx.progress("choosing drones")
+        """Choose the drones of one mission; one that leaves none open stays as it is, and loads no solver."""
         spec = ir.spec
+        if not any(shot.drone == AUTO for shot in spec.shots):
+            return Outcome(ir)
+        from shotc.passes.assign_drones.choice import choose
+        from shotc.passes.assign_drones.tasks import tasks_of
+
+        ctx.progress("choosing drones")
         if not spec.drones:
             return Outcome(None, tuple(nobody(spec, ir.origins)))
         tasks = tasks_of(ir, self.kinds)
@@ -55,6 +62,8 @@ def _with(ir: LoadedMission, choice: Choice) -> LoadedMission:
 
 
 def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:
+    from shotc.passes.assign_drones.tasks import busiest, later
+
     time, busy = busiest(tasks)
     shots = ", ".join(f"`{task.id}`" for task in busy)
     number = len(ir.spec.drones)
