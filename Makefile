@@ -38,7 +38,7 @@ test-fast: $(STAMP) ## Run the tests that plan no whole mission
 	$(BIN)/pytest -n 2 --ignore=tests/e2e
 
 fuzz: $(STAMP) ## Plan 300 drawn missions, and run every property test with new random numbers
-	CI= OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "fuzz or hypothesis"
+	CI= FUZZ=1 OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "fuzz or hypothesis"
 
 check: lint type layers gen-check test build ## Everything, as CI runs it
 

@@ -9,9 +9,9 @@ from importlib import import_module
 import pytest
 from hypothesis import settings
 
-# A loaded machine is no bug; and CI runs the same examples every time.
-CI = bool(os.environ.get("CI"))
-settings.register_profile("shotc", deadline=None, derandomize=CI, print_blob=True)
+# A loaded machine is no bug. Every run tries the same examples; `make fuzz` tries new ones.
+CI, FUZZ = (bool(os.environ.get(name)) for name in ("CI", "FUZZ"))
+settings.register_profile("shotc", deadline=None, derandomize=not FUZZ, print_blob=True)
 settings.load_profile("shotc")
 OURS = ("shotc", "shotc_casadi", "shotc_kml", "tests")
 if CI:
