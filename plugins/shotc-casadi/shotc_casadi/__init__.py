@@ -1,5 +1,5 @@
 """Refiners for shotc: the framing problem of Gebhardt and Hilliges as an optimal-control problem.
 
-conditions -> wishes -> stages -> solving -> program -> camera -> proof -> rounds -> telling -> refiner:
+conditions -> references -> stages -> solving -> program -> camera -> proof -> rounds -> messages -> refiner:
 each module uses those before it.
 """

@@ -32,12 +32,12 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.refiner import IN_PICTURE, OUT, refine_one
 from shotc_casadi.conditions import Condition
 from shotc_casadi.margins import REACH
+from shotc_casadi.messages import stats
 from shotc_casadi.proof import PROVED
+from shotc_casadi.references import Subject, subject_of
 from shotc_casadi.report import deviation, report
 from shotc_casadi.rounds import Refined, refine_shot
-from shotc_casadi.telling import stats
 from shotc_casadi.walls import NodePlanes
-from shotc_casadi.wishes import Subject, subject_of
 
 TRIES = 3  # about the last refined path; one more is about the convex path, which is known to be clear
 APART = 1e-6  # seconds at least between two nodes

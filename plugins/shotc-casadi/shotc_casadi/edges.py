@@ -14,8 +14,8 @@ from shotc.plugin_api.refiner import Array
 from shotc_casadi.camera import Given
 from shotc_casadi.conditions import OURS
 from shotc_casadi.frames import LEAST, insides
+from shotc_casadi.references import Subject, fields_of_view, references
 from shotc_casadi.stages import Stages
-from shotc_casadi.wishes import Subject, fields_of_view, wishes
 
 STEP = 1e-5  # of the distance to the target, and of half a frame, over which slopes are measured
 SLIGHT = 1e-7  # half frames lost over a way as long as the distance, which are none
@@ -27,7 +27,7 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
     Where it would crop it beside one, as little is changed as does: in shares of the distance, half frames.
     """
     s = nodes.s[nodes.pins]
-    q, wanted = camera(s), wishes(subject, OURS, s)
+    q, wanted = camera(s), references(subject, OURS, s)
     inside = insides(subject, wanted, s, q)
     away = np.linalg.norm(wanted.centre - q[:, :3], axis=1)
     half = fields_of_view(subject, s)[1]
@@ -48,7 +48,7 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
 def _along(subject: Subject, camera: Piecewise, s: float, step: float) -> Array:
     """Return by how much per metre of path a target comes inside each edge, half frames, (4,)."""
     at = np.clip(np.array([s - step, s + step]), camera.start, camera.end)
-    before, after = insides(subject, wishes(subject, OURS, at), at, camera(at))
+    before, after = insides(subject, references(subject, OURS, at), at, camera(at))
     return np.asarray((after - before) / (at[1] - at[0]))
 
 
@@ -56,5 +56,5 @@ def _by_pose(subject: Subject, s: float, q: Array, steps: Array) -> Array:
     """Return by how much a target comes inside each edge where a number of a pose takes its step, (4, 5)."""
     poses = np.concatenate([q + np.diag(steps), q - np.diag(steps)])
     at = np.full(len(poses), s)
-    after, before = np.split(insides(subject, wishes(subject, OURS, at), at, poses), 2)
+    after, before = np.split(insides(subject, references(subject, OURS, at), at, poses), 2)
     return np.asarray(0.5 * (after - before).T)

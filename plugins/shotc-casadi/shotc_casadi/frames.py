@@ -24,8 +24,8 @@ from shotc.plugin_api.refiner import (
     subdivide,
 )
 from shotc_casadi.conditions import OURS
+from shotc_casadi.references import References, Subject, fields_of_view, references
 from shotc_casadi.stages import Stages
-from shotc_casadi.wishes import Subject, Wishes, fields_of_view, wishes
 
 SAMPLES = 6  # a piece
 INSIDE = 0.03  # half frames kept from the edge at first: a squared hinge alone stops slightly outside
@@ -38,7 +38,7 @@ OPENING = (
 MOST = 0.5  # half frames asked for at most
 
 
-def insides(subject: Subject, wanted: Wishes, s: Array, q: Array) -> Array:
+def insides(subject: Subject, wanted: References, s: Array, q: Array) -> Array:
     """Return how far inside each edge of the frame the whole target lies, half frames, shape (M, 4).
 
     q : camera x, y, z, yaw, pitch at s, shape (M, 5). Order left, right, bottom, top; negative is cropped.
@@ -55,12 +55,12 @@ def insides(subject: Subject, wanted: Wishes, s: Array, q: Array) -> Array:
     return np.column_stack(rows)
 
 
-def asked_at_first(subject: Subject, nodes: Stages, wanted: Wishes) -> Wishes:
-    """Return wishes whose nodes ask for their target inside the frame by as much as a first solve takes."""
+def asked_at_first(subject: Subject, nodes: Stages, wanted: References) -> References:
+    """Return references that ask for the target inside the frame by as much as a first solve takes."""
     return replace(wanted, inside=np.minimum(INSIDE, _allowed(subject, nodes, nodes.s)))
 
 
-def asked_again(subject: Subject, nodes: Stages, wanted: Wishes, camera: Piecewise) -> Wishes:
+def asked_again(subject: Subject, nodes: Stages, wanted: References, camera: Piecewise) -> References:
     """Return what the nodes ask for after a camera was looked at between them.
 
     The method of multipliers (Hestenes 1969, Powell 1969) for the hinge: where the target is nearer to an
@@ -96,7 +96,7 @@ class Looked(NamedTuple):
 def between_nodes(subject: Subject, camera: Piecewise) -> Looked:
     """Look at the target of a camera that holds its composition, at dense places."""
     s: Array = subdivide(camera.breaks, SAMPLES)
-    wanted = wishes(subject, OURS, s)
+    wanted = references(subject, OURS, s)
     return Looked(s, insides(subject, wanted, s, camera(s)), wanted.whole > 0)
 
 
@@ -109,7 +109,7 @@ def _allowed(subject: Subject, nodes: Stages, s: Array) -> Array:
     curve = subject.leg.curve
     assert curve is not None
     pins, q = nodes.s[nodes.pins], curve(nodes.s[nodes.pins])
-    at = wishes(subject, OURS, pins)
+    at = references(subject, OURS, pins)
     own = insides(subject, at, pins, q[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])
     away = np.linalg.norm(at.centre - q[:, :3], axis=1)
     opened = own + OPENING * (np.abs(s[:, None] - pins) / away)[:, :, None]

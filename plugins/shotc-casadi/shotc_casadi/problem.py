@@ -12,6 +12,7 @@ from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due
 from shotc_casadi.margins import Margins
 from shotc_casadi.program import Problem
+from shotc_casadi.references import References, Subject, fields_of_view
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import (
     ACCELERATION,
@@ -33,7 +34,6 @@ from shotc_casadi.symbols import (
     YAW_RATE,
     size,
 )
-from shotc_casadi.wishes import Subject, Wishes, fields_of_view
 
 # Weights of the cost. Every term is a mean over the nodes or the time, and without dimension: half frames
 # for the picture, lengths as shares of the distance to the target, rates as shares of their limits, times as
@@ -58,7 +58,7 @@ SLOWEST, FASTEST = 5.0, 0.2  # bounds on a stage's length against the first gues
 
 
 def problem(
-    subject: Subject, condition: Condition, stages: Stages, wanted: Wishes, walls: Array, margins: Margins
+    subject: Subject, condition: Condition, stages: Stages, wanted: References, walls: Array, margins: Margins
 ) -> Problem:
     """Return the programme of one shot; walls : shape (N + 1, M, 4)."""
     states, inputs = _guess(subject, stages, wanted, condition)
@@ -78,7 +78,7 @@ def _pace(subject: Subject, margins: Margins) -> float:
     return margins.limits * (1.0 if due(subject.leg) else subject.leg.pace)
 
 
-def _guess(subject: Subject, stages: Stages, wanted: Wishes, condition: Condition) -> tuple[Array, Array]:
+def _guess(subject: Subject, stages: Stages, wanted: References, condition: Condition) -> tuple[Array, Array]:
     curve = subject.leg.curve
     assert curve is not None
     q = curve(stages.s)
@@ -107,7 +107,7 @@ def _guess(subject: Subject, stages: Stages, wanted: Wishes, condition: Conditio
 
 
 def _parameters(
-    subject: Subject, stages: Stages, wanted: Wishes, walls: Array, margins: Margins, guess: Array
+    subject: Subject, stages: Stages, wanted: References, walls: Array, margins: Margins, guess: Array
 ) -> Array:
     n, total, drone = len(stages.s) - 1, float(stages.t[-1]), subject.drone
     assert subject.leg.curve is not None
@@ -145,7 +145,7 @@ def _parameters(
     return whole
 
 
-def _distance(wanted: Wishes, reference: Array, stages: Stages) -> Array:
+def _distance(wanted: References, reference: Array, stages: Stages) -> Array:
     """Return the distance to the target by which lengths are measured, metres, shape (N + 1,).
 
     That of the places that bind, and between them between theirs: how near the reference happens to pass is
@@ -166,7 +166,7 @@ def _planes(walls: Array, margins: Margins) -> Array:
 
 
 def _pinned(
-    subject: Subject, stages: Stages, wanted: Wishes, margins: Margins, guess: Array
+    subject: Subject, stages: Stages, wanted: References, margins: Margins, guess: Array
 ) -> tuple[Array, Array]:
     """Return wanted states and their weights: positions near the path, keyframes, rest, ends, times."""
     assert subject.leg.curve is not None

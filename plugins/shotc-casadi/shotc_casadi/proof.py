@@ -13,7 +13,7 @@ from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due
 from shotc_casadi.frames import cropped
 from shotc_casadi.margins import Check
-from shotc_casadi.wishes import Subject
+from shotc_casadi.references import Subject
 
 PROVED = 1e-6  # metres that a proof may lack
 HOPELESS = 1.1  # times what is asked that a rough profile takes for no bend of the path to make up for it

@@ -10,10 +10,10 @@ from shotc.plugin_api.refiner import NoTransit, rejoined
 from shotc_casadi import conditions
 from shotc_casadi.company import refine_in_company
 from shotc_casadi.conditions import Condition
+from shotc_casadi.messages import stats
+from shotc_casadi.references import Subject, subject_of
 from shotc_casadi.report import deviation, report, state_of
 from shotc_casadi.rounds import Refined, refine_shot
-from shotc_casadi.telling import stats
-from shotc_casadi.wishes import Subject, subject_of
 
 
 @dataclass(frozen=True, slots=True)

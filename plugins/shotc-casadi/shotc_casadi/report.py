@@ -8,10 +8,10 @@ import numpy as np
 
 from shotc.plugin_api import Diagnostic, PathIR, SolverState
 from shotc.plugin_api.refiner import Deviation, leg_of
+from shotc_casadi.messages import UNITS, fallen_back, unsolved
 from shotc_casadi.rounds import Gap, Refined
 from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME
-from shotc_casadi.telling import UNITS, fallen_back, unsolved
 
 NOTICE = 0.1  # metres off the convex path that are worth telling
 

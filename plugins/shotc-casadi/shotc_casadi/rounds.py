@@ -21,11 +21,11 @@ from shotc_casadi.margins import Check, Margins, tighter
 from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem, solve
 from shotc_casadi.proof import checked, hopeless
+from shotc_casadi.references import References, Subject, references
 from shotc_casadi.solving import SOLVERS, Attempt, Solution, by_one_of
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, YAW
 from shotc_casadi.walls import half_spaces
-from shotc_casadi.wishes import Subject, Wishes, wishes
 
 ROUNDS = 6
 HOLD_AFTER = 3  # rounds, after which the convex path is all but held: it is known to be clear
@@ -87,7 +87,7 @@ def _refine(
     assert leg.curve is not None
     assert leg.shot is not None
     nodes = stages(leg, subject.placed, subject.drone, count)
-    wanted = asked_at_first(subject, nodes, wishes(subject, condition, nodes.s))
+    wanted = asked_at_first(subject, nodes, references(subject, condition, nodes.s))
     margins = Margins()
     walls = _walls(subject, nodes, margins)
     following = problem(subject, condition, nodes, wanted, walls, margins)
@@ -117,7 +117,7 @@ def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
     return half_spaces(subject.room, subject.leg.curve, nodes, margins, others)
 
 
-def _given(nodes: Stages, wanted: Wishes, task: Problem) -> Given:
+def _given(nodes: Stages, wanted: References, task: Problem) -> Given:
     """Return the angles that bind: at both ends, and at keyframes whose target has its place on screen."""
     inner = nodes.pins[1:-1]
     at = np.concatenate([[0], inner[wanted.framed[inner] > 0], [len(nodes.s) - 1]])

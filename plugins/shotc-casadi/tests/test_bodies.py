@@ -12,9 +12,9 @@ import pytest
 from shotc_casadi.clock import program, symbols, weights
 from shotc_casadi.clock.bodies import NONE, Body, inscribed, kept_from
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
+from shotc_casadi.clock.references import ClockReferences, ClockSubject, references
 from shotc_casadi.clock.refiner import subject_of
 from shotc_casadi.clock.rounds import NEARLY
-from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, wishes
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.convex import distances
@@ -82,7 +82,7 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
     middle = len(breaks) // 2
     centres = np.tile(course[middle] + np.array([0.0, at, 0.0]), (len(breaks), 1))
     body = Body(np.eye(3), centres, 1.5, 1.0)
-    wanted = kept_from((body,), wishes(of, breaks), course)
+    wanted = kept_from((body,), references(of, breaks), course)
     made = problem(
         of,
         breaks,
@@ -139,10 +139,10 @@ def test_the_field_pushes_away_only_where_it_reaches() -> None:
 def test_what_is_far_away_makes_no_part_of_the_problem() -> None:
     of = subject()
     breaks = breaks_of(of)
-    wanted, course = wishes(of, breaks), of.leg.curve(breaks)[:, :3]
+    wanted, course = references(of, breaks), of.leg.curve(breaks)[:, :3]
     far = Body(np.eye(3), course + np.array([0.0, 0.0, 5.0]), 1.5, 1.0)
     assert kept_from((far,), wanted, course).bodies.shape[1] == 0
-    near: ClockWishes = kept_from((far,), wanted, course + np.array([0.0, 0.0, 3.0]))
+    near: ClockReferences = kept_from((far,), wanted, course + np.array([0.0, 0.0, 3.0]))
     assert near.bodies.shape[1] == 1
     assert (near.bodies[:, 0, 12] < NONE).all()
     # What was near once stays in the problem.

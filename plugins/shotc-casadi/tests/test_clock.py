@@ -14,11 +14,11 @@ from shotc_casadi.clock import program
 from shotc_casadi.clock.angles import turning
 from shotc_casadi.clock.problem import STAGES, Use, breaks_of, guess, problem
 from shotc_casadi.clock.proof import astray, gap_in
+from shotc_casadi.clock.references import ClockSubject, motion, references, steepest
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, ClockRefined, refine_clock
-from shotc_casadi.clock.wishes import ClockSubject, motion, steepest, wishes
-from shotc_casadi.patience import Endless
 from shotc_casadi.solving import Solution
+from shotc_casadi.timeout import TimedOut
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
@@ -181,7 +181,7 @@ def test_the_legs_around_stay_and_the_ends_are_the_same_numbers() -> None:
 
 def task(of: ClockSubject) -> program.ClockProblem:
     breaks = breaks_of(of)
-    around, wanted = surroundings(of.path, of.drone, breaks), wishes(of, breaks)
+    around, wanted = surroundings(of.path, of.drone, breaks), references(of, breaks)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
     planes = around.half_spaces(guide.ctrl, REACH, SHARE)
     return problem(of, breaks, wanted, planes, Use(NEARLY), guess(guide, breaks))
@@ -265,7 +265,7 @@ def test_a_solver_that_never_ends_is_left_behind_and_its_shot_named(monkeypatch:
     of = subject(compiled(FLYBY))
 
     def late(_seconds: float, _call: object) -> None:
-        raise Endless
+        raise TimedOut
 
     monkeypatch.setattr(solving, "within", late)
     path, told = refine_clocks(of.path, PassContext(), "ours")
@@ -278,7 +278,7 @@ def test_a_solver_that_never_ends_is_left_behind_and_its_shot_named(monkeypatch:
 
 def test_where_the_shot_allows_it_the_guide_is_flown_instead(monkeypatch: pytest.MonkeyPatch) -> None:
     def late(_seconds: float, _call: object) -> None:
-        raise Endless
+        raise TimedOut
 
     monkeypatch.setattr(solving, "within", late)
     compiled.cache_clear()

@@ -15,9 +15,9 @@ from shotc_casadi import solving
 from shotc_casadi.conditions import LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.derivatives import derived
 from shotc_casadi.horizon import built
-from shotc_casadi.patience import Endless, within
 from shotc_casadi.program import FEASIBLE, NARROW, TOLERANCE, instance, solve
 from shotc_casadi.symbols import INPUTS, LENGTH, PITCH, PITCH_RATE, STATES, TIME, size, stage
+from shotc_casadi.timeout import TimedOut, within
 
 from tests.refiner_scenes import task, walled
 
@@ -187,13 +187,13 @@ def test_a_call_may_return_raise_or_be_left_behind():
     assert within(5.0, lambda: 7) == 7
     with pytest.raises(ZeroDivisionError):
         within(5.0, lambda: 1 // 0)
-    with pytest.raises(Endless):
+    with pytest.raises(TimedOut):
         within(0.05, lambda: time.sleep(0.5))
 
 
 def test_a_solver_that_does_not_end_is_left_behind(monkeypatch):
     slow = lru_cache(lambda *_: lambda **_: time.sleep(0.5))
-    monkeypatch.setattr(solving, "PATIENCE", 0.05)
+    monkeypatch.setattr(solving, "TIMEOUT", 0.05)
     monkeypatch.setattr(solving, "built", slow)
     solution = solve(task(walled()), "fatrop")
     assert (solution.status, solution.iterations) == ("stopped", 0)
@@ -206,7 +206,7 @@ from dataclasses import replace
 from shotc_casadi import solving
 from shotc_casadi.program import solve
 from tests.refiner_scenes import arc, task
-solving.PATIENCE = 1.0
+solving.TIMEOUT = 1.0
 short = task(arc()._replace(leg=replace(arc().leg, duration=0.5)))
 print(solve(short, "fatrop").status, solve(task(arc()), "fatrop").status)
 """

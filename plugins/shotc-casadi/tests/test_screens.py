@@ -8,11 +8,11 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.clock import symbols
+from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.refiner import refine_clocks, subject_of
 from shotc_casadi.clock.rounds import refine_clock
 from shotc_casadi.clock.screens import Screen, enclosing, screens_of
 from shotc_casadi.clock.shown import past_what_hides, shown
-from shotc_casadi.clock.wishes import ClockSubject
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Prism, box

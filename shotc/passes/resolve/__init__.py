@@ -22,9 +22,7 @@ from shotc.passes.resolve.framing import check_framing
 from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
-from shotc.passes.resolve.names import check_names, emitters_of, once
-from shotc.passes.resolve.pads import check_pads
-from shotc.passes.resolve.seldom import (
+from shotc.passes.resolve.lazy import (
     Show,
     check_covered,
     check_fleets,
@@ -34,6 +32,8 @@ from shotc.passes.resolve.seldom import (
     shown,
     tracks_of,
 )
+from shotc.passes.resolve.names import check_names, emitters_of, once
+from shotc.passes.resolve.pads import check_pads
 from shotc.passes.resolve.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.timing import check_timing
 from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones

@@ -11,8 +11,8 @@ import numpy as np
 
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, IntArray, Mask, quintic_hermite
+from shotc_casadi.clock.references import ClockReferences
 from shotc_casadi.clock.screens import Screen, covered
-from shotc_casadi.clock.wishes import ClockWishes
 
 CLEAR = -0.1  # of d_v, to which a guess is led
 TRIES = 20  # of ways to go to either side, up to the usual distance to the subject
@@ -20,7 +20,7 @@ BRIDGED = 1.0  # seconds: stretches that are hidden, with less between them, are
 SPREAD = 3.0  # seconds before and after such a stretch in which a guess goes aside
 
 
-def led_past(curve: Piecewise, wanted: ClockWishes, screens: Sequence[Screen], filmed: Mask) -> Piecewise:
+def led_past(curve: Piecewise, wanted: ClockReferences, screens: Sequence[Screen], filmed: Mask) -> Piecewise:
     """Return a position curve led aside where something hides the subject in the film; its ends stay."""
     if not screens:
         return curve
@@ -36,7 +36,7 @@ def led_past(curve: Piecewise, wanted: ClockWishes, screens: Sequence[Screen], f
     return quintic_hermite(breaks, *values)
 
 
-def _way_out(eyes: Array, wanted: ClockWishes, screens: Sequence[Screen], run: IntArray) -> Array:
+def _way_out(eyes: Array, wanted: ClockReferences, screens: Sequence[Screen], run: IntArray) -> Array:
     """Return the shortest way out of the shadow for all nodes of a run, W, metres, shape (3,)."""
     ray = (wanted.target[run, :3] - eyes[run]).mean(axis=0)
     side = np.array([-ray[1], ray[0], 0.0]) / max(float(np.hypot(ray[0], ray[1])), 1e-6)

@@ -15,9 +15,9 @@ import numpy as np
 
 from shotc.plugin_api.refiner import Array, Cylinder, Solid, Surroundings, bounded
 from shotc_casadi.clock import weights
+from shotc_casadi.clock.references import ClockReferences
 from shotc_casadi.clock.screens import ellipse
 from shotc_casadi.clock.symbols import BODY
-from shotc_casadi.clock.wishes import ClockWishes
 
 NEAR = 1.0  # metres beyond the potential field within which an ellipsoid counts
 COUNTS = (0, 1, 2, 4, 8)  # ellipsoids a programme may have, so that few are built
@@ -82,8 +82,8 @@ def inscribed(part: Solid) -> tuple[Array, Array, Array]:
     )
 
 
-def kept_from(bodies: Sequence[Body], wanted: ClockWishes, eyes: Array) -> ClockWishes:
-    """Return the wishes with the ellipsoids that come near places ``eyes`` at the nodes, (N + 1, 3).
+def kept_from(bodies: Sequence[Body], wanted: ClockReferences, eyes: Array) -> ClockReferences:
+    """Return the references with the ellipsoids that come near places ``eyes`` at the nodes, (N + 1, 3).
 
     Those that came near before stay.
     """

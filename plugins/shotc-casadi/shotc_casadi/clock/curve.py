@@ -21,8 +21,8 @@ from shotc.plugin_api.refiner import (
     turn,
 )
 from shotc_casadi.clock.problem import guess
+from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.symbols import PLACED
-from shotc_casadi.clock.wishes import ClockSubject
 from shotc_casadi.solving import Solution
 
 

@@ -11,9 +11,9 @@ import numpy as np
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, Planes
 from shotc_casadi.clock import weights
+from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepest
 from shotc_casadi.clock.several import angles, turning_room
 from shotc_casadi.clock.symbols import FIELDS, PLACED, PLANE, POINTS, SLACK, Sizes
-from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, steepest
 
 STAGES = 100  # of the film, if its pieces allow
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so that few are built
@@ -104,7 +104,7 @@ def guess(curve: Piecewise, breaks: Array, camera: Piecewise | None = None) -> t
 def problem(
     subject: ClockSubject,
     breaks: Array,
-    wanted: ClockWishes,
+    wanted: ClockReferences,
     planes: Planes,
     use: Use,
     start: tuple[Array, Array],
@@ -164,7 +164,7 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
     return low, high
 
 
-def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Array:
+def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockReferences) -> Array:
     leg, n = subject.leg, len(breaks) - 1
     length = np.append(np.diff(breaks), 0.0)
     filmed = (breaks >= leg.start - 1e-9) & (breaks < leg.end - 1e-9)
@@ -197,7 +197,7 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> Ar
     return np.column_stack(table)
 
 
-def _unit(wanted: ClockWishes) -> float:
+def _unit(wanted: ClockReferences) -> float:
     """Return what all weights are multiplied by for the solver.
 
     Where nothing is filmed a jerk costs next to nothing, and fatrop takes a small curvature for none: it adds
@@ -209,7 +209,7 @@ def _unit(wanted: ClockWishes) -> float:
     return weights.UNIT * wanted.usual**2
 
 
-def _binds(subject: ClockSubject, wanted: ClockWishes) -> float:
+def _binds(subject: ClockSubject, wanted: ClockReferences) -> float:
     """Return the weight of the place."""
     if len(subject.framed) > 1:
         return weights.LOOSE

@@ -18,7 +18,7 @@ from shotc.plugin_api.refiner import (
     aims_at,
     wrapped,
 )
-from shotc_casadi.clock.wishes import ClockSubject
+from shotc_casadi.clock.references import ClockSubject
 
 PROVED = 1e-6  # metres
 ROUNDING = 1e-9  # of a limit

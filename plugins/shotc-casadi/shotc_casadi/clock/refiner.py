@@ -28,11 +28,11 @@ from shotc.plugin_api.refiner import (
     worst_of_runs,
 )
 from shotc_casadi.clock.proof import Gap
+from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_what_hides
-from shotc_casadi.clock.wishes import ClockSubject
+from shotc_casadi.messages import UNITS, fallen_back, stats, unsolved
 from shotc_casadi.solving import MOTION
-from shotc_casadi.telling import UNITS, fallen_back, stats, unsolved
 
 NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
 STEP = 0.1  # seconds between the places that are compared with it

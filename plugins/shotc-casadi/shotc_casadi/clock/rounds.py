@@ -25,10 +25,10 @@ from shotc_casadi.clock.curve import curve_of, filmed
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
+from shotc_casadi.clock.references import ClockReferences, ClockSubject, references
 from shotc_casadi.clock.screens import Screen, looked_past
 from shotc_casadi.clock.several import turned
 from shotc_casadi.clock.side import Pass, held, led, passes
-from shotc_casadi.clock.wishes import ClockSubject, ClockWishes, wishes
 from shotc_casadi.solving import SOLVERS, Solution, by_one_of
 
 ROUNDS = 6
@@ -108,7 +108,7 @@ class _Round:
     first : the solver that failed before one that did not
     """
 
-    wanted: ClockWishes
+    wanted: ClockReferences
     course: Piecewise
     start: tuple[Array, Array]
     over: tuple[Pass, ...]
@@ -145,7 +145,7 @@ def refine_clock(
 def _begun(shot: _Shot) -> _Round:
     """Return the first round: from the guide, led aside where it has to choose a side."""
     subject, guide = shot.subject, shot.guide
-    wanted = wishes(subject, shot.breaks)
+    wanted = references(subject, shot.breaks)
     over = () if subject.together else passes(subject, shot.breaks, wanted)
     first = led_past(led(guide, over), wanted, shot.screens, shot.shown)
     course = first if shot.screens else guide

@@ -24,8 +24,8 @@ from shotc.plugin_api.refiner import (
     moved,
     parts_of_one,
 )
+from shotc_casadi.clock.references import ClockReferences, ClockSubject
 from shotc_casadi.clock.symbols import LINE
-from shotc_casadi.clock.wishes import ClockSubject, ClockWishes
 
 ENCLOSES = sqrt(2.0)  # the semi-axes of an ellipsoid over those of the upright cylinder that it goes round
 WIDER = 1.2  # of what is a ball or has no end, so that it counts before it hides
@@ -91,8 +91,10 @@ def _screens(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Screen
             yield Screen(np.eye(3) / radius, flying(flight.curve, breaks))
 
 
-def looked_past(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array, filmed: Mask) -> ClockWishes:
-    """Return the wishes with the ellipsoids that come near the lines of sight from ``eyes`` (N + 1, 3).
+def looked_past(
+    screens: Sequence[Screen], wanted: ClockReferences, eyes: Array, filmed: Mask
+) -> ClockReferences:
+    """Return the references with the ellipsoids that come near the lines of sight from ``eyes`` (N + 1, 3).
 
     Those that came near before stay, and the camera goes as far from its place as it takes.
     filmed : whether each node is in the film
@@ -115,7 +117,7 @@ def looked_past(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array, fil
     return replace(wanted, past=past, near=near, reach=np.full(len(eyes), np.inf))
 
 
-def covered(screens: Sequence[Screen], wanted: ClockWishes, eyes: Array) -> Array:
+def covered(screens: Sequence[Screen], wanted: ClockReferences, eyes: Array) -> Array:
     """Return the most that anything covers each line of sight, d_v, above 0 hidden; shape (N + 1,)."""
     covers = [screen.cover(eyes, wanted.centres[:, screen.before]) for screen in screens]
     return np.asarray(np.max(covers, axis=0, initial=-np.inf))

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api.refiner import DroneTrajectory, TimedLeg, flights, others_of, seen
+from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.screens import screens_of
-from shotc_casadi.clock.wishes import ClockSubject
 
 RATE = 25.0  # frames a second that are looked at
 GAIN = 0.005  # of the frames: showing less more than that is not worth going aside for

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import CAM_YAW, Array, Planes, quintic_hermite
-from shotc_casadi.clock.wishes import ClockSubject, ClockWishes
+from shotc_casadi.clock.references import ClockReferences, ClockSubject
 
 NEAR = 0.35  # of the usual distance: passes over ground that are nearer are held to their side
 ASIDE = 0.3  # metres that the camera keeps to its side
@@ -41,7 +41,7 @@ class Pass(NamedTuple):
     led: float
 
 
-def passes(subject: ClockSubject, breaks: Array, wanted: ClockWishes) -> tuple[Pass, ...]:
+def passes(subject: ClockSubject, breaks: Array, wanted: ClockReferences) -> tuple[Pass, ...]:
     """Return the ways over the target that have room on their side, in their order."""
     leg = subject.leg
     if not wanted.watches:
@@ -81,7 +81,7 @@ def _across(way: Array, away: Array) -> Array:
     return np.asarray(np.where((length > 1e-3) & ((across @ away)[:, None] > ALONG), across, away))
 
 
-def held(planes: Planes, wanted: ClockWishes, over: Sequence[Pass]) -> Planes:
+def held(planes: Planes, wanted: ClockReferences, over: Sequence[Pass]) -> Planes:
     """Return half-spaces with those that keep the nodes near a target on their side."""
     target = wanted.target[:, :3]
     for one in over:

@@ -8,7 +8,7 @@ v_d of Gebhardt and Hilliges, Sec. 4.1-4.2). Elsewhere the angles of the convex 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -37,7 +37,7 @@ FAR = 1.0  # metres ahead of the camera that a target nobody asked for is put
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Wishes:
+class References:
     """One row a node.
 
     centre (N + 1, 3), radius, height, place (N + 1, 2), aim (N + 1, 2) : as in symbols.FIELDS
@@ -81,7 +81,7 @@ def subject_of(path: PathIR, drone: str, leg: Leg) -> Subject:
     return Subject(mission, flown_by, flight_room(mission, flown_by), placed, leg)
 
 
-def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
+def references(subject: Subject, condition: Condition, s: Array) -> References:
     """Return what a condition wants at path parameters s, shape (N + 1,)."""
     if condition.aims == "framing":
         return _framed(subject, s)
@@ -90,9 +90,9 @@ def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
     assert subject.leg.curve is not None
     angles = _unwrapped([own_angles(subject, k) for _, k in keys], subject.leg.curve(at)[:, CAM_YAW])
     turn = np.column_stack([steady(at, angles[:, i])(s)[:, 0] for i in (0, 1)])
-    nothing, edges = _nothing(subject, s), np.zeros((len(s), 4))
+    own = _unframed(subject, s)
     if condition.aims == "angles":
-        return Wishes(*nothing[:4], turn, nothing[5], nothing[6], edges)
+        return replace(own, aim=turn)
     points = np.array(
         [
             sight_point(subject.mission, subject.room, k, tuple(a))
@@ -101,9 +101,8 @@ def wishes(subject: Subject, condition: Condition, s: Array) -> Wishes:
     )
     x, i = _progress(at, s)
     looked_at = (1 - x) * points[i] + x * points[i + 1]
-    _, radius, height, place, _, _, whole = nothing
     aim = _towards(looked_at - _position(subject, s), turn)
-    return Wishes(looked_at, radius, height, place, aim, np.ones(len(s)), whole, edges)
+    return replace(own, centre=looked_at, aim=aim, framed=np.ones(len(s)))
 
 
 def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float]:
@@ -116,8 +115,8 @@ def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float
     return own or (keyframe.yaw, keyframe.pitch)
 
 
-def _framed(subject: Subject, s: Array) -> Wishes:
-    centre, radius, height, place, aim, framed, whole = _nothing(subject, s)
+def _framed(subject: Subject, s: Array) -> References:
+    made = _unframed(subject, s)
     keys = _keys(subject)
     x, i = _progress(np.array([at for at, _ in keys]), s)
     for k, ((_, a), (_, b)) in enumerate(pairwise(keys)):
@@ -126,17 +125,17 @@ def _framed(subject: Subject, s: Array) -> Wishes:
             continue
         share = x[here]
         first, second = subject.mission.target(a.target), subject.mission.target(b.target)
-        centre[here] = (1 - share) * np.array(first.centre) + share * np.array(second.centre)
-        radius[here] = ((1 - share) * first.radius + share * second.radius)[:, 0]
-        height[here] = ((1 - share) * first.height + share * second.height)[:, 0]
-        place[here] = (1 - share) * np.array(a.reference) + share * np.array(b.reference)
-        framed[here] = 1.0
-        whole[here] = 1.0
-    return Wishes(centre, radius, height, place, aim, framed, whole, np.zeros((len(s), 4)))
+        made.centre[here] = (1 - share) * np.array(first.centre) + share * np.array(second.centre)
+        made.radius[here] = ((1 - share) * first.radius + share * second.radius)[:, 0]
+        made.height[here] = ((1 - share) * first.height + share * second.height)[:, 0]
+        made.place[here] = (1 - share) * np.array(a.reference) + share * np.array(b.reference)
+        made.framed[here] = 1.0
+        made.whole[here] = 1.0
+    return made
 
 
-def _nothing(subject: Subject, s: Array) -> tuple[Array, Array, Array, Array, Array, Array, Array]:
-    """Return wishes that keep the convex path's angles and frame nothing."""
+def _unframed(subject: Subject, s: Array) -> References:
+    """Return references that keep the convex path's angles and frame nothing."""
     curve = subject.leg.curve
     assert curve is not None
     q = curve(s)
@@ -144,9 +143,17 @@ def _nothing(subject: Subject, s: Array) -> tuple[Array, Array, Array, Array, Ar
     ahead = np.column_stack(
         [np.cos(aim[:, 0]) * np.cos(aim[:, 1]), np.sin(aim[:, 0]) * np.cos(aim[:, 1]), np.sin(aim[:, 1])]
     )
-    zero = np.zeros(len(s))
-    centre = q[:, :3] + FAR * ahead
-    return centre, zero.copy(), zero.copy(), np.zeros((len(s), 2)), aim, zero.copy(), zero.copy()
+    n = len(s)
+    return References(
+        centre=q[:, :3] + FAR * ahead,
+        radius=np.zeros(n),
+        height=np.zeros(n),
+        place=np.zeros((n, 2)),
+        aim=aim,
+        framed=np.zeros(n),
+        whole=np.zeros(n),
+        inside=np.zeros((n, 4)),
+    )
 
 
 def _keys(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import pi, tan
 
@@ -35,6 +35,7 @@ STEEPEST = tan(89.0 * pi / 180)
 KEPT = 0.05  # of the usual distance: a guide that is farther off a framing's place does not keep it
 STEEP = 0.15  # of a line of sight that is level, below which it is as good as straight down
 NEAREST = 1.0  # metres: least distance that counts as usual
+ASIDE = 100.0  # metres east of its place: where a shot without a subject has its target
 PREFERRED = 0.98 * MOST_MOVED  # of a distance: between two nodes a camera may be a little farther off
 LOOKS = 8  # at an ideal, a stage
 INNER = 0.005  # metres that it may be farther off than its guide: a constraint needs an interior
@@ -95,7 +96,7 @@ class ClockSubject:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ClockWishes:
+class ClockReferences:
     """One row a node.
 
     ideal (N + 1, 3), target (N + 1, 12) : as in symbols.FIELDS
@@ -128,7 +129,7 @@ class ClockWishes:
         return 0 if self.near is None else int(self.near.sum())
 
 
-def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
+def references(subject: ClockSubject, t: Array) -> ClockReferences:
     """Return what a shot wants at mission times t, shape (N + 1,)."""
     ideal = _ideal_at(subject, t)
     watched, shot, n = subject.watched, subject.placed.shot, len(t)
@@ -138,16 +139,27 @@ def wishes(subject: ClockSubject, t: Array) -> ClockWishes:
     shown = pictured(subject.mission, subject.framed if subject.together else (), centres)
     if subject.held_whole:
         shown = where_it_fits(shown, subject.drone, ideal, reach)
-    nothing = (centres, shown, np.zeros((n, 0, LINE)), np.zeros((n, 0, BODY)))
+    unwatched = ClockReferences(
+        ideal=ideal,
+        target=np.column_stack([ideal + np.array([ASIDE, 0.0, 0.0]), np.zeros((n, 9))]),
+        reach=reach,
+        usual=ASIDE,
+        watches=False,
+        placed=placed,
+        yields=False,
+        centres=centres,
+        subjects=shown,
+        past=np.zeros((n, 0, LINE)),
+        bodies=np.zeros((n, 0, BODY)),
+    )
     if watched is None or (keyed and _over(subject, centres, ideal)):
-        away = np.column_stack([ideal + np.array([100.0, 0.0, 0.0]), np.zeros((n, 9))])
-        return ClockWishes(ideal, away, reach, 100.0, False, placed, False, *nothing)
+        return unwatched
     target = np.mean([motion(subject.mission, one.target, t) for one in subject.framed], axis=0)
     filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
     usual = max(NEAREST, float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1))))
     off = np.linalg.norm(subject.leg.curve(t)[filmed, :3] - ideal[filmed], axis=1).max()
     yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT * usual)
-    return ClockWishes(ideal, target, reach, usual, True, placed, yields, *nothing)
+    return replace(unwatched, target=target, usual=usual, watches=True, yields=yields)
 
 
 def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:

@@ -11,15 +11,15 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any
 
-PATIENCE = 30.0  # seconds: ten times what the largest problems take
+TIMEOUT = 30.0  # seconds: ten times what the largest problems take
 
 
-class Endless(Exception):
+class TimedOut(Exception):
     """A call has not ended in time; the thread that it runs in is left to itself."""
 
 
 def within(seconds: float, call: Callable[[], Any]) -> Any:
-    """Return what ``call`` returns, or raise what it raises; Endless after so many seconds.
+    """Return what ``call`` returns, or raise what it raises; TimedOut after so many seconds.
 
     The call runs in a thread of its own, so that an interrupt from the keyboard is heard meanwhile.
     """
@@ -35,7 +35,7 @@ def within(seconds: float, call: Callable[[], Any]) -> Any:
     try:
         value, raised = answer.get(timeout=seconds)
     except Empty:
-        raise Endless from None
+        raise TimedOut from None
     if raised is not None:
         raise raised
     return value

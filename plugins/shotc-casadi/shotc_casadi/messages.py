@@ -11,8 +11,8 @@ from shotc.plugin_api import (
     solver_nan,
     stopped_early,
 )
-from shotc_casadi.patience import PATIENCE
 from shotc_casadi.solving import Solution
+from shotc_casadi.timeout import TIMEOUT
 
 UNITS = {
     "speed": "m^2/s^2",
@@ -27,7 +27,7 @@ def word(solution: Solution) -> str:
     """Return why a solver ended without a solution."""
     if solution.status == "nan":
         return "numbers that are none"
-    return f"{solution.iterations} iterations" if solution.iterations else f"{PATIENCE:.0f} s without an end"
+    return f"{solution.iterations} iterations" if solution.iterations else f"{TIMEOUT:.0f} s without an end"
 
 
 def fallen_back(path: PathIR, shot: str, first: Solution | None, solution: Solution) -> Diagnostic | None:
