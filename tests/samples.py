@@ -7,9 +7,9 @@ from math import atan2, pi, radians
 
 import numpy as np
 
-from shotc.geom.angles import direction
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.geom.solids import Cylinder, Prism
+from shotc.geom.vec import direction
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Limits, Timing
 from shotc.ir.mission import (

@@ -12,11 +12,9 @@ import typer
 
 from shotc import plugins
 from shotc.cli import console
+from shotc.cli.console import Progress, known, listed, table
 from shotc.cli.inputs import read_mission
-from shotc.cli.names import known, listed
 from shotc.cli.plan import Deadline, Spec
-from shotc.cli.progress import Progress
-from shotc.cli.table import table
 from shotc.filenames import file_name
 from shotc.output import write
 

@@ -1,4 +1,4 @@
-"""What every command shares: exit codes, the decision about colour, and where text goes.
+"""What every command shares: exit codes, colour, where text goes, tables, progress, names of options.
 
 Results go to standard output, messages to standard error. ``configure`` is called once, by the
 application's callback; commands only call ``out``, ``note``, ``report`` and ``exit_code``.
@@ -9,8 +9,11 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
 from enum import StrEnum
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
+
+import typer
 
 from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.registry import has_errors, severity_of
@@ -18,6 +21,7 @@ from shotc.source.file import SourceFile
 
 if TYPE_CHECKING:
     from rich.console import Console
+
 
 EXIT_CLEAN = 0
 EXIT_REJECTED = 1
@@ -117,3 +121,53 @@ def _write(stream: TextIO, text: str) -> None:
     except UnicodeEncodeError:
         encoding = stream.encoding or "ascii"
         stream.write(line.encode(encoding, "backslashreplace").decode(encoding))
+
+
+def table(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Set rows in columns two spaces apart."""
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+def clock(seconds: float) -> str:
+    """Write seconds as m:ss.s."""
+    minutes, rest = divmod(round(seconds, 1), 60)
+    return f"{int(minutes)}:{rest:04.1f}"
+
+
+class Progress:
+    """Show what is running on a terminal; say nothing elsewhere."""
+
+    def __init__(self) -> None:
+        self._status: Any = None
+
+    def __enter__(self) -> Any:
+        terminal = stderr_console()
+        if terminal.is_terminal and not is_quiet():
+            self._status = terminal.status("reading")
+            self._status.start()
+        return self._say
+
+    def __exit__(self, *_: object) -> None:
+        if self._status is not None:
+            self._status.stop()
+
+    def _say(self, message: str) -> None:
+        if self._status is not None:
+            self._status.update(message)
+
+
+def listed(names: str | None) -> list[str] | None:
+    """Return the names of a list with commas, each once; None where there is no list."""
+    if names is None:
+        return None
+    return list(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
+
+
+def known(option: str, name: str | None, names: list[str]) -> None:
+    """Reject an unknown name as a usage error with the nearest known one."""
+    if name is None or name in names:
+        return
+    near = get_close_matches(name, names, 1)
+    hint = f"did you mean `{near[0]}`?" if near else f"known: {', '.join(names)}"
+    raise typer.BadParameter(f"`{name}` is unknown; {hint}", param_hint=option)

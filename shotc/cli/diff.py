@@ -10,8 +10,8 @@ from typing import Annotated
 import typer
 
 from shotc.cli import console
+from shotc.cli.console import table
 from shotc.cli.plans import proved
-from shotc.cli.table import table
 from shotc.ir.measures import measure
 from shotc.ir.trajectory import Claim
 from shotc.planfile.compare import Comparison, FleetChange, ShotChange, compare

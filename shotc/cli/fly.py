@@ -51,7 +51,7 @@ def fly(plan: PlanPath, gusts: Gusty = 0.0, seed: Seed = 1, format: FormatOption
 
 
 def _text(found: list[tuple[Fleet, Rehearsal]]) -> str:
-    from shotc.cli.table import table
+    from shotc.cli.console import table
 
     return "\n".join([*table([HEADING, *(_row(*each) for each in found)]), "", *_remarks(found)])
 
@@ -65,7 +65,7 @@ def _row(fleet: Fleet, came: Rehearsal) -> tuple[str, ...]:
 
 
 def _remarks(found: list[tuple[Fleet, Rehearsal]]) -> Iterator[str]:
-    from shotc.cli.table import clock
+    from shotc.cli.console import clock
     from shotc.ir.show import drone_names
 
     for fleet, came in found:

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from shotc.cli import console
-from shotc.cli.table import table
+from shotc.cli.console import table
 
 
 class Group(StrEnum):

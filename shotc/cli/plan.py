@@ -11,9 +11,8 @@ import typer
 from shotc import plugins
 from shotc.api import Compilation, PlanOptions, compile_source, crew, emit_plan
 from shotc.cli import console
+from shotc.cli.console import Progress, known, listed
 from shotc.cli.inputs import read_mission
-from shotc.cli.names import known, listed
-from shotc.cli.progress import Progress
 from shotc.cli.refiner import told
 from shotc.filenames import file_name
 from shotc.output import earlier, left_over, write

@@ -8,11 +8,14 @@ from pathlib import Path
 from textwrap import wrap
 
 from shotc.cli.centred import centred
-from shotc.cli.fleet_summary import display_rows, headline, nearest
-from shotc.cli.table import clock, table
+from shotc.cli.console import clock, table
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
+from shotc.geom.apart import stretch
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.measures import measure, told_apart
 from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation, from_what_was_asked
+from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.sight import OUT_OF_PICTURE
@@ -225,3 +228,92 @@ def _paragraph(name: str, text: str) -> list[str]:
 
 def _indent(lines: Iterable[str]) -> list[str]:
     return ["  " + line for line in lines]
+
+
+PAIR = 2
+
+
+def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
+    """Return a heading and one row a display: fleet, when, how long, and what it shows; or nothing."""
+    rows = [
+        (phase.shot, f"{track.fleet} ({len(track.coef)} drones)", *_shown(track, phase))
+        for track in plan.trajectory.fleets
+        for phase in track.phases
+        if phase.shot is not None
+    ]
+    return [("display", "fleet", "from", "lasts", "pictures"), *rows] if rows else []
+
+
+def _shown(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
+    shown = [s for s in track.shown if s.display == phase.shot]
+    pictures = len({s.picture for s in shown})
+    frames = "" if len(shown) == pictures else f", {len(shown)} frames"
+    return clock(phase.start), f"{phase.end - phase.start:.2f} s", f"{pictures}{frames}"
+
+
+def headline(plan: VerifiedIR) -> str:
+    """Return how many displays and drones there are."""
+    ir = plan.trajectory
+    shows, drones = len(ir.keyframes.mission.displays), sum(len(track.coef) for track in ir.fleets)
+    return f"{shows} display{'s' * (shows != 1)} of {drones} drone{'s' * (drones != 1)}"
+
+
+def nearest(plan: VerifiedIR) -> Iterator[str]:
+    """Yield, for each fleet and every two of them, which drones come nearest, how near, and when."""
+    for claim in plan.certificate:
+        if len(claim.drones) == PAIR:
+            yield _pair(plan, claim)
+
+
+def _pair(plan: VerifiedIR, claim: Claim) -> str:
+    found, needed = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
+    when = "" if claim.time is None else f", at {clock(claim.time)}"
+    text = f"{' and '.join(claim.drones)} come nearest, {found}, {needed} needed{when}"
+    if claim.constraint != "separation":
+        return text
+    apart = plan.trajectory.keyframes.mission.fleet(claim.subject).apart
+    return f"{text}; heights count {stretch(apart):.2g} times ({apart.shape})"
+
+
+WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}
+HEADING = ("", "claim", "asked", "worst", "at", "known by")
+
+
+def certificate_text(certificate: Sequence[Claim]) -> str:
+    """Return one table for every drone's flight and for each of its shots."""
+    parts: list[str] = []
+    for subject, shot in dict.fromkeys((c.subject, c.shot) for c in certificate):
+        claims = [c for c in certificate if (c.subject, c.shot) == (subject, shot)]
+        parts.append(f"{subject}, " + ("whole flight" if shot is None else f"shot {shot}"))
+        parts += ["  " + line for line in table([HEADING, *_rows(claims)])]
+        parts.append("")
+    return "\n".join(parts[:-1])
+
+
+def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
+    for claim in claims:
+        yield (
+            mark(claim),
+            *_values(claim),
+            "" if claim.time is None else clock(claim.time),
+            WAYS[claim.method] + (f", {' and '.join(claim.drones)}" if claim.drones else ""),
+        )
+
+
+def _values(claim: Claim) -> tuple[str, str, str]:
+    """Return what a claim is about, what is asked, and the worst that happens."""
+    if claim.constraint.endswith(OUT_OF_PICTURE) and claim.unit == "m" and isfinite(claim.worst):
+        side = "outside" if claim.worst >= 0.0 else "inside"
+        return claim.constraint, "outside the frame", f"{measure(abs(claim.worst), 'm')} {side}"
+    worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
+    if not claim.holds:
+        worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
+    asked = f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-"
+    return claim.constraint, asked, worst if isfinite(claim.worst) else "-"
+
+
+def mark(claim: Claim) -> str:
+    """Return a word for what has become of a claim."""
+    if not claim.holds:
+        return "BROKEN" if claim.hard else "lost"
+    return "ok" if isfinite(claim.limit) else ""

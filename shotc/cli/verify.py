@@ -47,7 +47,7 @@ def verify(plan: PlanPath, format: FormatOption = Format.TEXT, against: AgainstO
 
 
 def _print(report: PlanReport) -> None:
-    from shotc.cli.certificate import certificate_text
+    from shotc.cli.summary import certificate_text
 
     if report.certificate:
         console.out(certificate_text(report.certificate))

@@ -8,8 +8,7 @@ plain arithmetic only, so they take floats and numpy arrays alike (``S`` below i
 from math import atan2, cos, hypot, pi, sin, sqrt, tan
 from typing import Any, NamedTuple
 
-from shotc.geom.angles import direction
-from shotc.geom.vec import Vec2, Vec3
+from shotc.geom.vec import Vec2, Vec3, direction
 
 ROUNDING = 1e-6
 """Metres out of the frame that are rounding, as in every other limit: a target may touch the frame's edge."""

@@ -1,4 +1,13 @@
-"""Vectors of plain numbers: on the map, and in space. Plain Python, so that `check` can use it."""
+"""Vectors of plain numbers, on the map and in space, and angles. Plain Python, so that `check` can use it;
+functions of angles take numpy arrays as well.
+"""
+
+from math import pi
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:  # `check` loads this without numpy
+    from shotc.geom.bernstein import Array
+
 
 Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
@@ -12,3 +21,19 @@ def plus(a: Vec3, b: Vec3) -> Vec3:
 def minus(a: Vec3, b: Vec3) -> Vec3:
     """Return the vector from b to a."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+A = TypeVar("A", float, "Array")
+
+TURN = 2 * pi
+
+
+def wrapped(angle: A) -> A:
+    """Return an angle in [-pi, pi), rad: the shorter turn, half a turn to the right."""
+    return (angle + pi) % TURN - pi
+
+
+def direction(angle: float) -> float:
+    """Return an angle in (-pi, pi], rad, as yaws are written."""
+    least = wrapped(angle)
+    return pi if least == -pi else least

@@ -6,16 +6,16 @@ Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it
 from __future__ import annotations
 
 from shotc.geom import viewpoint
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, silhouette_bounds
 from shotc.geom.convex import bounded, distances
 from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
-from shotc.geom.runs import worst_of_runs
+from shotc.geom.sampling import worst_of_runs
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
+from shotc.geom.vec import wrapped
 from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from shotc.emit.mavlink.clearance import Obstacle, shortfall
 from shotc.emit.mavlink.refly import STAY_PACE, Flown
 from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
-from shotc.geom.angles import wrapped
+from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from shotc.geom.angles import wrapped
 from shotc.geom.camera import heading_of
+from shotc.geom.vec import wrapped
 
 WAYPOINT, LAND, TAKEOFF = 16, 21, 22
 CONDITION_YAW, CHANGE_SPEED = 115, 178

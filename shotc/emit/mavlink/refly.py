@@ -21,8 +21,8 @@ from shotc.emit.mavlink.geo import Geo
 from shotc.emit.mavlink.items import Item, Place
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.mavlink.style import facing, follow, turns_body
-from shotc.geom.angles import wrapped
 from shotc.geom.camera import yaw_of
+from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone
 
 Array = NDArray[np.float64]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink.track import Poses, Track, project
-from shotc.geom.angles import wrapped
+from shotc.geom.vec import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import Phase

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from shotc.emit.mavlink.clearance import Obstacle, shortfall
 from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, select, turns_body
 from shotc.emit.mavlink.track import SAMPLE_STEP, Poses, Stretch, Track, project
-from shotc.geom.angles import wrapped
+from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone
 
 Array = NDArray[np.float64]

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from shotc.emit.base import Artifact, Emission
-from shotc.emit.skyc.archive import archive
-from shotc.emit.skyc.report import left_out, no_origin, too_large
+from shotc.emit.skyc.archive import archive, left_out, no_origin, too_large
 from shotc.emit.skyc.show import MOST, show_of
 from shotc.filenames import file_name
 from shotc.ir.trajectory import VerifiedIR

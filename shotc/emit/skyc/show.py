@@ -12,11 +12,11 @@ import numpy as np
 
 from shotc.emit.audience import ASPECT, audience, focal_length, picture_name, pictures_shown
 from shotc.emit.skyc.curve import DECIMALS, Curves, curves
-from shotc.emit.skyc.fence import fence, outside
-from shotc.emit.skyc.lights import programs
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View
-from shotc.ir.fleet import FleetTrajectory
+from shotc.geom.pieces import Mask
+from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.fleet import FleetTrajectory, Lights
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import Fleet, drone_names
 from shotc.ir.trajectory import VerifiedIR
@@ -191,3 +191,83 @@ def _limits(mission: MissionIR, highest: float) -> Json:
         "maxVelocityZUp": max(fleet.limits.climb for fleet in fleets),
         "minDistance": min(min(f.apart.horizontal, f.apart.vertical) for f in fleets),
     }
+
+
+SIDES = 48
+
+
+def outside(solid: Solid, points: Array) -> bool:
+    """Tell whether any of these points, shape (k, 3), is not above or below a solid."""
+    flat = points[:, :2]
+    if isinstance(solid, Cylinder):
+        away = np.linalg.norm(flat - np.array(solid.centre), axis=1)
+        return bool(away.max() > solid.radius)
+    return not bool(_inside(np.array(solid.points), flat).all())
+
+
+def _inside(corners: Array, points: Array) -> Mask:
+    """Tell which points lie in a polygon: those whose way East crosses an odd number of its edges."""
+    odd = np.zeros(len(points), dtype=np.bool_)
+    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        if ay != by:
+            spans = (points[:, 1] >= ay) != (points[:, 1] >= by)
+            odd ^= spans & (points[:, 0] < ax + (points[:, 1] - ay) / (by - ay) * (bx - ax))
+    return odd
+
+
+def fence(solid: Solid) -> Array:
+    """Return the corners of a solid's outline on the ground, counter-clockwise, shape (k, 3).
+
+    A circle is a polygon about it: what stays in the zone stays in the fence.
+    """
+    if isinstance(solid, Cylinder):
+        turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
+        reach = solid.radius / np.cos(np.pi / SIDES)
+        flat = np.array(solid.centre) + reach * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    else:
+        flat = np.array(solid.points)
+    return np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)
+
+
+STEP = 0.02
+"""Seconds of one step."""
+
+END, SET, FADE = 0x00, 0x04, 0x08
+
+
+def programs(lights: Lights) -> Iterator[bytes]:
+    """Yield the program of every drone's light, in the order of their numbers."""
+    steps = np.maximum(np.round(lights.times / STEP).astype(int), 0).tolist()
+    for colors in lights.colors.tolist():
+        yield program(steps, [bytes(color) for color in colors])
+
+
+def program(steps: list[int], colors: list[bytes]) -> bytes:
+    """Return the program that has these colours, of three bytes, at these steps, which do not fall."""
+    code = bytearray()
+    now, color, stands = 0, colors[0], 0
+    for step, wanted in zip(steps, colors, strict=True):
+        if wanted == color:
+            stands += step - now
+        else:
+            # A fade begins where what was before ends; a jump is a colour that is set.
+            code += _order(SET, color, stands)
+            stands = 0
+            if step > now:
+                code += _order(FADE, wanted, step - now)
+        now, color = step, wanted
+    # Players go on along a last fade: a program ends with a colour that stands.
+    code += _order(SET, color, max(stands, 1))
+    return bytes([*code, END])
+
+
+def _order(what: int, color: bytes, steps: int) -> bytes:
+    return bytes([what, *color]) + _number(steps)
+
+
+def _number(value: int) -> bytes:
+    found = bytearray()
+    while value > 0x7F:
+        found.append(value & 0x7F | 0x80)
+        value >>= 7
+    return bytes([*found, value])

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array
+from shotc.geom.vec import wrapped
 
 TURN = np.radians(40.0)
 """Change of direction from which a place is a corner, which a letter without a light there loses."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, pi
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.angles import TURN, wrapped
+from shotc.geom.vec import TURN, wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Keyframe, MissionIR
 

@@ -13,11 +13,11 @@ from math import inf, pi
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import cut
 from shotc.geom.proof import norm, sup_convex
 from shotc.geom.solids import distance, signed_distance
+from shotc.geom.vec import wrapped
 from shotc.ir.bodies import cylinder
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, Shot

@@ -13,11 +13,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray, restrict
 from shotc.geom.camera import View, aim_at
 from shotc.geom.track_array import places as track_places
+from shotc.geom.vec import wrapped
 from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR

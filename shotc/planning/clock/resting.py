@@ -14,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import distances
 from shotc.geom.corridor import MARGIN, Room, bounds_slack
-from shotc.geom.directions import directions
+from shotc.geom.sampling import directions
 from shotc.planning.clock.moving import COMFORT, Moving
 
 LONG = 20.0  # seconds before a film, or after it, for which nothing comes near

@@ -10,7 +10,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.corridor import Room, breaches
-from shotc.geom.runs import worst_of_runs
+from shotc.geom.sampling import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot

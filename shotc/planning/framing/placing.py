@@ -7,9 +7,8 @@ from itertools import pairwise
 from math import atan2, hypot, pi
 from typing import NamedTuple
 
-from shotc.geom.angles import direction
 from shotc.geom.camera import aim_at
-from shotc.geom.vec import Vec2, Vec3, minus
+from shotc.geom.vec import Vec2, Vec3, direction, minus
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot

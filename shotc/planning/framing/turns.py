@@ -6,8 +6,8 @@ or more counts turns: it is led up to by just the turn from the number written b
 
 from __future__ import annotations
 
-from shotc.geom.angles import TURN, wrapped
 from shotc.geom.camera import heading_of
+from shotc.geom.vec import TURN, wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Keyframe
 

@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
+from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import FramingSpan

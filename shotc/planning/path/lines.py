@@ -11,11 +11,11 @@ from math import pi
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import FAR, support
 from shotc.geom.corridor import MARGIN, Breach, Room, blocked, bounds_slack, breaches
 from shotc.geom.route import NODE_MARGIN, find_route
+from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 
 TURN_LENGTH = 2.0  # metres of path parameter for each radian turned on the spot

@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
 from shotc.geom.corridor import Room, breaches
-from shotc.geom.runs import worst_of_runs
+from shotc.geom.sampling import worst_of_runs
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, Mark, Stop

@@ -18,8 +18,8 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import BoolArray, distances
 from shotc.geom.corridor import MARGIN, Obstacle, Room, bounds_slack, taper
-from shotc.geom.directions import directions
 from shotc.geom.route import find_route, length
+from shotc.geom.sampling import directions
 from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone

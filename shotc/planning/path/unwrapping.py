@@ -14,8 +14,8 @@ from math import pi
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array
+from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone
 from shotc.solvers.headings import DEFAULT
 from shotc.solvers.headings.solve import solve_headings

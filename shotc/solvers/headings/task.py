@@ -7,8 +7,8 @@ from math import inf
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.vec import wrapped
 from shotc.solvers.conic import Status
 
 EDGE = 1e-9  # rad from half a turn within which both ways are equally long

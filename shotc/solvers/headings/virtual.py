@@ -15,11 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.geom.angles import wrapped
 from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.geom.bspline import IntArray, subdivide
 from shotc.geom.pieces import Pieces
 from shotc.geom.proof import sup_norm
+from shotc.geom.vec import wrapped
 from shotc.solvers.cone_rows import ConeRows, Term
 from shotc.solvers.conic import Status
 from shotc.solvers.headings.energy import cubic, energy

@@ -14,8 +14,7 @@ import pytest
 
 from shotc.emit.audience import ASPECT, audience
 from shotc.emit.skyc import EMITTER
-from shotc.emit.skyc.fence import outside
-from shotc.emit.skyc.lights import program
+from shotc.emit.skyc.show import outside, program
 from shotc.geom.fleet_spline import places
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.sampling import light_colors

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.cli.certificate import certificate_text
+from shotc.cli.summary import certificate_text
 from shotc.ir.measures import told_apart
 from shotc.ir.mission import Promise
 from shotc.ir.trajectory import Claim

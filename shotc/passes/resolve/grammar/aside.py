@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import acos, atan2, ceil, cos, degrees, hypot, radians, sin
 
-from shotc.geom.angles import wrapped
+from shotc.geom.vec import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.grammar.sight import Sight

@@ -6,9 +6,8 @@ from math import acos, ceil, cos, hypot, pi, tan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.angles import TURN, wrapped
 from shotc.geom.pan import WINDOW, slowest, whose
-from shotc.geom.vec import minus
+from shotc.geom.vec import TURN, minus, wrapped
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.resolve.grammar.places import lasting

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.geom.runs import worst_of_runs
+from shotc.geom.sampling import worst_of_runs
 
 
 def test_each_run_is_told_once_and_small_ones_are_not() -> None:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.geom.angles import TURN, direction, wrapped
+from shotc.geom.vec import TURN, direction, wrapped
 
 angles = st.floats(-50, 50)
 

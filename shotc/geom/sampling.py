@@ -1,0 +1,29 @@
+"""Stretches of a sampled signal, and directions in which places about one are tried."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Array
+
+
+def worst_of_runs(values: NDArray[np.float64], above: float, notice: float) -> list[int]:
+    """Return where the largest value of each run above ``above`` is, of runs that rise above ``notice``.
+
+    values : shape (M,); above, notice : in their unit
+    """
+    found = np.flatnonzero(values > above)
+    runs = np.split(found, np.flatnonzero(np.diff(found) > 1) + 1) if found.size else []
+    worst = [int(run[np.argmax(values[run])]) for run in runs]
+    return [i for i in worst if values[i] > notice]
+
+
+def directions(turns: int, rises: Sequence[float]) -> Array:
+    """Return unit vectors, ``turns`` to all sides at each rise, rad over level, then up; shape (N, 3)."""
+    turn = 2.0 * np.pi * np.arange(turns) / turns
+    flat = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(turns)])
+    up = np.array([0.0, 0.0, 1.0])
+    return np.concatenate([*(np.cos(rise) * flat + np.sin(rise) * up for rise in rises), up[None]])
