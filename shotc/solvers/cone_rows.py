@@ -100,7 +100,7 @@ class ConeRows:
             to look for others, which only make it slower then
         near : asks for constraint generation: few of a curve's bounds are ever near. The cones that a guess
             reaches are asked, then those that the solution breaks, too. A solution that breaks none of the
-            others is the whole programme's; where some of them have no solution, all have none.
+            others is the whole programme's.
         """
         from scipy.sparse import csr_matrix
 
@@ -116,7 +116,7 @@ class ConeRows:
             cones = [cone for part in zip(self._blocks(), asked, strict=True) for cone in _cones(*part)]
             # Clarabel's form is A x + s = rhs with s in the cone: s is our expression, so A = -terms.
             status, x = _solved((square, cost, -terms[rows].tocsc(), constants[rows], cones), settings)
-            if status is Status.INFEASIBLE or all(part.all() for part in asked):
+            if all(part.all() for part in asked):
                 return status, x
             if status in USABLE:
                 reached = self._reached(1.0 + tolerance, constants + terms @ x, constants)

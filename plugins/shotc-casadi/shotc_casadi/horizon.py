@@ -1,6 +1,7 @@
 """One stage repeated over the horizon: a nonlinear programme, for fatrop or IPOPT.
 
-Programmes are built once a process for each kind of stage and number of stages; missions are parameters.
+Programmes are built once a process for each kind of stage, number of stages and pattern of bounds; missions
+are parameters.
 """
 
 from __future__ import annotations
@@ -17,11 +18,11 @@ ITERATIONS = 300
 
 
 @lru_cache(maxsize=32)
-def built(d: Derived, stages: int, solver: Solver, tolerance: float, bounded: bytes) -> Any:
+def built(d: Derived, stages: int, solver: Solver, tolerance: float, pattern: bytes) -> Any:
     """Return the solver of all problems of one kind of stage: unknowns x stage by stage, parameters p.
 
-    bounded : which unknowns and rows have bounds. CasADi's interface to fatrop keeps something of the problem
-        before where others had some: one of 8 iterations took 17, and ended a millimetre beside.
+    pattern : of the bounds, as ``solving`` makes it for fatrop: where it changes, CasADi 3.8.2 makes a new
+        solver without its options, the tolerance among them. A problem of 8 iterations took 17 then.
     """
     states, wide = d.states, d.width
     x = ca.MX.sym("x", stages * wide + states)

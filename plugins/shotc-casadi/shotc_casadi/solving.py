@@ -106,8 +106,8 @@ def solved(task: Instance, solver: Solver) -> Solution:
         return _nothing("nan", task, solver, 0.0)
     lower, upper = _rows(task, 0), _rows(task, 1)
     low, high = (_flat(task.state_bounds[side], task.input_bounds[side]) for side in (0, 1))
-    bounded = np.packbits(np.isfinite(np.concatenate([low, high, lower, upper]))).tobytes()
-    programme = built(task.kind, task.stages, solver, task.tolerance, bounded)
+    pattern = b"" if solver == "ipopt" else _pattern((low, high), (lower, upper))
+    programme = built(task.kind, task.stages, solver, task.tolerance, pattern)
     given = {
         "x0": start,
         "p": task.parameters.ravel(),
@@ -126,6 +126,12 @@ def solved(task: Instance, solver: Solver) -> Solution:
         built.cache_clear()  # the one left behind is still at work on its memory
         return _nothing("stopped", task, solver, time.perf_counter() - began)
     return _judged(task, solver, out, programme.stats(), time.perf_counter() - began)
+
+
+def _pattern(*bounds: tuple[Array, Array]) -> bytes:
+    """Return which bounds there are, and which of them leave no choice."""
+    finite = [np.isfinite(side) for pair in bounds for side in pair]
+    return np.packbits(np.concatenate([*finite, *(low == high for low, high in bounds)])).tobytes()
 
 
 def _nothing(status: Status, task: Instance, solver: Solver, seconds: float) -> Solution:

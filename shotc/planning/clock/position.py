@@ -182,7 +182,7 @@ def _kept(task: Task, course: Piecewise) -> Kept:
 class _Round:
     """What the next programme is set up about, and what came of those before it.
 
-    hulls, reach, share : as of ``corridor.rows.Around``
+    hulls, reach, share : as of ``planning.corridor.Around``
     relaxation : of the last one that had no solution; lacked : metres that it lacked, all together
     """
 

@@ -40,11 +40,10 @@ class LegTiming(NamedTuple):
 
     motion : from time 0; the fastest where the leg asks for less time, so that what follows can be judged;
         None where the leg takes no time
-    fast : its moves as fast as they may be; too_fast : what it asks for and cannot have
+    too_fast : what it asks for and cannot have; fast : its moves as fast as they may be then
     """
 
     motion: LegMotion | None
-    plan: Plan
     fast: tuple[Move, ...]
     too_fast: TooFast | None
 
@@ -54,12 +53,12 @@ def time_leg(leg: Leg, ceiling: Ceiling) -> LegTiming:
     plan = plan_of(leg)
     if leg.curve is None or not has_times(leg):
         moves = fastest_moves(leg, plan, ceiling.scaled(leg.pace) if leg.phase == "shot" else ceiling)
-        return LegTiming(assemble(leg, plan, moves, leg.duration), plan, moves, None)
+        return LegTiming(assemble(leg, plan, moves, leg.duration), moves, None)
     fast = fastest_moves(leg, plan, ceiling)
     timed = _due(leg, plan, fast, ceiling).meet()
     if isinstance(timed, TooFast):
-        return LegTiming(assemble(leg, plan, fast, None), plan, fast, timed)
-    return LegTiming(assemble(leg, timed.plan, timed.moves, leg.duration), plan, fast, None)
+        return LegTiming(assemble(leg, plan, fast, None), fast, timed)
+    return LegTiming(assemble(leg, timed.plan, timed.moves, leg.duration), fast, None)
 
 
 def can_be_timed(leg: Leg, ceiling: Ceiling) -> bool:

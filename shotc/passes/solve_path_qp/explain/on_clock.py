@@ -109,5 +109,5 @@ def _passed(away: Away) -> str:
 
 
 def _these(blocked: list[Away]) -> str:
-    numbers = " and ".join(str(a.keyframe + 1) for a in sorted(blocked))
-    return f"keyframe {numbers}" if len(blocked) == 1 else f"keyframes {numbers}"
+    numbers = sorted({a.keyframe + 1 for a in blocked})
+    return f"keyframe{'s' * (len(numbers) > 1)} {' and '.join(map(str, numbers))}"
