@@ -8,7 +8,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
 
 
-def timing_label(mission: MissionIR, path: KeyPath, key: str) -> Label:
+def timing_value(mission: MissionIR, path: KeyPath, key: str) -> Label:
     """Return a label on a key of a shot's timing."""
     return mission.origins.value((*path, "timing", key))
 

@@ -6,7 +6,7 @@ size anew, which takes longer than solving it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -50,7 +50,7 @@ class ConeRows:
         self._cols: list[NDArray[Any]] = []
         self._values: list[Array] = []
         self._constants: list[Array] = []
-        self._cones: list[tuple[str, int, int]] = []
+        self._blocks: list[_Block] = []
         self._count = 0
 
     def zero(self, terms: list[Term], constant: Array | None = None) -> None:
@@ -81,7 +81,7 @@ class ConeRows:
                 self._cols.append(cols)
                 self._values.append(values)
         self._constants.append(np.stack(constants, axis=1).ravel())
-        self._cones.append((kind, dim, cones))
+        self._blocks.append(_Block(kind, dim, cones, slice(self._count, self._count + dim * cones)))
         self._count += dim * cones
 
     def solve(
@@ -108,12 +108,13 @@ class ConeRows:
         terms = csr_matrix((np.concatenate(self._values), places), shape=(self._count, self.unknowns))
         constants, square = np.concatenate(self._constants), self._square(hessian)
         settings = _settings(tolerance, scaled=scaled)
-        asked = [np.ones(block.cones, dtype=np.bool_) for block in self._blocks()]
+        asked = [np.ones(block.cones, dtype=np.bool_) for block in self._blocks]
         if near is not None:
             asked = self._reached(near.share, constants + terms @ near.x, constants)
         while True:
-            rows = np.concatenate([_rows(*part) for part in zip(self._blocks(), asked, strict=True)])
-            cones = [cone for part in zip(self._blocks(), asked, strict=True) for cone in _cones(*part)]
+            parts = list(zip(self._blocks, asked, strict=True))
+            rows = np.concatenate([_rows(*part) for part in parts])
+            cones = [cone for part in parts for cone in _cones(*part)]
             # Clarabel's form is A x + s = rhs with s in the cone: s is our expression, so A = -terms.
             status, x = _solved((square, cost, -terms[rows].tocsc(), constants[rows], cones), settings)
             if all(part.all() for part in asked):
@@ -127,19 +128,13 @@ class ConeRows:
             else:
                 asked = [np.ones_like(part) for part in asked]
 
-    def _blocks(self) -> Iterator[_Block]:
-        first = 0
-        for kind, dim, cones in self._cones:
-            yield _Block(kind, dim, cones, slice(first, first + dim * cones))
-            first += dim * cones
-
     def _reached(self, share: float, values: Array, constants: Array) -> list[BoolArray]:
         """Return the cones of each block that values reach a share of; equalities always.
 
         values, constants : of all rows; a half-space's bound is its constant
         """
         found = []
-        for block in self._blocks():
+        for block in self._blocks:
             value = values[block.rows].reshape(block.cones, block.dim)
             if block.kind == "cone":
                 found.append(np.linalg.norm(value[:, 1:], axis=1) >= share * value[:, 0])

@@ -229,6 +229,9 @@ def fence(solid: Solid) -> Array:
     return np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)
 
 
+# Lights are a program of bytes that fades and sets colours, in steps of 20 ms. Opcodes: 0 end, 4 set a colour
+# for a time, 8 fade to a colour over a time; a time is a variable-length number of steps, seven bits a byte,
+# the low ones first. A program begins at the show's first instant.
 STEP = 0.02
 """Seconds of one step."""
 

@@ -12,6 +12,7 @@ from shotc.ir.begins import first_start
 from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
+from shotc.passes.labels import framing_label
 from shotc.planning.framing.candidates import Setting
 from shotc.planning.framing.placing import explicit_aim, setting_of
 from shotc.rounding import at_least, at_most
@@ -87,8 +88,6 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     off = degrees(_angle_off(setting, aim))
     if off < 90.0 and setting.shows(aim):
         return None
-    from shotc.passes.labels import framing_label
-
     straight = setting.aim((0.0, 0.0)) or aim
     right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
     remedy = f"write `look_at: {keyframe.target}`, or `{right}`"

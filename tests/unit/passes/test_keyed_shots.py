@@ -66,7 +66,7 @@ def compiled(shot: str, timing: str = GOING, refiner: str = "none") -> Compilati
     return compile_source(mission(shot, timing).encode(), "walk.yaml", None, PlanOptions(refiner=refiner))
 
 
-def planned(shot: str, timing: str = GOING, refiner: str = "none") -> Planned:
+def assert_planned(shot: str, timing: str = GOING, refiner: str = "none") -> Planned:
     done = compiled(shot, timing, refiner)
     assert done.plan is not None, [d.message for d in done.diagnostics]
     (flight,) = done.plan.trajectory.drones
@@ -86,7 +86,7 @@ def film(flight: DroneTrajectory) -> Array:
 class TestFlown:
     @pytest.mark.parametrize("refiner", ["none", "ours"])
     def test_placed_keyframes_are_passed_at_their_times(self, refiner: str) -> None:
-        mission, flight, _ = planned(KEYS, refiner=refiner)
+        mission, flight, _ = assert_planned(KEYS, refiner=refiner)
         walker = mission.target("walker")
         (a, b, c) = (k.time for k in flight.keyframes)
         assert a == pytest.approx(15.0)
@@ -99,7 +99,7 @@ class TestFlown:
 
     @pytest.mark.parametrize("refiner", ["none", "ours"])
     def test_the_target_is_led_from_place_to_place_on_screen(self, refiner: str) -> None:
-        mission, flight, _ = planned(KEYS, refiner=refiner)
+        mission, flight, _ = assert_planned(KEYS, refiner=refiner)
         t = film(flight)
         frames = seen(mission, flight, "walker", t)
         wanted = references(flight, "s", "walker", t)
@@ -109,12 +109,12 @@ class TestFlown:
         assert left[0] == pytest.approx([-1 / 3, 0.0])
 
     def test_every_keyframe_has_its_lens(self) -> None:
-        _, flight, _ = planned(KEYS)
+        _, flight, _ = assert_planned(KEYS)
         lens = [np.degrees(flight.curve(k.time)[HFOV]) for k in flight.keyframes]
         assert lens[1:] == pytest.approx([45.0, 60.0])
 
     def test_a_start_that_is_open_is_placed_when_it_is_known(self) -> None:
-        mission, flight, _ = planned(KEYS, "{duration: 20}")
+        mission, flight, _ = assert_planned(KEYS, "{duration: 20}")
         a = flight.keyframes[0].time
         offset = flight.curve(a)[:3] - np.array(mission.target("walker").at(a))
         assert offset == pytest.approx([-6.0, 1.0, 3.1], abs=1e-3)
@@ -127,7 +127,7 @@ class TestFlown:
       - {at: [15, -8, 9], look_at: tower}
       - {at: [20, -2, 9], heading: 20 deg, pitch: -5 deg}
 """
-        mission, flight, _ = planned(shot)
+        mission, flight, _ = assert_planned(shot)
         times = np.array([k.time for k in flight.keyframes])
         assert seen(mission, flight, "walker", times[:2]).in_frame.all()
         assert seen(mission, flight, "tower", times[2:3]).in_frame.all()
@@ -141,13 +141,13 @@ class TestFlown:
       - {at: {from: target, offset: [0, -10, 3.9]}, heading: 12 deg, pitch: -16 deg}
       - {at: {from: target, offset: [0, -12, 5.9]}, look_at: walker}
 """
-        _, flight, _ = planned(shot)
+        _, flight, _ = assert_planned(shot)
         first = references(flight, "s", "walker", np.array([flight.keyframes[0].time]))[0]
         assert abs(first[0]) == pytest.approx(1 / 3)
 
     @pytest.mark.parametrize("refiner", ["none", "ours"])
     def test_a_view_from_above_goes_along_and_looks_straight_down(self, refiner: str) -> None:
-        mission, flight, _ = planned(ABOVE, refiner=refiner)
+        mission, flight, _ = assert_planned(ABOVE, refiner=refiner)
         t = film(flight)
         foot = np.array([mission.target("walker").at(u) for u in t]) - [0.0, 0.0, 0.9]
         away = flight.curve(t)[:, :3] - foot
@@ -155,7 +155,7 @@ class TestFlown:
         assert np.degrees(flight.curve(t)[:, CAM_PITCH]) == pytest.approx(-90.0, abs=1e-3)
 
     def test_a_plan_is_read_back_as_it_was_written(self) -> None:
-        _, _, plan = planned(KEYS)
+        _, _, plan = assert_planned(KEYS)
         back = read_plan(text(document(plan)).encode(), "plan.json")
         assert back.diagnostics == ()
 
@@ -245,14 +245,14 @@ class TestRefused:
         assert found is not None
         lasts, times = float(found[1]), float(found[2])
         slower = re.sub(r"time: ([\d.]+)", lambda at: f"time: {float(at[1]) * times}", ZIGZAG)
-        planned(slower, f"{{start: 15, duration: {lasts}}}")
+        assert_planned(slower, f"{{start: 15, duration: {lasts}}}")
 
     def test_a_target_that_has_moved_on_is_told_with_a_framing_that_does(self) -> None:
         shot = KEYS.replace("[45, -22, 9], look_at: walker", "[45, -22, 9], heading: 180 deg, pitch: 0 deg")
         (fault,) = [d for d in compiled(shot, "{duration: 20}").diagnostics if d.code == "M016"]
         angles, start = re.findall(r"`(heading: [^`]*|start: [^`]*)`", fault.help)
         mended = KEYS.replace("[45, -22, 9], look_at: walker", f"[45, -22, 9], {angles}")
-        planned(mended, f"{{{start}, duration: 20}}")
+        assert_planned(mended, f"{{{start}, duration: 20}}")
 
     def test_a_keyframe_that_another_drone_is_too_near_to_is_told_with_both(self) -> None:
         beside = """\

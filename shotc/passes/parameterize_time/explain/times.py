@@ -9,7 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Leg, TimedLeg
 from shotc.ir.phases import Phase
-from shotc.passes.labels import phases_in_words, timing_label
+from shotc.passes.labels import phases_in_words, timing_value
 from shotc.passes.parameterize_time.explain.binding import (
     Holdup,
     binding_labels,
@@ -43,7 +43,7 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
         return Diagnostic(
             "T001",
             f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
-            (timing_label(mission, leg.path, "duration"), *labels),
+            (timing_value(mission, leg.path, "duration"), *labels),
             (f"{least} s is at full limits, with holds", *notes),
             _either([f"give it `duration: {least} s`", *raised]),
         )
@@ -76,7 +76,7 @@ def start_too_early(
     return Diagnostic(
         "T003",
         f"shot `{leg.shot}` starts at {plain(asked)} s, but {at_least(earliest)} s is the earliest possible",
-        (timing_label(mission, leg.path, "start"),),
+        (timing_value(mission, leg.path, "start"),),
         (f"before it come {phases_in_words(phases)}",),
         f"give it `start: {at_least(earliest)} s` or later, or shorten what comes before",
     )

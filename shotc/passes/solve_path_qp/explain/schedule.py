@@ -8,7 +8,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import TO_CATCH_UP, ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
-from shotc.passes.labels import phases_in_words, timing_label
+from shotc.passes.labels import phases_in_words, timing_value
 from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate
 from shotc.planning.obstacles import named, owner_path
 from shotc.rounding import at_least, down, plain, up
@@ -44,7 +44,7 @@ def outside_track(mission: MissionIR, shot: Shot, found: OutsideTrack) -> Diagno
 def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
     """Return T003: the drone is not there at the start of a shot of what moves on meanwhile."""
     asked, short = shot.timing.start, found.outside
-    label = mission.origins.key(shot.path) if asked is None else timing_label(mission, shot.path, "start")
+    label = mission.origins.key(shot.path) if asked is None else timing_value(mission, shot.path, "start")
     begins = "has no start" if asked is None else f"starts at {plain(asked)} s"
     labels, told = [label], f"shot `{shot.id}` {begins}"
     sum_up = f"{at_least(found.before[-1].end)} s, the last {found.run_up:.1f} s to come up to speed"
