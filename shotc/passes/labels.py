@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from shotc.diag.model import Label
 from shotc.ir.mission import Keyframe, MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.phases import Phase
+
+if TYPE_CHECKING:  # phases load numpy, and the lint rules of `check` label keyframes without it
+    from shotc.ir.phases import Phase
 
 
 def timing_value(mission: MissionIR, path: KeyPath, key: str) -> Label:
