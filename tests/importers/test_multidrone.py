@@ -287,3 +287,12 @@ def test_every_production_mission_is_imported_and_accepted(path: Path) -> None:
         assert (
             f"# assumed: {note.help.removeprefix('taken: ')} (line {note.labels[0].span.line}:" in made.text
         )
+
+
+@pytest.mark.skipif(not ORIGINALS, reason="no original missions: MULTIDRONE_MISSIONS=DIR names their folder")
+@pytest.mark.parametrize("path", ORIGINALS, ids=lambda path: path.stem)
+def test_every_production_mission_is_planned(path: Path) -> None:
+    made = import_multidrone(path.read_bytes(), path.name, strict=False)
+    assert made.text is not None
+    done = compile_source(made.text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    assert done.plan is not None, [d for d in done.diagnostics if d.severity == "error"]

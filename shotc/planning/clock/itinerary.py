@@ -14,11 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyed import carriers
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation, Leg, TimedLeg, TimedPath
+from shotc.ir.path import Deviation, Leg, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import Looker
 from shotc.planning.clock.departure import Then, Way, When, choose
@@ -49,10 +48,11 @@ from shotc.planning.path.legs import (
     Flight,
     Pose,
     end_of,
+    nearest,
     shot_leg,
     take_off,
     turned,
-    turns_to,
+    turned_leg,
     way_home,
     way_to,
 )
@@ -77,14 +77,16 @@ class _State(NamedTuple):
     ends: dict[str, float]
     last: _Last | None
     room: float
+    late: float
 
 
 class _Last(NamedTuple):
-    """The last shot, where it is on its own clock: its start, and the state before it."""
+    """The last shot, where it is on its own clock: its start, the state before it, which ends lead aside."""
 
     placed: PlacedShot
     start: float
     before: _State
+    aside: tuple[bool, bool]
 
 
 @dataclass(slots=True)
@@ -93,6 +95,7 @@ class Itinerary:
 
     ends : of the shots of drones planned before, by id; this drone's are added
     last : its last shot; room : least distance beyond a clearance on the last way, metres
+    late : seconds by which the last way ends after the start that is written for its shot
     """
 
     mission: MissionIR
@@ -105,6 +108,7 @@ class Itinerary:
     stats: list[tuple[str, float | str]] = field(default_factory=list)
     last: _Last | None = None
     room: float = inf
+    late: float = 0.0
 
     @property
     def drone(self) -> Drone:
@@ -121,28 +125,41 @@ class Itinerary:
         return self._leaving(self._home)
 
     def _leaving(self, add: Callable[[], Trouble | None]) -> Trouble | None:
-        """Add what follows the last shot, which ends aside where something is met then, if that helps."""
+        """Add what follows the last shot, which ends elsewhere where that helps.
+
+        It ends aside where something is met otherwise, and straight on where leading aside takes too long.
+        """
+        self.late = 0.0
         before = self._state()
         found = add()
-        if not isinstance(found, Meets) and self.room >= 0.0:
+        if isinstance(found, TooLate) or self.late > LATE:
+            others = ((False, False), (True, False)) if before.last and before.last.aside[1] else ()
+        elif isinstance(found, Meets) or self.room < 0.0:
+            others = (False, True), (True, True)
+        else:
             return found
         planned = self._state()
         self._restore(before)
-        if self._ended_aside():
+        if self._ended(others):
             again = add()
-            if again is None and self.room >= 0.0:
+            if again is None and self.room >= 0.0 and self.late <= LATE:
                 return None
+            if isinstance(found, TooLate) and isinstance(again, TooLate) and again.late < found.late:
+                found = again
         self._restore(planned)
         return found
 
-    def _ended_aside(self) -> bool:
-        """Plan the last shot again, so that it ends where nothing passes; tell whether that can be."""
+    def _ended(self, ends: tuple[tuple[bool, bool], ...]) -> bool:
+        """Plan the last shot again with the first possible of some ends; tell whether there is one.
+
+        ends : whether it begins and whether it ends where nothing passes
+        """
         if self.last is None:
             return False
-        placed, start, before = self.last
+        placed, start, before, _ = self.last
         self._restore(before)
-        for begins in (False, True):
-            reached = self._reached_as(placed, start, aside(begins, True))
+        for led in ends:
+            reached = self._reached_as(placed, start, aside(*led))
             if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE:
                 self._add(placed, reached)
                 return True
@@ -150,12 +167,12 @@ class Itinerary:
 
     def _state(self) -> _State:
         lists = tuple(self.legs), self.clock, tuple(self.deviations), tuple(self.stats)
-        return _State(*lists, dict(self.ends), self.last, self.room)
+        return _State(*lists, dict(self.ends), self.last, self.room, self.late)
 
     def _restore(self, state: _State) -> None:
         self.legs, self.clock = list(state.legs), state.clock
         self.deviations, self.stats = list(state.deviations), list(state.stats)
-        self.last, self.room = state.last, state.room
+        self.last, self.room, self.late = state.last, state.room, state.late
         self.ends.clear()
         self.ends.update(state.ends)
 
@@ -195,6 +212,7 @@ class Itinerary:
             return way
         if way.met is not None:
             return Meets(way.met)
+        self.late = 0.0 if timing.start is None else way.end - timing.start
         pose = end_of(way.legs) if way.legs else end_of(self.legs)
         placed = turned(self.drone, shot, pose)
         self._take(way)
@@ -216,7 +234,7 @@ class Itinerary:
         lift = [] if self.legs else [take_off(self.flight, goal)]
         pose = end_of(lift or self.legs)
         path = (shot.shot.shot if isinstance(shot, ShotCurve) else shot.shot).path
-        near, then = _near(goal, pose), None
+        near, then = nearest(goal, pose), None
         if isinstance(shot, ShotCurve):
             placed = turned(self.drone, shot, pose)
             near, then = placed.pose, Then(shot_leg(placed), ready)
@@ -264,9 +282,9 @@ class Itinerary:
 
     def _add(self, placed: PlacedShot, reached: Reached) -> None:
         """Add a shot on its own clock with the way to it."""
-        self.last = _Last(placed, reached.shot.leg.start, self._state())
+        self.last = _Last(placed, reached.shot.leg.start, self._state(), reached.aside)
         self._take(reached.way)
-        leg = _shifted(reached.shot.leg, turns_to(reached.shot.leg.pose, end_of(self.legs)))
+        leg = turned_leg(reached.shot.leg, end_of(self.legs))
         self.legs.append(leg)
         self.clock = float(leg.curve.end)
         self.ends[placed.shot.id] = leg.end
@@ -338,7 +356,9 @@ class Itinerary:
             return made
         begins = float(made.leg.curve.start)
         way = self._way(made.leg.pose, placed, begins)
-        return Reached(made, way, way.end - begins) if isinstance(way, Way) else way
+        if not isinstance(way, Way):
+            return way
+        return Reached(made, way, way.end - begins, asked[0].aside)
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | Trouble:
         """Plan a shot for the first start, from one on, at which the drone is there."""
@@ -374,17 +394,3 @@ def _better(far: Reached, near: Reached) -> bool:
     return near.way.met is not None or (
         max(far.shot.lacks) < LESS * max(near.shot.lacks) and far.shot.off <= near.shot.off + SLIGHT
     )
-
-
-def _near(goal: Pose, pose: Pose) -> Pose:
-    shift, near = turns_to(goal, pose), list(goal)
-    near[CAM_YAW] += shift
-    near[BODY_YAW] += shift
-    return tuple(near)
-
-
-def _shifted(leg: TimedLeg, turns: float) -> TimedLeg:
-    ctrl = leg.curve.ctrl.copy()
-    ctrl[:, :, CAM_YAW] += turns
-    ctrl[:, :, BODY_YAW] += turns
-    return replace(leg, curve=Piecewise(leg.curve.breaks, ctrl))

@@ -63,6 +63,8 @@ FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
 
 def aside(before: bool, after: bool) -> tuple[Ask, ...]:
     """Return the same where the drone rests aside of what passes, before the film or after it or both."""
+    if not (before or after):
+        return ASKED
     return tuple(
         Ask(stand, longer, (before, after)) for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0))
     )

@@ -80,11 +80,15 @@ class TooLate:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reached:
-    """A planned shot, the way to it, and by how many seconds the drone is late there."""
+    """A planned shot, the way to it, and by how many seconds the drone is late there.
+
+    aside : whether it begins and whether it ends aside of what passes
+    """
 
     shot: TimedShot
     way: Way
     late: float
+    aside: tuple[bool, bool]
 
 
 Trouble = Failure | NoMotion | OutsideTrack | Meets | TooLate

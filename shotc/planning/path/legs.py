@@ -116,12 +116,18 @@ def turns_to(goal: Pose, pose: Pose) -> float:
     return 2 * pi * round((pose[CAM_YAW] - goal[CAM_YAW]) / (2 * pi))
 
 
+def nearest(goal: Pose, pose: Pose) -> Pose:
+    """Return a pose whose yaws are whole turns from a goal's, so that its camera is nearest to another's."""
+    shift, near = turns_to(goal, pose), list(goal)
+    near[CAM_YAW] += shift
+    near[BODY_YAW] += shift
+    return tuple(near)
+
+
 def turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
     """Shift a shot's yaws by whole turns, so that its start is nearest to where the last leg ended."""
     turns = turns_to(shot.pose, pose)
-    start = list(shot.pose)
-    start[CAM_YAW] += turns
-    start[BODY_YAW] += turns
+    start = list(nearest(shot.pose, pose))
     if shot.curve is None:
         if drone.body != "follow-camera":
             wanted = pose[BODY_YAW]
@@ -135,6 +141,13 @@ def turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
     ctrl[:, :, CAM_YAW] += turns
     ctrl[:, :, BODY_YAW] += turns
     return replace(shot, pose=tuple(start), curve=Piecewise(shot.curve.breaks, ctrl))
+
+
+def turned_leg(leg: TimedLeg, pose: Pose) -> TimedLeg:
+    """Shift the yaws of a leg on its own clock by whole turns, so that its start is nearest to a pose."""
+    ctrl = leg.curve.ctrl.copy()
+    ctrl[:, :, (CAM_YAW, BODY_YAW)] += turns_to(leg.pose, pose)
+    return replace(leg, curve=Piecewise(leg.curve.breaks, ctrl))
 
 
 def shot_leg(shot: ShotCurve) -> Leg:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -49,6 +51,17 @@ shots:
   - {id: side, kind: lateral, drone: cam, target: rider, side: right, distance: 9, altitude: 4,
      timing: {duration: 8}}
 """
+NEXT = (
+    LEAD.replace(
+        "drones:",
+        "  walker: {track: {points: [[10, 40, 0.9], [10, 90, 0.9]], speed: 0.3 m/s}, radius: 0.45,\n"
+        "    height: 1.8}\ndrones:",
+    )
+    + """\
+  - {id: next, kind: chase, drone: cam, target: walker, distance: 6, altitude: 4,
+     timing: {start: START, duration: 5}}
+"""
+)
 TWO = """\
 shotc: 1
 mission: two
@@ -146,6 +159,24 @@ def test_a_drone_that_leads_gets_out_of_the_way_when_the_film_ends() -> None:
     away = distances(Cylinder((0.0, 0.0), 0.45, -half, half), curve(times)[:, :3] - runner)
     assert away[0] == pytest.approx(3.05, abs=0.3)
     assert away.min() >= away[0] - 0.1
+
+
+@pytest.mark.parametrize("start", [52.0, 54.0])
+def test_a_drone_leads_straight_on_where_aside_it_would_miss_the_next_start(start: float) -> None:
+    """Aside of the runner, it is at the walker after 58 s; straight on, after 51 s."""
+    plan, codes = planned(NEXT.replace("START", str(start)))
+    assert not codes & {"T003", "M008"}
+    (shot,) = (p for p in plan.trajectory.drones[0].phases if p.shot == "next")
+    assert shot.start == start
+
+
+def test_the_earliest_start_is_the_one_that_straight_on_allows() -> None:
+    done = compile_source(NEXT.replace("START", "48").encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    (late,) = (d for d in done.diagnostics if d.code == "T003")
+    earliest = re.search(r"but (\S+) s is the earliest", late.message)
+    assert earliest is not None
+    assert 51.0 <= float(earliest[1]) <= 52.0
+    planned(NEXT.replace("START", earliest[1]))
 
 
 def test_a_film_with_an_open_start_waits_until_no_fence_keeps_it_from_its_place() -> None:
