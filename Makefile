@@ -66,10 +66,10 @@ bless: $(STAMP) ## Rewrite the golden files of the tests; read the diff before y
 	$(BIN)/pytest -n 2 --bless tests
 
 bench: $(STAMP) ## Measure: ratios to bare imports, growth, memory
-	$(BIN)/python -m tests.bench.bench
+	$(BIN)/python -m tests.experiments.bench
 
 papers: $(STAMP) ## Run the papers' experiments; report in out/papers, tables in shotc/docs/papers.md
-	$(BIN)/python -m tests.papers --write-page
+	$(BIN)/python -m tests.experiments.papers --write-page
 
 build: $(STAMP) ## Build the wheel of shotc and of each plugin
 ifdef UV

@@ -14,13 +14,14 @@ from shotc import plugins
 from shotc.comparison import Options, compare_source, ordered, outputs
 from shotc.comparison.table import rows
 from shotc.ir.comparison import Comparison, Condition
-from tests.bad_refiners import MISSION, PASS, ROUND, text
 from tests.cli.conftest import Run
-from tests.distributions import lay, refiner
+from tests.support.bad_refiners import MISSION, PASS, ROUND, text
+from tests.support.plugin_distributions import lay, refiner
 
-BENT = ("from tests.bad_refiners import along, bumped", "return Outcome(bumped(path, 'pass', along(3, 0.2)))")
+ALONG = "from tests.support.bad_refiners import along, bumped"
+BENT = (ALONG, "return Outcome(bumped(path, 'pass', along(3, 0.2)))")
 FAILING = ("raise RuntimeError('no camera')",)
-SHORT = ("from tests.bad_refiners import along, bumped", "return Outcome(bumped(path, 'pass', along(0, 40)))")
+SHORT = (ALONG, "return Outcome(bumped(path, 'pass', along(0, 40)))")
 PROMISE = "    require: {screen_error: 0.05}\n"
 FILES = ["compare.json", "compare.md", "compare.png", "compare.rrd"]
 Install = Callable[..., None]

@@ -13,7 +13,7 @@ from shotc.diag.registry import registry
 from shotc.pipeline import PASS_NAMES
 from shotc.solvers.headings import DEFAULT, METHODS
 from tests.cli.conftest import GOOD, Run
-from tests.front import resolved
+from tests.support.front_passes import resolved
 
 
 @pytest.mark.parametrize("name", ["Y012", "y012", "duplicate-key", "Duplicate-Key"])

@@ -13,7 +13,7 @@ from shotc.ir.lowered import Lowered
 from shotc.ir.trajectory import VerifiedIR
 from shotc.source.file import SourceFile
 from tests.cli.conftest import Run
-from tests.fleets import PADS, display, fleet, mission, plan
+from tests.support.show_plans import PADS, display, fleet, mission, plan
 
 
 def written(folder: Path, made: VerifiedIR) -> Path:

@@ -11,8 +11,8 @@ import pytest
 from shotc.emit.plan_json import EMITTER
 from shotc.ir.show import Apart
 from tests.cli.conftest import Run
-from tests.fleets import PADS, fleet, mission, plan
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.show_plans import PADS, fleet, mission, plan
 
 
 @pytest.fixture

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from shotc import plugins
-from tests.bad_refiners import PASS, ROUND, text
 from tests.cli.conftest import Run
-from tests.distributions import lay, refiner
+from tests.support.bad_refiners import PASS, ROUND, text
+from tests.support.plugin_distributions import lay, refiner
 
 POSIX = pytest.mark.skipif(os.name != "posix", reason="signals")
 STILL = "return Outcome(path)"
@@ -147,7 +147,7 @@ def test_a_refiner_that_cannot_be_loaded_does_not_matter_where_the_mission_says_
 
 
 def test_a_refiner_is_told_where_it_broke_the_mission(run: Run, yard: Path, install: Install) -> None:
-    lines = ("from tests.bad_refiners import along, bumped, returns",
+    lines = ("from tests.support.bad_refiners import along, bumped, returns",
              "return returns(lambda ir: bumped(ir, 'pass', along(1, -8), (0.05, 0.5)))(path)")  # fmt: skip
     install("odd", *lines)
     done = plan(run, yard, "--refiner", "odd")
@@ -209,7 +209,7 @@ def test_a_refiner_in_time_makes_the_same_plan_in_its_own_process(
     run: Run, yard: Path, install: Install
 ) -> None:
     lines = ("import os, sys; print('solving', os.getpid())",
-             "from tests.bad_refiners import along, bumped",
+             "from tests.support.bad_refiners import along, bumped",
              "return Outcome(bumped(path, 'round', along(2, 0.2)))")  # fmt: skip
     install("odd", *lines)
     out = yard.parent / "out"

@@ -9,9 +9,9 @@ from shotc.cli.summary import WIDTH, shot_rows, summary
 from shotc.ir.path import Deviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.spec.compositions import COMPOSITIONS
-from tests.pairs import claims, pair_plan
-from tests.records import replace
-from tests.samples import SPEED, orbit_plan
+from tests.support.film_plans import SPEED, orbit_plan
+from tests.support.records import replace
+from tests.support.two_target_plans import claims, pair_plan
 
 
 def facts(plan: VerifiedIR, name: str) -> list[str]:

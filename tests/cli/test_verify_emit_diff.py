@@ -12,7 +12,7 @@ from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
 from shotc.planfile.write import seal
 from tests.cli.conftest import GOOD, Run
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
 
 
 @pytest.fixture

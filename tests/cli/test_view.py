@@ -15,7 +15,7 @@ from shotc.emit.plan_json import EMITTER
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
 from tests.cli.conftest import Run
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
 
 
 @dataclass

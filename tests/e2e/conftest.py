@@ -14,15 +14,15 @@ from shotc import api
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
-from tests.e2e import tables, written
-from tests.e2e.command import run
-from tests.e2e.lakeside import LAKE, Show
-from tests.e2e.tables import Table
-from tests.e2e.written import Course, Written
+from tests.support import csv_tables, written_missions
+from tests.support.command import run
+from tests.support.csv_tables import Table
+from tests.support.lakeside_show import LAKE, Show
+from tests.support.written_missions import Course, Written
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted([*ROOT.glob("specs/*.yaml"), *ROOT.glob("shotc/templates/*.yaml")])
-SHOWS = [path for path in FILES if "fleets" in written.read(path)]
+SHOWS = [path for path in FILES if "fleets" in written_missions.read(path)]
 MISSIONS = [path for path in FILES if path not in SHOWS]
 """Those that film; what is tested of shows is in test_shows.py and beside it."""
 
@@ -51,14 +51,14 @@ class Planned:
     @cached_property
     def written(self) -> Written:
         """The mission as a user reads it."""
-        return written.read(self.path)
+        return written_missions.read(self.path)
 
     @cached_property
     def courses(self) -> dict[str, Course]:
         """Where every target is over mission time, of those that move by the mission as it is written."""
         tracks = {name: target.get("track") for name, target in self.written["targets"].items()}
         return {
-            target.name: written.course(track)
+            target.name: written_missions.course(track)
             if (track := tracks[target.name])
             else Course(np.zeros(1), np.array([target.centre]))
             for target in self.mission.targets
@@ -71,7 +71,7 @@ class Planned:
 
     @cached_property
     def motion(self) -> Table:
-        return tables.read(self.files["trajectory.csv"])
+        return csv_tables.read(self.files["trajectory.csv"])
 
     @cached_property
     def flights(self) -> dict[str, Table]:
@@ -88,7 +88,7 @@ class Planned:
 
     @cached_property
     def framing(self) -> Table:
-        return tables.read(self.files["framing.csv"])
+        return csv_tables.read(self.files["framing.csv"])
 
 
 Plan = Callable[[Path], Planned]

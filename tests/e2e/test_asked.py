@@ -9,7 +9,7 @@ import pytest
 
 from shotc.ir.phases import Phase
 from tests.e2e.conftest import Plan, Planned, each_mission
-from tests.e2e.tables import Table
+from tests.support.csv_tables import Table
 
 pytestmark = pytest.mark.parametrize("path", each_mission())
 

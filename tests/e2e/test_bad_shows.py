@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from shotc.cli import app
-from tests.meshes import box_mesh, obj, ply, sphere_mesh
+from tests.support.meshes import box_mesh, obj, ply, sphere_mesh
 
 MISSION = """\
 shotc: 1

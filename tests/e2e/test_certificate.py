@@ -11,10 +11,10 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import Claim
 from tests.e2e.conftest import Plan, Planned, each_mission
-from tests.e2e.space import apart, signed_distance
-from tests.e2e.tables import TEXT, Table
 from tests.e2e.test_moving import from_its_place
-from tests.e2e.written import KINDS
+from tests.support.csv_tables import TEXT, Table
+from tests.support.solid_distances import apart, signed_distance
+from tests.support.written_missions import KINDS
 
 pytestmark = pytest.mark.parametrize("path", each_mission())
 

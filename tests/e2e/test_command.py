@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.e2e.command import PLAN, SHOTC, SMALL, environment, run
+from tests.support.command import PLAN, SHOTC, SMALL, environment, run
 
 pytestmark = [
     pytest.mark.skipif(os.name != "posix", reason="signals, limits and device files"),
@@ -22,7 +22,7 @@ pytestmark = [
 
 WRONG = SMALL.replace("target: tower", "target: towr")
 TABLES = {"plan.json", "trajectory.csv", "framing.csv"}
-SURROUNDINGS = str(Path(__file__).parent / "surroundings")
+SURROUNDINGS = str(Path(__file__).parents[1] / "support" / "surroundings")
 SOLVERS = "numpy,scipy,cvxpy,clarabel,toppra,matplotlib,pymap3d,rerun"
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from shotc.cli import app, console
 from shotc.pipeline import ROUTES
-from tests.e2e.command import PLAN, SMALL, Result
+from tests.support.command import PLAN, SMALL, Result
 
 pytestmark = pytest.mark.xdist_group("command")
 

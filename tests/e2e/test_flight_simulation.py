@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.camera import View
-from tests.e2e import written
 from tests.e2e.conftest import ROOT
+from tests.support import written_missions
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 STEP = 0.005
@@ -37,7 +37,7 @@ ALLOWED = {
 FLOWN = [
     pytest.param((name, drone), id=f"{name}-{drone}", marks=pytest.mark.xdist_group(name))
     for name in ALLOWED
-    for drone in written.read(ROOT / "specs" / f"{name}.yaml")["drones"]
+    for drone in written_missions.read(ROOT / "specs" / f"{name}.yaml")["drones"]
 ]
 
 

@@ -12,8 +12,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.mission import Composition, Target
 from tests.e2e.conftest import Plan, Planned, each_mission
-from tests.e2e.space import least_on_the_way, signed_distance
-from tests.e2e.tables import Table
+from tests.support.csv_tables import Table
+from tests.support.solid_distances import least_on_the_way, signed_distance
 
 pytestmark = pytest.mark.parametrize("path", each_mission())
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from shotc.cli import app, console
-from tests.e2e.command import PLAN, Report, Result
+from tests.support.command import PLAN, Report, Result
 
 TOWER = """\
 shotc: 1

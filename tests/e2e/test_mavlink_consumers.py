@@ -14,9 +14,9 @@ from shotc.emit.mavlink.items import Item
 from shotc.emit.mavlink.plan_file import read_plan
 from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.ir.trajectory import VerifiedIR
-from tests.mavlink_flights import plan, retold, straight
-from tests.qgc_rules import check_plan
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.mavlink_flights import plan, retold, straight
+from tests.support.qgc_rules import check_plan
 
 PLANS = {
     "orbit": orbit_plan,

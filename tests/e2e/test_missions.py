@@ -10,8 +10,8 @@ import pytest
 from shotc import api
 from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
-from tests.e2e import written
 from tests.e2e.conftest import MISSIONS, Plan, compiled, each_mission
+from tests.support import written_missions
 
 EMITTERS = ("csv", "mavlink", "storyboard", "rerun")
 SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
@@ -42,7 +42,7 @@ every_mission = pytest.mark.parametrize("path", each_mission())
 
 
 def test_the_missions_ask_for_all_that_is_looked_at_in_what_is_flown():
-    shots = [shot for path in MISSIONS for shot in written.read(path)["shots"]]
+    shots = [shot for path in MISSIONS for shot in written_missions.read(path)["shots"]]
     asked = {key for shot in shots for part in ("timing", "require") for key in shot.get(part, {})}
     asked |= {key for shot in shots for keyframe in shot.get("keyframes", ()) for key in keyframe}
     assert asked >= {"duration", "start", "after", "hold", "time", "in_frame", "screen_error", "size"}

@@ -10,7 +10,7 @@ import pytest
 
 from shotc.geom.bernstein import Array
 from tests.e2e.conftest import MISSIONS, Plan, Planned
-from tests.e2e.written import KINDS, Course, Written, course, number, place, read
+from tests.support.written_missions import KINDS, Course, Written, course, number, place, read
 
 NOTICE = 0.5
 """Metres off its place that a shot may be without a word."""

@@ -13,8 +13,8 @@ import yaml
 
 from shotc import api
 from shotc.geom.bernstein import Array
-from tests.e2e import shows
-from tests.meshes import box_mesh, obj, ply, sphere_mesh
+from tests.support import show_files
+from tests.support.meshes import box_mesh, obj, ply, sphere_mesh
 
 pytestmark = pytest.mark.xdist_group("seeded-shows")
 
@@ -114,9 +114,9 @@ def test_a_show_keeps_what_it_asks_or_says_why_not(seed: int, folder: Path) -> N
             assert code[0] in "DV", text
             assert re.search(r"\d", text), text
         return
-    (fleet,) = shows.flown(plan)
+    (fleet,) = show_files.flown(plan)
     assert fleet.apart.min() >= 1
-    assert max(shows.beyond_limits(fleet).values()) <= 1 + 1e-9
+    assert max(show_files.beyond_limits(fleet).values()) <= 1 + 1e-9
 
 
 def test_most_can_be_planned(folder: Path) -> None:
@@ -129,7 +129,7 @@ def test_an_animation_goes_through_its_frames_without_stopping(seed: int, folder
     """It is in the air from its first frame to its last, on the clock of its period, and never too near."""
     plan, said = planned(seed, folder)
     assert plan is not None, said
-    (fleet,) = shows.flown(plan)
+    (fleet,) = show_files.flown(plan)
     frames = [s for s in fleet.flight["shown"] if s["picture"] == 0]
     assert len(frames) == len(list((folder / str(seed)).glob("frame*")))
     starts = np.array([frame["start"] for frame in frames])
@@ -137,6 +137,6 @@ def test_an_animation_goes_through_its_frames_without_stopping(seed: int, folder
     # From rest, and to rest, the first and the last step take twice the time of the others.
     assert gaps == pytest.approx([2 * gaps[1], *[gaps[1]] * (len(gaps) - 2), 2 * gaps[1]], abs=1e-3)
     t = np.linspace(starts[0], starts[-1], 2000)
-    assert shows.nearest(fleet.spline(t), fleet.asked["apart"]).min() >= 1
+    assert show_files.nearest(fleet.spline(t), fleet.asked["apart"]).min() >= 1
     moved = np.linalg.norm(fleet.spline.derivative()(starts[1:-1]), axis=2).max(axis=1)
     assert moved.min() > 0.02

@@ -10,9 +10,9 @@ import pytest
 
 from shotc.geom.bernstein import Array
 from tests.e2e.conftest import MISSIONS, Plan, Planned
-from tests.e2e.space import apart, body
-from tests.e2e.tables import Table
-from tests.e2e.written import number, read
+from tests.support.csv_tables import Table
+from tests.support.solid_distances import apart, body
+from tests.support.written_missions import number, read
 
 ROUNDING = 1e-5
 """What nine digits of some hundred metres leave."""

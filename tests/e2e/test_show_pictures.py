@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Array
-from tests.e2e import shows
-from tests.e2e.lakeside import COLORS, DIGITS, LIGHT, Show, asked, held
+from tests.support import show_files
+from tests.support.lakeside_show import COLORS, DIGITS, LIGHT, Show, asked, held
 
 pytestmark = pytest.mark.xdist_group("shows")
 
@@ -30,7 +30,7 @@ def test_every_picture_is_where_it_is_asked_for(show: Show) -> None:
         # Goals are moved for their spacing by less than it.
         assert off(name, places).max() < spaced, name
         assert (off(name, places) < 0.1).mean() > 0.5, name
-        least = shows.nearest(places[None], show.fleet.asked["apart"])[0]
+        least = show_files.nearest(places[None], show.fleet.asked["apart"])[0]
         assert least >= np.sqrt(2) - 1e-5, name
 
 

@@ -14,14 +14,13 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import GeoOrigin
-from tests import skybrush
-from tests.e2e import shows, written
-from tests.e2e.command import run
 from tests.e2e.conftest import SHOWS
-from tests.e2e.lakeside import COLORS, DIGITS, LAKE, POSITION, Show, asked
-from tests.e2e.space import signed_distance
 from tests.e2e.test_trajectory import COLUMNS, east_north_up
-from tests.skybrush import color_at, place_at
+from tests.support import show_files, skyc_reader, written_missions
+from tests.support.command import run
+from tests.support.lakeside_show import COLORS, DIGITS, LAKE, POSITION, Show, asked
+from tests.support.skyc_reader import color_at, place_at
+from tests.support.solid_distances import signed_distance
 
 pytestmark = pytest.mark.xdist_group("shows")
 
@@ -145,7 +144,7 @@ def grid(fleet: dict[str, Any]) -> Array:
 
 
 def test_take_off_and_landing_are_vertical(show: Show) -> None:
-    rise = written.number(show.mission["fleets"]["swarm"]["rise"])
+    rise = written_missions.number(show.mission["fleets"]["swarm"]["rise"])
     places = show.rows[POSITION]
     for phase, sign, end in (("takeoff", 1, 0), ("land", -1, -1)):
         during = places[:, show.rows["phase"][0] == phase]
@@ -176,7 +175,7 @@ def test_the_table_is_the_plan(show: Show) -> None:
 
 
 def test_limits_are_kept(show: Show) -> None:
-    assert max(shows.beyond_limits(show.fleet).values()) <= 1 + 1e-9
+    assert max(show_files.beyond_limits(show.fleet).values()) <= 1 + 1e-9
     limits = show.fleet.asked["limits"]
     v, a = show.rows[VELOCITY], show.rows[ACCELERATION]
     assert np.hypot(v[..., 0], v[..., 1]).max() <= limits["speed"] + DIGITS
@@ -233,11 +232,11 @@ def test_the_certificate_is_what_is_flown(show: Show) -> None:
     assert show.fleet.times[k] == pytest.approx(claim["time"], abs=0.05)
     first, second = (show.rows.names.index(name) for name in claim["drones"])
     pair = show.fleet.spline(claim["time"])[[first, second]][None]
-    assert shows.nearest(pair, show.fleet.asked["apart"])[0] * across == pytest.approx(
+    assert show_files.nearest(pair, show.fleet.asked["apart"])[0] * across == pytest.approx(
         claim["worst"], abs=1e-5
     )
     limits = show.fleet.asked["limits"]
-    for name, share in shows.beyond_limits(show.fleet).items():
+    for name, share in show_files.beyond_limits(show.fleet).items():
         worst = show.claim(name)["worst"]
         assert share * limits[name] <= worst + 1e-9, name
         assert worst <= share * limits[name] * 1.02 + 1e-3, name
@@ -247,7 +246,7 @@ def test_the_certificate_is_what_is_flown(show: Show) -> None:
 
 
 def test_the_show_file_flies_the_plan(show: Show) -> None:
-    content = skybrush.read(show.bytes("lakeside-show.skyc"))
+    content = skyc_reader.read(show.bytes("lakeside-show.skyc"))
     drones = content["swarm"]["drones"]
     assert [drone["settings"]["name"] for drone in drones] == show.rows.names
     t = show.rows["t_s"][0]

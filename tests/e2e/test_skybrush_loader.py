@@ -2,7 +2,7 @@
 
 The loader, npm package @skybrush/show-format, is served by a registry of its publisher, and no part of this
 tree. It runs from where SHOW_FORMAT_LOADER says, a module or the folder of the built package, or from
-wherever node finds it. Without it these tests are skipped; ``tests/skybrush.py`` has the same rules.
+wherever node finds it. Without it these tests are skipped; ``tests/skyc_reader.py`` has the same rules.
 """
 
 from __future__ import annotations
@@ -18,15 +18,14 @@ import pytest
 
 from shotc.emit.skyc import EMITTER
 from shotc.geom.bernstein import Array
-from tests import sky, skybrush
-from tests.e2e import tables
-from tests.e2e.command import run
 from tests.e2e.conftest import ROOT
-from tests.e2e.tables import Table
+from tests.support import csv_tables, show_flights, skyc_reader
+from tests.support.command import run
+from tests.support.csv_tables import Table
 
 pytestmark = pytest.mark.xdist_group("skybrush")
 
-SCRIPT = Path(__file__).parents[1] / "skybrush_loader.mjs"
+SCRIPT = Path(__file__).parents[1] / "support" / "skybrush_loader.mjs"
 NOT_FOUND = 3
 HOW = (
     "name its folder in SHOW_FORMAT_LOADER, or make it known to node by "
@@ -82,7 +81,7 @@ def folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
 
 
 def test_it_flies_and_shines_as_the_table_says(folder: Path) -> None:
-    table = tables.read((folder / "out" / "trajectory.csv").read_bytes())
+    table = csv_tables.read((folder / "out" / "trajectory.csv").read_bytes())
     flights = {str(name): table.where(drone=name) for name in dict.fromkeys(table["drone"].tolist())}
     times = max((rows["t_s"] for rows in flights.values()), key=len)
     done = loaded(str(folder / "out" / f"{folder.name}.skyc"), json.dumps(times.tolist()))
@@ -131,12 +130,12 @@ def about(folder: Path, found: dict[str, Any]) -> None:
 
 def test_what_it_refuses(tmp_path: Path) -> None:
     """The damage that our reader names (``tests/unit/emit/test_skyc.py``), and it has no more rules."""
-    (artifact,) = EMITTER.emit(sky.plan(sky.mission(4))).artifacts
+    (artifact,) = EMITTER.emit(show_flights.plan(show_flights.mission(4))).artifacts
     file = tmp_path / artifact.name
     file.write_bytes(artifact.data)
-    content = skybrush.read(artifact.data)
+    content = skyc_reader.read(artifact.data)
     ways = {}
-    for name in skybrush.DAMAGE:
-        file.write_bytes(skybrush.archived(skybrush.damaged(content, name)))
+    for name in skyc_reader.DAMAGE:
+        file.write_bytes(skyc_reader.archived(skyc_reader.damaged(content, name)))
         ways[name] = loaded(str(file), "[1.0, 30.0]").returncode
-    assert ways == dict.fromkeys(skybrush.DAMAGE, 1)
+    assert ways == dict.fromkeys(skyc_reader.DAMAGE, 1)

@@ -15,9 +15,9 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import Drone, GeoOrigin, Target
 from tests.e2e.conftest import Plan, Planned, each_mission
-from tests.e2e.space import signed_distance
-from tests.e2e.tables import Table
-from tests.e2e.written import Course
+from tests.support.csv_tables import Table
+from tests.support.solid_distances import signed_distance
+from tests.support.written_missions import Course
 
 pytestmark = pytest.mark.parametrize("path", each_mission())
 

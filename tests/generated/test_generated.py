@@ -11,8 +11,8 @@ import pytest
 
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
-from tests.generated.judge import judge, write
-from tests.generated.missions import Mission, mission
+from tests.support.generated.judge import judge, write
+from tests.support.generated.missions import Mission, mission
 
 FEW = (1, 4, 7, 12, 18, 24, 27, 33, 39, 41)
 """Small missions of ``make test``, at most two drones with a shot each; ``tests/golden`` has 44 more."""
@@ -68,7 +68,8 @@ def test_every_kind_theme_and_number_of_drones_is_drawn_often() -> None:
 
 
 def test_a_seed_means_the_same_mission_in_every_process(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "tests.generated", "--seeds", "3:6", "--dump", str(tmp_path / "other")]
+    dumped = ("--seeds", "3:6", "--dump", str(tmp_path / "other"))
+    command = [sys.executable, "-m", "tests.support.generated", *dumped]
     root = Path(__file__).parents[2]
     subprocess.run(command, check=True, cwd=root, env={"PYTHONHASHSEED": "7"}, capture_output=True)
     for seed in range(3, 6):

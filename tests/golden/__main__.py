@@ -12,9 +12,9 @@ from hashlib import sha256
 from pathlib import Path
 
 from shotc import api
-from tests.generated.judge import write
-from tests.generated.missions import mission
 from tests.golden.missions import DRAWN, compiled, missions
+from tests.support.generated.judge import write
+from tests.support.generated.missions import mission
 
 DRONES, SHOTS = 2, 2
 EMITTERS = ("csv", "mavlink", "storyboard")

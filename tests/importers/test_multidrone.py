@@ -11,8 +11,8 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.importers.mission import import_multidrone
-from tests.importers.files import EARTH, MISSION, POINT, action, imported, mapped, said, shots
-from tests.originals import ORIGINALS
+from tests.support.multidrone_files import EARTH, MISSION, POINT, action, imported, mapped, said, shots
+from tests.support.multidrone_originals import ORIGINALS
 
 
 @pytest.mark.parametrize(

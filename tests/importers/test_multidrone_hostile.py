@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.importers.mission import import_multidrone
-from tests.importers.files import EARTH, MISSION, POINT, WAY, action, imported, mapped, said, shots
+from tests.support.multidrone_files import EARTH, MISSION, POINT, WAY, action, imported, mapped, said, shots
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from shotc.planning.timing.profile import fly
 from shotc.solvers.conic import Status
 from shotc.solvers.retiming_socp import cell_times
 from shotc.solvers.topp import fastest
-from tests.timing_paths import CEILING, HFOV, circle, jumps, line, s_curve_time, smooth, uses
+from tests.support.timing_paths import CEILING, HFOV, circle, jumps, line, s_curve_time, smooth, uses
 
 HERE = (0.0, 0.0, 10.0, 0.0, 0.0, 0.0, HFOV)
 

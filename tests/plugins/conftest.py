@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from shotc import plugins
-from tests.distributions import lay
+from tests.support.plugin_distributions import lay
 
 
 @pytest.fixture

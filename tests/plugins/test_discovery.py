@@ -6,7 +6,7 @@ import pytest
 
 from shotc import plugins
 from shotc.requirements import install_line
-from tests.distributions import KIND
+from tests.support.plugin_distributions import KIND
 
 MODULE = """
 class Sample:

@@ -7,8 +7,8 @@ import pytest
 from shotc import plugins
 from shotc.api import PlanOptions, compile_source, emit_plan
 from shotc.checking import check_source
-from tests.distributions import KIND
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.plugin_distributions import KIND
 
 MISSION = """\
 shotc: 1

@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 from shotc import api
-from tests.kinds_plan import kinds_plan
-from tests.resealed import Document, resealed
+from tests.support.kinds_plan import kinds_plan
+from tests.support.resealed_plans import Document, resealed
 
 FEW, MANY = 10, 2000
 CHANGES = (

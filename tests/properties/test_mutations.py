@@ -20,7 +20,7 @@ from shotc.diag.model import Severity
 from shotc.diag.registry import has_errors, registry, severity_of
 from shotc.diag.render import json as json_report
 from shotc.diag.render import text as text_report
-from tests.properties.damage import bent_trees, damaged_bytes, damaged_trees
+from tests.support.damaged_missions import bent_trees, damaged_bytes, damaged_trees
 
 
 def examine(data: bytes, folder: Path) -> bool:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
 from shotc.passes.verify.claims import slack
-from tests.sights import at, claims, film, mission, through, unfilmed
+from tests.support.sight_plans import at, claims, film, mission, through, unfilmed
 
 RADIUS = 0.5
 LENGTH = 6.0

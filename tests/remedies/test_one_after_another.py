@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from shotc.diag.registry import has_errors, registry
-from tests.front import placed
-from tests.remedies.apply import remedies
 from tests.remedies.test_planned import planned
+from tests.support.front_passes import placed
+from tests.support.remedies.apply import remedies
 
 CAR = """\
 shotc: 1

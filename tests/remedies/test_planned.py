@@ -14,7 +14,7 @@ from shotc.api import PlanOptions, compile_source, emit_plan
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
-from tests.remedies.tried import failed
+from tests.support.remedies.tried import failed
 
 PLANNED = [info for info in registry().values() if info.phase == "plan"]
 

@@ -12,8 +12,8 @@ import pytest
 
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.registry import registry
-from tests.front import placed
-from tests.remedies.tried import failed
+from tests.support.front_passes import placed
+from tests.support.remedies.tried import failed
 
 CHECKED = [info for info in registry().values() if info.phase == "check" and not info.code.startswith("Y")]
 """Those of the Y family are faults of the text: there is no tree yet in which to set a key."""

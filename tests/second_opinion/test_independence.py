@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1] / "support" / "second_opinion"
 DOOR = {"compiled.py": {"shotc"}}
 """Missions go in and bytes come out there."""
 OUTSIDE = {"numpy", "scipy", "yaml", "pymap3d", "pytest"}
-OURS = {"tests.second_opinion", "tests.generated.missions"}
+OURS = {"tests.support.second_opinion", "tests.support.generated.missions"}
 
 
 def imported(path: Path) -> set[str]:

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tests.generated.missions import mission
-from tests.second_opinion.case import Case
-from tests.second_opinion.compiled import case_of
-from tests.second_opinion.judge import judge
-from tests.second_opinion.reflight import reflights
+from tests.support.generated.missions import mission
+from tests.support.second_opinion.case import Case
+from tests.support.second_opinion.compiled import case_of
+from tests.support.second_opinion.judge import judge
+from tests.support.second_opinion.reflight import reflights
 
 ROOT = Path(__file__).parents[2]
 FILMED = [

@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
-from tests.second_opinion.case import Case
-from tests.second_opinion.compiled import case_of
-from tests.second_opinion.judge import findings, judge
-from tests.second_opinion.mission import Mission
-from tests.second_opinion.reflight import reflights
+from tests.support.second_opinion.case import Case
+from tests.support.second_opinion.compiled import case_of
+from tests.support.second_opinion.judge import findings, judge
+from tests.support.second_opinion.mission import Mission
+from tests.support.second_opinion.reflight import reflights
 
 FOLDER = Path(__file__).parent
 Plan = dict[str, Any]

@@ -10,7 +10,7 @@ import pytest
 from shotc.emit.base import Artifact
 from shotc.emit.plan_json import EMITTER
 from shotc.output import earlier, write
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
 
 OLD = [Artifact("plan.json", b"old plan"), Artifact("trajectory.csv", b"old rows")]
 NEW = [Artifact("plan.json", b"new plan"), Artifact("trajectory.csv", b"new rows " * 10_000)]

@@ -20,7 +20,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism, Solid, box
 from shotc.plugin_api.refiner import Array, Planes, restrict
-from tests import crowd
+from tests.experiments import crowd
 from tests.unit.passes.test_several_drones import HEAD, PASS, SIDE
 
 PARTS = (

@@ -10,8 +10,8 @@ from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.symbols import PITCH, YAW
 
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from tests.records import replace as changed
-from tests.refiner_scenes import arc, nodes_of, walled
+from tests.support.records import replace as changed
+from tests.support.refiner_scenes import arc, nodes_of, walled
 
 
 def moved(of, nodes, *, by=0.3, pitch=0.0):

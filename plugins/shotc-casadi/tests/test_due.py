@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shotc_casadi.due import due, unhurried
 
-from tests.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of
+from tests.support.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,7 @@ from shotc_casadi.symbols import PITCH, YAW
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from tests.refiner_scenes import arc, compiled, nodes_of, seen
+from tests.support.refiner_scenes import arc, compiled, nodes_of, seen
 
 WHOLE = {"tower": (6.0, 60.0), "person": (0.3, 1.8), "ship": (60.0, 25.0)}
 

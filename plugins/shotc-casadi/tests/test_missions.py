@@ -16,8 +16,8 @@ from shotc.diag.registry import has_errors
 from shotc.geom.corridor import shortfall
 from shotc.planning.timing.leg import fastest_moves, plan_of
 from shotc.planning.timing.limits import ceiling_of
-from tests.path_scenes import assert_continuous, least_room
-from tests.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of, seen
+from tests.support.path_scenes import assert_continuous, least_room
+from tests.support.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of, seen
 
 NEAR = HEAD.replace("thirds", "center") + keyed(
     "at: [-60, -40, 12], look_at: tower", "at: [60, -26, 12], look_at: tower"

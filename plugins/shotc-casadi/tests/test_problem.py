@@ -11,8 +11,8 @@ from shotc_casadi.margins import Margins
 from shotc_casadi.references import references
 from shotc_casadi.symbols import FIELDS, PITCH, TIME, YAW
 
-from tests.path_scenes import TOWER, circle, mission, shot
-from tests.refiner_scenes import arc, nodes_of, subject, task, walled
+from tests.support.path_scenes import TOWER, circle, mission, shot
+from tests.support.refiner_scenes import arc, nodes_of, subject, task, walled
 
 
 def test_the_first_guess_is_at_rest_at_its_ends_and_on_the_path():

@@ -19,7 +19,7 @@ from shotc_casadi.program import FEASIBLE, NARROW, TOLERANCE, instance, solve
 from shotc_casadi.symbols import INPUTS, LENGTH, PITCH, PITCH_RATE, STATES, TIME, size, stage
 from shotc_casadi.timeout import TimedOut, within
 
-from tests.refiner_scenes import task, walled
+from tests.support.refiner_scenes import task, walled
 
 WIDTH = STATES + INPUTS
 SOLVERS = ("fatrop", "ipopt")
@@ -205,7 +205,7 @@ ENDLESS = """
 from dataclasses import replace
 from shotc_casadi import solving
 from shotc_casadi.program import solve
-from tests.refiner_scenes import arc, task
+from tests.support.refiner_scenes import arc, task
 solving.TIMEOUT = 1.0
 short = task(arc()._replace(leg=replace(arc().leg, duration=0.5)))
 print(solve(short, "fatrop").status, solve(task(arc()), "fatrop").status)

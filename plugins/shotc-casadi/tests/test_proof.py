@@ -14,8 +14,8 @@ from shotc_casadi.proof import checked, hopeless
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import frustum_margins, view
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from tests.path_scenes import ASPECT, HFOV, TOWER
-from tests.refiner_scenes import arc, walled
+from tests.support.path_scenes import ASPECT, HFOV, TOWER
+from tests.support.refiner_scenes import arc, walled
 
 # Angles of the frustum's planes to the view: half a frame is their sine from the plane, a metre away.
 HALVES = [atan(tan(HFOV / 2) / by) for by in (1.0, 1.0, ASPECT, ASPECT)]

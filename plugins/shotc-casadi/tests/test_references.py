@@ -12,9 +12,9 @@ from shotc_casadi.references import own_angles, references
 from shotc.geom.camera import aim_at
 from shotc.ir.mission import Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from tests.path_scenes import ASPECT, HFOV, TOWER, framed, free, mission, shot
-from tests.records import replace as changed
-from tests.refiner_scenes import subject
+from tests.support.path_scenes import ASPECT, HFOV, TOWER, framed, free, mission, shot
+from tests.support.records import replace as changed
+from tests.support.refiner_scenes import subject
 
 MAST = Target("mast", (30.0, 30.0, 5.0), 1.0, 10.0, ("targets", "mast"))
 

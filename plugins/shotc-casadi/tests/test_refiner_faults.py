@@ -17,7 +17,7 @@ from shotc.diag.registry import has_errors
 from shotc.passes.base import PassContext
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.plugin_api.refiner import NoTransit, rejoined
-from tests.bad_refiners import PASS, ROUND, leg, path
+from tests.support.bad_refiners import PASS, ROUND, leg, path
 
 REAL = program.solve
 

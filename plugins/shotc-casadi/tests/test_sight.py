@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from shotc_casadi.sight import sight_point
 
-from tests.path_scenes import free, mission, shot
-from tests.records import replace as changed
-from tests.refiner_scenes import arc, subject, walled
+from tests.support.path_scenes import free, mission, shot
+from tests.support.records import replace as changed
+from tests.support.refiner_scenes import arc, subject, walled
 
 
 def seen(of, at, yaw, pitch, target=None):

@@ -7,9 +7,9 @@ import pytest
 from shotc_casadi.stages import MOST, STAGES
 
 from shotc.ir.limits import Timing
-from tests.path_scenes import TOWER, circle, mission, shot
-from tests.records import replace as changed
-from tests.refiner_scenes import arc, nodes_of, subject
+from tests.support.path_scenes import TOWER, circle, mission, shot
+from tests.support.records import replace as changed
+from tests.support.refiner_scenes import arc, nodes_of, subject
 
 
 def test_every_keyframe_and_stop_is_a_node_and_time_runs_on():

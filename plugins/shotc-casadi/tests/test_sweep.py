@@ -9,7 +9,7 @@ import pytest
 
 from shotc.diag.registry import has_errors
 from shotc.geom.camera import aim_at
-from tests.refiner_scenes import compiled, path_of, seen
+from tests.support.refiner_scenes import compiled, path_of, seen
 
 ASPECT, HFOV = 16 / 9, radians(70)
 

@@ -23,7 +23,7 @@ from shotc.ir.framed import lens_of
 from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
 from shotc.passes.base import PassContext
 from shotc.plugin_api.refiner import restrict, surroundings
-from tests.faces import MISSION, drawn
+from tests.experiments.faces import MISSION, drawn
 
 FRAMES = "{target: a, frame: [-0.3, 0]}, {target: b, frame: [0.3, 0]}"
 STILL = MISSION.format(

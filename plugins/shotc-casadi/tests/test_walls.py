@@ -8,9 +8,9 @@ from shotc_casadi.margins import Margins
 from shotc_casadi.walls import COUNTS, FREE, half_spaces
 
 from shotc.geom.convex import support
-from tests.path_scenes import free, mission, shot
-from tests.records import replace as changed
-from tests.refiner_scenes import nodes_of, subject, walled
+from tests.support.path_scenes import free, mission, shot
+from tests.support.records import replace as changed
+from tests.support.refiner_scenes import nodes_of, subject, walled
 
 
 def test_every_half_space_holds_at_its_node_and_parts_it_from_something():

@@ -5,8 +5,8 @@ from xml.etree import ElementTree
 import pytest
 from shotc_kml.tour import EMITTER, GX, KML
 
-from tests.fleets import plan as show_plan
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.show_plans import plan as show_plan
 
 
 def test_the_tour_films_the_shot_at_its_own_pace():

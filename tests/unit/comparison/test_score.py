@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.comparison import Trace
 from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
 
 
 def trace(error, margin=None, points=None) -> Trace:

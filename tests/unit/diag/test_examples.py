@@ -9,7 +9,7 @@ import pytest
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.registry import FAMILIES, registry
-from tests.front import placed
+from tests.support.front_passes import placed
 
 CHECKED = [info for info in registry().values() if info.phase == "check"]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.unit.diag.reports import REPORT, SOURCES
+from tests.support.diagnostics import REPORT, SOURCES
 
 GOLDEN = Path(__file__).parent / "golden"
 FORMATS = {"text": "txt", "concise": "txt", "json": "json", "github": "txt"}

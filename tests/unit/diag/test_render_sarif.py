@@ -12,8 +12,8 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
 from shotc.diag.render.sarif import render
 from shotc.source.file import SourceFile, Span
-from tests.records import replace
-from tests.unit.diag.reports import MISSION, REPORT, SOURCES, at
+from tests.support.diagnostics import MISSION, REPORT, SOURCES, at
+from tests.support.records import replace
 
 TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}
 REGION = {

@@ -20,28 +20,29 @@ from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Shown
 from shotc.ir.trajectory import VerifiedIR
-from tests import sky
-from tests.drawn import texts
-from tests.records import replace
-from tests.samples import orbit_plan
+from tests.support import show_flights
+from tests.support.film_plans import orbit_plan
+from tests.support.page_texts import texts
+from tests.support.records import replace
 
 SIZE = (480, 270)
 
 
 def test_a_page_with_both_pictures() -> None:
-    (artifact,) = EMITTER.emit(sky.plan()).artifacts
+    (artifact,) = EMITTER.emit(show_flights.plan()).artifacts
     assert artifact.name == "contact-sheet.png"
     page = np.asarray(Image.open(BytesIO(artifact.data)).convert("RGB")).astype(int)
     red, _, blue = np.moveaxis(page, -1, 0)
     assert (red > blue + 100).sum() > 500  # the orange sphere
     assert (blue > red + 100).sum() > 500  # the blue cube
-    assert EMITTER.emit(sky.plan()).artifacts[0].data == artifact.data
+    assert EMITTER.emit(show_flights.plan()).artifacts[0].data == artifact.data
 
 
 def crowded(count: int, apart: float) -> VerifiedIR:
     """A show of so many pictures, one after another, each so many metres beside the one before."""
-    display = sky.display()
-    plan = sky.plan(sky.mission(displays=(display._replace(pictures=(display.pictures * count)[:count]),)))
+    display = show_flights.display()
+    displays = (display._replace(pictures=(display.pictures * count)[:count]),)
+    plan = show_flights.plan(show_flights.mission(displays=displays))
     flight = plan.trajectory.fleets[0]
     shown = tuple(Shown("shapes", i, 0, 26.0 + i, 26.2 + i) for i in range(count))
     coef = flight.coef + apart * np.linspace(0.0, 1.0, flight.coef.shape[1])[:, None] * [1.0, 0.3, 0.0]
@@ -75,14 +76,14 @@ def test_a_number_leads_to_its_own_outline() -> None:
 
 
 def test_moments_are_pictures_at_their_holds() -> None:
-    (board,) = boards(sky.plan())
+    (board,) = boards(show_flights.plan())
     assert [(m.name, m.time) for m in board.moments] == [("sphere", 27.5), ("cube", 40.5)]
     assert board.moments[1].way == (31.5, 34.0, 36.5)
     assert board.span == (26.0, 42.0)
 
 
 def test_an_animation_is_shown_by_a_few_of_its_frames() -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     shown = tuple(Shown("shapes", 0, i, 26.0 + i * 0.5, 26.0 + i * 0.5) for i in range(30))
     (board,) = boards(with_shown(plan, shown))
     assert [m.part for m in board.moments] == [(1, 30), (11, 30), (20, 30), (30, 30)]
@@ -90,10 +91,10 @@ def test_an_animation_is_shown_by_a_few_of_its_frames() -> None:
 
 
 def test_many_pictures_are_thinned() -> None:
-    plan = sky.plan()
-    display = sky.display()
+    plan = show_flights.plan()
+    display = show_flights.display()
     many = display._replace(pictures=display.pictures * 20)
-    plan = sky.plan(sky.mission(displays=(many,)))
+    plan = show_flights.plan(show_flights.mission(displays=(many,)))
     shown = tuple(Shown("shapes", i, 0, 26.0 + 0.4 * i, 26.2 + 0.4 * i) for i in range(40))
     (board,) = boards(with_shown(plan, shown))
     assert len(board.moments) == MOST
@@ -106,7 +107,7 @@ def with_shown(plan: VerifiedIR, shown: tuple[Shown, ...]) -> VerifiedIR:
 
 
 def test_lights_are_where_the_camera_has_them() -> None:
-    plan = sky.plan(sky.mission(1))
+    plan = show_flights.plan(show_flights.mission(1))
     flight = plan.trajectory.fleets[0]
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
     picture = night(flight, 27.5, seen, SIZE).astype(int).sum(axis=-1)
@@ -118,7 +119,7 @@ def test_lights_are_where_the_camera_has_them() -> None:
 
 
 def test_the_pictures_are_in_the_middle_of_the_frame() -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     flight = plan.trajectory.fleets[0]
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
     away = places(flight.breaks, flight.coef, np.linspace(26.0, 42.0, 40)).reshape(-1, 3) - np.array(seen.eye)
@@ -130,7 +131,7 @@ def test_the_pictures_are_in_the_middle_of_the_frame() -> None:
 
 
 def test_a_frame_of_the_way_there_holds_the_fleet_then() -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     flight, (board,) = plan.trajectory.fleets[0], boards(plan)
     way = board.moments[0].way
     seen = audience(plan, board.display, ASPECT, way)
@@ -140,10 +141,10 @@ def test_a_frame_of_the_way_there_holds_the_fleet_then() -> None:
 
 
 def test_without_a_viewpoint_the_audience_stands_in_the_south() -> None:
-    plan = sky.plan(sky.mission(displays=(sky.display(viewpoint=None),)))
+    plan = show_flights.plan(show_flights.mission(displays=(show_flights.display(viewpoint=None),)))
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
     assert not seen.placed
-    assert seen.eye[1] < sky.CENTRE[1] - 20.0
+    assert seen.eye[1] < show_flights.CENTRE[1] - 20.0
     assert seen.eye[2] == 1.7
     assert EMITTER.emit(plan).artifacts
 
@@ -155,7 +156,7 @@ def test_no_fleet_no_sheet() -> None:
 
 
 def test_a_picture_counts_the_lights_that_shine() -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     flight = plan.trajectory.fleets[0]
     colors = flight.lights.colors.copy()
     colors[:17] = 0

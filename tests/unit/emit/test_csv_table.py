@@ -15,8 +15,8 @@ from shotc.ir.mission import Zone
 from shotc.ir.path import CAM_YAW
 from shotc.ir.sampling import clock, phase_index
 from shotc.ir.trajectory import VerifiedIR
-from tests.records import replace
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
 
 HEADER = (
     "t_s,drone,phase,shot,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,ax_m_s2,ay_m_s2,az_m_s2,body_yaw_rad,cam_yaw_rad,"

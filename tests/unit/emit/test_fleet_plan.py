@@ -23,9 +23,9 @@ from shotc.planfile.codec import alternatives
 from shotc.planfile.compare import compare
 from shotc.planfile.read import read_plan
 from shotc.source.file import Span
-from tests.fleets import CONTEXT, PADS, display, fleet, mission, plan
-from tests.lowered import always
-from tests.records import replace
+from tests.support.lowered_missions import always
+from tests.support.records import replace
+from tests.support.show_plans import CONTEXT, PADS, display, fleet, mission, plan
 
 PLAN = plan()
 DATA = EMITTER.emit(PLAN).artifacts[0].data

@@ -18,7 +18,7 @@ from shotc.emit.storyboard import EMITTER as STORYBOARD
 from shotc.ir.fleet import Lights
 from shotc.ir.sampling import light_colors
 from shotc.ir.trajectory import VerifiedIR
-from tests.fleets import PADS, STEP, display, fleet, mission, plan
+from tests.support.show_plans import PADS, STEP, display, fleet, mission, plan
 
 PLAN = plan()
 CAMERA = ["cam_yaw_rad", "cam_pitch_rad", "cam_yaw_rate_rad_s", "cam_pitch_rate_rad_s", "hfov_rad"]

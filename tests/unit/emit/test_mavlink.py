@@ -15,9 +15,9 @@ from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.path import HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
-from tests.mavlink_flights import flight, plan, retold, straight
-from tests.records import replace
-from tests.samples import orbit_mission, orbit_plan
+from tests.support.film_plans import orbit_mission, orbit_plan
+from tests.support.mavlink_flights import flight, plan, retold, straight
+from tests.support.records import replace
 
 
 def restless() -> DroneTrajectory:

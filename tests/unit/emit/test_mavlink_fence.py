@@ -9,9 +9,9 @@ from shotc.emit.mavlink.fence import fence_of
 from shotc.emit.mavlink.geo import tie
 from shotc.geom.solids import Cylinder, Prism, distance, signed_area
 from shotc.ir.mission import MissionIR, Zone
-from tests.mavlink_flights import plan, straight
-from tests.records import replace
-from tests.samples import orbit_mission
+from tests.support.film_plans import orbit_mission
+from tests.support.mavlink_flights import plan, straight
+from tests.support.records import replace
 
 TRACK = np.array([[x, -60.0, 20.0] for x in np.linspace(0, 40, 81)])
 SQUARE = ((-10.0, -10.0), (10.0, -10.0), (10.0, 10.0), (-10.0, 10.0))

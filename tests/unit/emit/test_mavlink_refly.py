@@ -13,9 +13,9 @@ from shotc.emit.mavlink.plan_file import read_plan
 from shotc.emit.mavlink.refly import Flown, refly
 from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.ir.trajectory import VerifiedIR
-from tests.mavlink_flights import flight, plan, retold, straight
-from tests.records import replace
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.mavlink_flights import flight, plan, retold, straight
+from tests.support.records import replace
 
 PX4, ARDUPILOT = "px4", "ardupilot"
 

@@ -13,7 +13,7 @@ from shotc.emit.mavlink.style import Command
 from shotc.emit.mavlink.thin import Leg
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
-from tests.mavlink_flights import Move, flight, plan, straight
+from tests.support.mavlink_flights import Move, flight, plan, straight
 
 LIMITS = Limits(8.0, 4.0, 3.0, 3.0, 8.0, radians(60), radians(90))
 LOW, HIGH = (0.0, -60.0, 0.0, 0.0, -0.2), (0.0, -60.0, 20.0, 0.0, -0.2)

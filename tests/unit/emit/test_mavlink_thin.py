@@ -14,9 +14,9 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Zone
 from shotc.ir.trajectory import VerifiedIR
-from tests.mavlink_flights import flight, plan, retold, straight
-from tests.records import replace
-from tests.samples import orbit_mission, orbit_plan
+from tests.support.film_plans import orbit_mission, orbit_plan
+from tests.support.mavlink_flights import flight, plan, retold, straight
+from tests.support.records import replace
 
 SAMPLE = orbit_plan()
 

@@ -14,7 +14,7 @@ from shotc.ir.path import Deviation
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim, DroneTrajectory, Reference
 from shotc.planfile.write import document
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
 
 PAGE = (Path(shotc.__file__).parent / "docs" / "outputs.md").read_text(encoding="utf-8")
 NAMED = set(re.findall(r"`([^`]+)`", PAGE))

@@ -16,10 +16,10 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import VerifiedIR
-from tests.drawn import Written, texts
-from tests.pairs import pair_plan
-from tests.records import replace
-from tests.samples import TOWER, orbit_plan
+from tests.support.film_plans import TOWER, orbit_plan
+from tests.support.page_texts import Written, texts
+from tests.support.records import replace
+from tests.support.two_target_plans import pair_plan
 
 
 @contextmanager

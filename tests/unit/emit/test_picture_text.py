@@ -8,11 +8,11 @@ import pytest
 
 from shotc.emit import contact_sheet, storyboard
 from shotc.ir.trajectory import VerifiedIR
-from tests import sky
-from tests.drawn import texts
-from tests.pairs import pair_plan
-from tests.records import replace
-from tests.samples import dense_plan, orbit_plan
+from tests.support import show_flights
+from tests.support.film_plans import dense_plan, orbit_plan
+from tests.support.page_texts import texts
+from tests.support.records import replace
+from tests.support.two_target_plans import pair_plan
 
 LONG = "a name that somebody has made as long as a sentence, because nothing said that it may not be"
 
@@ -38,7 +38,7 @@ def test_texts_of_a_storyboard_are_at_least_nine_pixels_high(make: Callable[[], 
 
 
 def test_texts_of_a_contact_sheet_are_at_least_nine_pixels_high() -> None:
-    for plan in (sky.plan(), sky.plan(replace(sky.mission(), name=LONG * 4))):
+    for plan in (show_flights.plan(), show_flights.plan(replace(show_flights.mission(), name=LONG * 4))):
         with texts() as found:
             contact_sheet.EMITTER.emit(plan)
         assert min(t.capital for t in found) >= 9.0 - 1e-9, min(found, key=lambda t: t.capital)

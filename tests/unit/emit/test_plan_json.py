@@ -26,9 +26,9 @@ from shotc.planfile import layout
 from shotc.planfile.compare import compare
 from shotc.planfile.read import read_plan
 from shotc.source.file import Span
-from tests.lowered import always
-from tests.records import replace
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.lowered_missions import always
+from tests.support.records import replace
 
 CONTEXT = PassContext()
 

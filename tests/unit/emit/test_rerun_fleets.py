@@ -13,11 +13,11 @@ from shotc.emit.rerun_log import EMITTER
 from shotc.emit.rerun_log.show import fleet_plots, nearest_pair, show_texts
 from shotc.geom.fleet_spline import places
 from shotc.ir.show import Apart
-from tests import sky
+from tests.support import show_flights
 
 
 def test_a_fleet_is_one_cloud_over_time(tmp_path: Path) -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     path = tmp_path / "mission.rrd"
     path.write_bytes(EMITTER.emit(plan).artifacts[0].data)
     rows: dict[int, list[list[float]]] = {}
@@ -49,7 +49,7 @@ def test_the_nearest_pair_is_that_of_all_pairs(shape: str) -> None:
 
 
 def test_plots_hold_the_extremes_of_all_drones_and_their_limits() -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     flight, fleet = plan.trajectory.fleets[0], plan.trajectory.keyframes.mission.fleets[0]
     t = np.array([0.0, 5.0, 20.0])
     plots = {plot.name: plot for plot in fleet_plots(fleet, flight, t)}
@@ -61,7 +61,7 @@ def test_plots_hold_the_extremes_of_all_drones_and_their_limits() -> None:
 
 
 def test_words_tell_which_picture_stands() -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     flight = plan.trajectory.fleets[0]
     heads = {time: text.splitlines()[0] for time, text in show_texts(plan)}
     assert heads[0.0] == "## Taking off"
@@ -71,7 +71,7 @@ def test_words_tell_which_picture_stands() -> None:
 
 
 def test_words_tell_what_each_of_two_fleets_does() -> None:
-    plan = sky.plan()
+    plan = show_flights.plan()
     first = plan.trajectory.fleets[0]
     late = tuple(replace(phase, start=phase.start + 1.0, end=phase.end + 1.0) for phase in first.phases[1:])
     second = replace(first, fleet="chorus", shown=(), phases=(first.phases[0], *late))

@@ -23,8 +23,8 @@ from shotc.geom.camera import view
 from shotc.geom.solids import Cylinder, Prism, box, signed_area
 from shotc.ir.path import HFOV
 from shotc.ir.trajectory import VerifiedIR
-from tests.records import replace
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
 
 
 @cache

@@ -16,7 +16,7 @@ from shotc.emit.screen import error_top
 from shotc.emit.storyboard.error_plot import runs, stretches
 from shotc.emit.storyboard.side_by_side import draw_comparison, worst_frame
 from shotc.ir.comparison import Comparison, Condition, FlownShot, Trace
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
 
 TIMES = np.array([20.0, 21.0, 22.0, 23.0])
 

@@ -19,10 +19,10 @@ from shotc.geom.fleet_spline import places
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.sampling import light_colors
 from shotc.ir.trajectory import VerifiedIR
-from tests import sky, skybrush
-from tests.records import replace
-from tests.samples import orbit_plan
-from tests.skybrush import color_at, place_at
+from tests.support import show_flights, skyc_reader
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
+from tests.support.skyc_reader import color_at, place_at
 
 STEPS = (0.5, 0.4737)
 
@@ -31,12 +31,12 @@ def read(plan: VerifiedIR) -> dict[str, Any]:
     (artifact,) = EMITTER.emit(plan).artifacts
     with ZipFile(BytesIO(artifact.data)) as zipped:
         assert zipped.namelist() == ["show.json"]
-    return skybrush.read(artifact.data)
+    return skyc_reader.read(artifact.data)
 
 
 @cache
 def content(step: float = 0.5) -> dict[str, Any]:
-    return read(sky.plan(step=step))
+    return read(show_flights.plan(step=step))
 
 
 def north_west_up(points: np.ndarray) -> np.ndarray:
@@ -45,10 +45,10 @@ def north_west_up(points: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("step", STEPS)
 def test_drones_are_where_the_plan_has_them(step: float) -> None:
-    flight = sky.plan(step=step).trajectory.fleets[0]
+    flight = show_flights.plan(step=step).trajectory.fleets[0]
     times = np.linspace(0.0, float(flight.breaks[-1]), 701)
     wanted = north_west_up(places(flight.breaks, flight.coef, times))
-    (note,) = EMITTER.emit(sky.plan(step=step)).notes
+    (note,) = EMITTER.emit(show_flights.plan(step=step)).notes
     promised = float(note.split(" mm")[0].split()[-1]) / 1e3
     assert promised < 1e-3
     for drone, path in list(zip(content(step)["swarm"]["drones"], wanted, strict=True))[::7]:
@@ -74,9 +74,9 @@ def test_key_points_are_as_the_server_wants_them(step: float) -> None:
         assert trajectory["version"] == 1
 
 
-@pytest.mark.parametrize("name", skybrush.DAMAGE)
+@pytest.mark.parametrize("name", skyc_reader.DAMAGE)
 def test_the_reader_knows_what_the_loader_refuses(name: str) -> None:
-    assert list(skybrush.faults(skybrush.damaged(content(), name)))
+    assert list(skyc_reader.faults(skyc_reader.damaged(content(), name)))
 
 
 def test_it_takes_few_points_and_no_waiting() -> None:
@@ -84,12 +84,12 @@ def test_it_takes_few_points_and_no_waiting() -> None:
     # Three seconds on the pad before take-off, three after landing: the control points round the corner move.
     assert 2.0 <= trajectory["takeoffTime"] <= 3.0
     assert 67.0 <= trajectory["landingTime"] <= 68.0
-    assert len(trajectory["points"]) < len(sky.plan().trajectory.fleets[0].breaks) / 3
+    assert len(trajectory["points"]) < len(show_flights.plan().trajectory.fleets[0].breaks) / 3
     assert any(control == [] for _, _, control in trajectory["points"][1:])
 
 
 def test_lights_shine_as_planned() -> None:
-    lights = sky.plan().trajectory.fleets[0].lights
+    lights = show_flights.plan().trajectory.fleets[0].lights
     times = np.arange(0.0, 75.0, 0.25)
     wanted = light_colors(lights, times)[0]
     code = b64decode(content()["swarm"]["drones"][0]["settings"]["lights"]["data"])
@@ -143,7 +143,7 @@ def test_what_is_said_of_the_show() -> None:
     "eye", [(0.0, -50.0, 2.0), (80.0, 60.0, 40.0), (5.0, 160.0, 1.0), (-70.0, 0.0, 90.0), None]
 )
 def test_the_camera_sees_the_show(eye: tuple[float, float, float] | None) -> None:
-    plan = sky.plan(sky.mission(displays=(sky.display(viewpoint=eye),)))
+    plan = show_flights.plan(show_flights.mission(displays=(show_flights.display(viewpoint=eye),)))
     (camera,) = read(plan)["environment"]["cameras"]
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
     w, x, y, z = camera["orientation"]
@@ -172,25 +172,25 @@ def test_the_camera_sees_the_show(eye: tuple[float, float, float] | None) -> Non
 
 
 def test_the_same_plan_gives_the_same_bytes() -> None:
-    assert EMITTER.emit(sky.plan()).artifacts == EMITTER.emit(sky.plan()).artifacts
+    assert EMITTER.emit(show_flights.plan()).artifacts == EMITTER.emit(show_flights.plan()).artifacts
 
 
 def test_without_an_origin_the_show_has_no_place() -> None:
-    plan = sky.plan(sky.mission(origin=None))
+    plan = show_flights.plan(show_flights.mission(origin=None))
     assert [d.code for d in EMITTER.emit(plan).diagnostics] == ["E111"]
     assert "location" not in read(plan)["environment"]
 
 
 def test_a_show_may_be_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shotc.emit.skyc.MOST", 59)
-    emission = EMITTER.emit(sky.plan())
+    emission = EMITTER.emit(show_flights.plan())
     assert emission.artifacts == ()
     assert [d.code for d in emission.diagnostics] == ["E112"]
 
 
 def test_a_zone_that_the_pads_are_outside_of_is_no_fence() -> None:
-    stage = replace(sky.FIELD, name="stage", solid=Cylinder((0.0, 60.0), 30.0, 20.0, 80.0))
-    plan = sky.plan(sky.mission(zones=(sky.FIELD, stage)))
+    stage = replace(show_flights.FIELD, name="stage", solid=Cylinder((0.0, 60.0), 30.0, 20.0, 80.0))
+    plan = show_flights.plan(show_flights.mission(zones=(show_flights.FIELD, stage)))
     assert [d.code for d in EMITTER.emit(plan).diagnostics] == ["E113"]
     found = read(plan)["settings"]
     assert len(found["geofence"]["polygons"]) == 1
@@ -204,9 +204,9 @@ def test_outside_of_a_zone_that_is_not_convex() -> None:
 
 
 def test_two_fleets_are_one_show() -> None:
-    others = sky.fleet(12, "others", (60.0, 0.0, 0.0))
-    asked = sky.mission(fleets=(sky.fleet(20), others), zones=())
-    found = read(sky.plan(asked))
+    others = show_flights.fleet(12, "others", (60.0, 0.0, 0.0))
+    asked = show_flights.mission(fleets=(show_flights.fleet(20), others), zones=())
+    found = read(show_flights.plan(asked))
     assert len(found["swarm"]["drones"]) == 32
     assert found["settings"]["validation"]["maxAltitude"] == float(np.ceil(55.0))
 

@@ -19,8 +19,8 @@ from shotc.emit.storyboard.sheet import outline, sheet_of
 from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Composition
 from shotc.ir.trajectory import Claim, VerifiedIR
-from tests.records import replace
-from tests.samples import dense_plan, orbit_plan
+from tests.support.film_plans import dense_plan, orbit_plan
+from tests.support.records import replace
 
 
 def size_of(png: bytes) -> tuple[int, int]:

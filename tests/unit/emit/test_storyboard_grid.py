@@ -18,8 +18,8 @@ from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.map import MOST_SQUARES, draw_map
 from shotc.emit.storyboard.scene import draw_scene, picture
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
-from tests.samples import HFOV, orbit_plan
-from tests.sky import plan as show_plan
+from tests.support.film_plans import HFOV, orbit_plan
+from tests.support.show_flights import plan as show_plan
 
 Spied = tuple[list[float], list[str]]
 

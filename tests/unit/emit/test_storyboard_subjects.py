@@ -17,9 +17,9 @@ from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.ir.trajectory import Reference, VerifiedIR
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
-from tests.pairs import MAST, PLACES, held, pair_plan
-from tests.records import replace
-from tests.samples import TOWER, orbit_plan
+from tests.support.film_plans import TOWER, orbit_plan
+from tests.support.records import replace
+from tests.support.two_target_plans import MAST, PLACES, held, pair_plan
 
 
 def marks(monkeypatch: pytest.MonkeyPatch, plan: VerifiedIR) -> tuple[list[Vec2], list[Vec2], list[str]]:

@@ -8,8 +8,8 @@ from shotc.emit.storyboard.canvas import Canvas
 from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.page import draw_page
 from shotc.ir.trajectory import VerifiedIR
-from tests.records import replace
-from tests.samples import SPEED, TOWER, dense_plan, orbit_plan
+from tests.support.film_plans import SPEED, TOWER, dense_plan, orbit_plan
+from tests.support.records import replace
 
 
 def framed(plan: VerifiedIR, *, share: float, at: float, error: float, off: float) -> VerifiedIR:

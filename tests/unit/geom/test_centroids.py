@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 from shotc.geom.centroids import centroids, halved, view_plane, viewpoint_centroids
-from tests.goal_costs import coverage
+from tests.support.goal_costs import coverage
 
 EYE = np.array([80.0, 0.0, 0.0])
 

@@ -17,7 +17,7 @@ from shotc.geom.columns import (
     united,
     volume,
 )
-from tests.meshes import box_mesh, sphere_mesh
+from tests.support.meshes import box_mesh, sphere_mesh
 
 
 def inside_of(corners: Array, count: int = 4000, parity: bool = False):

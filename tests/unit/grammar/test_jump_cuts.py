@@ -8,7 +8,7 @@ from math import cos, radians, sin
 import pytest
 
 from shotc.diag.model import Diagnostic
-from tests.grammar_missions import codes, grammar, mission
+from tests.support.grammar_missions import codes, grammar, mission
 
 
 def still(name: str, azimuth: float, distance: float, more: str = "", extra: str = "") -> str:

@@ -9,8 +9,8 @@ import pytest
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Composition, Ideal, MissionIR, Shot, Subject
 from shotc.passes.resolve.grammar import check_grammar
-from tests.front import resolved
-from tests.grammar_missions import codes, grammar, mission
+from tests.support.front_passes import resolved
+from tests.support.grammar_missions import codes, grammar, mission
 
 
 def lateral(name: str, side: str, start: float, distance: float = 8, more: str = "") -> str:

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from shotc.diag.registry import registry
 from shotc.spec.allow import GRAMMAR
-from tests.front import resolved
-from tests.grammar_missions import mission
+from tests.support.front_passes import resolved
+from tests.support.grammar_missions import mission
 
 SIDES = {"left": "right", "right": "left"}
 Way = dict[str, object]

@@ -6,8 +6,8 @@ from math import degrees, radians, tan
 
 import pytest
 
-from tests.front import loaded, resolved
-from tests.grammar_missions import at, codes, grammar, mission
+from tests.support.front_passes import loaded, resolved
+from tests.support.grammar_missions import at, codes, grammar, mission
 
 WIDTH = degrees(2 * tan(radians(35)))  # degrees of turn that move the picture by one frame width
 

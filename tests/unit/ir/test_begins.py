@@ -7,8 +7,8 @@ import pytest
 from shotc.ir.begins import known_start
 from shotc.ir.limits import Timing
 from shotc.ir.mission import MissionIR, Shot
-from tests.records import replace
-from tests.samples import orbit_mission
+from tests.support.film_plans import orbit_mission
+from tests.support.records import replace
 
 
 def of(*timings: tuple[str, Timing]) -> MissionIR:

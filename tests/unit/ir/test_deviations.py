@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.ir.path import CALM, LIMITS, Deviation, from_what_was_asked
-from tests.front import clean
+from tests.support.front_passes import clean
 
 TEXT = """\
 shotc: 1

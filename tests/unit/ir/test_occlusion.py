@@ -11,9 +11,9 @@ from shotc.ir.mission import MissionIR, Target
 from shotc.ir.occlusion import hiders, others_of
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
-from tests.records import replace
-from tests.samples import orbit_mission
-from tests.sights import EYE, at, film, mission, still, through
+from tests.support.film_plans import orbit_mission
+from tests.support.records import replace
+from tests.support.sight_plans import EYE, at, film, mission, still, through
 
 MAST: Target = replace(
     orbit_mission().targets[0], name="mast", centre=(40.0, 0.0, 10.0), radius=0.5, height=4.0, track=None

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from shotc.ir.text import dump
-from tests.samples import orbit_mission, orbit_plan
+from tests.support.film_plans import orbit_mission, orbit_plan
 
 
 def test_a_dump_is_stable_text_without_addresses():

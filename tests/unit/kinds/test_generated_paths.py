@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shotc.ir.mission import Keyframe
 from shotc.kinds.rounds import ARC, bearing, line, ring
-from tests.front import resolved
+from tests.support.front_passes import resolved
 
 HEAD = """\
 shotc: 1

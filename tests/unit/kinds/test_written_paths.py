@@ -15,7 +15,7 @@ from shotc.geom.geodetic import above_ground, to_world
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Keyframe
 from shotc.kinds.follow_path import thin
-from tests.front import resolved
+from tests.support.front_passes import resolved
 
 HEAD = """\
 shotc: 1

@@ -10,7 +10,7 @@ import pytest
 from shotc.geom.camera import aim_at
 from shotc.ir.keyframes import PlacedSubject
 from shotc.planning.clock.aims import Looker, aims_at
-from tests.front import clean
+from tests.support.front_passes import clean
 
 MISSION = """\
 shotc: 1

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from shotc.api import PlanOptions, compile_source
-from tests.animations import animated
+from tests.support.animated_meshes import animated
 
 
 def test_goals_follow_each_other(tmp_path: Path) -> None:

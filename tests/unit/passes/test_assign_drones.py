@@ -12,7 +12,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.passes.assign_drones.choice import LEAST_WAY, choose
 from shotc.passes.assign_drones.tasks import Task
-from tests.front import clean
+from tests.support.front_passes import clean
 from tests.unit.passes.test_several_drones import HEAD, PASS, SIDE, TAIL
 
 DRONES = {d.name: d for d in clean(HEAD + SIDE + PASS + TAIL).mission.drones}

@@ -11,8 +11,8 @@ from shotc import api
 from shotc.emit.plan_json import EMITTER
 from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
-from tests.resealed import Document, resealed
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.resealed_plans import Document, resealed
 
 PLAN = Verify().run(orbit_plan().trajectory, PassContext()).value
 assert PLAN is not None

@@ -15,8 +15,8 @@ from shotc.planning.path.position import Solved, Stretch, solve_stretch
 from shotc.planning.path.shots import Stuck
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_relax import Relaxation
-from tests.path_scenes import FIELD, block, free, inside, legs, mission, out, planned, shot, solve
-from tests.records import replace
+from tests.support.path_scenes import FIELD, block, free, inside, legs, mission, out, planned, shot, solve
+from tests.support.records import replace
 
 POLE = Cylinder((0.0, 0.0), 2.0, 0.0, 70.0)
 PAST = np.array([[-20.0, -6.0, 8.0], [0.0, -2.3, 8.0], [20.0, -6.0, 8.0]])

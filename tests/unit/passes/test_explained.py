@@ -22,9 +22,9 @@ from shotc.passes.verify.explained import (
     for_the_picture,
     in_the_way,
 )
-from tests.records import replace
-from tests.resealed import Document, resealed
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
+from tests.support.resealed_plans import Document, resealed
 
 EAST = Way(np.linspace([-50.0, 0.0, 30.0], [50.0, 0.0, 30.0], 101), np.linspace(0.0, 20.0, 101))
 

@@ -19,7 +19,7 @@ from shotc.passes.base import Outcome, PassContext
 from shotc.passes.bound_splines import BoundSplines
 from shotc.passes.keep_apart import KeepApart
 from shotc.solvers.fleet_qcqp import Bounds, overdraft
-from tests.fleet_scenes import (
+from tests.support.fleet_scenes import (
     APART,
     LIMITS,
     animation,

@@ -9,10 +9,10 @@ import pytest
 from shotc import api
 from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
-from tests.kinds_plan import kinds_plan
-from tests.records import replace
-from tests.resealed import Document, resealed
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.kinds_plan import kinds_plan
+from tests.support.records import replace
+from tests.support.resealed_plans import Document, resealed
 
 Edit = Callable[[Document], Any]
 

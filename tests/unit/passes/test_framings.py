@@ -21,8 +21,8 @@ from shotc.ir.sampling import seen
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
-from tests.front import clean, placed
-from tests.remedies.apply import remedies
+from tests.support.front_passes import clean, placed
+from tests.support.remedies.apply import remedies
 
 MISSION = """\
 shotc: 1

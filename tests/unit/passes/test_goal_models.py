@@ -12,7 +12,7 @@ from shotc.passes.place_goals.body import SourceFault
 from shotc.passes.place_goals.frames import model_bodies
 from shotc.passes.place_goals.model import mesh_body, open_edges
 from shotc.passes.place_goals.model_file import Mesh, Unreadable, read_model
-from tests.meshes import box_mesh, chunks, glb, obj, ply, sphere_mesh, stl
+from tests.support.meshes import box_mesh, chunks, glb, obj, ply, sphere_mesh, stl
 
 BALL = sphere_mesh(10.0)
 PLACES = b"property float x\nproperty float y\nproperty float z\n"

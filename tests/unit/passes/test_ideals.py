@@ -9,7 +9,7 @@ import pytest
 
 from shotc.ir.ideal import ideal_place
 from shotc.planning.clock.ideals import ideal_places
-from tests.front import placed
+from tests.support.front_passes import placed
 
 HEAD = """\
 shotc: 1

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from shotc.diag.model import Diagnostic
-from tests.front import resolved
+from tests.support.front_passes import resolved
 
 MISSION = """\
 shotc: 1

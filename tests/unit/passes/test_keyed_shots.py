@@ -17,7 +17,7 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.planfile.layout import text
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import document
-from tests.front import resolved
+from tests.support.front_passes import resolved
 
 WALK = """\
 shotc: 1

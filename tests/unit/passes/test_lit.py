@@ -19,7 +19,7 @@ from shotc.passes.base import PassContext
 from shotc.passes.place_goals import PlaceGoals
 from shotc.passes.place_goals.flat import FlatBody
 from shotc.passes.place_goals.sources import bodies_of
-from tests.shows import display, fleet, picture, show
+from tests.support.display_missions import display, fleet, picture, show
 
 CENTRE = (0.0, 20.0, 40.0)
 EYE = (0.0, -90.0, 2.0)

@@ -14,8 +14,8 @@ from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.planning.timing import move as move_module
 from shotc.solvers.conic import Status
-from tests.records import replace
-from tests.timed_flights import (
+from tests.support.records import replace
+from tests.support.timed_flights import (
     FORTY,
     FROM,
     TO,
@@ -25,7 +25,7 @@ from tests.timed_flights import (
     straight,
     timed,
 )
-from tests.timing_paths import (
+from tests.support.timing_paths import (
     CEILING,
     HFOV,
     circle,

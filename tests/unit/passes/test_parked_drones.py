@@ -16,9 +16,9 @@ from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify import judge
 from shotc.planning.clock.sights import sights_of
 from shotc.planning.obstacles import flight_room, pad_room
-from tests import fleets
-from tests.records import replace
-from tests.tampered_plans import CONTEXT, MISSION, PLAN, with_mission
+from tests.support import show_plans
+from tests.support.records import replace
+from tests.support.tampered_plans import CONTEXT, MISSION, PLAN, with_mission
 
 HEAD = """\
 shotc: 1
@@ -178,7 +178,7 @@ def test_a_drone_that_may_be_chosen_is_not_parked_and_its_home_counts() -> None:
 def test_fleets_keep_clear_of_parked_drones(aside: float, broken: bool) -> None:
     # The first drone draws at (0, 20, 30); two metres of separation more than its own fleet asks for count.
     spare: Drone = replace(MISSION.drones[0], name="cam", home=(-aside, 20.0, 30.0), path=("drones", "cam"))
-    ir = fleets.show(fleets.mission(drones=(spare,)))
+    ir = show_plans.show(show_plans.mission(drones=(spare,)))
     claim = found(ir, "separation from cam")
     assert claim.worst == pytest.approx(aside, abs=1e-4)
     assert claim.drones == ("swarm-1",)
@@ -191,15 +191,15 @@ def test_fleets_and_drones_keep_clear_of_the_pads_of_a_fleet_that_shows_nothing(
     aside: float, broken: bool
 ) -> None:
     # Heights count half as much here: 2 m of separation upwards against 1 m aside, with the margin.
-    idle = fleets.fleet(((90.0, 0.0, 0.0), (-aside, 20.0, 30.0)), "idle")
-    show = fleets.show()
-    mission = fleets.mission(fleets=(fleets.fleet(), idle))
+    idle = show_plans.fleet(((90.0, 0.0, 0.0), (-aside, 20.0, 30.0)), "idle")
+    show = show_plans.show()
+    mission = show_plans.mission(fleets=(show_plans.fleet(), idle))
     claim = found(replace(show, keyframes=replace(show.keyframes, mission=mission)), "separation from idle")
     assert claim.worst == pytest.approx(aside, abs=1e-4)
     assert claim.drones == ("swarm-1", "idle-2")
     # The orbit passes (40, 0, 20); of many pads the nearest one counts.
     pads = tuple((200.0 + 4 * k, 0.0, 0.0) for k in range(20))
-    idle = fleets.fleet((*pads[:7], (40.0 - aside, 0.0, 20.0), *pads[7:]), "idle")
+    idle = show_plans.fleet((*pads[:7], (40.0 - aside, 0.0, 20.0), *pads[7:]), "idle")
     film = with_mission(fleets=(idle,))
     claim = found(film, "separation from idle")
     assert claim.worst == pytest.approx(aside, abs=1e-4)
@@ -229,6 +229,6 @@ shots:
 
 def test_of_many_pads_the_nearest_counts_not_the_one_whose_box_is() -> None:
     # The first is in the box round the way home, 8.5 m from the way; the second is 6 m above the orbit.
-    idle = fleets.fleet(((24.0, -24.0, 12.0), (40.0, 0.0, 26.0)), "idle")
+    idle = show_plans.fleet(((24.0, -24.0, 12.0), (40.0, 0.0, 26.0)), "idle")
     claim = found(with_mission(fleets=(idle,)), "separation from idle")
     assert claim.worst == pytest.approx(6.0, abs=1e-4)

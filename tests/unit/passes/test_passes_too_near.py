@@ -21,7 +21,7 @@ from shotc.passes.keep_apart import KeepApart
 from shotc.passes.keep_apart.faults import Tried, too_near
 from shotc.passes.keep_apart.longer import Stretch
 from shotc.solvers.fleet_qcqp import Bounds, overdraft
-from tests.fleet_scenes import LIMITS, animation, display, fleet, goals, morph, picture
+from tests.support.fleet_scenes import LIMITS, animation, display, fleet, goals, morph, picture
 
 RADIUS = 4.0
 WIDE = Apart("ellipsoid", 1.3, 2.8, 0.1)

@@ -14,7 +14,8 @@ from shotc.ir.mission import Gimbal, Target
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.solvers.conic import Status
-from tests.path_scenes import (
+from tests.support.film_plans import orbit_mission
+from tests.support.path_scenes import (
     ASPECT,
     FIELD,
     TOWER,
@@ -29,8 +30,7 @@ from tests.path_scenes import (
     shot,
     solve,
 )
-from tests.records import replace
-from tests.samples import orbit_mission
+from tests.support.records import replace
 
 
 def test_the_composition_is_kept_between_keyframes():

@@ -7,7 +7,7 @@ import pytest
 from shotc.ir.limits import Timing
 from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
-from tests.path_scenes import (
+from tests.support.path_scenes import (
     free,
     legs,
     mission,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shotc.ir.mission import Zone
-from tests.path_scenes import (
+from tests.support.path_scenes import (
     FIELD,
     block,
     codes,
@@ -19,7 +19,7 @@ from tests.path_scenes import (
     shot,
     solve,
 )
-from tests.records import replace
+from tests.support.records import replace
 
 
 @pytest.mark.parametrize("width", [1.22, 1.3, 1.4, 3.0])

@@ -10,7 +10,7 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.ir.path import CAM_YAW
 from shotc.solvers.headings import METHODS
-from tests.front import placed
+from tests.support.front_passes import placed
 
 MISSION = """\
 shotc: 1

@@ -20,7 +20,7 @@ from shotc.planning.framing.candidates import (
     roomiest,
 )
 from shotc.spec.compositions import COMPOSITIONS
-from tests.records import replace
+from tests.support.records import replace
 
 THIRD = 1 / 3
 CORNERS = tuple((u, v) for u in (-THIRD, THIRD) for v in (-THIRD, THIRD))

@@ -20,9 +20,9 @@ from shotc.ir.mission import Zone
 from shotc.ir.show import Apart, Box, Lettering, Model, Sphere, Torus
 from shotc.passes.base import PassContext
 from shotc.passes.place_goals import PlaceGoals
-from tests.front import placed
-from tests.meshes import box_mesh, ply, sphere_mesh
-from tests.shows import APART, display, fleet, picture, show
+from tests.support.display_missions import APART, display, fleet, picture, show
+from tests.support.front_passes import placed
+from tests.support.meshes import box_mesh, ply, sphere_mesh
 
 MIDDLE = (0.0, 0.0, 60.0)
 BALL = Sphere(MIDDLE, 15.0)

@@ -20,9 +20,9 @@ from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
-from tests.front import clean, placed
-from tests.records import replace
-from tests.samples import orbit_mission
+from tests.support.film_plans import orbit_mission
+from tests.support.front_passes import clean, placed
+from tests.support.records import replace
 
 TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.front import clean
+from tests.support.front_passes import clean
 
 WRITTEN = st.floats(-3600.0, 3600.0).map(lambda x: round(x, 3))
 MISSION = """\

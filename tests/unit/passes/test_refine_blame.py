@@ -7,8 +7,8 @@ import pytest
 from shotc import api, plugins
 from shotc.diag.model import Diagnostic
 from shotc.passes.base import Outcome
-from tests.bad_refiners import PASS, ROUND, Odd, along, bumped, text
-from tests.remedies.apply import remedies
+from tests.support.bad_refiners import PASS, ROUND, Odd, along, bumped, text
+from tests.support.remedies.apply import remedies
 
 DURATION = 22
 

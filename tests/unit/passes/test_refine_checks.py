@@ -14,7 +14,7 @@ from shotc.geom.corridor import Disc, Obstacle, Room, Wall
 from shotc.geom.solids import Cylinder
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Z
 from shotc.passes.refine_path.room import nearest
-from tests.bad_refiners import (
+from tests.support.bad_refiners import (
     MISSION,
     PASS,
     ROUND,
@@ -27,7 +27,7 @@ from tests.bad_refiners import (
     returns,
     with_leg,
 )
-from tests.records import replace
+from tests.support.records import replace
 
 EARLY = (0.05, 0.5)
 """Between the first two keyframes of the pass."""

@@ -11,8 +11,8 @@ from shotc import api, plugins
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.path import BODY_YAW, CAM_PITCH, PathIR, TimedLeg, TimedPath, X, Y, Z
 from shotc.passes.base import Outcome
-from tests.bad_refiners import Odd, along, refine, returns
-from tests.records import replace
+from tests.support.bad_refiners import Odd, along, refine, returns
+from tests.support.records import replace
 
 MISSION = """\
 shotc: 1

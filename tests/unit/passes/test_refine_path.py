@@ -13,8 +13,8 @@ from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation
 from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import REFINER, RefinePath, Seat, Unusable
-from tests.bad_refiners import PASS, ROUND, along, bumped, leg, nan, path, refine, returns, with_leg
-from tests.records import replace
+from tests.support.bad_refiners import PASS, ROUND, along, bumped, leg, nan, path, refine, returns, with_leg
+from tests.support.records import replace
 
 
 def loose(ir):

@@ -19,7 +19,7 @@ from shotc.planning.clock.flights import flown_shot
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.with_camera import NoTransit
 from shotc.planning.timing.estimate import leg_time
-from tests.bad_refiners import Odd
+from tests.support.bad_refiners import Odd
 
 MISSION = """\
 shotc: 1

@@ -13,8 +13,8 @@ from shotc.geom.bspline import restrict, subdivide
 from shotc.ir.path import BODY_YAW, CAM_YAW, HFOV
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.with_camera import NoTransit, with_camera
-from tests.bad_refiners import PASS, ROUND, leg, path
-from tests.path_scenes import assert_continuous, assert_sound
+from tests.support.bad_refiners import PASS, ROUND, leg, path
+from tests.support.path_scenes import assert_continuous, assert_sound
 
 CAMERA = (0, 1, 2, 3, 4)
 

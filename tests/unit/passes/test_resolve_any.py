@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.diag.registry import registry, stops
-from tests.front import KINDS, placed
+from tests.support.front_passes import KINDS, placed
 
 lengths = st.one_of(st.integers(5, 60), st.integers(5, 60), st.sampled_from([0, -3, 1e-4, 0.5, 1e5, -1e5]))
 points = st.one_of(

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from shotc.diag.model import Diagnostic
-from tests.resolve_missions import FIRST, faults, mission, only
+from tests.support.resolve_missions import FIRST, faults, mission, only
 
 
 def test_geodetic_positions_need_an_origin_and_say_so_once() -> None:

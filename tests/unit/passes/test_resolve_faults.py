@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.front import resolved
-from tests.resolve_missions import FIRST, at, faults, mission, only
+from tests.support.front_passes import resolved
+from tests.support.resolve_missions import FIRST, at, faults, mission, only
 
 
 def test_every_fault_of_the_mission_is_told_in_one_run() -> None:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.front import resolved
-from tests.resolve_missions import FIRST, at, faults, mission, only, span
+from tests.support.front_passes import resolved
+from tests.support.resolve_missions import FIRST, at, faults, mission, only, span
 
 
 def test_files_stay_in_the_missions_folder(tmp_path: Path) -> None:

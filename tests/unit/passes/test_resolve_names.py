@@ -8,7 +8,7 @@ import yaml
 from shotc.diag.model import Diagnostic
 from shotc.passes.resolve.names import emitters_of
 from shotc.spec.mission import MissionSpec
-from tests.front import placed
+from tests.support.front_passes import placed
 
 HEAD = """\
 shotc: 1

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from shotc.passes.resolve.show.clock import least_display
-from tests.front import resolved
-from tests.show_missions import SPHERE, faults, marked, only, resolve, show
+from tests.support.front_passes import resolved
+from tests.support.show_texts import SPHERE, faults, marked, only, resolve, show
 
 
 def test_a_picture_in_the_ground_is_told_once() -> None:

@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from tests.front import resolved
-from tests.resolve_missions import FIRST, at, faults, mission, only, span
+from tests.support.front_passes import resolved
+from tests.support.resolve_missions import FIRST, at, faults, mission, only, span
 
 
 @pytest.mark.parametrize(

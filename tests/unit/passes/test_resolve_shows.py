@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from shotc.ir.show import Lettering, Model
-from tests.resolve_missions import at
-from tests.show_missions import FLEET, SPHERE, faults, marked, only, resolve, show
+from tests.support.resolve_missions import at
+from tests.support.show_texts import FLEET, SPHERE, faults, marked, only, resolve, show
 
 
 def test_a_grid_is_square_and_goes_row_by_row() -> None:

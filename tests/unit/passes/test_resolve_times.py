@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from tests.resolve_missions import FIRST, at, faults, mission, only, span
+from tests.support.resolve_missions import FIRST, at, faults, mission, only, span
 
 
 def test_a_flight_shorter_than_a_straight_line_allows() -> None:

@@ -10,8 +10,8 @@ import pytest
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
-from tests.front import resolved
-from tests.resolve_missions import HEAD
+from tests.support.front_passes import resolved
+from tests.support.resolve_missions import HEAD
 
 EARTH = "world:\n  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n"
 SIDE = "id: side, kind: lateral, target: runner, side: left, distance: 8, altitude: 4"

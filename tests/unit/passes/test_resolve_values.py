@@ -15,10 +15,10 @@ from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.mission import MissionIR, Promise
 from shotc.passes.resolve.motion import least_shot, least_travel
 from shotc.spec.presets import PRESETS
-from tests import resolve_missions
-from tests.front import resolved
-from tests.records import replace
-from tests.resolve_missions import at, faults, span
+from tests.support import resolve_missions
+from tests.support.front_passes import resolved
+from tests.support.records import replace
+from tests.support.resolve_missions import at, faults, span
 
 TEXT = """\
 shotc: 1
@@ -148,7 +148,7 @@ def test_holds_cut_a_shot_into_rests(mission: MissionIR) -> None:
 
 def test_the_front_loads_neither_numpy_nor_a_solver() -> None:
     code = (
-        "import sys; from tests.front import placed; placed(sys.argv[1]); "
+        "import sys; from tests.support.front_passes import placed; placed(sys.argv[1]); "
         "heavy = {'numpy', 'scipy', 'cvxpy', 'toppra', 'rerun', 'casadi'}; "
         "print(sorted(heavy & set(sys.modules)))"
     )

@@ -13,7 +13,7 @@ from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.limits import Timing
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from tests.path_scenes import (
+from tests.support.path_scenes import (
     FIELD,
     TOWER,
     block,
@@ -29,7 +29,7 @@ from tests.path_scenes import (
     shot,
     solve,
 )
-from tests.records import replace
+from tests.support.records import replace
 
 TREE = out("tree", Cylinder((-20.0, 10.0), 3.0, 0.0, 12.0))
 HOUSE = out("house", block((10, 25), (-8, 6), (0, 9)))

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.planning.path.turns import steady
-from tests.path_scenes import framed, free, legs, mission, planned, shot
+from tests.support.path_scenes import framed, free, legs, mission, planned, shot
 
 
 @settings(max_examples=80, deadline=None, derandomize=True)

@@ -8,7 +8,7 @@ import pytest
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Target
-from tests.path_scenes import circle, framed, free, mission, shot, solve
+from tests.support.path_scenes import circle, framed, free, mission, shot, solve
 
 LAMP = Target("lamp", (0.0, 0.0, 1.0), 0.5, 2.0, ("targets", "tower"))
 MADE = mission(targets=(LAMP,))

@@ -8,7 +8,7 @@ import pytest
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.path import FramingSpan, Mark, Stop
 from shotc.ir.trajectory import TrajectoryIR
-from tests.timed_flights import (
+from tests.support.timed_flights import (
     FROM,
     faults,
     number_before,
@@ -17,7 +17,7 @@ from tests.timed_flights import (
     straight,
     timed,
 )
-from tests.timing_paths import (
+from tests.support.timing_paths import (
     CEILING,
     flight,
     mission,

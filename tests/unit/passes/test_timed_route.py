@@ -16,7 +16,7 @@ from shotc.geom.track_array import places, seen_from
 from shotc.ir.ideal import ideal_place
 from shotc.ir.path import BODY_YAW, CAM_YAW
 from shotc.ir.trajectory import VerifiedIR
-from tests.front import clean
+from tests.support.front_passes import clean
 
 RUN = """\
 shotc: 1

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from shotc.ir.limits import Timing
 from shotc.ir.path import PathIR, Stop
-from tests.records import replace
-from tests.timed_flights import (
+from tests.support.records import replace
+from tests.support.timed_flights import (
     FORTY,
     FROM,
     TO,
@@ -21,7 +21,7 @@ from tests.timed_flights import (
     straight,
     timed,
 )
-from tests.timing_paths import (
+from tests.support.timing_paths import (
     CEILING,
     flight,
     mission,

@@ -14,7 +14,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.ir.transits import Way, ways
 from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
-from tests.records import replace
+from tests.support.records import replace
 
 HEAD = """\
 shotc: 1

@@ -14,9 +14,9 @@ from shotc.ir.path import HFOV
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.report import rule_of
-from tests.records import replace
-from tests.samples import orbit_plan
-from tests.tampered_plans import (
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
+from tests.support.tampered_plans import (
     CONTEXT,
     MISSION,
     PLAN,

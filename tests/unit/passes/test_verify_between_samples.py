@@ -18,8 +18,8 @@ from shotc.ir.trajectory import DroneTrajectory, Reference
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.close import errors_close, margins_close, rates
 from shotc.passes.verify.sight import Sight, infimum
-from tests.records import replace
-from tests.sights import EYE, LENGTH, at, film, mission, still, through, unfilmed
+from tests.support.records import replace
+from tests.support.sight_plans import EYE, LENGTH, at, film, mission, still, through, unfilmed
 
 ENDS = np.array([0.0, 1.0])
 POST = (20.0, 4.0, 10.0)

@@ -12,8 +12,8 @@ from shotc.ir.mission import Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.passes.verify import judge
-from tests.records import replace
-from tests.tampered_plans import (
+from tests.support.records import replace
+from tests.support.tampered_plans import (
     CONTEXT,
     MISSION,
     PLAN,

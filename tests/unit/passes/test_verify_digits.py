@@ -14,8 +14,8 @@ from shotc.ir.mission import Promise
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.report import ENDING, RULES, STARTING, report
-from tests.records import replace
-from tests.samples import orbit_plan
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
 
 SAMPLE = orbit_plan().trajectory
 SHOT = replace(SAMPLE.keyframes.mission.shots[0], promise=Promise(size=(0.1, 0.7)))

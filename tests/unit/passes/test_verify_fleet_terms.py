@@ -14,8 +14,8 @@ from shotc.ir.mission import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.passes.verify.fleets.space import nearest
-from tests.fleets import CONTEXT, display, fleet, mission, show
-from tests.records import replace
+from tests.support.records import replace
+from tests.support.show_plans import CONTEXT, display, fleet, mission, show
 
 SHOW = show()
 

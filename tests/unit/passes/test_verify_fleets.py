@@ -22,8 +22,8 @@ from shotc.ir.show import stricter
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.passes.verify.report import rule_of
-from tests.fleets import CONTEXT, PADS, RISE, STEP, display, fleet, flight, mission, show
-from tests.records import replace
+from tests.support.records import replace
+from tests.support.show_plans import CONTEXT, PADS, RISE, STEP, display, fleet, flight, mission, show
 
 SHOW = show()
 FIELD = Prism(((-20.0, -20.0), (40.0, -20.0), (40.0, 60.0), (-20.0, 60.0)), 5.0, 50.0)

@@ -14,8 +14,8 @@ from shotc.ir.path import CAM_YAW, HFOV, Deviation
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.hidden import longest
-from tests.records import replace
-from tests.tampered_plans import (
+from tests.support.records import replace
+from tests.support.tampered_plans import (
     CONTEXT,
     MISSION,
     PLAN,

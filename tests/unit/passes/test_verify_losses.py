@@ -13,8 +13,8 @@ from shotc.ir.mission import Promise
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Deviation
 from shotc.passes.verify import judge
 from shotc.passes.verify.loss import at_limit
-from tests.records import replace
-from tests.tampered_plans import (
+from tests.support.records import replace
+from tests.support.tampered_plans import (
     CONTEXT,
     MISSION,
     PLAN,

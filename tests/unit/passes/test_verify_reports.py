@@ -11,8 +11,8 @@ from shotc.ir.origin import OriginMap
 from shotc.ir.path import CAM_PITCH
 from shotc.passes.verify import judge
 from shotc.source.file import Span
-from tests.records import replace
-from tests.tampered_plans import (
+from tests.support.records import replace
+from tests.support.tampered_plans import (
     CONTEXT,
     PLAN,
     claim,

@@ -9,7 +9,7 @@ import pytest
 
 from shotc.geom.bernstein import quintic_hermite
 from shotc.passes.verify.sight import Sight, infimum
-from tests.sights import EYE, LENGTH, at, claims, film, mission, still, through, unfilmed
+from tests.support.sight_plans import EYE, LENGTH, at, claims, film, mission, still, through, unfilmed
 
 R = 0.5  # of the body
 ROOT = sqrt(2.0)

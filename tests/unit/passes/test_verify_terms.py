@@ -13,8 +13,8 @@ from shotc.ir.mission import Target
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import judge
-from tests.records import replace
-from tests.tampered_plans import (
+from tests.support.records import replace
+from tests.support.tampered_plans import (
     CONTEXT,
     MISSION,
     PLAN,

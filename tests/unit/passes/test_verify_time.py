@@ -16,7 +16,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.passes.verify.shape import JOINTS, REPORTED, gaps
 from shotc.planfile.sanity import inconsistencies
-from tests.tampered_plans import CONTEXT, PLAN, claim, codes, with_mission, with_track, zone
+from tests.support.tampered_plans import CONTEXT, PLAN, claim, codes, with_mission, with_track, zone
 
 TRACK = PLAN.drones[0]
 CURVE = TRACK.curve

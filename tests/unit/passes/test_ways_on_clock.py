@@ -34,7 +34,7 @@ from shotc.planning.clock.sweeps import with_sweeps
 from shotc.planning.obstacles import Rooms, rooms_of
 from shotc.planning.path.legs import Flight, Pose, way_to
 from shotc.planning.timing.estimate import leg_time
-from tests.front import placed
+from tests.support.front_passes import placed
 
 EMPTY = Room((), (), ())
 PAIR = """\

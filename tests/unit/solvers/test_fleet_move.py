@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shotc.solvers.fleet_move import least_piece, least_pieces
-from tests.fleet_scenes import LIMITS
+from tests.support.fleet_scenes import LIMITS
 
 
 @pytest.mark.parametrize("pieces", [3, 5, 20])

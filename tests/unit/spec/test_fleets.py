@@ -8,7 +8,7 @@ import pytest
 
 from shotc.diag.registry import registry
 from shotc.spec.colors import COLORS
-from tests.show_missions import FLEET, SPHERE, only, resolve, show
+from tests.support.show_texts import FLEET, SPHERE, only, resolve, show
 
 
 @pytest.mark.parametrize("count", ["0", "-3", "5001", "1e9", "2.5", "many"])

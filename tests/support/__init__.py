@@ -1,0 +1,1 @@
+"""What tests share: missions and plans made by hand, readers of outputs, and judges of plans."""

@@ -1,0 +1,126 @@
+"""What hides a target from a camera, and who is in whose picture."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from tests.support.second_opinion.case import Case, Finding, Findings
+from tests.support.second_opinion.flight import Array, Phase
+from tests.support.second_opinion.picture import Camera
+from tests.support.second_opinion.solids import Cylinder
+
+LINE = 400  # points of a line of sight
+PER_SECOND = 50.0
+MISSED = 0.3  # metres by which a body may move between two looks
+LOOSE = 0.02  # of a claimed value: a bound is closed to a part of it
+
+
+def hidden(case: Case, drone: str, target: str, t: Array) -> tuple[Array, Array]:
+    """Return at which times something surely stands before the target's centre, and at which it may.
+
+    Between two points of the line of sight a body may be touched unseen: such times are not sure.
+    """
+    camera, centre = case.place(drone, t), case.mission.targets[target].at(t)
+    share = np.linspace(0.0, 1.0, LINE)
+    line = camera[:, None] + share[:, None] * (centre - camera)[:, None]
+    step = np.linalg.norm(centre - camera, axis=1) / (LINE - 1)
+    surely, maybe = np.zeros(len(t), dtype=bool), np.zeros(len(t), dtype=bool)
+    for depth in _depths(case, drone, target, t, line):
+        surely |= depth < -1e-6
+        maybe |= depth < step + 1e-6
+    return surely, maybe
+
+
+def _depths(case: Case, drone: str, target: str, t: Array, line: Array) -> Any:
+    """Yield how near the line of sight comes to each body, shape (M,), negative where it goes through."""
+    flat = line.reshape(-1, 3)
+    for zone in case.mission.zones:
+        if not zone.keeps_in:
+            yield zone.solid.distance(flat).reshape(line.shape[:2]).min(axis=1)
+    mine = case.mission.targets[target].solid(t)
+    for other in case.mission.targets.values():
+        if other.name != target:
+            body = other.solid(t)
+            spread = Cylinder(
+                np.repeat(body.centre, LINE, axis=0),
+                body.radius,
+                np.repeat(body.bottom, LINE),
+                np.repeat(body.top, LINE),
+            )
+            near = spread.distance(flat).reshape(line.shape[:2]).min(axis=1)
+            yield np.where(_touch(mine, body), np.inf, near)
+    for name, found in case.drones.items():
+        if name != drone:
+            away = np.linalg.norm(line - case.place(name, t)[:, None], axis=2).min(axis=1)
+            yield away - found["radius"]
+
+
+def _touch(a: Cylinder, b: Cylinder) -> Array:
+    level = np.linalg.norm(a.centre - b.centre, axis=1) <= a.radius + b.radius + 1e-9
+    return level & (a.bottom <= np.asarray(b.top) + 1e-9) & (b.bottom <= np.asarray(a.top) + 1e-9)
+
+
+def company(case: Case) -> Findings:
+    """Where it is required no body of another drone is in a picture; what is claimed of it is so."""
+    rule = case.mission.rules.get("mutual_visibility")
+    strength = (
+        rule.get("strength", "require") if isinstance(rule, dict) else "prefer" if rule is None else rule
+    )
+    if strength is False or strength == "off":
+        return
+    claims = {(c["constraint"], c["shot"]): c for c in case.plan["certificate"]}
+    angled = isinstance(rule, dict) and "half_angle" in rule
+    for flight in case.flights.values():
+        for phase in (p for p in flight.phases if p.shot is not None):
+            for other in (name for name in case.drones if name != flight.drone):
+                name = f"{other} out of the picture"
+                value, time = (0.0, None) if angled else _deepest(case, flight.drone, phase, other)
+                claim = claims.get((name, phase.shot))
+                if strength == "require" and value < -1e-6:
+                    yield Finding(f"required: {name}", str(phase.shot), value, 0.0, time)
+                if claim is None:
+                    yield Finding(f"no claim: {name}", str(phase.shot), value, 0.0, time)
+                elif not angled:
+                    yield from _claimed(phase, claim, (value, time))
+
+
+def _claimed(phase: Phase, claim: dict[str, Any], found: tuple[float, float | None]) -> Findings:
+    """What is proved of every instant is nowhere worse, nor far better where a body is in the picture."""
+    worst, (value, time) = float(claim["worst"]), found
+    beyond = claim["method"] == "bounded" and value < worst - 1e-6
+    if beyond or (worst < 0 and value - worst > MISSED + LOOSE * abs(worst)):
+        yield Finding(f"claimed {claim['constraint']}", str(phase.shot), value, worst, time)
+
+
+def _deepest(case: Case, drone: str, phase: Phase, other: str) -> tuple[float, float]:
+    """Return the least distance of another's sphere from the frame's pyramid in a shot, metres, and when."""
+    t = np.linspace(phase.start, phase.end, int((phase.end - phase.start) * PER_SECOND) + 2)
+    camera = Camera.of(case.flights[drone].at(t), float(case.drones[drone]["aspect"]))
+    away = case.place(other, t) - camera.place
+    x, y, z = (np.einsum("mc,mc->m", away, axis) for axis in (camera.right, camera.down, camera.ahead))
+    outside = (
+        pyramid_distance(np.abs(x), np.abs(y), z, camera.wide, camera.high) - case.drones[other]["radius"]
+    )
+    k = int(outside.argmin())
+    return float(outside[k]), float(t[k])
+
+
+def pyramid_distance(x: Array, y: Array, z: Array, wide: Array, high: Array) -> Array:
+    """Return how far points right of and above the axis are outside the pyramid |x| <= wide z, |y| <= high z.
+
+    Inside it is how far they are from its nearest side, negative; outside the nearest of its apex and of the
+    feet on its edge and its two sides, of those that lie on it.
+    """
+    beside = [(x - wide * z) / np.hypot(1, wide), (y - high * z) / np.hypot(1, high)]
+    edge = np.stack([wide, high, np.ones_like(z)], axis=1)
+    point = np.stack([x, y, z], axis=1)
+    along = np.maximum((point * edge).sum(axis=1) / (edge**2).sum(axis=1), 0.0)
+    near = np.linalg.norm(point - along[:, None] * edge, axis=1)  # the apex where the foot is behind it
+    for foot_z, other, limit, distance in (
+        ((z + wide * x) / (1 + wide**2), y, high, beside[0]),
+        ((z + high * y) / (1 + high**2), x, wide, beside[1]),
+    ):
+        near = np.where((foot_z >= 0) & (other <= limit * foot_z), np.minimum(near, np.abs(distance)), near)
+    return np.where(np.max(beside, axis=0) <= 0, np.max(beside, axis=0), near)
