@@ -18,8 +18,8 @@ from shotc.diag.plugin_faults import plugin_failed
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
+from shotc.ir.passes import PassContext, silent
 from shotc.lowering import lower, lower_kept, with_autopilot
-from shotc.passes.base import PassContext, silent
 from shotc.passes.resolve.names import AUTO
 from shotc.pipeline import (
     ASSIGN,

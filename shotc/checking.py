@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from shotc import plugins
 from shotc.diag.model import Diagnostic
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.pipeline import FRONT, Setting, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import load

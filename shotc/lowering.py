@@ -14,8 +14,8 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
+from shotc.ir.passes import PassContext
 from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, kept_files
-from shotc.passes.base import PassContext
 from shotc.passes.resolve.names import AUTO
 from shotc.pipeline import FRONT, Setting, passes_of, run
 from shotc.source.file import SourceFile

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 
 if TYPE_CHECKING:
-    from shotc.passes.base import Pass
+    from shotc.ir.passes import Pass
 
     AnyPass = Pass[Any, Any]
 else:
@@ -79,10 +79,10 @@ FILM = (
     Step("parameterize-time", "PathIR", "TrajectoryIR", "shotc.passes.parameterize_time:ParameterizeTime"),
 )
 SHOW = (
-    Step("place-goals", "KeyframeIR", "GoalIR", "shotc.passes.place_goals:PlaceGoals"),
-    Step("assign-goals", "GoalIR", "ShowIR", "shotc.passes.assign_goals:AssignGoals"),
-    Step("bound-splines", "ShowIR", "ShowIR", "shotc.passes.bound_splines:BoundSplines"),
-    Step("keep-apart", "ShowIR", "TrajectoryIR", "shotc.passes.keep_apart:KeepApart"),
+    Step("place-goals", "KeyframeIR", "GoalIR", "shotc.show.goals:PlaceGoals"),
+    Step("assign-goals", "GoalIR", "ShowIR", "shotc.show.assignment:AssignGoals"),
+    Step("bound-splines", "ShowIR", "ShowIR", "shotc.show.splines:BoundSplines"),
+    Step("keep-apart", "ShowIR", "TrajectoryIR", "shotc.show.separation:KeepApart"),
 )
 ROUTES = {"film": (ASSIGN, *FRONT, *FILM, VERIFY), "show": (ASSIGN, *FRONT, *SHOW, VERIFY)}
 """From a mission to a verified plan: what cameras film, and what fleets display."""

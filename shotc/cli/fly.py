@@ -16,7 +16,7 @@ from shotc.rounding import at_least, up
 
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
-    from shotc.simulation.rehearse import Rehearsal
+    from shotc.show.simulation.rehearse import Rehearsal
 
 Gusty = Annotated[float, typer.Option("--gusts", min=0.0, help="Standard deviation of gusts, m/s an axis.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of the gusts.")]
@@ -36,8 +36,8 @@ def fly(plan: PlanPath, gusts: Gusty = 0.0, seed: Seed = 1, format: FormatOption
 
         shotc fly out/show/plan.json --gusts 0.3
     """
-    from shotc.simulation.rehearse import rehearse
-    from shotc.simulation.vehicle import Gusts
+    from shotc.show.simulation.rehearse import rehearse
+    from shotc.show.simulation.vehicle import Gusts
 
     trajectory = proved(plan).trajectory
     if not trajectory.fleets:

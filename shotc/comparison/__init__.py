@@ -15,8 +15,8 @@ from shotc.comparison.conditions import condition
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.comparison import Comparison, Condition
+from shotc.ir.passes import PassContext, silent
 from shotc.ir.path import PathIR
-from shotc.passes.base import PassContext, silent
 from shotc.source.file import SourceFile
 
 USUAL = ("none", "ang", "look-at", "ours-4pt", "ours")

@@ -10,9 +10,9 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.comparison import Condition
 from shotc.ir.mission import Promise, Shot
+from shotc.ir.passes import PassContext
 from shotc.ir.path import PathIR
 from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
-from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.passes.verify import Verify, judge

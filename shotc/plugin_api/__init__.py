@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from shotc.geom.bernstein import Piecewise
     from shotc.ir.keyframes import KeyframeIR
     from shotc.ir.mission import Keyframe, MissionIR
+    from shotc.ir.passes import Outcome, PassContext, Refiner
     from shotc.ir.path import DronePath, Leg, PathIR
     from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
     from shotc.kinds.base import Expansion, Kind, Scene
-    from shotc.passes.base import Outcome, PassContext, Refiner
     from shotc.passes.solver_reports import (
         SolverState,
         fallback,
@@ -47,11 +47,11 @@ _HOMES = {
     "Label": "shotc.diag.model",
     "Leg": "shotc.ir.path",
     "MissionIR": "shotc.ir.mission",
-    "Outcome": "shotc.passes.base",
-    "PassContext": "shotc.passes.base",
+    "Outcome": "shotc.ir.passes",
+    "PassContext": "shotc.ir.passes",
     "PathIR": "shotc.ir.path",
     "Piecewise": "shotc.geom.bernstein",
-    "Refiner": "shotc.passes.base",
+    "Refiner": "shotc.ir.passes",
     "Scene": "shotc.kinds.base",
     "ShotBase": "shotc.spec.shot",
     "SolverState": "shotc.passes.solver_reports",

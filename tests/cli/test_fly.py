@@ -88,7 +88,7 @@ def test_it_judges_the_margin(run: Run, written, margin: float, verdict: str) ->
 
 
 def test_a_plan_without_fleets_is_a_mistake_of_usage(run: Run, written) -> None:
-    from shotc.passes.base import PassContext
+    from shotc.ir.passes import PassContext
     from shotc.passes.verify import Verify
 
     made = Verify().run(orbit_plan().trajectory, PassContext()).value

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from shotc.emit.plan_json import EMITTER
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.verify import Verify
 from shotc.planfile.write import seal
 from tests.cli.conftest import GOOD, Run

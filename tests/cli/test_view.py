@@ -12,7 +12,7 @@ import pytest
 
 from shotc.cli import view
 from shotc.emit.plan_json import EMITTER
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.verify import Verify
 from tests.cli.conftest import Run
 from tests.support.film_plans import orbit_plan

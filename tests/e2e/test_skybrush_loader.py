@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shotc.emit.skyc import EMITTER
 from shotc.geom.bernstein import Array
+from shotc.show.emit.skyc import EMITTER
 from tests.e2e.conftest import ROOT
 from tests.support import csv_tables, show_flights, skyc_reader
 from tests.support.command import run

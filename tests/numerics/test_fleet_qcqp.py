@@ -9,8 +9,8 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import differences, knots, places
 from shotc.ir.limits import Limits
-from shotc.solvers import fleet_qcqp
-from shotc.solvers.fleet_qcqp import Bounds, bounded, deviation, overdraft
+from shotc.show.solvers import qcqp as fleet_qcqp
+from shotc.show.solvers.qcqp import Bounds, bounded, deviation, overdraft
 
 LIMITS = Limits(3.5, 2.5, 1.5, 2.0, 8.0, 1.0, 1.0)
 

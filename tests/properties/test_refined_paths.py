@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.verify import Verify
 from tests.support.bad_refiners import PASS, ROUND, bumped, path, refine, returns

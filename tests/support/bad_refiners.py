@@ -9,8 +9,8 @@ import numpy as np
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import Leg, PathIR
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import RefinePath, Seat
 
 MISSION = """\

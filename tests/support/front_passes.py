@@ -8,8 +8,8 @@ from pathlib import Path
 from shotc.diag.model import Diagnostic
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
+from shotc.ir.passes import PassContext
 from shotc.kinds.base import Kind
-from shotc.passes.base import PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.passes.resolve import Resolve
 from shotc.spec.load import LoadedMission, load

@@ -11,8 +11,8 @@ from shotc.geom.solids import Cylinder, Prism, Solid, distance
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Target, Zone
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.solve_path_qp import SolvePathQp
 from tests.support.film_plans import orbit_mission
 from tests.support.records import replace

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 REFINER = """
-from shotc.passes.base import Outcome
+from shotc.ir.passes import Outcome
 
 class Made:
     name, summary, api = {name!r}, "made for a test", 1

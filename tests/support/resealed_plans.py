@@ -3,7 +3,7 @@
 import json
 from typing import Any
 
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.verify import judge
 from shotc.planfile.codec import encode
 from shotc.planfile.read import read_plan

@@ -9,10 +9,10 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Limits, Timing
 from shotc.ir.mission import GeoOrigin, MissionIR, Rules
 from shotc.ir.origin import OriginMap
+from shotc.ir.passes import PassContext
 from shotc.ir.phases import Phase
 from shotc.ir.show import Apart, Display, Fleet, Picture, Sphere, Torus
 from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
-from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
 
 CONTEXT = PassContext()

@@ -6,8 +6,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import MissionIR, Zone
+from shotc.ir.passes import PassContext
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace

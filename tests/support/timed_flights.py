@@ -7,9 +7,9 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
 from shotc.ir.mission import MissionIR
+from shotc.ir.passes import PassContext
 from shotc.ir.path import Leg, PathIR
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from tests.support.timing_paths import (
     HFOV,

@@ -7,7 +7,7 @@ import pytest
 
 from shotc import plugins
 from shotc.diag.model import Diagnostic
-from shotc.passes.base import Outcome, PassContext
+from shotc.ir.passes import Outcome, PassContext
 from shotc.passes.refine_path import Seat
 from shotc.pipeline import FRONT, PASS_NAMES, ROUTES, VERIFY, Setting, passes_of, run
 

@@ -22,8 +22,8 @@ from shotc_casadi.timeout import TimedOut
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
+from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, TimedLeg
-from shotc.passes.base import PassContext
 from shotc.plugin_api.refiner import ideal_places, restrict, surroundings
 
 RUN = """\

@@ -11,9 +11,9 @@ from shotc_casadi import company
 from shotc_casadi.refiner import OURS
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.ir.passes import PassContext
 from shotc.ir.path import PathIR, filmed
 from shotc.ir.trajectory import VerifiedIR
-from shotc.passes.base import PassContext
 from shotc.passes.refine_path.settle import same
 
 ALONE = (Path(__file__).parents[3] / "specs/tower-fly-past.yaml").read_text()

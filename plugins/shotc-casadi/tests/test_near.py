@@ -15,8 +15,8 @@ from shotc_casadi.clock.several import WHOLE
 from shotc_casadi.clock.shown import held_whole, shown
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.ir.passes import PassContext
 from shotc.ir.preference import MOST_MOVED
-from shotc.passes.base import PassContext
 from shotc.plugin_api.refiner import ideal_places
 
 MISSION = """\

@@ -14,7 +14,7 @@ from shotc_casadi.rounds import ROUNDS, SOLVERS
 
 from shotc import plugins
 from shotc.diag.registry import has_errors
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.plugin_api.refiner import NoTransit, rejoined
 from tests.support.bad_refiners import PASS, ROUND, leg, path

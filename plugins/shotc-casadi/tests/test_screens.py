@@ -16,7 +16,7 @@ from shotc_casadi.clock.shown import past_what_hides, shown
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Prism, box
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 
 MISSION = """\
 shotc: 1

@@ -20,8 +20,8 @@ from shotc_casadi.clock.shown import no_less, shown
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom import viewpoint
 from shotc.ir.framed import lens_of
+from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
-from shotc.passes.base import PassContext
 from shotc.plugin_api.refiner import restrict, surroundings
 from tests.experiments.faces import MISSION, drawn
 

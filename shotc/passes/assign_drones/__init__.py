@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.passes import Outcome, PassContext
 from shotc.kinds.base import Kind
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.names import AUTO, nobody
 from shotc.spec.load import LoadedMission
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.passes import PassContext
 from shotc.kinds.base import Kind
-from shotc.passes.base import PassContext
 from shotc.passes.resolve import Resolve
 from shotc.passes.resolve.motion import least_shot, least_travel
 from shotc.passes.resolve.names import AUTO

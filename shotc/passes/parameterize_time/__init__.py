@@ -16,9 +16,9 @@ from typing import ClassVar
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import concatenate, lift_off
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.parameterize_time.explain.binding import binding
 from shotc.passes.parameterize_time.explain.times import (
     Remedies,

@@ -15,7 +15,7 @@ from shotc.ir.flown_order import flown_order
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.base import Outcome, PassContext
+from shotc.ir.passes import Outcome, PassContext
 from shotc.passes.place_keyframes.turns import while_following
 from shotc.planning.framing.placing import Unmet, place_shot
 

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.plugin_faults import one_line
 from shotc.diag.registry import registry, severity_of
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import PathIR
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path.child import Failed, TooSlow, refined_within
 from shotc.passes.refine_path.finding import Fault, Finding, own, tell
 from shotc.passes.refine_path.seat import Seat

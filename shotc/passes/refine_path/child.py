@@ -15,8 +15,8 @@ from importlib.metadata import EntryPoint
 from typing import Any, BinaryIO, NamedTuple
 
 from shotc.diag.plugin_faults import one_line
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import Deviation, DronePath, PathIR, TimedPath
-from shotc.passes.base import Outcome, PassContext
 
 _START = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); "

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.passes import Outcome, PassContext, Refiner
 from shotc.ir.path import PathIR
-from shotc.passes.base import Outcome, PassContext, Refiner
 
 
 @dataclass(frozen=True, slots=True)

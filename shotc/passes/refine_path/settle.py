@@ -10,8 +10,8 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.plugin_faults import one_line
+from shotc.ir.passes import Outcome
 from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg, TimedPath, X, Y, Z, filmed
-from shotc.passes.base import Outcome
 from shotc.passes.refine_path.ask import Answer
 from shotc.passes.refine_path.clocked import on_clock
 from shotc.passes.refine_path.finding import Fault, Finding, tell

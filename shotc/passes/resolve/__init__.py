@@ -12,9 +12,9 @@ from typing import ClassVar, Final, NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
 from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, TransitClearance, Zone
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.resolve.deferred import deferred_features
 from shotc.passes.resolve.earth import check_earth, geo_origin
 from shotc.passes.resolve.files import Ground, Reader, match_files

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
-from shotc.passes.resolve.obstacles import ROUNDING, obstacles_of
+from shotc.planning.clearances import ROUNDING, obstacles_of
 from shotc.planning.framing.placing import place_shot
 
 STEP = 1.0  # metres between the values that are tried

@@ -16,7 +16,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
+from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of
 from shotc.rounding import at_least
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
-from shotc.passes.resolve.obstacles import NUDGE, ROUNDING, Obstacle, move, obstacles_of, outward
+from shotc.planning.clearances import NUDGE, ROUNDING, Obstacle, move, obstacles_of, outward
 from shotc.rounding import at_least
 
 ROUND = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)

@@ -17,8 +17,8 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot, Target
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.geometry import blocked, too_low
-from shotc.passes.resolve.obstacles import free_place, move, obstacles_of
 from shotc.passes.resolve.timing import SLACK, too_long
+from shotc.planning.clearances import free_place, move, obstacles_of
 from shotc.planning.framing.moments import moments
 from shotc.rounding import at_least
 

@@ -7,7 +7,7 @@ from math import dist
 
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_place, move, obstacles_of, outward
+from shotc.planning.clearances import ROUNDING, Obstacle, free_place, move, obstacles_of, outward
 from shotc.planning.framing.placing import place_shot
 
 STEP = 1.1  # times the distance to the target, from one place that is tried to the next

@@ -9,7 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.solids import point
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.passes.resolve.names import AUTO
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, free_move
+from shotc.planning.clearances import ROUNDING, Obstacle, free_move
 from shotc.spec.mission import MissionSpec
 
 

@@ -18,7 +18,7 @@ from shotc.ir.begins import first_start
 from shotc.ir.mission import Drone, MissionIR, Target
 from shotc.passes.resolve.home import ROUND, stands_free
 from shotc.passes.resolve.names import AUTO
-from shotc.passes.resolve.obstacles import move, outward
+from shotc.planning.clearances import move, outward
 from shotc.rounding import at_least
 
 ROUNDING = 1e-6  # metres or seconds

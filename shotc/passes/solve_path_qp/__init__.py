@@ -18,9 +18,9 @@ from shotc.geom.corridor import Room
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.place_keyframes.keyed import misplaced
 from shotc.passes.solve_path_qp.explain.on_clock import left_places, stopped_on_clock
 from shotc.passes.solve_path_qp.explain.path import (

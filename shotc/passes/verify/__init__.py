@@ -16,8 +16,8 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.course import course
 from shotc.passes.verify.framing import framing

@@ -10,9 +10,9 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
+from shotc.ir.passes import PassContext
 from shotc.ir.source import MissionSource
 from shotc.ir.trajectory import Claim, VerifiedIR
-from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
 from shotc.passes.verify.advice import REPLAN
 from shotc.passes.verify.asked import Difference, differences, source_differences

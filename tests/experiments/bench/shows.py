@@ -84,7 +84,7 @@ def splines() -> None:
     """Print how long the programme of Sec. IV takes a drone, beside cvxpy on the same data."""
     import numpy as np
 
-    from shotc.solvers.fleet_qcqp import Bounds, bounded, deviation
+    from shotc.show.solvers.qcqp import Bounds, bounded, deviation
 
     rng = np.random.default_rng(1)
     walks = np.cumsum(rng.normal(0.0, STRIDE, (WALKERS, FRAMES, 3)), axis=1)
@@ -120,7 +120,7 @@ def _programme(breaks: Array, count: int) -> Callable[[Array], Array]:
     import numpy as np
 
     from shotc.geom.fleet_spline import differences
-    from shotc.solvers.fleet_qcqp import deviation
+    from shotc.show.solvers.qcqp import deviation
 
     asked, found = cp.Parameter((count, 3)), cp.Variable((count, 3))
     root = np.linalg.cholesky(deviation(breaks) + 1e-12 * np.eye(count)).T

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.centroids import centroids, view_plane, viewpoint_centroids
+from shotc.show.geom.centroids import centroids, view_plane, viewpoint_centroids
 from tests.experiments.papers import bodies
 from tests.experiments.papers.report import Table
 from tests.support.goal_costs import coverage

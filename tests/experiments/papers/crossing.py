@@ -14,15 +14,15 @@ import numpy as np
 
 from shotc.geom.apart import spacing, stretch
 from shotc.geom.bernstein import Array
-from shotc.geom.centroids import centroids
-from shotc.geom.push_apart import nearest_pair
 from shotc.geom.separation import closest
 from shotc.ir.show import Apart
-from shotc.simulation.avoid import Avoidance
-from shotc.simulation.fly import PERIOD, Conditions, Flown, fly
-from shotc.simulation.near import nearest
-from shotc.simulation.vehicle import Gusts, Vehicle
-from shotc.solvers.fleet_match import matched
+from shotc.show.geom.centroids import centroids
+from shotc.show.geom.push_apart import nearest_pair
+from shotc.show.simulation.avoid import Avoidance
+from shotc.show.simulation.fly import PERIOD, Conditions, Flown, fly
+from shotc.show.simulation.near import nearest
+from shotc.show.simulation.vehicle import Gusts, Vehicle
+from shotc.show.solvers.match import matched
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED
 from tests.experiments.papers.report import Table

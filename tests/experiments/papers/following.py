@@ -10,15 +10,15 @@ from matplotlib.figure import Figure
 
 from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
-from shotc.geom.centroids import centroids, viewpoint_centroids
 from shotc.geom.fleet_spline import places
 from shotc.geom.separation import closest
 from shotc.ir.show import Apart
-from shotc.simulation.fly import Conditions, Flown, fly
-from shotc.simulation.follow import Gains
-from shotc.simulation.near import nearest
-from shotc.simulation.vehicle import Gusts
-from shotc.solvers.fleet_match import matched
+from shotc.show.geom.centroids import centroids, viewpoint_centroids
+from shotc.show.simulation.fly import Conditions, Flown, fly
+from shotc.show.simulation.follow import Gains
+from shotc.show.simulation.near import nearest
+from shotc.show.simulation.vehicle import Gusts
+from shotc.show.solvers.match import matched
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED, Limited, control_points
 from tests.experiments.papers.plots import png

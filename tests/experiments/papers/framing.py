@@ -11,9 +11,9 @@ import numpy as np
 
 from shotc import plugins
 from shotc.diag.registry import has_errors
+from shotc.ir.passes import PassContext
 from shotc.ir.path import Leg, PathIR
 from shotc.ir.trajectory import VerifiedIR
-from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.passes.verify import Verify

@@ -19,8 +19,8 @@ from shotc.geom.camera import aim_at, heading_of
 from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
+from shotc.ir.passes import PassContext
 from shotc.ir.path import PathIR
-from shotc.passes.base import PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.passes.solve_path_qp import SolvePathQp
 from shotc.pipeline import run

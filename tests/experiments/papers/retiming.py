@@ -11,8 +11,8 @@ from statistics import fmean, median
 import numpy as np
 
 from shotc import plugins
+from shotc.ir.passes import PassContext
 from shotc.ir.path import Leg, PathIR
-from shotc.passes.base import PassContext
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.pipeline import run
 from shotc.planning.timing.grid import lay_grid, rough_profile, sample, split_cells

@@ -10,7 +10,7 @@ import pytest
 from shotc.comparison.score import flown_shots, score, squared_jerk, total
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.comparison import Trace
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.verify import judge
 from tests.support.film_plans import orbit_plan
 

@@ -9,17 +9,17 @@ import pytest
 from PIL import Image
 
 from shotc.emit.audience import ASPECT, audience
-from shotc.emit.contact_sheet import EMITTER
-from shotc.emit.contact_sheet.moments import MOST, boards, lights
-from shotc.emit.contact_sheet.night import night
-from shotc.emit.contact_sheet.page import MAP, MARGIN
-from shotc.emit.contact_sheet.stands import anchors, outlines
 from shotc.emit.palette import QUIET
 from shotc.emit.storyboard.canvas import Box
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Shown
 from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.contact_sheet import EMITTER
+from shotc.show.emit.contact_sheet.moments import MOST, boards, lights
+from shotc.show.emit.contact_sheet.night import night
+from shotc.show.emit.contact_sheet.page import MAP, MARGIN
+from shotc.show.emit.contact_sheet.stands import anchors, outlines
 from tests.support import show_flights
 from tests.support.film_plans import orbit_plan
 from tests.support.page_texts import texts

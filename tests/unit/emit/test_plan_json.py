@@ -16,10 +16,10 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Zone
 from shotc.ir.origin import OriginMap
+from shotc.ir.passes import PassContext
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.lowering import lower_kept
-from shotc.passes.base import PassContext
 from shotc.passes.verify import Verify
 from shotc.passes.verify.file import verify_file
 from shotc.planfile import layout

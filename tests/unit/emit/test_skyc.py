@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 from shotc.emit.audience import ASPECT, audience
-from shotc.emit.skyc import EMITTER
-from shotc.emit.skyc.show import outside, program
 from shotc.geom.fleet_spline import places
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.sampling import light_colors
 from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.skyc import EMITTER
+from shotc.show.emit.skyc.show import outside, program
 from tests.support import show_flights, skyc_reader
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
@@ -182,7 +182,7 @@ def test_without_an_origin_the_show_has_no_place() -> None:
 
 
 def test_a_show_may_be_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shotc.emit.skyc.MOST", 59)
+    monkeypatch.setattr("shotc.show.emit.skyc.MOST", 59)
     emission = EMITTER.emit(show_flights.plan())
     assert emission.artifacts == ()
     assert [d.code for d in emission.diagnostics] == ["E112"]

@@ -7,12 +7,12 @@ import pytest
 
 from shotc.geom.apart import stretch
 from shotc.geom.fleet_spline import differences, places
-from shotc.geom.push_apart import nearest_pair
 from shotc.geom.separation import closest
 from shotc.ir.limits import Limits
-from shotc.simulation.fly import Conditions, fly
-from shotc.simulation.vehicle import Vehicle
-from shotc.solvers.fleet_qcqp import Bounds, bounded, deviation
+from shotc.show.geom.push_apart import nearest_pair
+from shotc.show.simulation.fly import Conditions, fly
+from shotc.show.simulation.vehicle import Vehicle
+from shotc.show.solvers.qcqp import Bounds, bounded, deviation
 from tests.experiments.papers import bodies, coverage, crossing, following, limited
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
-from shotc.geom.centroids import centroids, halved, view_plane, viewpoint_centroids
+from shotc.show.geom.centroids import centroids, halved, view_plane, viewpoint_centroids
 from tests.support.goal_costs import coverage
 
 EYE = np.array([80.0, 0.0, 0.0])

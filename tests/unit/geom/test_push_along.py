@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.distance import cdist, pdist
 
 from shotc.geom.bernstein import Array
-from shotc.geom.push_along import push_along, thinned
+from shotc.show.geom.push_along import push_along, thinned
 
 GRAIN = 0.02
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.spatial.distance import pdist
 
 from shotc.geom.bernstein import Array
-from shotc.geom.push_apart import SLACK, nearest_pair, push_apart
+from shotc.show.geom.push_apart import SLACK, nearest_pair, push_apart
 
 
 def anywhere(_: Array, after: Array) -> Array:

@@ -9,7 +9,7 @@ import pytest
 
 from shotc import api
 from shotc.emit.plan_json import EMITTER
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.verify import Verify
 from tests.support.film_plans import orbit_plan
 from tests.support.resealed_plans import Document, resealed

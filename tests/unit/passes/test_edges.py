@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.passes.place_goals.edges import along_edges
-from shotc.passes.place_goals.flat import chain, closed
+from shotc.show.goals.edges import along_edges
+from shotc.show.goals.flat import chain, closed
 
 SQUARE = np.array([[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]])
 ONES = np.ones(2)

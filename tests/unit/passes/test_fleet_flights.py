@@ -12,13 +12,13 @@ from shotc.geom.fleet_spline import differences, places
 from shotc.geom.separation import closest
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.limits import Timing
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.show import Apart
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.assign_goals import AssignGoals
-from shotc.passes.base import Outcome, PassContext
-from shotc.passes.bound_splines import BoundSplines
-from shotc.passes.keep_apart import KeepApart
-from shotc.solvers.fleet_qcqp import Bounds, overdraft
+from shotc.show.assignment import AssignGoals
+from shotc.show.separation import KeepApart
+from shotc.show.solvers.qcqp import Bounds, overdraft
+from shotc.show.splines import BoundSplines
 from tests.support.fleet_scenes import (
     APART,
     LIMITS,
@@ -225,9 +225,7 @@ def test_a_picture_that_limits_bend_is_told(period: float, warned: bool) -> None
 @pytest.mark.parametrize("shape", ["ellipsoid", "cylinder"])
 def test_drones_matched_at_random_are_pushed_apart(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(5)
-    monkeypatch.setattr(
-        "shotc.passes.assign_goals.order.matched", lambda starts, _: rng.permutation(len(starts))
-    )
+    monkeypatch.setattr("shotc.show.assignment.order.matched", lambda starts, _: rng.permutation(len(starts)))
     apart = Apart(shape, 0.9, 1.4, 0.1)  # type: ignore[arg-type]
     points = [lattice(15, [0, 0, 40], 2.2, norm, apart) for norm in (2, np.inf)]
     shown = display(picture(transition=14.0), picture(transition=14.0), pace=0.5)

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from shotc import api
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.verify import judge
 from tests.support.film_plans import orbit_plan
 from tests.support.kinds_plan import kinds_plan

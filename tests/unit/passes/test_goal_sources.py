@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from shotc.ir.show import Box, Drawing, Lettering, Sphere, Torus
-from shotc.passes.place_goals.body import SourceFault
-from shotc.passes.place_goals.drawing import drawing_body
-from shotc.passes.place_goals.flat import FlatBody
-from shotc.passes.place_goals.lettering import lettering_body
-from shotc.passes.place_goals.solids import solid_body
+from shotc.show.goals.body import SourceFault
+from shotc.show.goals.drawing import drawing_body
+from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.lettering import lettering_body
+from shotc.show.goals.solids import solid_body
 
 HERE = (1.0, 2.0, 40.0)
 

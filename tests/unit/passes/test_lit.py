@@ -14,11 +14,11 @@ from shotc.geom.solids import box
 from shotc.ir.fleet import Frame
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import Zone
+from shotc.ir.passes import PassContext
 from shotc.ir.show import Apart, Drawing, Lettering, Source
-from shotc.passes.base import PassContext
-from shotc.passes.place_goals import PlaceGoals
-from shotc.passes.place_goals.flat import FlatBody
-from shotc.passes.place_goals.sources import bodies_of
+from shotc.show.goals import PlaceGoals
+from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.sources import bodies_of
 from tests.support.display_missions import display, fleet, picture, show
 
 CENTRE = (0.0, 20.0, 40.0)

@@ -9,8 +9,8 @@ import pytest
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.limits import Limits
+from shotc.ir.passes import PassContext
 from shotc.ir.path import Stop
-from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.planning.timing import move as move_module
 from shotc.solvers.conic import Status

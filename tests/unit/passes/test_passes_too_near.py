@@ -12,15 +12,15 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import Nearest, closest
 from shotc.ir.fleet import GoalIR
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.show import Apart
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.assign_goals import AssignGoals, order
-from shotc.passes.base import Outcome, PassContext
-from shotc.passes.bound_splines import BoundSplines
-from shotc.passes.keep_apart import KeepApart
-from shotc.passes.keep_apart.faults import Tried, too_near
-from shotc.passes.keep_apart.longer import Stretch
-from shotc.solvers.fleet_qcqp import Bounds, overdraft
+from shotc.show.assignment import AssignGoals, order
+from shotc.show.separation import KeepApart
+from shotc.show.separation.faults import Tried, too_near
+from shotc.show.separation.longer import Stretch
+from shotc.show.solvers.qcqp import Bounds, overdraft
+from shotc.show.splines import BoundSplines
 from tests.support.fleet_scenes import LIMITS, animation, display, fleet, goals, morph, picture
 
 RADIUS = 4.0

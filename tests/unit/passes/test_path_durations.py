@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shotc.ir.limits import Timing
-from shotc.passes.base import PassContext
+from shotc.ir.passes import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from tests.support.path_scenes import (
     free,

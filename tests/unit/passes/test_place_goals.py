@@ -17,9 +17,9 @@ from shotc.geom.solids import Cylinder, box
 from shotc.ir.fleet import GoalIR
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import Zone
+from shotc.ir.passes import PassContext
 from shotc.ir.show import Apart, Box, Lettering, Model, Sphere, Torus
-from shotc.passes.base import PassContext
-from shotc.passes.place_goals import PlaceGoals
+from shotc.show.goals import PlaceGoals
 from tests.support.display_missions import APART, display, fleet, picture, show
 from tests.support.front_passes import placed
 from tests.support.meshes import box_mesh, ply, sphere_mesh

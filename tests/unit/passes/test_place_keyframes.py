@@ -17,7 +17,7 @@ from shotc.ir.flown_order import flown_order
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
 from shotc.ir.limits import Timing, Vec3
 from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target
-from shotc.passes.base import Outcome, PassContext
+from shotc.ir.passes import Outcome, PassContext
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
 from tests.support.film_plans import orbit_mission

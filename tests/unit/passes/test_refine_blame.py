@@ -6,7 +6,7 @@ import pytest
 
 from shotc import api, plugins
 from shotc.diag.model import Diagnostic
-from shotc.passes.base import Outcome
+from shotc.ir.passes import Outcome
 from tests.support.bad_refiners import PASS, ROUND, Odd, along, bumped, text
 from tests.support.remedies.apply import remedies
 

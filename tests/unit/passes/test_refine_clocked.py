@@ -9,8 +9,8 @@ import pytest
 
 from shotc import api, plugins
 from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.ir.passes import Outcome
 from shotc.ir.path import BODY_YAW, CAM_PITCH, PathIR, TimedLeg, TimedPath, X, Y, Z
-from shotc.passes.base import Outcome
 from tests.support.bad_refiners import Odd, along, refine, returns
 from tests.support.records import replace
 

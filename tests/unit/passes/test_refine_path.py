@@ -10,8 +10,8 @@ import pytest
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import REFINER, RefinePath, Seat, Unusable
 from tests.support.bad_refiners import PASS, ROUND, along, bumped, leg, nan, path, refine, returns, with_leg
 from tests.support.records import replace

@@ -10,8 +10,8 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedPath, X, Y, Z, filmed
-from shotc.passes.base import Outcome, PassContext
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.passes.refine_path.account import Account, account
 from shotc.passes.refine_path.settle import same

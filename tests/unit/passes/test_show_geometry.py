@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Apart, Box, Lettering, Model, Picture, Source, Sphere, Torus
-from shotc.passes.resolve.show.fit import most_drones, spacing
-from shotc.passes.resolve.show.pads import nearest_pair
-from shotc.passes.resolve.show.shape import balls, bounds, depth_in, highest, lowest
+from shotc.show.geom.fit import most_drones, spacing
+from shotc.show.geom.pads import nearest_pair
+from shotc.show.geom.shape import balls, bounds, depth_in, highest, lowest
 
 coordinates = st.floats(-8, 8).map(lambda x: round(x, 3))
 aparts = st.builds(

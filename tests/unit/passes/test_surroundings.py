@@ -10,8 +10,8 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import restrict, subdivide
+from shotc.ir.passes import PassContext
 from shotc.ir.path import PathIR, TimedLeg
-from shotc.passes.base import PassContext
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.planning.clock.aims import Looker
 from shotc.planning.clock.flights import flights

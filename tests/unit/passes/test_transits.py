@@ -10,9 +10,9 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.convex import distances
 from shotc.ir.bodies import cylinder, moved
 from shotc.ir.mission import MissionIR
+from shotc.ir.passes import PassContext
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.ir.transits import Way, ways
-from shotc.passes.base import PassContext
 from shotc.passes.verify import judge
 from tests.support.records import replace
 

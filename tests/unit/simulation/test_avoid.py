@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from shotc.ir.show import Apart
-from shotc.simulation.avoid import Avoidance
-from shotc.simulation.near import nearest
+from shotc.show.simulation.avoid import Avoidance
+from shotc.show.simulation.near import nearest
 
 pytest.importorskip("rvo23d")
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from shotc.geom.fleet_spline import places
-from shotc.simulation.fly import Conditions, fly
-from shotc.simulation.follow import Gains, Reference, preferred
-from shotc.simulation.vehicle import Gusts
+from shotc.show.simulation.fly import Conditions, fly
+from shotc.show.simulation.follow import Gains, Reference, preferred
+from shotc.show.simulation.vehicle import Gusts
 
 
 def spline(points, repeats=1):

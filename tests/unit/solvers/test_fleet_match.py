@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Array
-from shotc.solvers import fleet_match
-from shotc.solvers.fleet_match import crossing, matched
+from shotc.show.solvers import match as fleet_match
+from shotc.show.solvers.match import crossing, matched
 
 
 def formation(rng: np.random.Generator, count: int) -> Array:

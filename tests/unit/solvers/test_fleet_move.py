@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.solvers.fleet_move import least_piece, least_pieces
+from shotc.show.solvers.move import least_piece, least_pieces
 from tests.support.fleet_scenes import LIMITS
 
 

@@ -12,10 +12,10 @@ from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.passes.resolve.motion import least_travel
-from shotc.passes.resolve.show.places import key_of, word_of
-from shotc.passes.resolve.show.shape import bounds
 from shotc.passes.resolve.timing import EARLIEST, SHORTEST
 from shotc.rounding import at_least
+from shotc.show.geom.shape import bounds
+from shotc.show.labels import key_of, word_of
 
 SLACK = 1e-6  # seconds of rounding
 

@@ -15,7 +15,7 @@ from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.svg import svg_fault
 from shotc.passes.resolve.files import NOT_KEPT, read_file
-from shotc.passes.resolve.show.places import key_of
+from shotc.show.labels import key_of
 from shotc.source.limits import MAX_TABLE_BYTES
 
 LARGEST_MESH = 64_000_000  # bytes of one mesh or font

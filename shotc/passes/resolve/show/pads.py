@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
-from itertools import combinations, product
-from math import dist, floor, hypot, pi, sin
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from math import dist
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing
@@ -15,21 +13,13 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet
 from shotc.passes.resolve.home import take_off_room
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
+from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of
 from shotc.rounding import at_least, up
+from shotc.show.geom.pads import first_nearer, nearest_pair
+from shotc.show.labels import wider
 
-_AROUND = tuple(product((-1, 0, 1), repeat=3))
 UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
 FARTHEST, MANY = 60, 400  # metres up to which a free place is looked for, and drones above which none is
-Cell = tuple[int, int, int]
-
-
-class Pair(NamedTuple):
-    """Two pads; share : of the separation that is between them, 1 where it is just kept."""
-
-    one: int
-    other: int
-    share: float
 
 
 def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
@@ -46,50 +36,6 @@ def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
         near = _too_near(mission, one, other)
         if near is not None:
             yield near
-
-
-def nearest_pair(pads: Sequence[Vec3], apart: Apart) -> Pair | None:
-    """Return the two pads nearest to each other as the fleet measures it, if any are nearer than they may.
-
-    Points go one by one into cells as wide as the least distance so far; the cells are laid anew where a
-    nearer pair is found, which is seldom (Golin et al., randomized data structures for closest pairs).
-    """
-    points = [(x / apart.across, y / apart.across, z / apart.upright) for x, y, z in pads]
-    away = _measure(apart)
-    best = Pair(0, 0, 1.0 - ROUNDING)
-    cells: dict[Cell, list[int]] = defaultdict(list)
-    order = sorted(range(len(points)), key=lambda i: i * 2654435761 % 2**32)  # no row after row
-    for done, i in enumerate(order):
-        near = [(away(points[i], points[j]), j) for j in _around(cells, points[i], best.share)]
-        share, j = min(near, default=(1.0, 0))
-        if share < best.share:
-            best = Pair(min(i, j), max(i, j), share)
-            if share <= ROUNDING:
-                return best
-            cells = defaultdict(list)
-            for k in order[: done + 1]:
-                cells[_cell(points[k], share)].append(k)
-        else:
-            cells[_cell(points[i], best.share)].append(i)
-    return best if best.one != best.other else None
-
-
-def _measure(apart: Apart) -> Callable[[Vec3, Vec3], float]:
-    """Return the distance in shares of the separation, of points in units of it."""
-    if apart.shape == "ellipsoid":
-        return dist
-    return lambda p, q: max(hypot(p[0] - q[0], p[1] - q[1]), abs(p[2] - q[2]))
-
-
-def _cell(p: Vec3, width: float) -> Cell:
-    return (floor(p[0] / width), floor(p[1] / width), floor(p[2] / width))
-
-
-def _around(cells: dict[Cell, list[int]], p: Vec3, width: float) -> Iterator[int]:
-    """Yield the points in the cells at and about ``p``."""
-    a, b, c = _cell(p, width)
-    for i, j, k in _AROUND:
-        yield from cells.get((a + i, b + j, c + k), ())
 
 
 def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
@@ -116,17 +62,6 @@ def _asked(apart: Apart) -> str:
     return f"{apart.across:.2f} m side by side{margin}"
 
 
-def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:
-    """Say how the layout has its pads so far apart, metres."""
-    path = (*fleet.path, "layout")
-    if (*path, "grid") in mission.origins.keys:
-        return f"give the grid a spacing of {at_least(least)} m or more"
-    if (*path, "circle") in mission.origins.keys:
-        radius = least / (2 * sin(pi / len(fleet.pads)))
-        return f"give the circle a radius of {at_least(radius)} m or more"
-    return f"put the pads {at_least(least)} m or more apart"
-
-
 def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
     """Return a label on the number, or the file, that says how near to each other the pads are."""
     path = (*fleet.path, "layout")
@@ -149,20 +84,15 @@ def _too_near(mission: MissionIR, one: Fleet, other: Fleet, *, advise: bool = Tr
     advise : whether to look for another place
     """
     apart = max((one.apart, other.apart), key=lambda a: a.across)
-    reach = apart.across
-    cells: dict[Cell, list[int]] = defaultdict(list)
-    for i, pad in enumerate(one.pads):
-        cells[_cell(pad, reach)].append(i)
-    for j, pad in enumerate(other.pads):
-        near = min(((dist(one.pads[i], pad), i) for i in _around(cells, pad, reach)), default=(reach, 0))
-        if near[0] < reach - ROUNDING:
-            message = f"the pads of fleets `{one.name}` and `{other.name}` are too near to each other"
-            labels = (_place(mission, other), _place(mission, one, "the other fleet"))
-            which = f"pad {near[1] + 1} of `{one.name}` and pad {j + 1} of `{other.name}`"
-            note = f"{which} are {near[0]:.2f} m apart; {_asked(apart)} is asked for"
-            help_ = _moved(mission, one, other) if advise else ""
-            return Diagnostic("D005", message, labels, (note,), help_)
-    return None
+    near = first_nearer(one.pads, other.pads, apart.across)
+    if near is None:
+        return None
+    message = f"the pads of fleets `{one.name}` and `{other.name}` are too near to each other"
+    labels = (_place(mission, other), _place(mission, one, "the other fleet"))
+    which = f"pad {near.one + 1} of `{one.name}` and pad {near.other + 1} of `{other.name}`"
+    note = f"{which} are {near.share * apart.across:.2f} m apart; {_asked(apart)} is asked for"
+    help_ = _moved(mission, one, other) if advise else ""
+    return Diagnostic("D005", message, labels, (note,), help_)
 
 
 def _moved(mission: MissionIR, one: Fleet, other: Fleet) -> str:

@@ -11,12 +11,12 @@ from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
-from shotc.passes.resolve.obstacles import ROUNDING, Obstacle, obstacles_of
-from shotc.passes.resolve.show.fit import MOST_DARK, growth, most_drones
-from shotc.passes.resolve.show.places import centre_label, key_of, word_of
-from shotc.passes.resolve.show.shape import Ball, balls, depth_in, highest, lowest
-from shotc.passes.resolve.show.sizes import enlarged, resized, size_words
+from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of
 from shotc.rounding import at_least, down
+from shotc.show.geom.fit import MOST_DARK, growth, most_drones
+from shotc.show.geom.shape import Ball, balls, depth_in, highest, lowest
+from shotc.show.geom.sizes import enlarged, resized, size_words
+from shotc.show.labels import centre_label, key_of, word_of
 
 FARTHEST, MANY = (
     60,

@@ -1,0 +1,6 @@
+"""Drone shows: from what displays draw to flights of a fleet that keep apart, their files and a rehearsal.
+
+goals, assignment, splines, separation : the passes of the route, in its order
+geom, solvers : what they alone need
+emit : the files of shows; simulation : what ``shotc fly`` rehearses
+"""

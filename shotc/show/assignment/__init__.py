@@ -1,0 +1,58 @@
+"""assign-goals: GoalIR to ShowIR.
+
+Takes the goal sets of every fleet. Gives each fleet a flight on one clock: which drone goes to which goal,
+from frame to frame, and when; straight up from the pads, straight from picture to picture, back over the
+pads, straight down. Every move keeps every limit by its own control points and takes the time that is asked
+for, or what the pace of the limits allows. The frames of an animation are the control points of a spline of
+their period (*display*, Sec. IV), which may break limits yet: ``bound-splines`` mends that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
+from shotc.ir.passes import Outcome, PassContext
+from shotc.show.assignment.director import Director
+from shotc.show.assignment.order import Cast, cast_of
+
+
+@dataclass(frozen=True, slots=True)
+class AssignGoals:
+    """The pass; it has no options."""
+
+    name: ClassVar[str] = "assign-goals"
+
+    def run(self, ir: GoalIR, ctx: PassContext) -> Outcome[ShowIR]:
+        """Give every drone its goals and every fleet its times."""
+        mission = ir.keyframes.mission
+        directors = []
+        for goals in ir.fleets:
+            ctx.progress(f"who goes where in fleet {goals.fleet}")
+            fleet = mission.fleet(goals.fleet)
+            directors.append(Director(mission, fleet, cast_of(fleet, goals)))
+        # A display that waits for one of another fleet comes after it, so the fleets take turns.
+        ends: dict[str, float] = {}
+        while any(director.advance(ends) for director in directors):
+            pass
+        found: list[Diagnostic] = [d for director in directors for d in director.finish()]
+        if has_errors(found):
+            return Outcome(None, tuple(found))
+        fleets = tuple(director.trajectory() for director in directors)
+        stats = tuple(entry for director in directors for entry in _stats(director.cast, director))
+        wanted = tuple(fleet.coef for fleet in fleets)
+        return Outcome(ShowIR(ir, fleets, wanted, (*ir.stats, *stats)), tuple(found))
+
+
+def _stats(cast: Cast, director: Director) -> list[tuple[str, float | str]]:
+    flight: FleetTrajectory = director.trajectory()
+    name = flight.fleet
+    return [
+        (f"fleet {name} drones", float(len(flight.coef))),
+        (f"fleet {name} control points", float(flight.coef.shape[1])),
+        (f"fleet {name} least product", cast.least),
+        (f"fleet {name} time", float(flight.breaks[-1])),
+    ]

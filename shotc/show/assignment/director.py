@@ -1,0 +1,133 @@
+"""When each picture of a fleet stands, and how long every move to it takes."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import PhaseName
+from shotc.ir.show import Display, Fleet, Model, Picture
+from shotc.show.assignment import faults
+from shotc.show.assignment.lights import lights
+from shotc.show.assignment.order import Cast, Scene
+from shotc.show.assignment.score import Score
+from shotc.show.solvers.move import Move, fastest
+
+TINY = 1e-6
+"""A time missed by less is met, seconds."""
+
+
+class Director:
+    """Writes the flight of one fleet, display by display, as far as what they wait for is known."""
+
+    def __init__(self, mission: MissionIR, fleet: Fleet, cast: Cast) -> None:
+        self.mission, self.fleet, self.cast = mission, fleet, cast
+        self.score = Score(cast.pads)
+        self.waited = 0.0
+        self._found: list[Diagnostic] = []
+        self._displays = [
+            (mission.display(name), tuple(scenes))
+            for name, scenes in groupby(cast.scenes, key=lambda scene: scene.frame.display)
+        ]
+        self._done = 0
+
+    def advance(self, ends: dict[str, float]) -> bool:
+        """Write the next displays; tell whether there were any. ends : of the displays so far, added to."""
+        before = self._done
+        while self._done < len(self._displays):
+            display, scenes = self._displays[self._done]
+            after = display.timing.after
+            if after is not None and after not in ends:
+                break
+            self._present(display, scenes, ends.get(after or "", 0.0))
+            ends[display.id] = self.score.clock
+            self._done += 1
+        return self._done > before
+
+    def finish(self) -> list[Diagnostic]:
+        """Bring the fleet home; return what is wrong with its times."""
+        if self._done < len(self._displays):
+            raise ValueError("displays wait for each other in a circle")
+        limits = self.fleet.limits
+        ways: tuple[tuple[PhaseName, Array], ...] = (("return", self.cast.over), ("land", self.cast.ends))
+        for name, places in ways:
+            move = fastest(places - self.score.places, limits, 1.0)
+            self.score.move(places, move.s, move.duration)
+            self.score.phase(name)
+        if not self._found and self.score.clock - self.waited > self.fleet.endurance:
+            self._found.append(faults.too_long(self.mission, self.fleet, self.score.phases, self.waited))
+        return self._found
+
+    def trajectory(self) -> FleetTrajectory:
+        """Return the flight."""
+        score = self.score
+        shown = [
+            (s.start, s.end, scene.colors) for s, scene in zip(score.shown, self.cast.scenes, strict=True)
+        ]
+        dark = (score.phases[0].end, score.phases[-1].start)
+        return score.trajectory(self.fleet.name, lights(dark, shown))
+
+    def _present(self, display: Display, scenes: tuple[Scene, ...], ready: float) -> None:
+        """Write a display and the way to its first picture, which stands when it is to begin."""
+        first, score = display.pictures[scenes[0].frame.picture], self.score
+        here = score.places if self._done else self.cast.above
+        rise = fastest(here - score.places, self.fleet.limits, 1.0)
+        lead = 0.0 if self._done else rise.duration
+        move = fastest(scenes[0].places - here, self.fleet.limits, display.pace)
+        duration = self._duration(first, here, scenes[0].places, move)
+        wait = self._wait(display, score.clock + lead + duration, ready)
+        score.stand(wait)
+        if not self._done:
+            self.waited = wait
+            score.move(here, rise.s, rise.duration)
+            score.phase("takeoff")
+        score.move(scenes[0].places, move.s, duration)
+        score.phase("transit")
+        self._pictures(display, scenes)
+        score.phase("shot", display.id)
+
+    def _wait(self, display: Display, earliest: float, ready: float) -> float:
+        start = display.timing.start
+        if start is None:
+            return max(0.0, ready - earliest)
+        if start < max(earliest, ready) - TINY and not self._found:
+            self._found.append(faults.too_early(self.mission, display, max(earliest, ready)))
+        return max(0.0, start - earliest)
+
+    def _pictures(self, display: Display, scenes: tuple[Scene, ...]) -> None:
+        begins = self.score.clock
+        for number, group in groupby(scenes, key=lambda scene: scene.frame.picture):
+            picture, frames = display.pictures[number], tuple(group)
+            if frames[0] is not scenes[0]:
+                move = fastest(frames[0].places - self.score.places, self.fleet.limits, display.pace)
+                duration = self._duration(picture, self.score.places, frames[0].places, move)
+                self.score.move(frames[0].places, move.s, duration)
+            self._show(display, picture, frames)
+        if self.score.clock <= begins:
+            self._found.append(faults.no_time(self.mission, display))
+
+    def _show(self, display: Display, picture: Picture, frames: tuple[Scene, ...]) -> None:
+        score, times = self.score, [self.score.clock]
+        period = picture.source.period if isinstance(picture.source, Model) else None
+        if len(frames) > 1 and period is not None:
+            times += score.animate([scene.places for scene in frames[1:]], period)
+        score.stand(picture.hold)
+        ends = [*times[:-1], score.clock]
+        for scene, start, end in zip(frames, times, ends, strict=True):
+            score.shown.append(Shown(display.id, scene.frame.picture, scene.frame.index, start, end))
+
+    def _duration(self, picture: Picture, here: Array, there: Array, move: Move) -> float:
+        """Return how long a move takes: as long as is asked for, if that can be."""
+        if picture.transition is None:
+            return move.duration
+        full = fastest(there - here, self.fleet.limits, 1.0)
+        if picture.transition >= full.duration - TINY:
+            return max(picture.transition, full.duration)
+        way = float(np.linalg.norm((there - here)[full.drone]))
+        self._found.append(faults.too_fast(self.mission, self.fleet, picture, full, way))
+        return full.duration

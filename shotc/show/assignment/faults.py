@@ -1,0 +1,84 @@
+"""What is wrong with a fleet's times, as diagnostics: what was asked, what is possible, whom it binds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR
+from shotc.ir.phases import Phase
+from shotc.ir.show import Display, Fleet, Picture, drone_names
+from shotc.rounding import at_least, plain
+from shotc.show.solvers.move import Move
+
+UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3"}
+
+
+def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Move, way: float) -> Diagnostic:
+    """Return D080: a transition is asked to be shorter than the limits allow; way : of whom it binds, m."""
+    origins, name = mission.origins, drone_names(fleet)[least.drone]
+    limit = getattr(fleet.limits, least.limit)
+    shortest = at_least(least.duration)
+    return Diagnostic(
+        "D080",
+        f"the transition is given {plain(picture.transition or 0.0)} s, but {shortest} s is the shortest "
+        "possible",
+        (
+            origins.value((*picture.path, "transition")),
+            origins.value((*fleet.path, "limits", least.limit), "what binds"),
+        ),
+        (
+            f"`{name}` has {way:.1f} m to go, and its {least.limit} is at most {limit:.2f} "
+            f"{UNITS[least.limit]}",
+        ),
+        f"give it `transition: {shortest}`, leave it out to have it as fast as the pace allows, or bring the "
+        "pictures nearer",
+    )
+
+
+def too_early(mission: MissionIR, display: Display, earliest: float) -> Diagnostic:
+    """Return D081: the fleet does not yet stand in its first picture at the display's start."""
+    asked, possible = display.timing.start or 0.0, at_least(earliest)
+    return Diagnostic(
+        "D081",
+        f"display `{display.id}` starts at {plain(asked)} s, but {possible} s is the earliest possible",
+        (mission.origins.value((*display.path, "timing", "start")),),
+        ("before it come take-off and the way to the first picture, or the display before it",),
+        f"give it `start: {possible} s` or later",
+    )
+
+
+def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: float) -> Diagnostic:
+    """Return D082: the flight outlasts the endurance; waited : seconds on the pads, which do not count."""
+    total = phases[-1].end - waited
+    labels = [mission.origins.value((*fleet.path, "endurance"), "the endurance")]
+    longest = sorted((p for p in phases if p.shot is not None), key=lambda p: p.start - p.end)
+    shown = sum(p.end - p.start for p in longest)
+    labels += [
+        mission.origins.key(d.path, "the longest display")
+        for d in mission.displays
+        if longest and d.id == longest[0].shot
+    ]
+    return Diagnostic(
+        "D082",
+        f"the flight of `{fleet.name}` takes {at_least(total)} s, and its endurance is "
+        f"{plain(fleet.endurance)} s",
+        tuple(labels),
+        (f"from lift-off to touch-down, of which {at_least(shown)} s are shown",),
+        f"shorten the show by {at_least(total - fleet.endurance)} s, give its parts to several fleets, or, "
+        f"if the battery has it, write `endurance: {at_least(total)} s`",
+    )
+
+
+def no_time(mission: MissionIR, display: Display) -> Diagnostic:
+    """Return D083: one picture that does not stand."""
+    return Diagnostic(
+        "D083",
+        f"display `{display.id}` takes no time",
+        (
+            mission.origins.key(display.path),
+            mission.origins.value(display.pictures[-1].path, "its one picture"),
+        ),
+        ("it has one picture, which is not held",),
+        "write `hold: 5` in the picture, or how long it is to stand",
+    )

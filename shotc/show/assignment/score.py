@@ -1,0 +1,74 @@
+"""A flight as it is written down: pieces of time and control points, phases, and what is shown when.
+
+Three equal control points in a row are a stop (``geom.fleet_spline``): at the break where they alone count
+everybody stands exactly there. Between two stops the pieces are even, so what happens between them does not
+depend on what is beyond them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.fleet import FleetTrajectory, Lights, Shown
+from shotc.ir.path import PhaseName
+from shotc.ir.phases import Phase
+from shotc.show.assignment.order import DIGITS
+
+
+class Score:
+    """The flight of a fleet while it is written; places : where it begins, shape (n, 3)."""
+
+    def __init__(self, places: Array) -> None:
+        self.places = places
+        self.phases: list[Phase] = []
+        self.shown: list[Shown] = []
+        self._points = [places, places, places]
+        self._breaks = [0.0]
+
+    @property
+    def clock(self) -> float:
+        """Return the time up to which the flight is written, seconds."""
+        return self._breaks[-1]
+
+    def stand(self, seconds: float) -> None:
+        """Stay at the last places."""
+        if seconds > 0.0:
+            self._add([self.places], seconds)
+
+    def move(self, places: Array, s: Array, duration: float) -> None:
+        """Go straight, from stop to stop; s : of a ``fleet_move.Move``, shape (P + 3,)."""
+        way = places - self.places
+        between = [np.round(self.places + share * way, DIGITS) for share in s[3:-3]]
+        self._add([*between, places, places, places], duration / (len(s) - 3))
+        self.places = places
+
+    def animate(self, frames: Sequence[Array], period: float) -> list[float]:
+        """Show frames one after another, the last one at a stop; return the time of each.
+
+        The first three control points are the last stop, which is the frame before these.
+        """
+        begins = self.clock
+        self._add([*frames, frames[-1], frames[-1]], period)
+        self.places = frames[-1]
+        # The control point of the first of them is two pieces after the stop.
+        times = [begins + (k + 2) * period for k in range(len(frames))]
+        return [*times[:-1], self.clock]
+
+    def phase(self, name: PhaseName, shot: str | None = None) -> None:
+        """Call what was written since the last phase by a name."""
+        start = self.phases[-1].end if self.phases else 0.0
+        self.phases.append(Phase(name, shot, start, self.clock))
+
+    def trajectory(self, fleet: str, lights: Lights) -> FleetTrajectory:
+        """Return the whole flight."""
+        breaks, coef = np.array(self._breaks), np.stack(self._points, axis=1)
+        return FleetTrajectory(fleet, breaks, coef, tuple(self.phases), tuple(self.shown), lights)
+
+    def _add(self, points: list[Array], piece: float) -> None:
+        begins = self.clock
+        self._points += points
+        # Counted from one place, so that the pieces are even to the last digit that matters.
+        self._breaks += [round(begins + (k + 1) * piece, 9) for k in range(len(points))]

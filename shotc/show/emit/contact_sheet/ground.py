@@ -1,0 +1,119 @@
+"""The map of a display: pads, zones, where its pictures stand, and where the audience is."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+
+from shotc.emit.audience import Audience
+from shotc.emit.palette import CAMERA, FLIGHT, GROUND_FAR, INK, KEEP_IN, KEEP_OUT, QUIET, WHITE, Rgb, shade
+from shotc.emit.storyboard.canvas import Box, Canvas
+from shotc.emit.storyboard.furniture import north_arrow, round_length, scale_bar
+from shotc.emit.storyboard.labels import Label, write_labels
+from shotc.emit.storyboard.map import reach_of, zones
+from shotc.emit.storyboard.map import squares as draw_squares
+from shotc.emit.storyboard.sheet import Sheet
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.mission import MissionIR
+from shotc.show.emit.contact_sheet.moments import Board
+from shotc.show.emit.contact_sheet.stands import draw_stands, outlines
+
+BORDER = 0.35
+"""Between what is on the map and its edge, inches."""
+
+PAD = 0.02
+"""Half the width of a pad, inches."""
+
+
+def draw_ground(canvas: Canvas, box: Box, board: Board, mission: MissionIR, seen: Audience) -> None:
+    """Draw the map of one display into ``box``."""
+    pads = np.array(mission.fleet(board.display.fleet).pads)
+    eye = np.array([seen.eye])
+    sheet = _sheet(box, board, seen)
+    canvas.polygons([box.outline()], GROUND_FAR)
+    step = max(5.0, round_length(float(np.max(reach_of(sheet))) / 3.0))
+    draw_squares(canvas, sheet, step)
+    zones(canvas, sheet, mission)
+    _look(canvas, sheet, seen)
+    squares = [_square(at, PAD).outline() for at in sheet.place(pads)]
+    canvas.polygons(squares, WHITE, FLIGHT, 0.5, box)
+    shapes = outlines(board, sheet)
+    content = [_around(sheet.place(pads), 0.03), _around(np.concatenate(shapes), 0.03)]
+    content.append(_around(sheet.place(eye), 0.03))
+    taken = [north_arrow(canvas, sheet, content)]
+    taken.append(scale_bar(canvas, sheet, step, content + taken))
+    taken += draw_stands(canvas, sheet, shapes, [*taken, content[0], content[2]])
+    _eye(canvas, sheet.place(eye[0]))
+    _names(canvas, sheet, mission, (content, taken))
+    canvas.polygons([box.outline()], "none", INK, 0.8)
+
+
+def map_height(board: Board, width: float, seen: Audience) -> float:
+    """Return the height that a map of some width needs, inches."""
+    low, high = _reach(board, seen)
+    span = np.maximum(high - low, 10.0)
+    return float((width - 2 * BORDER) / span[0] * span[1]) + 2 * BORDER
+
+
+def _reach(board: Board, seen: Audience) -> tuple[Array, Array]:
+    """Return the corners, (2,) each, of all that is to be on the map, metres."""
+    times = np.array([moment.time for moment in board.moments])
+    at = places(board.flight.breaks, board.flight.coef, np.array([0.0, *times])).reshape(-1, 3)
+    cloud = np.concatenate([at[:, :2], [seen.eye[:2]]])
+    return cloud.min(axis=0), cloud.max(axis=0)
+
+
+def _sheet(box: Box, board: Board, seen: Audience) -> Sheet:
+    low, high = _reach(board, seen)
+    span = np.maximum(high - low, 10.0)
+    inches = float(min((box.width - 2 * BORDER) / span[0], (box.height - 2 * BORDER) / span[1]))
+    return Sheet(box, np.eye(3)[:2], (low + high) / 2, inches)
+
+
+def _look(canvas: Canvas, sheet: Sheet, seen: Audience) -> None:
+    """Draw what is in the audience's frame, as a fan across the map."""
+    reach = 2.0 * max(sheet.box.width, sheet.box.height) / sheet.inches
+    turn = np.linspace(seen.yaw - seen.hfov / 2, seen.yaw + seen.hfov / 2, 25)
+    rim = np.array(seen.eye[:2]) + reach * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    fan = sheet.at(np.concatenate([[seen.eye[:2]], rim]))
+    canvas.polygons([fan], (*CAMERA, 0.13), clip=sheet.box)
+    canvas.lines([fan[:2], fan[[0, -1]]], (*CAMERA, 0.8), 0.7, sheet.box)
+
+
+def _eye(canvas: Canvas, at: Array) -> None:
+    turn = np.linspace(0.0, pi, 15)
+    lid = np.array([[0.12 * cos(a), 0.07 * sin(a)] for a in turn])
+    shape = np.concatenate([lid, -lid])
+    canvas.polygons([at + shape], WHITE, INK, 1.0)
+    canvas.disc((float(at[0]), float(at[1])), 0.045, INK, WHITE, 0.6)
+
+
+def _names(canvas: Canvas, sheet: Sheet, mission: MissionIR, others: tuple[list[Box], list[Box]]) -> None:
+    content, taken = others
+    pads, _, eye = content
+    labels = [
+        Label(
+            "audience", shade(CAMERA, 0.6), _around(np.array([[eye.x, eye.y], [eye.right, eye.top]]), 0.08)
+        ),
+        Label("pads", QUIET, pads),
+    ]
+    for zone in mission.zones:
+        seen = sheet.visible(sheet.outline(zone.solid))
+        if seen is not None:
+            color: Rgb = shade(KEEP_OUT if zone.keep == "out" else KEEP_IN, 0.8)
+            labels.append(Label(zone.name, color, seen, inside=zone.keep == "out"))
+    box = sheet.box
+    inner = Box(box.x + 0.03, box.y + 0.03, box.width - 0.06, box.height - 0.06)
+    write_labels(canvas, inner, labels, [*taken, *content])
+
+
+def _square(at: Array, half: float) -> Box:
+    return Box(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)
+
+
+def _around(points: Array, border: float) -> Box:
+    flat = np.atleast_2d(points)
+    low, high = flat.min(axis=0) - border, flat.max(axis=0) + border
+    return Box(float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))

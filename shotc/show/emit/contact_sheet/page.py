@@ -1,0 +1,172 @@
+"""The sheet's page: for each display a map, and its pictures with the way to each, in the order of time."""
+
+from __future__ import annotations
+
+from math import ceil, hypot
+
+import numpy as np
+
+from shotc.emit.audience import ASPECT, Audience, audience
+from shotc.emit.palette import FAINT, INK, QUIET, WHITE
+from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.frame import clock
+from shotc.emit.storyboard.furniture import round_length
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.contact_sheet.ground import draw_ground, map_height
+from shotc.show.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
+from shotc.show.emit.contact_sheet.night import night
+from shotc.show.emit.contact_sheet.stands import NUMBER, number
+
+WIDTH, MARGIN, GAP = 16.0, 0.55, 0.34
+HEADING, FOOTING, BAND, CAPTION = 1.30, 0.35, 0.60, 0.46
+MAP, COLUMNS = 3.9, 2
+SLIT = 0.05
+"""Between small frames, and between them and the large one, inches."""
+
+CELL = (WIDTH - 2 * MARGIN - MAP - 0.35 + GAP) / COLUMNS - GAP
+BIG = (CELL - SLIT + 2 * SLIT / BETWEEN * ASPECT * (BETWEEN - 1) / 2) / (1 + 1 / BETWEEN)
+HEIGHT = BIG / ASPECT
+SMALL = (HEIGHT - (BETWEEN - 1) * SLIT) / BETWEEN
+LEAST_MAP = 3.2
+
+
+def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
+    """Return the whole sheet as PNG bytes."""
+    with house_style():
+        return _page(plan, dpi)
+
+
+def _page(plan: VerifiedIR, dpi: float) -> bytes:
+    shown = boards(plan)
+    height = HEADING + sum(_height(board) for board in shown) + FOOTING
+    canvas = Canvas(WIDTH, height, dpi)
+    _heading(canvas, height, plan)
+    top = height - HEADING
+    for board in shown:
+        _board(canvas, top, (board, dpi), plan)
+        top -= _height(board)
+    return canvas.png()
+
+
+def _rows(board: Board) -> int:
+    return ceil(len(board.moments) / COLUMNS)
+
+
+def _height(board: Board) -> float:
+    """Return the height of a display's part of the page, inches."""
+    return BAND + max(_rows(board) * (HEIGHT + CAPTION), LEAST_MAP) + 0.22
+
+
+def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:
+    mission = plan.trajectory.keyframes.mission
+    canvas.write(MARGIN, height - 0.72, mission.name, Type(26, INK, bold=True), WIDTH - 2 * MARGIN)
+    fleets = ", ".join(f"{len(flight.coef)} drones of {flight.fleet}" for flight in plan.trajectory.fleets)
+    pictures = sum(len(display.pictures) for display in mission.displays)
+    end = max(float(flight.breaks[-1]) for flight in plan.trajectory.fleets)
+    facts = [fleets, f"{pictures} picture{'' if pictures == 1 else 's'}", f"{clock(end)} in the air"]
+    text = "   ·   ".join(facts)
+    canvas.write(MARGIN, height - 1.04, text, Type(11, QUIET), WIDTH - 2 * MARGIN)
+
+
+def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: VerifiedIR) -> None:
+    board, dpi = what
+    mission = plan.trajectory.keyframes.mission
+    seen = audience(plan, board.display, ASPECT)
+    canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
+    _band(canvas, top, board, seen)
+    start, tall = top - BAND, _height(board) - BAND - 0.22 - 0.17
+    tall = min(tall, max(LEAST_MAP, map_height(board, MAP, seen)))
+    draw_ground(canvas, Box(MARGIN, start - tall, MAP, tall), board, mission, seen)
+    left = MARGIN + MAP + 0.35
+    for i, moment in enumerate(board.moments):
+        row, column = divmod(i, COLUMNS)
+        x, y = left + column * (CELL + GAP), start - row * (HEIGHT + CAPTION) - HEIGHT
+        # The first way comes from the ground, which none of the pictures shows.
+        way = audience(plan, board.display, ASPECT, moment.way) if i == 0 else seen
+        _cell(canvas, (x, y), (board, moment), ((seen, way), dpi))
+
+
+def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
+    base = top - 0.40
+    x = MARGIN + canvas.write(MARGIN, base, board.display.id, Type(15, INK, bold=True), 4.0) + 0.22
+    first, last = board.span
+    facts = [f"{len(board.flight.coef)} drones of {board.flight.fleet}"]
+    facts.append(f"{clock(first)} to {clock(last)} ({last - first:.1f} s)")
+    if board.total > len(board.moments):
+        facts.append(f"{len(board.moments)} of {board.total} frames")
+    text = "  ·  ".join(facts)
+    canvas.write(x, base, text, Type(9.5, QUIET), 6.0)
+    whose = "as seen from the viewpoint" if seen.placed else "as seen from the south, for want of a viewpoint"
+    away = f"{whose}, {_distance(board, seen):.0f} m away"
+    canvas.text(WIDTH - MARGIN, base, away, Type(9.5, QUIET, across="right"))
+
+
+def _distance(board: Board, seen: Audience) -> float:
+    """Return how far from the audience the middle of the pictures is, over the ground, metres."""
+    middle = _middle(board.flight, board.moments[0].time)
+    return hypot(middle[0] - seen.eye[0], middle[1] - seen.eye[1])
+
+
+def _middle(flight: FleetTrajectory, time: float) -> tuple[float, float, float]:
+    at = places(flight.breaks, flight.coef, np.array([time]))[:, 0]
+    x, y, z = ((at.min(axis=0) + at.max(axis=0)) / 2.0).tolist()
+    return x, y, z
+
+
+def _cell(
+    canvas: Canvas,
+    at: tuple[float, float],
+    what: tuple[Board, Moment],
+    how: tuple[tuple[Audience, Audience], float],
+) -> None:
+    """Draw a picture with the way to it on its left, and say what and when it is.
+
+    how : who sees the picture and the way to it, and dots an inch
+    """
+    (x, y), (board, moment), (seen, wide) = at, what, how[0]
+    width = SMALL * ASPECT
+    for i, time in enumerate(moment.way):
+        box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT), width, SMALL)
+        _sky(canvas, box, (board.flight, time), (wide, how[1]))
+        canvas.text(box.x + 0.05, box.y + 0.05, clock(time), Type(7.5, WHITE))
+    box = Box(x + width + SLIT, y, BIG, HEIGHT)
+    _sky(canvas, box, (board.flight, moment.time), (seen, how[1]))
+    _scale(canvas, box, _depth(board, moment, seen))
+    name = (
+        moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"
+    )
+    number(canvas, (box.x + NUMBER, y - 0.15), board.moments.index(moment))
+    canvas.write(box.x + 2 * NUMBER + 0.07, y - 0.19, name, Type(10, INK, bold=True), 0.55 * BIG - 0.26)
+    stands = clock(moment.start)
+    if moment.end - moment.start >= 1.0:
+        stands = f"{clock(moment.start)} to {clock(moment.end)}"
+    text = f"{stands}  ·  {lights(board.flight, moment.time)} of {len(board.flight.coef)} lights"
+    canvas.text(box.right, y - 0.19, text, Type(8.5, QUIET, across="right"))
+    if moment.way:
+        canvas.text(x, y - 0.19, "on the way", Type(8.5, QUIET))
+
+
+def _sky(canvas: Canvas, box: Box, what: tuple[FleetTrajectory, float], how: tuple[Audience, float]) -> None:
+    flight, time = what
+    seen, dpi = how
+    canvas.image(night(flight, time, seen, (round(box.width * dpi), round(box.height * dpi))), box)
+
+
+def _depth(board: Board, moment: Moment, seen: Audience) -> float:
+    """Return the width of the audience's frame at the middle of a picture, metres."""
+    middle = np.array(_middle(board.flight, moment.time)) - np.array(seen.eye)
+    view = seen.view(ASPECT)
+    return float(2.0 * view.half_width * max(view.to_camera((middle[0], middle[1], middle[2]))[2], 1.0))
+
+
+def _scale(canvas: Canvas, box: Box, metres: float) -> None:
+    """Draw a length as it looks at the picture's distance."""
+    length = round_length(0.22 * metres)
+    width = length / metres * box.width
+    right, y = box.right - 0.1, box.y + 0.1
+    ends = [np.array([[right - width, y], [right, y]])]
+    ends += [np.array([[e, y - 0.025], [e, y + 0.025]]) for e in (right - width, right)]
+    canvas.lines(ends, (*WHITE, 0.65), 0.9)
+    canvas.text(right - width / 2, y + 0.045, f"{length:g} m", Type(7.5, FAINT, across="center"))

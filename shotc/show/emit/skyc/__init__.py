@@ -1,0 +1,40 @@
+"""<mission>.skyc: the show of all fleets as Skybrush reads it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from shotc.emit.base import Artifact, Emission
+from shotc.filenames import file_name
+from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.skyc.archive import archive, left_out, no_origin, too_large
+from shotc.show.emit.skyc.show import MOST, show_of
+
+
+@dataclass(frozen=True, slots=True)
+class SkycEmitter:
+    """Writes one show file of all fleets; the same plan gives the same bytes."""
+
+    name: ClassVar[str] = "skyc"
+    summary: ClassVar[str] = "<mission>.skyc: the flights and lights of fleets, for Skybrush"
+    api: ClassVar[int] = 1
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return the show file; nothing where no fleet flies, or more drones than a file may have."""
+        mission = plan.trajectory.keyframes.mission
+        count = sum(len(flight.coef) for flight in plan.trajectory.fleets)
+        if count == 0:
+            return Emission((), notes=("no .skyc is written: it holds the show of a fleet, here is none",))
+        if count > MOST:
+            return Emission((), (too_large(mission, count),))
+        show = show_of(plan)
+        faults = [left_out(mission, zone) for zone in show.left_out]
+        if mission.origin is None:
+            faults.append(no_origin(mission))
+        file = Artifact(f"{file_name(mission.name)}.skyc", archive(show.content))
+        note = f"{file.name}: no drone is more than {show.error * 1e3:.2f} mm from its place in the plan"
+        return Emission((file,), tuple(faults), (note,))
+
+
+EMITTER = SkycEmitter()

@@ -1,0 +1,65 @@
+"""The file itself: a ZIP archive with ``show.json`` in its root; and what its format leaves out.
+
+The same show has the same bytes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from io import BytesIO
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR, Zone
+from shotc.show.emit.skyc.show import MOST
+
+EPOCH = (1980, 1, 1, 0, 0, 0)
+"""The date that every archive bears: the earliest there is."""
+
+READABLE = 0o644 << 16
+
+
+def archive(content: Mapping[str, object]) -> bytes:
+    """Return the archive of a show; what it refers to is inside ``content``, without references."""
+    stream = BytesIO()
+    entry = ZipInfo("show.json", EPOCH)
+    entry.compress_type = ZIP_DEFLATED
+    entry.create_system = 3  # not the system that it happens to be made on
+    entry.external_attr = READABLE
+    with ZipFile(stream, "w") as zipped:
+        zipped.writestr(entry, json.dumps(content, separators=(",", ":"), allow_nan=False))
+    return stream.getvalue()
+
+
+def no_origin(mission: MissionIR) -> Diagnostic:
+    """Say that the show has no place on the globe."""
+    return Diagnostic(
+        "E111",
+        "the show file has no place on the globe: the mission has no world.origin",
+        (mission.origins.key(("world",)),),
+        ("Skybrush shows it all the same, and asks for its place before it is flown",),
+        "add world.origin: {lat: ..., lon: ..., alt: ...}",
+    )
+
+
+def too_large(mission: MissionIR, count: int) -> Diagnostic:
+    """Say that no show file is written."""
+    return Diagnostic(
+        "E112",
+        f"the show file is skipped: {count} drones are more than the {MOST} that one may have",
+        tuple(mission.origins.key(fleet.path) for fleet in mission.fleets),
+        (),
+        f"fly fleets of no more than {MOST} drones together, each from a mission of its own",
+    )
+
+
+def left_out(mission: MissionIR, zone: Zone) -> Diagnostic:
+    """Say that a zone is not part of the show's geofence."""
+    return Diagnostic(
+        "E113",
+        f"the geofence of the show leaves out zone {zone.name}: the fleet's ground track leaves it",
+        (mission.origins.key(zone.path),),
+        ("the plan keeps the zone, except while drones rise from their pads and land on them",),
+        "draw the zone round the pads, too",
+    )

@@ -1,0 +1,276 @@
+"""What a show file says: everything in metres and seconds, North, West and Up of the mission's origin."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import ceil
+from typing import Any
+
+import numpy as np
+
+from shotc.emit.audience import ASPECT, audience, focal_length, picture_name, pictures_shown
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import View
+from shotc.geom.pieces import Mask
+from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.fleet import FleetTrajectory, Lights
+from shotc.ir.mission import MissionIR, Zone
+from shotc.ir.show import Fleet, drone_names
+from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.skyc.curve import DECIMALS, Curves, curves
+
+Json = dict[str, Any]
+
+MOST = 5000
+"""Drones that a show file may have."""
+
+
+STRAIGHT = 1.5e-4
+"""How far inner control points may be from thirds of a chord that stands for them, metres."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Show:
+    """A show file's content, how far its flights are from the plan's (metres), and the zones it lacks."""
+
+    content: Json
+    error: float
+    left_out: tuple[Zone, ...]
+
+
+def show_of(plan: VerifiedIR) -> Show:
+    """Return the show of all fleets of a plan."""
+    mission = plan.trajectory.keyframes.mission
+    flights = plan.trajectory.fleets
+    flown = [curves(flight) for flight in flights]
+    control = np.concatenate([found.control.reshape(-1, 3) for found in flown])
+    kept = [zone for zone in mission.zones if zone.keep == "in"]
+    left = tuple(zone for zone in kept if outside(zone.solid, control))
+    drones = [
+        drone
+        for flight, found in zip(flights, flown, strict=True)
+        for drone in _drones(mission.fleet(flight.fleet), flight, found)
+    ]
+    fences = [fence(zone.solid) for zone in kept if zone not in left]
+    content: Json = {
+        "version": 1,
+        "meta": {
+            "title": mission.name,
+            "id": mission.source_sha256[:16],
+            "segments": _segments(flights),
+        },
+        "environment": _environment(plan),
+        "settings": {
+            "cues": {"version": 1, "items": _cues(plan)},
+            "geofence": {
+                "version": 1,
+                "polygons": [{"isInclusion": True, "points": _turned(points)} for points in fences],
+            },
+            "validation": _limits(mission, float(control[:, 2].max())),
+        },
+        "swarm": {"drones": drones},
+    }
+    # Inner control points of a chord are moved by no more than this.
+    return Show(content, max(found.error for found in flown) + STRAIGHT, left)
+
+
+def _turned(points: Array) -> list[list[float]]:
+    """Return points of W, East-North-Up, as North-West-Up."""
+    turned = np.stack([points[..., 1], -points[..., 0], points[..., 2]], axis=-1)
+    return list((np.round(turned, DECIMALS) + 0.0).tolist())
+
+
+def _drones(fleet: Fleet, flight: FleetTrajectory, found: Curves) -> Iterator[Json]:
+    takeoff = int(found.millis[0])
+    times = ((found.millis - takeoff) / 1e3).tolist()
+    third = (found.control[:, :, 3] - found.control[:, :, 0]) / 3.0
+    chord = np.stack([found.control[:, :, 0] + third, found.control[:, :, 3] - third], axis=2)
+    straight = np.linalg.norm(found.control[:, :, 1:3] - chord, axis=-1).max(axis=-1) < STRAIGHT
+    for name, control, lines, code in zip(
+        drone_names(fleet), found.control, straight.tolist(), programs(flight.lights), strict=True
+    ):
+        turned = _turned(control)
+        points = [[times[0], turned[0][0], []]]
+        points += [
+            [time, piece[3], [] if line else [piece[1], piece[2]]]
+            for time, piece, line in zip(times[1:], turned, lines, strict=True)
+        ]
+        yield {
+            "type": "generic",
+            "settings": {
+                "name": name,
+                "home": points[0][1],
+                "landAt": points[-1][1],
+                "trajectory": {
+                    "version": 1,
+                    "takeoffTime": takeoff / 1e3,
+                    "landingTime": int(found.millis[-1]) / 1e3,
+                    "points": points,
+                },
+                "lights": {"version": 1, "data": b64encode(code).decode("ascii")},
+            },
+        }
+
+
+def _segments(flights: tuple[FleetTrajectory, ...]) -> dict[str, list[float]]:
+    """Return when fleets take off, when they show, and when they land."""
+    up = max(p.end for f in flights for p in f.phases if p.name == "takeoff")
+    down = min(p.start for f in flights for p in f.phases if p.name == "land")
+    end = max(float(f.breaks[-1]) for f in flights)
+    if up >= down:  # one fleet lands before another has risen
+        return {"show": [0.0, round(end, 3)]}
+    marks = [round(t, 3) for t in (0.0, up, down, end)]
+    return {"takeoff": marks[0:2], "show": marks[1:3], "landing": marks[2:4]}
+
+
+def _environment(plan: VerifiedIR) -> Json:
+    mission = plan.trajectory.keyframes.mission
+    found: Json = {"type": "outdoor"}
+    if mission.origin is not None:
+        place = mission.origin
+        found["location"] = {"origin": [place.lat_deg, place.lon_deg, place.alt], "orientation": 0}
+    found["cameras"] = [_camera(plan, i) for i in range(len(mission.displays))]
+    return found
+
+
+def _camera(plan: VerifiedIR, index: int) -> Json:
+    display = plan.trajectory.keyframes.mission.displays[index]
+    seen = audience(plan, display, ASPECT)
+    return {
+        "name": f"audience of {display.id}",
+        "type": "perspective",
+        "position": _turned(np.array(seen.eye)),
+        "orientation": _orientation(seen.view(ASPECT)),
+        "focalLength": round(focal_length(seen.hfov), 2),
+        "default": index == 0,
+    }
+
+
+def _orientation(looks: View) -> list[float]:
+    """Return the quaternion (w, x, y, z) of a camera that, unturned, looks down with North to its right."""
+    # to_camera is linear: its rows are the camera's axes in W.
+    east, north, up = np.eye(3)
+    right, down, forward = (np.array(axis) for axis in looks.to_camera((east, north, up)))
+    axes = np.stack([right, -down, -forward], axis=1)
+    turn = np.stack([axes[1], -axes[0], axes[2]])
+    # Shepperd's method, by the largest of the four: stable for every turn.
+    squares = np.array([np.trace(turn), *np.diag(turn)])
+    w, x, y, z = _from(int(np.argmax(squares)), turn)
+    return [round(float(c), 9) + 0.0 for c in np.array([w, x, y, z]) / np.linalg.norm([w, x, y, z])]
+
+
+def _from(largest: int, m: Array) -> tuple[float, float, float, float]:
+    skew = (m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1])
+    if largest == 0:
+        return (1.0 + np.trace(m), *skew)
+    i = largest - 1
+    found = m[i] + m[:, i]
+    found[i] = 1.0 + 2.0 * m[i, i] - np.trace(m)
+    return (skew[i], found[0], found[1], found[2])
+
+
+def _cues(plan: VerifiedIR) -> list[Json]:
+    mission = plan.trajectory.keyframes.mission
+    cues = []
+    for flight in plan.trajectory.fleets:
+        for shown in pictures_shown(flight):
+            name = picture_name(mission.display(shown.display).pictures[shown.picture])
+            cues.append({"name": f"{shown.display}: {name}", "time": round(shown.start, 3)})
+    return sorted(cues, key=lambda cue: cue["time"])
+
+
+def _limits(mission: MissionIR, highest: float) -> Json:
+    fleets = mission.fleets
+    tops = [zone.solid.top for zone in mission.zones if zone.keep == "in"]
+    return {
+        "maxAltitude": float(min([top for top in tops if top >= highest], default=ceil(highest))),
+        "maxVelocityXY": max(fleet.limits.speed for fleet in fleets),
+        "maxVelocityZ": max(fleet.limits.descent for fleet in fleets),
+        "maxVelocityZUp": max(fleet.limits.climb for fleet in fleets),
+        "minDistance": min(min(f.apart.horizontal, f.apart.vertical) for f in fleets),
+    }
+
+
+SIDES = 48
+
+
+def outside(solid: Solid, points: Array) -> bool:
+    """Tell whether any of these points, shape (k, 3), is not above or below a solid."""
+    flat = points[:, :2]
+    if isinstance(solid, Cylinder):
+        away = np.linalg.norm(flat - np.array(solid.centre), axis=1)
+        return bool(away.max() > solid.radius)
+    return not bool(_inside(np.array(solid.points), flat).all())
+
+
+def _inside(corners: Array, points: Array) -> Mask:
+    """Tell which points lie in a polygon: those whose way East crosses an odd number of its edges."""
+    odd = np.zeros(len(points), dtype=np.bool_)
+    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        if ay != by:
+            spans = (points[:, 1] >= ay) != (points[:, 1] >= by)
+            odd ^= spans & (points[:, 0] < ax + (points[:, 1] - ay) / (by - ay) * (bx - ax))
+    return odd
+
+
+def fence(solid: Solid) -> Array:
+    """Return the corners of a solid's outline on the ground, counter-clockwise, shape (k, 3).
+
+    A circle is a polygon about it: what stays in the zone stays in the fence.
+    """
+    if isinstance(solid, Cylinder):
+        turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
+        reach = solid.radius / np.cos(np.pi / SIDES)
+        flat = np.array(solid.centre) + reach * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    else:
+        flat = np.array(solid.points)
+    return np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)
+
+
+# Lights are a program of bytes that fades and sets colours, in steps of 20 ms. Opcodes: 0 end, 4 set a colour
+# for a time, 8 fade to a colour over a time; a time is a variable-length number of steps, seven bits a byte,
+# the low ones first. A program begins at the show's first instant.
+STEP = 0.02
+"""Seconds of one step."""
+
+END, SET, FADE = 0x00, 0x04, 0x08
+
+
+def programs(lights: Lights) -> Iterator[bytes]:
+    """Yield the program of every drone's light, in the order of their numbers."""
+    steps = np.maximum(np.round(lights.times / STEP).astype(int), 0).tolist()
+    for colors in lights.colors.tolist():
+        yield program(steps, [bytes(color) for color in colors])
+
+
+def program(steps: list[int], colors: list[bytes]) -> bytes:
+    """Return the program that has these colours, of three bytes, at these steps, which do not fall."""
+    code = bytearray()
+    now, color, stands = 0, colors[0], 0
+    for step, wanted in zip(steps, colors, strict=True):
+        if wanted == color:
+            stands += step - now
+        else:
+            # A fade begins where what was before ends; a jump is a colour that is set.
+            code += _order(SET, color, stands)
+            stands = 0
+            if step > now:
+                code += _order(FADE, wanted, step - now)
+        now, color = step, wanted
+    # Players go on along a last fade: a program ends with a colour that stands.
+    code += _order(SET, color, max(stands, 1))
+    return bytes([*code, END])
+
+
+def _order(what: int, color: bytes, steps: int) -> bytes:
+    return bytes([what, *color]) + _number(steps)
+
+
+def _number(value: int) -> bytes:
+    found = bytearray()
+    while value > 0x7F:
+        found.append(value & 0x7F | 0x80)
+        value >>= 7
+    return bytes([*found, value])

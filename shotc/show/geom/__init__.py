@@ -1,0 +1,1 @@
+"""Geometry that only shows need."""

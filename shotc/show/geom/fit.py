@@ -1,0 +1,92 @@
+"""How many drones a shape can hold at most: an upper bound, so that nobody is refused who might fit.
+
+Goals of a picture are spaced by the square root of two times the separation, so that straight moves from
+picture to picture keep it (for a cylinder the square root of two more), in space stretched along z by the
+horizontal over the vertical distance. Balls of that diameter about them do not overlap.
+"""
+
+from __future__ import annotations
+
+from math import asin, inf, pi, sqrt
+
+from shotc.geom.apart import spacing, stretch
+from shotc.ir.show import Apart, Box, Picture, Sphere, Torus
+from shotc.show.geom.sizes import resized
+
+MOST_DARK = 0.95
+"""Share of a fleet that may stay dark in a picture, since it has no room for more."""
+ROGERS = 0.7797
+"""Most of a truncated Voronoi cell that its ball fills, in space (Rogers 1958)."""
+TRUNCATED = sqrt(1.5)
+"""Radius at which the cells are truncated in that theorem, in radii of the ball."""
+ROUNDING = 1e-9
+STEP = 0.01  # to which a growth is found
+
+
+def most_drones(picture: Picture, apart: Apart) -> float:
+    """Return a number that the drones of a picture cannot exceed; infinity where its size is not known."""
+    source, gap = picture.source, spacing(apart)
+    if isinstance(source, Sphere | Box | Torus):
+        factor = stretch(apart)
+        inside = _in_volume(source, gap, factor)
+        # The edges of a cube lie on its surface.
+        return inside if picture.fill == "volume" else min(inside, _on_surface(source, gap, factor))
+    return inf
+
+
+def growth(picture: Picture, apart: Apart, count: int) -> float:
+    """Return how many times as large a picture has to be, at least, to hold so many drones."""
+    low, high = 1.0, 2.0
+    while most_drones(_scaled(picture, high), apart) < count:
+        low, high = high, 2.0 * high
+    while high - low > STEP:
+        middle = 0.5 * (low + high)
+        fits = most_drones(_scaled(picture, middle), apart) >= count
+        low, high = (low, middle) if fits else (middle, high)
+    return high
+
+
+def _scaled(picture: Picture, factor: float) -> Picture:
+    return picture._replace(source=resized(picture.source, lambda metres: factor * metres))
+
+
+def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> float:
+    """Bound by volume: every ball has a truncated cell of its own, within reach of the shape."""
+    reach = TRUNCATED * gap / 2
+    wide = reach * max(1.0, 1 / stretch)  # which holds the cells' reach in space as it is
+    if isinstance(source, Sphere):
+        room = stretch * 4 / 3 * pi * (source.radius + wide) ** 3
+    elif isinstance(source, Torus):
+        room = stretch * 2 * pi**2 * source.radius * (source.tube + wide) ** 2  # Pappus
+    else:
+        room = _round_box(source.size[0], source.size[1], source.size[2] * stretch, reach)
+    return ROGERS * room / (pi / 6 * gap**3)
+
+
+def _round_box(a: float, b: float, c: float, r: float) -> float:
+    """Return the volume of all that is within ``r`` of a box (Steiner's formula)."""
+    return a * b * c + 2 * (a * b + b * c + c * a) * r + pi * (a + b + c) * r**2 + 4 / 3 * pi * r**3
+
+
+def _on_surface(source: Sphere | Box | Torus, gap: float, stretch: float) -> float:
+    """Bound by area: on a sphere as Fejes Toth, on a box by its faces, each as Oler."""
+    if isinstance(source, Sphere):
+        # Space that is pressed together brings no two drones farther apart.
+        return _on_sphere(gap / max(1.0, stretch) / source.radius)
+    if isinstance(source, Box):
+        a, b, c = source.size[0], source.size[1], source.size[2] * stretch
+        return 2 * (_on_face(a, b, gap) + _on_face(b, c, gap) + _on_face(c, a, gap))
+    return inf
+
+
+def _on_sphere(gap: float) -> float:
+    """Return how many points of a unit sphere are ``gap`` apart: at most 2q / (q - 1) (Fejes Toth 1943)."""
+    if gap > sqrt(3.0) + ROUNDING:
+        return 2.0 if gap <= 2 + ROUNDING else 1.0
+    q = 6 / pi * asin(min(1.0, 1 / sqrt(4 - gap * gap)))
+    return 2 * q / (q - 1)
+
+
+def _on_face(a: float, b: float, gap: float) -> float:
+    """Return how many points of a rectangle are ``gap`` apart at most (Oler 1961)."""
+    return 2 / sqrt(3) * a * b / gap**2 + (a + b) / gap + 1

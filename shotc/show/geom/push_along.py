@@ -1,0 +1,59 @@
+"""Goals that stay on thin strokes: pushed apart along them, and those for which no room is left taken out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+from shotc.show.geom.push_apart import Hold, Leash, Numbers, grain, leashed, settled
+
+FELL = 0.5
+"""Goals that go at a time, for each least distance that all pairs lack together; the rest may part then."""
+ASUNDER = 4.0
+"""How far apart those are, in least distances: what they leave is shared by all around."""
+
+
+def push_along(goals: Array, shape: Array, least: float, slack: float, hold: Hold) -> Array | None:
+    """Return goals on a shape, none nearer than ``least`` to another, or None where they find no room.
+
+    goals : shape (n, D); shape : points (M, D) that are to be shown, in the metric of the fleet, both
+    slack : metres that a goal may be off the shape, to which the gaps between its points are added. Goals
+    are drawn that near first, wherever they come from: a centroid of two strokes lies between them.
+    """
+    leash = _leash(cKDTree(shape), slack, len(goals))
+    goals, apart = settled(leashed(goals, leash.shape, leash.lengths), leash, least, hold)
+    return goals if apart else None
+
+
+def thinned(goals: Array, shape: Array, least: float, slack: float, hold: Hold) -> Array:
+    """Return as many of the goals as find room, (m, D), pushed as by ``push_along``, the worst taken out."""
+    leash = _leash(cKDTree(shape), slack, len(goals))
+    goals = leashed(goals, leash.shape, leash.lengths)
+    while True:
+        goals, _ = settled(goals, replace(leash, lengths=leash.lengths[: len(goals)]), least, hold)
+        felled = _in_the_way(goals, least)
+        if not len(felled):
+            return goals
+        goals = np.delete(goals, felled, axis=0)
+
+
+def _leash(tree: cKDTree, slack: float, number: int) -> Leash:
+    return Leash(tree, np.full(number, slack + grain(tree)))
+
+
+def _in_the_way(goals: Array, least: float) -> Numbers:
+    """Return a few goals that are too near to others, far from each other, the worst first."""
+    pairs = cKDTree(goals).query_pairs(least * (1.0 - 1e-12), output_type="ndarray")
+    lack = least - np.linalg.norm(goals[pairs[:, 0]] - goals[pairs[:, 1]], axis=1)
+    lacks = np.bincount(pairs.T.ravel(), np.tile(lack, 2), len(goals))
+    most = int(np.ceil(FELL * float(lack.sum()) / least))
+    found: list[int] = []
+    for k in np.argsort(-lacks, kind="stable")[: int((lacks > 0).sum())]:
+        if len(found) == most:
+            break
+        if (np.linalg.norm(goals[found] - goals[k], axis=1) >= ASUNDER * least).all():
+            found.append(int(k))
+    return np.array(found, dtype=np.intp)

@@ -1,0 +1,63 @@
+"""Pictures made larger, and the words that a mission has for their sizes. Plain Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from shotc.ir.show import Box, Model, Picture, Source, Sphere, Torus
+from shotc.rounding import up
+from shotc.show.geom.shape import balls, lowest
+
+
+def resized(source: Source, change: Callable[[float], float]) -> Source:
+    """Return a picture with all its sizes changed alike, metres; a model without a height stays as it is."""
+    if isinstance(source, Sphere):
+        return source._replace(radius=change(source.radius))
+    if isinstance(source, Torus):
+        return source._replace(radius=change(source.radius), tube=change(source.tube))
+    if isinstance(source, Box):
+        a, b, c = source.size
+        return source._replace(size=(change(a), change(b), change(c)))
+    return source if source.height is None else source._replace(height=change(source.height))
+
+
+def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
+    """Return what a picture shows a number of times as large, sizes rounded up to what is written of them.
+
+    tall : height that it has now, metres, of a model that is not given one
+    """
+    if isinstance(source, Model) and source.height is None:
+        source = source._replace(height=tall)
+    return resized(source, lambda metres: up(metres * factor, 1))
+
+
+def raised(source: Source, floor: float) -> Source:
+    """Return it as far up as it takes to be above a height, to a decimetre, if its centre is known."""
+    lack = floor - lowest(balls(source)) if balls(source) else 0.0
+    if lack <= 1e-6 or source.centre is None:
+        return source
+    x, y, z = source.centre
+    return source._replace(centre=(x, y, up(z + lack, 1)))
+
+
+def size_words(before: Source, after: Source) -> str:
+    """Return what to write for a picture made larger, and moved up if that is what it takes."""
+    words = _sizes(after)
+    if after.centre != before.centre and after.centre is not None:
+        words += f", center: [{', '.join(f'{c:g}' for c in after.centre)}]"
+    return words
+
+
+def enlarged(picture: Picture, factor: float, floor: float, tall: float = 0.0) -> Picture:
+    """Return a picture made larger that stays above a height, metres."""
+    return picture._replace(source=raised(larger(picture.source, factor, tall), floor))
+
+
+def _sizes(source: Source) -> str:
+    if isinstance(source, Sphere):
+        return f"radius: {source.radius:.1f}"
+    if isinstance(source, Torus):
+        return f"radius: {source.radius:.1f}, tube: {source.tube:.1f}"
+    if isinstance(source, Box):
+        return f"size: {source.size[0]:.1f}"
+    return f"height: {source.height:.1f}"

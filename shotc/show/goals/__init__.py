@@ -1,0 +1,64 @@
+"""place-goals: KeyframeIR to GoalIR.
+
+Takes the pictures of a mission's displays and gives a goal set for every frame: points of the shape, their
+centroids, adjusted for the audience (*display* Section III), then moved apart. It guarantees that no two
+goals of a frame are nearer than straight moves between pictures need, and that all are clear of what stands
+and of the ground. Frames of one picture follow each other: each begins with the goals of the one before.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+
+from shotc.diag.registry import has_errors
+from shotc.geom.apart import spacing, stretch
+from shotc.ir.fleet import FleetGoals, GoalIR
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.mission import MissionIR
+from shotc.ir.passes import Outcome, PassContext
+from shotc.ir.show import Display, Fleet
+from shotc.show.goals.layout import Task
+from shotc.show.goals.picture import Drawn, draw_picture
+from shotc.show.goals.room import room_of
+from shotc.show.goals.spaced import Setting
+
+
+class PlaceGoals:
+    """The pass; it has no options."""
+
+    name: ClassVar[str] = "place-goals"
+
+    def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[GoalIR]:
+        """Place the goals of every display, fleet by fleet; all faults of all pictures are told."""
+        shows: list[FleetGoals] = []
+        drawn: list[Drawn] = []
+        showing = {display.fleet for display in ir.mission.displays}
+        for fleet in (f for f in ir.mission.fleets if f.name in showing):
+            displays = [d for d in ir.mission.displays if d.fleet == fleet.name]
+            found = [_display(ir.mission, fleet, display, ctx) for display in displays]
+            shows.append(FleetGoals(fleet.name, tuple(f for d in found for p in d for f in p.frames)))
+            drawn += [picture for display in found for picture in display]
+        diagnostics = tuple(d for picture in drawn for d in picture.diagnostics)
+        stats = tuple(entry for picture in drawn for entry in picture.stats)
+        value = None if has_errors(diagnostics) else GoalIR(ir, tuple(shows), stats)
+        return Outcome(value, diagnostics)
+
+
+def _display(mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContext) -> list[Drawn]:
+    files = dict(mission.files)
+    setting = Setting(
+        number=len(fleet.pads),
+        least=spacing(fleet.apart),
+        stretch=stretch(fleet.apart),
+        viewpoint=None if display.viewpoint is None else np.array(display.viewpoint),
+        weight=display.weight,
+        room=room_of(mission, fleet),
+    )
+    number = mission.displays.index(display)
+    found = []
+    for k in range(len(display.pictures)):
+        ctx.progress(f"placing the goals of {display.id}, picture {k + 1} of {len(display.pictures)}")
+        found.append(draw_picture(Task(mission, fleet, display, k, (ctx.seed, number, k), files), setting))
+    return found

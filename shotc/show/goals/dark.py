@@ -1,0 +1,75 @@
+"""Where drones stand for which a picture has no room: dark, in a block behind the picture.
+
+The block is a grid upright and square to the way the audience looks. Its places are as far apart as goals
+have to be, and as far from the picture, so that straight moves between pictures keep the separation. Where
+something stands behind the picture the block goes on in front of it, by one layer, and then beyond.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import floor, hypot
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.show.goals.spaced import Setting
+
+BEHIND = 1.001
+"""Distance of dark drones from the picture and from each other, in spacings."""
+LAYERS = 100
+"""Layers of the block behind which no place is looked for."""
+NORTH = np.array([0.0, 1.0, 0.0])
+
+
+def dark_places(shown: Array, spare: int, setting: Setting, facing: Array = NORTH) -> Array | None:
+    """Return so many places behind goals (n, 3), shape (spare, 3), or None where there is no room.
+
+    facing : (3,), level: how the picture is looked at where there is no audience
+    """
+    found: list[Array] = []
+    for places in _layers(shown, setting, _away(shown, setting, facing)):
+        chosen = np.unique(np.linspace(0, len(places) - 1, min(spare, len(places))).round().astype(np.intp))
+        found.append(places[chosen])
+        spare -= len(chosen)
+        if not spare:
+            return np.concatenate(found)
+    return None
+
+
+def _layers(shown: Array, setting: Setting, away: Array) -> Iterator[Array]:
+    """Yield the free places of one layer after another, in the order in which they are taken."""
+    across = np.array([-away[1], away[0], 0.0])
+    step = BEHIND * setting.least
+    middle = shown.mean(axis=0)
+    columns = _steps((shown - middle) @ across, step)
+    rows = _steps(shown[:, 2] - middle[2], step / setting.stretch)
+    sheet = middle + np.array([a * across + [0.0, 0.0, z] for z in rows for a in columns])
+
+    def free(layer: int, side: Array) -> Array:
+        depth = float(((shown - middle) @ side).max())
+        places = sheet + (depth + layer * step) * side
+        return np.asarray(places[setting.room.lack(places) <= 0])
+
+    blocked = False
+    for layer in range(1, LAYERS + 1):
+        behind = free(layer, away)
+        if not len(behind) and not blocked:
+            blocked = True
+            yield free(1, -away)
+        yield behind
+
+
+def _away(shown: Array, setting: Setting, facing: Array) -> Array:
+    """Return the level direction in which the picture is looked at."""
+    if setting.viewpoint is None:
+        return facing
+    east, north = (shown.mean(axis=0) - setting.viewpoint)[:2]
+    length = hypot(east, north)
+    return np.array([east / length, north / length, 0.0]) if length > 1e-6 else facing
+
+
+def _steps(along: Array, step: float) -> Array:
+    """Return the multiples of a step, about 0, that a picture spans along one axis."""
+    most = floor(float(np.abs(along).max()) / step)
+    return step * np.arange(-most, most + 1, dtype=np.float64)

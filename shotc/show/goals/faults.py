@@ -1,0 +1,198 @@
+"""What to say of pictures that cannot be flown: too many drones, too few, something in the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.apart import spacing, stretch
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
+from shotc.planning.clearances import ROUNDING, Obstacle
+from shotc.rounding import at_least, at_most
+from shotc.show.goals.body import SourceFault
+from shotc.show.goals.remedies import Remedies
+from shotc.show.goals.room import Room, lack_of, least_shift
+
+KEYS = {
+    Sphere: "sphere",
+    Box: "cube",
+    Torus: "torus",
+    Lettering: "text",
+    Drawing: "svg",
+    Model: "model",
+}
+BETWEEN = (0.0, 0.25, 0.5, 0.75)
+"""Shares of the way from the middle of a picture to its goals at which places within it are looked at."""
+FEWEST = 8
+"""Drones below which no solid can be told from a box: they are its corners."""
+
+
+def place_of(mission: MissionIR, picture: Picture, key: str = "") -> Label:
+    """Return the label on a key of a picture's source, or on the nearest thing that is written down."""
+    word = KEYS[type(picture.source)]
+    paths = [(*picture.path, word, key), (*picture.path, key), (*picture.path, word), picture.path]
+    written = next((path for path in paths if path in mission.origins.values), picture.path)
+    return mission.origins.value(written)
+
+
+def of_source(mission: MissionIR, picture: Picture, fault: SourceFault) -> Diagnostic:
+    """Return what is wrong with a source."""
+    label = place_of(mission, picture, fault.key)
+    return Diagnostic(fault.code, fault.message, (label,), fault.notes, fault.help)
+
+
+def no_points(mission: MissionIR, picture: Picture) -> Diagnostic:
+    """Say that there is nothing to fill that way."""
+    flat = isinstance(picture.source, Lettering | Drawing)
+    help_ = "use `fill: surface`" if picture.fill == "volume" else "use `fill: volume`"
+    if flat or picture.fill == "surface":
+        help_ = "use `fill: outline`" if flat and picture.fill != "outline" else "draw something else"
+    elif picture.fill == "outline":
+        help_ = "use `fill: surface`"
+    label = mission.origins.value((*picture.path, "fill"))
+    name = KEYS[type(picture.source)]
+    what = {"volume": "inside", "surface": "surface", "outline": "edges"}[picture.fill]
+    note = f"`fill: {picture.fill}` puts drones along the {what}"
+    return Diagnostic("D060", f"this {name} has no {what} to stand in", (label,), (note,), help_)
+
+
+def too_few_points(mission: MissionIR, picture: Picture, points: int, number: int) -> Diagnostic:
+    """Say that a point cloud is too thin."""
+    message = f"a point cloud of {points} points cannot show {number} drones"
+    help_ = f"give a denser cloud or a mesh, or at most {points} drones"
+    return Diagnostic("D061", message, (place_of(mission, picture, "files"),), (), help_)
+
+
+def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> Diagnostic:
+    """Say that the audience is in the picture."""
+    labels = (
+        mission.origins.value((*display.path, "viewpoint")),
+        place_of(mission, picture)._replace(text="the picture"),
+    )
+    return Diagnostic(
+        "D059",
+        "the viewpoint is inside the picture",
+        labels,
+        ("there is no line of sight to a picture from within",),
+        "move the `viewpoint` to where the audience is, or leave it out",
+    )
+
+
+def too_many(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies) -> Diagnostic:
+    """Say that a fleet does not fit into a picture, how many would, and what else would do."""
+    message = f"{len(fleet.pads)} drones do not fit into the picture"
+    if ways.number is not None:
+        message += f"; about {ways.number} would"
+    labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
+    return Diagnostic("D056", message, labels, (passing(fleet),), _ways(fleet, ways, "show another picture"))
+
+
+def too_dark(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, number: int) -> Diagnostic:
+    """Warn of drones for which a picture has no room, and whose lights are off."""
+    dark, full = len(fleet.pads) - number, len(fleet.pads)
+    message = f"{dark} of {full} drones find no room in the picture and stay dark, behind it"
+    labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
+    help_ = _ways(fleet, ways, "make it larger")
+    return Diagnostic("D062", message, labels, (passing(fleet),), help_)
+
+
+def passing(fleet: Fleet) -> str:
+    """Say how far apart goals are, and why."""
+    apart = fleet.apart
+    return (
+        f"so that drones can pass each other between pictures, goals are {spacing(apart):.2f} m apart on a "
+        f"level and {spacing(apart) / stretch(apart):.2f} m one above the other"
+    )
+
+
+def _ways(fleet: Fleet, ways: Remedies, otherwise: str) -> str:
+    found = []
+    if ways.number is not None:
+        found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'} (`count: {ways.number}`)")
+    if ways.size is not None:
+        found.append(f"make it {at_least(ways.size[1])} times as large (`{ways.size[0]}`)")
+    if ways.share is not None:
+        full = (fleet.apart.across, fleet.apart.upright)
+        level, upright = (at_most(ways.share * distance - fleet.apart.margin) for distance in full)
+        found.append(f"keep a `separation` of {level} m, {upright} m vertically")
+    return ", or ".join(found) or otherwise
+
+
+def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
+    """Warn of a fleet too small to show anything."""
+    number = len(fleet.pads)
+    if number >= FEWEST:
+        return None
+    note = f"fewer than {FEWEST} lights look alike, whatever they show"
+    drones = "drone is" if number == 1 else "drones are"
+    message = f"{number} {drones} too few to show a shape"
+    label = (place_of(mission, picture),)
+    return Diagnostic("D057", message, label, (note,), f"use {FEWEST} drones (`count: {FEWEST}`) or more")
+
+
+def in_the_way(
+    mission: MissionIR, fleet: Fleet, picture: Picture, frames: Sequence[Array], room: Room
+) -> list[Diagnostic]:
+    """Return one fault for each obstacle in which goals of a picture's frames are, and for the ground."""
+    goals = np.concatenate(frames)
+    if not (room.lack(goals) > ROUNDING).any():
+        return []
+    # Where something stands between its goals, drones would have to come by it on their way.
+    shift = least_shift(_whole(goals), room)
+    shift = least_shift(goals, room) if shift is None else shift
+    help_ = "make the picture smaller, or place it elsewhere" if shift is None else _moved(picture, shift)
+    label = place_of(mission, picture, "center")
+    found: list[Diagnostic] = []
+    low = float(goals[:, 2].min())
+    if low < room.lowest - ROUNDING:
+        count = int((goals[:, 2] < room.lowest - ROUNDING).sum()) // len(frames) or 1
+        note = (
+            f"its lowest goal is {low:.2f} m up; `rules.ground_clearance` and the body radius of "
+            f"{fleet.radius:.2f} m ask for {room.lowest:.2f} m"
+        )
+        message = f"the picture is too low: {_of(count, fleet)}"
+        found.append(Diagnostic("D058", message, (label,), (note,), help_))
+    for obstacle in room.obstacles:
+        found += _at_obstacle(obstacle, goals, (mission, fleet, label, help_, len(frames)))
+    return found
+
+
+def _whole(goals: Array) -> Array:
+    """Return goals (n, 3) with places between them: on the ways to the middle, and to neighbours."""
+    middle = goals.mean(axis=0)
+    rays = [middle + share * (goals - middle) for share in BETWEEN]
+    rows = [goals[np.lexsort((goals[:, (k + 1) % 3], goals[:, k]))] for k in range(3)]
+    return np.concatenate([goals, *rays, *(0.5 * (row[1:] + row[:-1]) for row in rows)])
+
+
+def _at_obstacle(
+    obstacle: Obstacle, goals: Array, about: tuple[MissionIR, Fleet, Label, str, int]
+) -> list[Diagnostic]:
+    mission, fleet, label, help_, frames = about
+    lack = lack_of(obstacle, goals)
+    if not (lack > ROUNDING).any():
+        return []
+    worst = goals[int(lack.argmax())]
+    place = (float(worst[0]), float(worst[1]), float(worst[2]))
+    count = int((lack > ROUNDING).sum()) // frames or 1
+    message = f"the picture {obstacle.relation(place)}: {_of(count, fleet)}"
+    note = f"the worst is at [{place[0]:.2f}, {place[1]:.2f}, {place[2]:.2f}]: "
+    labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
+    return [Diagnostic("D058", message, labels, (note + obstacle.measure(place, fleet.radius),), help_)]
+
+
+def _of(count: int, fleet: Fleet) -> str:
+    return f"{count} of {len(fleet.pads)} goals"
+
+
+def _moved(picture: Picture, shift: Array) -> str:
+    words = ", ".join(f"{c + 0.0:.2f}" for c in shift)
+    centre = picture.source.centre
+    if centre is None:
+        return f"shift it by [{words}]"
+    to = ", ".join(f"{c + d + 0.0:.2f}" for c, d in zip(centre, shift, strict=True))
+    return f"shift it by [{words}], to `center: [{to}]`"

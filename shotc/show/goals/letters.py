@@ -1,0 +1,83 @@
+"""When letters are read: how many lights that takes, how high they have to be, and when as an outline."""
+
+from __future__ import annotations
+
+from math import ceil
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.apart import spacing, stretch
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Fleet, Lettering, Picture
+from shotc.rounding import at_most
+from shotc.show.geom.sizes import enlarged, size_words
+from shotc.show.goals.body import Fill
+from shotc.show.goals.faults import passing, place_of
+from shotc.show.goals.flat import FlatBody
+
+DOTS = 5
+"""Lights in the height of a letter, fewer of which make none: the smallest fonts have five."""
+SMALL = 0.7
+"""Height of small letters, in capitals, of most fonts."""
+RESOLVED = 1.5
+"""Distance of lights on an outline, in widths of its strokes, at which both sides of a stroke are seen."""
+
+
+def lights_needed(source: Lettering, body: FlatBody, fill: Fill) -> int:
+    """Return how many lights a text takes: as far apart along its strokes as in a letter of five.
+
+    Along an outline they are nearer where it takes that to show both sides of a stroke.
+    """
+    return ceil(_strokes(body, fill) / _step(source, body, fill))
+
+
+def too_few_lights(
+    mission: MissionIR, picture: Picture, strokes: tuple[FlatBody, Fill], numbers: tuple[int, int | None]
+) -> Diagnostic:
+    """Warn of a fleet that is too small for a text; numbers : of drones, and of those that do, if any do."""
+    source, (body, fill), (number, enough) = picture.source, strokes, numbers
+    assert isinstance(source, Lettering)
+    length = _strokes(body, fill)
+    note = (
+        f"its {'edges' if fill == 'outline' else 'strokes'} are {length:.0f} m long, so its lights are "
+        f"{length / number:.1f} m apart; these letters need one every {_step(source, body, fill):.1f} m"
+    )
+    ways = [
+        "make it larger, with more drones"
+        if enough is None
+        else f"use {enough} drones (`count: {enough}`) or more"
+    ]
+    if fill == "outline" and number >= lights_needed(source, body, "volume"):
+        ways.append("leave `fill` out")
+    message = f"{number} drones are too few to read `{source.text[:40]}`"
+    help_ = ", or ".join([*ways, "fewer letters"])
+    return Diagnostic("D057", message, (place_of(mission, picture),), (note,), help_)
+
+
+def too_small(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
+    """Warn of letters so low that lights of a stroke are as near to the next one as to each other."""
+    source = picture.source
+    if not isinstance(source, Lettering):
+        return None
+    share = SMALL if any(letter.islower() for letter in source.text) else 1.0
+    needed = (DOTS - 1) * spacing(fleet.apart) / stretch(fleet.apart) / share
+    if source.height >= needed * (1.0 - 1e-9):
+        return None
+    notes = (passing(fleet), f"{'small ' if share < 1.0 else ''}letters need {DOTS} lights in their height")
+    larger = enlarged(picture, needed / source.height, mission.rules.ground_clearance + fleet.radius)
+    message = f"letters {source.height:.4g} m high are too small to be read"
+    help_ = f"make them larger (`{size_words(source, larger.source)}`)"
+    closer = source.height / needed * fleet.apart.across - fleet.apart.margin
+    if closer >= 2 * fleet.radius:
+        help_ += f", or keep a `separation` of {at_most(closer)} m"
+    return Diagnostic("D063", message, (place_of(mission, picture, "height"),), notes, help_)
+
+
+def _step(source: Lettering, body: FlatBody, fill: Fill) -> float:
+    """Return how far apart lights may be along what they stand on, metres."""
+    step = source.height / (DOTS - 1)
+    return min(step, RESOLVED * body.stroke) if fill == "outline" else step
+
+
+def _strokes(body: FlatBody, fill: Fill) -> float:
+    """Return the length along which lights stand: all edges, or the strokes between them, metres."""
+    return body.outlines * (1.0 if fill == "outline" else 0.5)

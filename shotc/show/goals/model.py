@@ -1,0 +1,127 @@
+"""Meshes and point clouds in their place: points of their insides, of their surfaces, or their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+from shotc.ir.fleet import Colors
+from shotc.show.geom.columns import (
+    Columns,
+    candidates,
+    column_at,
+    columns_below,
+    drawn,
+    spans,
+    through_triangles,
+)
+from shotc.show.goals.body import Fill
+from shotc.show.goals.model_file import Mesh
+
+COLUMNS = 0.25
+"""Columns drawn for each point."""
+MOST = 20_000_000
+"""Pairs of a column and a face below whose box it runs, beyond which fewer columns are taken."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CloudBody:
+    """Points as a file has them."""
+
+    mesh: Mesh
+
+    def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
+        """Return its points, or as many of them as are wanted."""
+        points = self.mesh.corners
+        if len(points) <= count:
+            return points
+        return points[np.sort(rng.choice(len(points), count, replace=False))]
+
+    def encloses(self, place: Array) -> bool:
+        """Return no: nothing says what is inside."""
+        return False
+
+    def colors(self, places: Array) -> Colors | None:
+        """Return the colours of the nearest points."""
+        return _nearest_colors(self.mesh, places)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MeshBody:
+    """Triangles; parity : that not all run round the same way, so that faces are only counted."""
+
+    mesh: Mesh
+    parity: bool
+
+    def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
+        """Return points of the inside or of the surface; a mesh has no edges that are meant."""
+        if fill == "outline":
+            return None
+        corners = self.mesh.corners[self.mesh.triangles]
+        if fill == "surface":
+            return _on_surface(corners, count, rng)
+        columns = _affordable(corners, round(COLUMNS * count), rng)
+        inside = spans(through_triangles(columns, corners), self.parity)
+        if not len(inside.low) or not (inside.high - inside.low).sum() > 0:
+            return None
+        return drawn(columns, inside, count, rng)
+
+    def encloses(self, place: Array) -> bool:
+        """Tell whether a place is inside, as far as the mesh has an inside."""
+        corners = self.mesh.corners[self.mesh.triangles]
+        inside = spans(through_triangles(column_at(place[:2]), corners), self.parity)
+        return bool(np.any((inside.low < place[2]) & (place[2] < inside.high)))
+
+    def colors(self, places: Array) -> Colors | None:
+        """Return the colours of the nearest corners."""
+        return _nearest_colors(self.mesh, places)
+
+
+def mesh_body(mesh: Mesh) -> MeshBody | CloudBody:
+    """Return a mesh, or a point cloud where there are no faces."""
+    if not len(mesh.triangles):
+        return CloudBody(mesh)
+    directed = _sides(mesh)
+    return MeshBody(mesh, len(np.unique(directed, axis=0)) < len(directed))
+
+
+def open_edges(mesh: Mesh) -> int:
+    """Return how many edges have an odd number of faces: of a closed mesh none."""
+    sides = np.sort(_sides(mesh), axis=1)
+    return int((np.unique(sides, axis=0, return_counts=True)[1] % 2).sum())
+
+
+def _sides(mesh: Mesh) -> Array:
+    return np.concatenate([mesh.triangles[:, [0, 1]], mesh.triangles[:, [1, 2]], mesh.triangles[:, [2, 0]]])
+
+
+def _affordable(corners: Array, count: int, rng: np.random.Generator) -> Columns:
+    flat = corners[:, :, :2].reshape(-1, 2)
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    columns = columns_below(low, high, max(100, count), rng)
+    work = int(candidates(columns, corners)[1].prod(axis=1).sum())
+    if work <= MOST:
+        return columns
+    return columns_below(low, high, max(100, count * MOST // work), rng)
+
+
+def _on_surface(corners: Array, count: int, rng: np.random.Generator) -> Array | None:
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    ends = np.cumsum(areas)
+    if not ends[-1] > 0:
+        return None
+    along = (np.arange(count) + rng.random(count)) / count * ends[-1]
+    k = np.minimum(np.searchsorted(ends, along, side="right"), len(ends) - 1)
+    u, v = rng.random((2, count, 1))
+    u, v = np.where(u + v > 1.0, 1.0 - u, u), np.where(u + v > 1.0, 1.0 - v, v)
+    return np.asarray(a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]))
+
+
+def _nearest_colors(mesh: Mesh, places: Array) -> Colors | None:
+    if mesh.colors is None:
+        return None
+    return np.asarray(mesh.colors[cKDTree(mesh.corners).query(places)[1]])

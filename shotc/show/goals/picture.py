@@ -1,0 +1,136 @@
+"""One picture of a display drawn: its goals frame by frame, or why it cannot be flown."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.ir.fleet import Colors, Frame
+from shotc.ir.show import Lettering, Picture
+from shotc.show.goals.body import Body, SourceFault
+from shotc.show.goals.faults import in_the_way, of_source, too_dark, too_few, too_many
+from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.layout import Layout, Task, laid_out
+from shotc.show.goals.letters import lights_needed, too_few_lights, too_small
+from shotc.show.goals.remedies import Fits, Remedies, remedies
+from shotc.show.goals.sources import bodies_of
+from shotc.show.goals.spaced import Placed, Setting, what_fits
+
+WHITE = (255, 255, 255)
+
+
+class Drawn(NamedTuple):
+    """A picture: its frames, none where it cannot be flown, and what is to be said."""
+
+    frames: tuple[Frame, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    stats: tuple[tuple[str, float | str], ...] = ()
+
+
+def draw_picture(task: Task, setting: Setting) -> Drawn:
+    """Return a picture's frames, or all that keeps it from being flown."""
+    bodies = bodies_of(task.picture, task.files)
+    if isinstance(bodies, SourceFault):
+        return Drawn((), (of_source(task.mission, task.picture, bodies),))
+    layout = laid_out(task, setting, bodies, dark=True)
+    if isinstance(layout, Diagnostic):
+        return Drawn((), (layout,))
+    shown = [goals.shown for goals in layout.placed]
+    faults = in_the_way(task.mission, task.fleet, task.picture, shown, setting.room)
+    if faults:
+        return Drawn((), tuple(faults))
+    if None in layout.spaced:
+        tight = layout.placed[layout.spaced.index(None)]
+        found = _remedies(task, setting, tight)
+        return Drawn((), (too_many(task.mission, task.fleet, task.picture, found),))
+    frames = tuple(_frame(task, k, body, layout) for k, body in enumerate(bodies))
+    return Drawn(frames, tuple(_warnings(task, setting, bodies[0], layout)), _stats(task, layout))
+
+
+def _warnings(task: Task, setting: Setting, body: Body, layout: Layout) -> list[Diagnostic]:
+    """Return what is to be said of a picture that can be flown."""
+    found = []
+    if layout.bright < setting.number:
+        ways = _remedies(task, setting, layout.placed[0], layout.bright)
+        found.append(too_dark(task.mission, task.fleet, task.picture, ways, layout.bright))
+    small = too_small(task.mission, task.fleet, task.picture)
+    if small is not None:
+        found.append(small)
+    few = None if found else _few(task, setting, body, layout)
+    return found if few is None else [few]
+
+
+def _few(task: Task, setting: Setting, body: Body, layout: Layout) -> Diagnostic | None:
+    source = task.picture.source
+    if not isinstance(source, Lettering) or not isinstance(body, FlatBody):
+        return too_few(task.mission, task.fleet, task.picture)
+    needed = lights_needed(source, body, layout.fill)
+    if setting.number >= needed:
+        return None
+    enough = needed if _trying(task, setting)(task.picture, needed, 1.0) else None
+    numbers = (setting.number, enough)
+    return too_few_lights(task.mission, task.picture, (body, layout.fill), numbers)
+
+
+def _remedies(task: Task, setting: Setting, tight: Placed, bright: int | None = None) -> Remedies:
+    """Find what would do; bright : how many lights the picture has, if it can be flown."""
+    fit = what_fits(setting, tight)
+    if bright is not None:
+        fit = fit._replace(number=bright)
+    apart = task.fleet.apart
+    touching = (2.0 * task.fleet.radius + apart.margin) / apart.across
+    about = (fit, touching, float(np.ptp(tight.points[:, 2])))
+    return remedies(_trying(task, setting), task.picture, setting, about)
+
+
+def _trying(task: Task, setting: Setting) -> Fits:
+    """Return how a remedy is tried: by drawing the picture as it would be written."""
+
+    def fits(picture: Picture, number: int, share: float) -> bool:
+        pictures = list(task.display.pictures)
+        pictures[task.index] = picture
+        changed = replace(task, display=task.display._replace(pictures=tuple(pictures)))
+        asked = replace(setting, number=number, least=setting.least * share)
+        bodies = bodies_of(picture, task.files)
+        layout = bodies if isinstance(bodies, SourceFault) else laid_out(changed, asked, bodies, dark=False)
+        return isinstance(layout, Layout) and layout.bright == number
+
+    return fits
+
+
+def _frame(task: Task, index: int, body: Body, layout: Layout) -> Frame:
+    goals = layout.spaced[index]
+    assert goals is not None
+    colors = _colors(task.picture, body, goals.points)
+    colors[goals.number :] = 0
+    return Frame(task.display.id, task.index, index, goals.points, colors)
+
+
+def _colors(picture: Picture, body: Body, goals: Array) -> Colors:
+    own = body.colors(goals) if picture.color is None else None
+    if own is not None:
+        return own
+    return np.tile(np.array(picture.color or WHITE, dtype=np.uint8), (len(goals), 1))
+
+
+def _stats(task: Task, layout: Layout) -> tuple[tuple[str, float | str], ...]:
+    name = f"goals {task.display.id}/{task.index + 1}"
+    flown = [frame for frame in layout.spaced if frame is not None]
+    frames = (f"{name} frames", float(len(flown)))
+    if layout.bright < len(flown[0].points):
+        return (frames, (f"{name} dark", float(len(flown[0].points) - layout.bright)))
+    shifts = np.concatenate(
+        [
+            np.linalg.norm(after.points - before.shown, axis=1)
+            for before, after in zip(layout.placed, flown, strict=True)
+        ]
+    )
+    return (
+        frames,
+        (f"{name} moved by spacing, mean m", float(shifts.mean())),
+        (f"{name} moved by spacing, largest m", float(shifts.max())),
+    )

@@ -1,0 +1,96 @@
+"""Balls, boxes and rings: points of their volumes, surfaces and edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.fleet import Colors
+from shotc.ir.show import Box, Sphere, Torus
+from shotc.show.goals.body import Fill, upright_axes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SolidBody:
+    """A solid whose points are drawn about its own centre along its own axes (3, 3), one a row."""
+
+    source: Sphere | Box | Torus
+    axes: Array
+
+    def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
+        """Return points; only a box has edges."""
+        local = _drawn(self.source, fill, count, rng)
+        return None if local is None else np.array(self.source.centre) + local @ self.axes
+
+    def encloses(self, place: Array) -> bool:
+        """Tell whether a place is inside."""
+        x, y, z = self.axes @ (place - np.array(self.source.centre))
+        if isinstance(self.source, Sphere):
+            return bool(x * x + y * y + z * z < self.source.radius**2)
+        if isinstance(self.source, Torus):
+            return bool((np.hypot(x, y) - self.source.radius) ** 2 + z * z < self.source.tube**2)
+        return bool(np.all(np.abs([x, y, z]) < np.array(self.source.size) / 2.0))
+
+    def colors(self, places: Array) -> Colors | None:
+        """Return none: the mission says."""
+        return None
+
+
+def solid_body(source: Sphere | Box | Torus) -> SolidBody:
+    """Return the body of a built-in solid."""
+    if isinstance(source, Sphere):
+        return SolidBody(source, np.eye(3))
+    right, ahead, up = upright_axes(source.heading)
+    if isinstance(source, Box):
+        return SolidBody(source, np.array([right, ahead, up]))
+    axis = np.sin(source.tilt) * ahead + np.cos(source.tilt) * up
+    return SolidBody(source, np.array([right, np.cross(axis, right), axis]))
+
+
+def _drawn(source: Sphere | Box | Torus, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
+    if isinstance(source, Box):
+        return _of_box(np.array(source.size), fill, count, rng)
+    if fill == "outline":
+        return None
+    if isinstance(source, Torus):
+        return _of_torus(source, fill, count, rng)
+    away = rng.normal(size=(count, 3))
+    away /= np.linalg.norm(away, axis=1)[:, None]
+    reach = rng.random(count) ** (1.0 / 3.0) if fill == "volume" else np.ones(count)
+    return np.asarray(source.radius * reach[:, None] * away)
+
+
+def _of_box(size: Array, fill: Fill, count: int, rng: np.random.Generator) -> Array:
+    """Return points of all of it, of its faces by their areas, or of its edges by their lengths."""
+    points = rng.random((count, 3)) - 0.5
+    if fill != "volume":
+        fixed, weight = _sides(size, fill)
+        chosen = fixed[rng.choice(len(fixed), count, p=weight / weight.sum())]
+        points = np.where(np.isnan(chosen), points, chosen)
+    return np.asarray(points * size)
+
+
+def _sides(size: Array, fill: Fill) -> tuple[Array, Array]:
+    # Faces have one coordinate fixed at a half, edges two; the others are free (NaN).
+    wanted = 1 if fill == "surface" else 2
+    rows = [row for row in product((-0.5, 0.5, np.nan), repeat=3) if np.sum(~np.isnan(row)) == wanted]
+    fixed = np.array(rows)
+    return fixed, np.where(np.isnan(fixed), size, 1.0).prod(axis=1)
+
+
+def _of_torus(source: Torus, fill: Fill, count: int, rng: np.random.Generator) -> Array:
+    """Return points of the ring: of all places round the tube, those farther out are more often kept."""
+    kept = np.zeros((0, 2))
+    while len(kept) < count:
+        round_tube = 2.0 * np.pi * rng.random(2 * count)
+        depth = source.tube * (np.sqrt(rng.random(2 * count)) if fill == "volume" else np.ones(2 * count))
+        out = depth * np.cos(round_tube)
+        often = rng.random(2 * count) * (source.radius + source.tube) < source.radius + out
+        kept = np.concatenate([kept, np.column_stack([out, depth * np.sin(round_tube)])[often]])
+    out, up = kept[:count].T
+    turn = 2.0 * np.pi * rng.random(count)
+    reach = source.radius + out
+    return np.column_stack([reach * np.cos(turn), reach * np.sin(turn), up])

@@ -1,0 +1,40 @@
+"""Where a display's words stand in the mission, and what to write there instead, for diagnostics."""
+
+from __future__ import annotations
+
+from math import pi, sin
+
+from shotc.diag.model import Label
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Box, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
+from shotc.rounding import at_least
+
+KEYS = {Sphere: "sphere", Box: "cube", Torus: "torus", Lettering: "text", Drawing: "svg", Model: "model"}
+
+
+def key_of(picture: Picture) -> KeyPath:
+    """Return the path of what a picture shows; a display may give the files of one animation alone."""
+    alone = picture.path[-1] == "frames"
+    return picture.path if alone else (*picture.path, word_of(picture))
+
+
+def word_of(picture: Picture) -> str:
+    """Return the word by which the mission says what a picture shows."""
+    return KEYS[type(picture.source)]
+
+
+def centre_label(mission: MissionIR, picture: Picture, text: str = "") -> Label:
+    """Return a label on the centre of a picture."""
+    return mission.origins.value((*key_of(picture), "center"), text)
+
+
+def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:
+    """Say how the layout has its pads so far apart, metres."""
+    path = (*fleet.path, "layout")
+    if (*path, "grid") in mission.origins.keys:
+        return f"give the grid a spacing of {at_least(least)} m or more"
+    if (*path, "circle") in mission.origins.keys:
+        radius = least / (2 * sin(pi / len(fleet.pads)))
+        return f"give the circle a radius of {at_least(radius)} m or more"
+    return f"put the pads {at_least(least)} m or more apart"

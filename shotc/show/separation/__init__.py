@@ -1,0 +1,67 @@
+"""keep-apart: ShowIR to TrajectoryIR.
+
+Takes flights within their limits. Proves for every fleet that no two of its drones ever come nearer than its
+separation, and that no two fleets meet; where that does not hold between two stops of a fleet, the drones
+concerned are pushed apart, all at once and as little as does, until the proof and all limits hold. What
+cannot be had is an error that names the two drones, the time, and how near they come.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import ClassVar
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.apart import spacing
+from shotc.geom.separation import closest_between
+from shotc.ir.fleet import FleetTrajectory, ShowIR
+from shotc.ir.mission import MissionIR
+from shotc.ir.passes import Outcome, PassContext
+from shotc.ir.show import stricter
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.show.separation.faults import bent, fleets_meet
+from shotc.show.separation.off_goals import farthest
+from shotc.show.separation.pushed import kept
+from shotc.show.separation.repair import Keeper
+
+MUCH = 0.5
+"""Share of the goals' spacing beyond which being off a goal is told: the picture is not the one asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeepApart:
+    """The pass; it has no options."""
+
+    name: ClassVar[str] = "keep-apart"
+
+    def run(self, ir: ShowIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
+        """Prove every fleet's separation, mending what breaks it."""
+        mission = ir.goals.keyframes.mission
+        found: list[Diagnostic] = []
+        warnings: list[Diagnostic] = []
+        fleets, stats = [], list(ir.stats)
+        for flight, wanted in zip(ir.fleets, ir.wanted, strict=True):
+            ctx.progress(f"separation in fleet {flight.fleet}")
+            keeper = Keeper(mission, mission.fleet(flight.fleet), flight, wanted, ctx)
+            fleets.append(keeper.keep())
+            found += keeper.faults
+            stats += keeper.stats()
+            off = farthest(fleets[-1], wanted)
+            stats += off.stats(flight.fleet)
+            if off.distance > MUCH * spacing(keeper.fleet.apart):
+                warnings.append(bent(mission, keeper.fleet, off))
+        for one, other in combinations(fleets, 2):
+            found += _meeting(mission, one, other)
+        if found:
+            return Outcome(None, tuple(found))
+        return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)), tuple(warnings))
+
+
+def _meeting(mission: MissionIR, one: FleetTrajectory, other: FleetTrajectory) -> list[Diagnostic]:
+    fleets = mission.fleet(one.fleet), mission.fleet(other.fleet)
+    apart = stricter(fleets[0].apart, fleets[1].apart)
+    near = closest_between(one.breaks, one.coef, other.breaks, other.coef, apart)
+    if kept(near.proven, apart.across):
+        return []
+    return [fleets_meet(mission, (one, other), near, apart.across)]

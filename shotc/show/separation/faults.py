@@ -1,0 +1,156 @@
+"""What cannot be kept apart, as diagnostics: which two drones, when, how near, and what would do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import ceil
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.apart import spacing
+from shotc.geom.separation import Nearest
+from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.show import Fleet, drone_names
+from shotc.rounding import at_least, at_most
+from shotc.show.labels import wider
+from shotc.show.separation.longer import Stretch
+from shotc.show.separation.off_goals import Off
+
+STILL = 1e-6
+"""Metres by which a drone on its pad moves at most."""
+DEGREE = 3
+"""Of the splines: a control point acts from so many breaks before its own on."""
+
+
+class Tried(NamedTuple):
+    """What was tried of a stretch in vain.
+
+    found : what comes nearest as its goals ask for; best : separation of the best flight found, metres
+    seconds : in which it could be flown, where any time is enough
+    """
+
+    found: Nearest
+    best: float
+    seconds: float | None
+
+
+def standing_too_near(
+    mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, found: Nearest
+) -> Diagnostic:
+    """Return D085: two places of one picture, or two pads, are too near."""
+    shown = _shown(flight, found.time)
+    where = "on or over its pads" if shown is None else f"in display `{shown.display}`"
+    path = fleet.path if shown is None else _path(mission, shown)
+    share = at_least(fleet.apart.across / max(found.attained, 1e-3))
+    larger = f"make the picture {share} times as large, or use fewer drones"
+    change = wider(mission, fleet, spacing(fleet.apart)) if shown is None else larger
+    return Diagnostic(
+        "D085",
+        f"two drones of `{fleet.name}` stand {found.attained:.2f} m apart {where}, "
+        f"and {fleet.apart.across:.2f} m is the least",
+        (mission.origins.key(path), *_rule(mission, fleet)),
+        (_who(fleet, found),),
+        change,
+    )
+
+
+def too_near(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -> Diagnostic:
+    """Return D086: between two stops no flight was found that keeps the drones apart."""
+    path = fleet.path if stretch.shown is None else _path(mission, stretch.shown)
+    found, across = tried.found, fleet.apart.across
+    return Diagnostic(
+        "D086",
+        f"two drones of `{fleet.name}` come within {found.attained:.2f} m of each other at "
+        f"{found.time:.2f} s, and {across:.2f} m is the least",
+        (mission.origins.key(path), *_rule(mission, fleet)),
+        (
+            _who(fleet, found),
+            f"the best flight found within their limits keeps {at_most(tried.best)} m",
+        ),
+        "; or ".join(_remedies(mission, fleet, stretch, tried)),
+    )
+
+
+def _remedies(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -> Iterator[str]:
+    """Yield what would do, as far as it is known: it was planned so, or straight ways cannot fail then."""
+    if tried.seconds is not None:
+        yield f"give it `{stretch.key}: {tried.seconds:.2f}`, with which they can be kept apart"
+    if stretch.from_pads or stretch.shown is None:
+        yield wider(mission, fleet, spacing(fleet.apart))
+    elif tried.seconds is None:
+        yield "make the figure larger, use fewer drones, or ask for no more than what was found"
+
+
+def fleets_meet(
+    mission: MissionIR, flights: tuple[FleetTrajectory, FleetTrajectory], found: Nearest, across: float
+) -> Diagnostic:
+    """Return D087: drones of two fleets come too near."""
+    fleets = mission.fleet(flights[0].fleet), mission.fleet(flights[1].fleet)
+    first, second = (drone_names(f)[row] for f, row in zip(fleets, (found.first, found.second), strict=True))
+    x, y, z = found.position
+    return Diagnostic(
+        "D087",
+        f"fleets `{fleets[0].name}` and `{fleets[1].name}` come within {found.attained:.2f} m of each "
+        f"other at {found.time:.2f} s, and {across:.2f} m is the least",
+        tuple(mission.origins.key(fleet.path) for fleet in fleets),
+        (f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",),
+        f"{_in_turn(*flights)}, or bring their pads and pictures farther apart",
+    )
+
+
+def _in_turn(first: FleetTrajectory, second: FleetTrajectory) -> str:
+    """Say when the fleet that shows later could begin, to leave its pads once the other has landed."""
+    if second.shown[0].start < first.shown[0].start:
+        first, second = second, first
+    moved = np.abs(second.coef - second.coef[:, :1]).max(axis=(0, 2)) > STILL
+    lead = second.shown[0].start - float(second.breaks[max(int(np.argmax(moved)) - DEGREE, 0)])
+    start = ceil(first.phases[-1].end + lead)
+    return (
+        f"show `{second.fleet}` once `{first.fleet}` has landed, by `timing: {{start: {start} s}}` of "
+        f"`{second.shown[0].display}`"
+    )
+
+
+def bent(mission: MissionIR, fleet: Fleet, off: Off) -> Diagnostic:
+    """Return D088: somebody is far from its goal when its frame is shown."""
+    limits = off.distance > 2.0 * off.smooth
+    why = "its limits, or keeping apart," if limits else "the smooth way through the goals"
+    return Diagnostic(
+        "D088",
+        f"`{drone_names(fleet)[off.drone]}` is {off.distance:.2f} m from its goal in frame "
+        f"{off.shown.index + 1} of display `{off.shown.display}`",
+        (mission.origins.key(_path(mission, off.shown)),),
+        (
+            f"goals may be {spacing(fleet.apart):.2f} m apart, so this is seen",
+            f"{why} bends its way, {off.smooth:.2f} m of it by smoothness alone",
+        ),
+        "give the animation a longer `period`"
+        if limits
+        else "put more frames between those where the figure turns back, or make it move less",
+    )
+
+
+def _who(fleet: Fleet, found: Nearest) -> str:
+    names = drone_names(fleet)
+    x, y, z = found.position
+    return f"they are `{names[found.first]}` and `{names[found.second]}`, at [{x:.1f}, {y:.1f}, {z:.1f}]"
+
+
+def _rule(mission: MissionIR, fleet: Fleet) -> tuple[Label, ...]:
+    return (mission.origins.value((*fleet.path, "separation"), "the separation"),)
+
+
+def _shown(flight: FleetTrajectory, time: float) -> Shown | None:
+    """Return the frame that is shown at a time, or the next one; None on the way up and home."""
+    first, last = flight.phases[0].end, flight.phases[-2].start
+    if time <= first or time > last:
+        return None
+    return next((shown for shown in flight.shown if shown.end >= time - 1e-9), None)
+
+
+def _path(mission: MissionIR, shown: Shown) -> KeyPath:
+    return mission.display(shown.display).pictures[shown.picture].path

@@ -1,0 +1,115 @@
+"""The least time in which drones that pass too near can be kept apart, found by planning the stretch anew.
+
+A stretch from stop to stop depends on nothing beyond it, so what is found here is what the mission gives
+with that time written into it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+from typing import Literal
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.separation import closest
+from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.passes import PassContext
+from shotc.ir.show import Fleet
+from shotc.rounding import up
+from shotc.show.separation.pushed import DIGITS, ROUNDS, kept, pushed
+from shotc.show.solvers.qcqp import Bounds, bounded, short
+
+FACTORS = (1.5, 2.5, 4.0)
+"""By which the time is stretched until it is enough; the last one not being enough, nothing is."""
+
+HALVINGS = 4
+"""Times that are tried between one that is not enough and one that is."""
+
+MOST = 3 * ROUNDS
+"""Rounds of all tries together: what three failures cost. Where there is room a try takes few of them."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """What is flown from one stop to the next.
+
+    breaks : shape (P + 1,); wanted : control points that the goals ask for, shape (n, P + 3, 3)
+    shown : the picture that comes of it, None on the way home; key : of what says how long it takes
+    from_pads : whether it begins over the pads
+    """
+
+    breaks: Array
+    wanted: Array
+    shown: Shown | None
+    key: Literal["period", "transition"]
+    from_pads: bool
+
+    @staticmethod
+    def of(flight: FleetTrajectory, breaks: Array, wanted: Array) -> Stretch:
+        """Return what is flown between two stops of a flight."""
+        start, end = float(breaks[0]) - 1e-9, float(breaks[-1]) + 1e-9
+        inside = [shown for shown in flight.shown if start <= shown.start <= end]
+        shown = inside[-1] if inside else None
+        same = [
+            s
+            for s in inside
+            if shown is not None and (s.display, s.picture) == (shown.display, shown.picture)
+        ]
+        from_pads = float(breaks[-1]) <= flight.shown[0].start + 1e-9
+        return Stretch(breaks, wanted, shown, "period" if len(same) > 1 else "transition", from_pads)
+
+    @property
+    def pieces(self) -> int:
+        """Return how many pieces take the time that is written."""
+        return 1 if self.key == "period" else len(self.breaks) - 1
+
+    def lasting(self, seconds: float) -> Array:
+        """Return breaks for a time that is written, as ``assign-goals`` makes them."""
+        piece = seconds / self.pieces
+        return np.array([round(float(self.breaks[0]) + k * piece, 9) for k in range(len(self.breaks))])
+
+
+def longer(stretch: Stretch, fleet: Fleet, ctx: PassContext) -> float | None:
+    """Return the least time found that is enough, seconds up to a hundredth; None where none is."""
+    if stretch.shown is None:
+        return None  # No mission says how long the way home takes.
+    now = float(stretch.breaks[stretch.pieces] - stretch.breaks[0])
+    trial, low = _Trial(stretch, fleet, ctx), now
+    for factor in FACTORS:
+        high = up(now * factor)
+        if trial.enough(high):
+            break
+        low = high
+    else:
+        return None
+    for _ in range(HALVINGS):
+        middle = up(sqrt(low * high))
+        if middle >= high or trial.left <= 0:
+            break
+        low, high = (low, middle) if trial.enough(middle) else (middle, high)
+    return high
+
+
+class _Trial:
+    """Plans a stretch with other times; left : rounds that this may still take."""
+
+    def __init__(self, stretch: Stretch, fleet: Fleet, ctx: PassContext) -> None:
+        self.stretch, self.fleet, self.ctx = stretch, fleet, ctx
+        self.left = MOST
+
+    def enough(self, seconds: float) -> bool:
+        """Tell whether the drones are kept apart when the stretch takes so long."""
+        stretch, fleet, ctx = self.stretch, self.fleet, self.ctx
+        ctx.progress(f"keeping fleet {fleet.name} apart: would `{stretch.key}: {seconds:.2f}` do")
+        breaks, bounds = stretch.lasting(seconds), Bounds(fleet.limits)
+        done = bounded(breaks, stretch.wanted, bounds)
+        if len(done.failed):
+            return False
+        coef = short(breaks, done.coef, bounds, DIGITS)
+        if kept(closest(breaks, coef, fleet.apart).proven, fleet.apart.across):
+            return True
+        tried = pushed(breaks, coef, fleet, ctx.seed, min(ROUNDS, self.left))
+        self.left -= tried.rounds
+        return tried.coef is not None

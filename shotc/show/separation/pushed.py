@@ -1,0 +1,85 @@
+"""Pushing the drones of one stretch apart, round after round, until the separation is proved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.separation import closest
+from shotc.ir.show import Fleet
+from shotc.show.solvers.qcqp import Bounds, bounded
+from shotc.show.solvers.repair import Index, Push, Pusher
+
+ROUNDS = 25
+GROWTH = 1.8
+"""By which the weight of being apart grows from round to round."""
+
+WEIGHT = 10.0
+MARGIN = (0.02, 0.004)
+"""Share of the distance that is asked for beyond it: in the first round, and more in each that follows."""
+
+NOISE = 0.01
+"""Shift by which two that fly at each other head-on are given a side, metres."""
+
+DIGITS = 6
+"""Decimals of a metre that control points keep, as in ``assign-goals``."""
+
+SLACK = 1e-6
+"""What the proof may fall short of, a share of the distance and of a metre at least, as in verification."""
+
+
+HOPELESS = 0.05
+"""Share of the distance that is lacking when nobody asks for the limits yet, which takes longest."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pushed:
+    """What came of it.
+
+    coef : control points that keep the separation and the limits, shape (n, K, 3), or None after all rounds
+    rounds : how many were done; reached : separation of the best that keeps the limits, proved, metres
+    """
+
+    coef: Array | None
+    rounds: int
+    reached: float
+
+
+def kept(proven: float, across: float) -> bool:
+    """Tell whether a proved distance is the one to be kept, metres."""
+    return proven >= across - SLACK * max(1.0, across)
+
+
+def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS) -> Pushed:
+    """Push the drones of a stretch apart.
+
+    breaks : shape (P + 1,); wanted : control points within the limits, shape (n, P + 3, 3)
+    What comes of fewer rounds than needed is nothing; more of them change nothing.
+    """
+    bounds = Bounds(fleet.limits)
+    pusher = Pusher(breaks, bounds.scaled(0.999), fleet.apart)
+    rng = np.random.default_rng(seed)
+    coef, movable, reached = wanted, np.zeros(0, dtype=np.intp), 0.0
+    for k in range(rounds):
+        distance = fleet.apart.across * (1.0 + MARGIN[0] + k * MARGIN[1])
+        crowded = np.setdiff1d(pusher.crowded(coef, distance), movable)
+        coef, movable = _shaken(coef, crowded, rng), np.union1d(movable, crowded)
+        coef = pusher.push(coef, wanted, movable, Push(distance, WEIGHT * GROWTH**k))
+        if len(pusher.crowded(coef, (1.0 - HOPELESS) * fleet.apart.across)):
+            continue
+        done = bounded(breaks, np.round(coef, DIGITS), bounds)
+        if len(done.failed):
+            continue
+        reached = max(reached, closest(breaks, done.coef, fleet.apart).proven)
+        if kept(reached, fleet.apart.across):
+            return Pushed(done.coef, k + 1, reached)
+    return Pushed(None, rounds, reached)
+
+
+def _shaken(coef: Array, rows: Index, rng: np.random.Generator) -> Array:
+    """Shift the inner control points of some drones a little, so that those head-on have a side to pass."""
+    coef = coef.copy()
+    coef[rows, 3:-3] += rng.normal(scale=NOISE, size=(len(rows), coef.shape[1] - 6, 3))
+    return coef

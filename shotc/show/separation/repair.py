@@ -1,0 +1,91 @@
+"""Keeping the drones of one fleet apart: what breaks its separation, and how it is mended."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.geom.separation import Nearest, closest
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.mission import MissionIR
+from shotc.ir.passes import PassContext
+from shotc.ir.show import Fleet
+from shotc.show.geom.windows import Window, windows
+from shotc.show.separation.faults import Tried, standing_too_near, too_near
+from shotc.show.separation.longer import Stretch, longer
+from shotc.show.separation.pushed import Pushed, kept, pushed
+
+
+class Keeper:
+    """Mends the flight of one fleet; wanted : control points that its goals ask for, as in ``ShowIR``."""
+
+    def __init__(
+        self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, wanted: Array, ctx: PassContext
+    ) -> None:
+        self.mission, self.fleet, self.flight, self.ctx = mission, fleet, flight, ctx
+        self.wanted = wanted
+        self.across = fleet.apart.across
+        self.coef = flight.coef.copy()
+        self.faults: list[Diagnostic] = []
+        self.rounds = 0
+        self.proven = np.inf
+
+    def keep(self) -> FleetTrajectory:
+        """Return the flight with its drones kept apart, or as it is where there are faults."""
+        found = closest(self.flight.breaks, self.coef, self.fleet.apart)
+        self.proven = found.proven
+        if kept(found.proven, self.across):
+            return self.flight
+        for window in windows(self.coef):
+            self._mend(window)
+        if not self.faults:
+            # The windows were proved one by one; what is told is of the whole.
+            self.proven = closest(self.flight.breaks, self.coef, self.fleet.apart).proven
+        return replace(self.flight, coef=self.coef)
+
+    def stats(self) -> list[tuple[str, float | str]]:
+        """Return what was done."""
+        shift = np.linalg.norm(self.coef - self.flight.coef, axis=2)
+        name = f"fleet {self.fleet.name} apart"
+        return [
+            (f"{name} proven", float(self.proven)),
+            (f"{name} rounds", float(self.rounds)),
+            (f"{name} moved", float((shift > 0.0).any(axis=1).sum())),
+            (f"{name} shift", float(shift.max())),
+        ]
+
+    def _mend(self, window: Window) -> None:
+        breaks, coef = window.breaks(self.flight.breaks), self.coef[:, window.points]
+        found = closest(breaks, coef, self.fleet.apart)
+        if kept(found.proven, self.across):
+            return
+        self.ctx.progress(f"mending fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
+        standing = self._standing(window)
+        if standing is not None:
+            self.faults.append(standing_too_near(self.mission, self.fleet, self.flight, standing))
+            return
+        done = pushed(breaks, coef, self.fleet, self.ctx.seed)
+        self.rounds += done.rounds
+        if done.coef is None:
+            self.faults.append(self._too_near(window, found, done))
+            return
+        self.coef[:, window.points] = done.coef
+
+    def _too_near(self, window: Window, found: Nearest, done: Pushed) -> Diagnostic:
+        stretch = Stretch.of(self.flight, window.breaks(self.flight.breaks), self.wanted[:, window.points])
+        seconds = longer(stretch, self.fleet, self.ctx)
+        best = max(found.proven, done.reached)
+        return too_near(self.mission, self.fleet, stretch, Tried(found, best, seconds))
+
+    def _standing(self, window: Window) -> Nearest | None:
+        """Return who is too near at one of its stops, where nothing can be mended."""
+        for stop in (window.first, window.last):
+            at = np.repeat(self.coef[:, stop : stop + 1], 4, axis=1)
+            time = float(self.flight.breaks[stop])
+            found = closest(np.array([time, time + 1.0]), at, self.fleet.apart)
+            if not kept(found.proven, self.across):
+                return replace(found, time=time)
+        return None

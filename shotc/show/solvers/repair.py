@@ -1,0 +1,197 @@
+"""Pushing splines of a fleet apart where they come too near: all drones concerned at once, by L-BFGS.
+
+Least is the sum of the splines' deviation from where they were (the integral of the squared distance), of the
+squares by which pairs are too near at samples of time, and of the squared distances of velocities,
+accelerations and jerks from what the limits allow. Nothing of it is proved: whoever calls it proves the
+outcome, and comes again with more weight and margin where it is not yet enough.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline
+from scipy.optimize import minimize
+from scipy.sparse import csr_array
+from scipy.spatial import cKDTree
+
+from shotc.geom.apart import Distances, stretch
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE, knots, places
+from shotc.show.solvers.qcqp import FIXED, Bounds, Programme
+
+Index = NDArray[np.intp]
+
+STEP = 0.35
+"""Largest way of two drones relative to each other between samples, as a share of their distance."""
+
+LONGEST = 0.25
+"""Longest time between samples, seconds."""
+
+NEAR = 0.15
+"""Pairs that are no nearer than this beyond what is wanted are not looked at, as a share of the distance."""
+
+ITERATIONS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """How hard a round pushes.
+
+    wanted : distance of pairs, metres across; weight : of squares of distances, against deviation
+    """
+
+    wanted: float
+    weight: float
+
+
+class Pusher:
+    """Pushes the drones of one window; breaks : shape (P + 1,); apart, bounds : what is to hold."""
+
+    def __init__(self, breaks: Array, bounds: Bounds, apart: Distances) -> None:
+        self.breaks, self.apart = breaks, apart
+        self.programme = Programme(breaks, bounds)
+        self.scale = np.array([1.0, 1.0, stretch(apart)])
+
+    def samples(self, coef: Array) -> Array:
+        """Return times so close that nobody gets far between two of them."""
+        velocity = np.diff(places(self.breaks, coef, self.breaks), axis=1) / np.diff(self.breaks)[:, None]
+        fastest = 2.0 * float(np.linalg.norm((velocity - velocity.mean(axis=0)) * self.scale, axis=2).max())
+        step = min(LONGEST, STEP * self.apart.across / max(fastest, 1e-9))
+        count = int(np.ceil((self.breaks[-1] - self.breaks[0]) / step))
+        return np.linspace(self.breaks[0], self.breaks[-1], count + 1)
+
+    def crowded(self, coef: Array, wanted: float) -> Index:
+        """Return the drones that come nearer to another one than wanted, at samples."""
+        times = self.samples(coef)
+        at = places(self.breaks, coef, times) * self.scale
+        found = [self.pairs(at[:, k], wanted) for k in range(len(times))]
+        return np.unique(np.concatenate(found))
+
+    def push(self, start: Array, wanted: Array, movable: Index, push: Push) -> Array:
+        """Return better control points, shape (n, K, 3).
+
+        start : where to begin; wanted : what deviation counts from; movable : whose points may change
+        """
+        cost = _Cost(self, start, wanted, movable, push)
+        found = minimize(
+            cost, cost.begin(), jac=True, method="L-BFGS-B", options={"maxiter": ITERATIONS, "maxcor": 12}
+        )
+        result = start.copy()
+        inner = found.x.reshape(-1, len(movable), 3)
+        result[movable, FIXED:-FIXED] = np.moveaxis(inner, 0, 1)
+        return result
+
+    def pairs(self, at: Array, reach: float) -> Index:
+        """Return pairs that are nearer than a distance; at : stretched places, shape (n, 3)."""
+        upright = self.apart.shape == "cylinder"
+        ball = reach * (np.sqrt(2.0) if upright else 1.0)
+        pairs = np.asarray(cKDTree(at).query_pairs(ball, output_type="ndarray"))
+        if not upright:
+            return pairs
+        return np.asarray(pairs[sizes(at[pairs[:, 0]] - at[pairs[:, 1]], self.apart) < reach])
+
+
+def sizes(relative: Array, apart: Distances) -> Array:
+    """Return stretched distances in the sense of ``geom.separation``, (M,), of relative places (M, 3)."""
+    if apart.shape == "cylinder":
+        return np.asarray(np.maximum(np.hypot(relative[:, 0], relative[:, 1]), np.abs(relative[:, 2])))
+    return np.asarray(np.sqrt(np.einsum("md,md->m", relative, relative)))
+
+
+def slopes(relative: Array, size: Array, apart: Distances) -> Array:
+    """Return the directions in which these distances grow, shape (M, 3)."""
+    slope = relative / np.maximum(size, 1e-12)[:, None]
+    if apart.shape == "cylinder":
+        flat = np.abs(relative[:, 2]) < size
+        slope *= np.where(flat[:, None], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+    return np.asarray(slope)
+
+
+class _Cost:
+    """The function that is made least, of the movable drones' free points, shape (K - 6, m, 3)."""
+
+    def __init__(self, pusher: Pusher, start: Array, wanted: Array, movable: Index, push: Push) -> None:
+        self.pusher, self.push = pusher, push
+        self.shape = (start.shape[1] - 2 * FIXED, len(movable), 3)
+        self.start = np.moveaxis(start[movable], 1, 0)
+        self.wanted = np.moveaxis(wanted[movable], 1, 0)[FIXED:-FIXED]
+        self.ends = self.start.copy()
+        self.ends[FIXED:-FIXED] = 0.0
+        self._rows()
+        self._samples(start, movable)
+
+    def _rows(self) -> None:
+        programme = self.pusher.programme
+        flat = self.ends.reshape(len(self.ends), -1)
+        self.base = (programme.dense @ flat).reshape(-1, *self.shape[1:])
+
+    def _samples(self, start: Array, movable: Index) -> None:
+        pusher = self.pusher
+        times = pusher.samples(start)
+        inside = np.clip(times, pusher.breaks[0], pusher.breaks[-1])
+        basis = BSpline.design_matrix(inside, knots(pusher.breaks), DEGREE).tocsc()
+        self.basis = csr_array(basis[:, FIXED:-FIXED])
+        self.back = csr_array(self.basis.T)
+        self.offset = (basis @ self.ends.reshape(len(self.ends), -1)).reshape(-1, *self.shape[1:])
+        self.step = float(times[1] - times[0])
+        at = places(pusher.breaks, start, times) * pusher.scale
+        reach = self.push.wanted + NEAR * pusher.apart.across
+        # Rows of the movable drones; minus one is somebody who stays.
+        row = np.full(len(start), -1, dtype=np.intp)
+        row[movable] = np.arange(len(movable))
+        found, fixed = [], []
+        for k in range(len(times)):
+            pairs = pusher.pairs(at[:, k], reach)
+            pairs = np.where((row[pairs[:, 0]] < 0)[:, None], pairs[:, ::-1], pairs)
+            pairs = pairs[row[pairs[:, 0]] >= 0]
+            found.append(np.column_stack([np.full(len(pairs), k), row[pairs]]))
+            fixed.append(at[pairs[:, 1], k])
+        pairs, self.fixed = np.concatenate(found), np.concatenate(fixed)
+        self.both = pairs[:, 2] >= 0
+        # Where the two stand in a flat list of all movable drones at all times; somebody fixed has no place.
+        self.first = pairs[:, 0] * len(movable) + pairs[:, 1]
+        self.second = np.where(self.both, pairs[:, 0] * len(movable) + pairs[:, 2], 0)
+
+    def begin(self) -> Array:
+        return np.ascontiguousarray(self.start[FIXED:-FIXED]).ravel()
+
+    def __call__(self, flat: Array) -> tuple[float, Array]:
+        """Return the cost and its slope."""
+        x = flat.reshape(self.shape)
+        programme = self.pusher.programme
+        shift = x - self.wanted
+        pull = (programme.inner @ shift.reshape(len(shift), -1)).reshape(self.shape)
+        cost, slope = float((shift * pull).sum()), 2.0 * pull
+        for part, more in (self._limits(x), self._near(x)):
+            cost += self.push.weight * part
+            slope += self.push.weight * more
+        return cost, slope.ravel()
+
+    def _limits(self, x: Array) -> tuple[float, Array]:
+        programme = self.pusher.programme
+        rows = (programme.free @ x.reshape(len(x), -1)).reshape(self.base.shape) + self.base
+        beyond = rows - programme.project(rows.copy())
+        slope = (programme.back @ beyond.reshape(len(beyond), -1)).reshape(self.shape)
+        return float((beyond**2).sum()), 2.0 * slope
+
+    def _near(self, x: Array) -> tuple[float, Array]:
+        pusher, shape = self.pusher, self.offset.shape
+        at = ((self.basis @ x.reshape(len(x), -1)).reshape(shape) + self.offset) * pusher.scale
+        at = at.reshape(-1, 3)
+        others = np.where(self.both[:, None], at.take(self.second, axis=0), self.fixed)
+        relative = at.take(self.first, axis=0) - others
+        close = np.flatnonzero(sizes(relative, pusher.apart) < self.push.wanted)
+        relative, both = relative[close], self.both[close]
+        size = sizes(relative, pusher.apart)
+        lack = self.push.wanted - size
+        pull_apart = slopes(relative, size, pusher.apart) * pusher.scale
+        force = -2.0 * self.step * lack[:, None] * pull_apart
+        cells = np.concatenate([self.first[close], self.second[close][both]])
+        forces = np.concatenate([force, -force[both]])
+        count = len(at)
+        summed = np.stack([np.bincount(cells, forces[:, d], count) for d in range(3)], axis=-1)
+        back = (self.back @ summed.reshape(shape[0], -1)).reshape(self.shape)
+        return self.step * float((lack**2).sum()), back

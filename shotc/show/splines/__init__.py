@@ -1,0 +1,104 @@
+"""bound-splines: ShowIR to ShowIR.
+
+Takes flights whose animations may ask more than the drones can do. Gives every drone the nearest spline (in
+the integral of the squared distance, *display* Sec. IV) whose velocity, acceleration and jerk keep the
+limits for all t, with the same stops: the first and the last frame of an animation are reached exactly, and
+whoever keeps the limits is left alone. An animation that nobody could fly is an error with the period that
+would do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.ir.fleet import FleetTrajectory, ShowIR
+from shotc.ir.mission import MissionIR
+from shotc.ir.passes import Outcome, PassContext
+from shotc.ir.show import Fleet
+from shotc.show.geom.windows import Window, windows
+from shotc.show.solvers.move import least_piece, least_pieces
+from shotc.show.solvers.qcqp import Bounded, Bounds, bounded, overdraft, short
+from shotc.show.splines.faults import too_quick
+
+DIGITS = 6
+"""Decimals of a metre that control points keep, as in ``assign-goals``."""
+
+
+@dataclass(frozen=True, slots=True)
+class BoundSplines:
+    """The pass; it has no options."""
+
+    name: ClassVar[str] = "bound-splines"
+
+    def run(self, ir: ShowIR, ctx: PassContext) -> Outcome[ShowIR]:
+        """Bring every fleet within its limits."""
+        mission = ir.goals.keyframes.mission
+        fleets, stats, found = [], list(ir.stats), []
+        for flight in ir.fleets:
+            ctx.progress(f"limits of fleet {flight.fleet}")
+            done = _Fitter(mission, mission.fleet(flight.fleet), flight)
+            for window in windows(flight.coef):
+                done.fit(window)
+            found += done.faults
+            stats += done.stats()
+            fleets.append(replace(flight, coef=done.coef))
+        if found:
+            return Outcome(None, tuple(found))
+        return Outcome(replace(ir, fleets=tuple(fleets), stats=tuple(stats)))
+
+
+class _Fitter:
+    """Fits the windows of one fleet."""
+
+    def __init__(self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory) -> None:
+        self.mission, self.fleet, self.flight = mission, fleet, flight
+        self.bounds = Bounds(fleet.limits)
+        self.coef = flight.coef.copy()
+        self.faults: list[Diagnostic] = []
+        self.done: list[Bounded] = []
+
+    def fit(self, window: Window) -> None:
+        """Bring one window within the limits, or say that nothing does."""
+        breaks = window.breaks(self.flight.breaks)
+        wanted = self.flight.coef[:, window.points]
+        if not (overdraft(breaks, wanted, self.bounds) > 0.0).any():
+            return
+        slow = self._slowest(breaks, wanted)
+        if slow is not None and bounded(breaks, wanted[[slow]], self.bounds).failed.size:
+            self.faults.append(self._too_quick(breaks, wanted, slow))
+            return
+        done = bounded(breaks, wanted, self.bounds)
+        self.done.append(done)
+        if len(done.failed):
+            self.faults.append(self._too_quick(breaks, wanted, int(done.failed[0])))
+            return
+        self.coef[:, window.points] = short(breaks, done.coef, self.bounds, DIGITS)
+
+    def _slowest(self, breaks: Array, wanted: Array) -> int | None:
+        """Return who could not even go straight from the first to the last place in time, if anybody."""
+        ways, pieces = wanted[:, -1] - wanted[:, 0], len(breaks) - 1
+        least = least_pieces(pieces, ways, self.fleet.limits)
+        slow = int(np.argmax(least))
+        return slow if least[slow] > np.diff(breaks).min() else None
+
+    def _too_quick(self, breaks: Array, wanted: Array, drone: int) -> Diagnostic:
+        ways = wanted[:, -1] - wanted[:, 0]
+        period = least_piece(len(breaks) - 1, ways, self.fleet.limits)
+        way = float(np.linalg.norm(ways[drone]))
+        return too_quick(self.mission, self.fleet, (self.flight, float(breaks[0])), (drone, way), period)
+
+    def stats(self) -> list[tuple[str, float | str]]:
+        """Return what was done."""
+        shift = np.linalg.norm(self.coef - self.flight.coef, axis=2)
+        name = f"fleet {self.fleet.name} bound"
+        return [
+            (f"{name} drones", float(sum(done.changed for done in self.done))),
+            (f"{name} iterations", float(max((done.iterations for done in self.done), default=0))),
+            (f"{name} exact", float(sum(done.exact for done in self.done))),
+            (f"{name} shift", float(shift.max())),
+        ]
