@@ -6,8 +6,9 @@ from collections.abc import Callable
 
 import pytest
 
-from shotc.emit import contact_sheet, storyboard
+from shotc.emit import storyboard
 from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit import contact_sheet
 from tests.support import show_flights
 from tests.support.film_plans import dense_plan, orbit_plan
 from tests.support.page_texts import texts
