@@ -159,15 +159,10 @@ def is_optional(missing: ModuleNotFoundError) -> bool:
 
 def not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
     """Say what cannot be had without some optional libraries; P004 refuses, P005 goes on without."""
-    from shotc.requirements import install_line
+    from shotc.requirements import remedy
 
-    packages = {library.partition(".")[0] for library in libraries}
-    extra = "view" if packages == {"rerun"} else "all" if "rerun" in packages else "plan"
-    also = "; `all` instead of `plan` brings the viewer, too" if extra == "plan" else ""
     return Diagnostic(
-        code,
-        f"{what} needs {', '.join(libraries)}, not installed here",
-        help=f"run `{install_line(extra)}`{also}",
+        code, f"{what} needs {', '.join(libraries)}, not installed here", help=remedy(libraries)
     )
 
 

@@ -1,11 +1,35 @@
-"""The command that adds optional libraries to this very installation of shotc."""
+"""What brings optional libraries to this very installation of shotc."""
 
 import json
+import platform
+import sys
+from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, distribution
 from typing import Any
 from urllib.parse import unquote, urlsplit
 
 PACKAGE = "shotc"
+VIEWER = "rerun"
+
+
+def remedy(libraries: Sequence[str]) -> str:
+    """Return what to do where optional libraries are missing, as the help of a diagnostic."""
+    packages = {library.partition(".")[0] for library in libraries}
+    if VIEWER in packages and not has_viewer():
+        packages -= {VIEWER}
+        if not packages:
+            return (
+                "ask for the output `storyboard`, which shows the same plan: the viewer has no release for "
+                "Intel Macs; on another machine `shotc view` and `shotc emit` take the plan.json of this one"
+            )
+    extra = "view" if packages == {VIEWER} else "all" if VIEWER in packages else "plan"
+    also = "; `all` instead of `plan` brings the viewer, too" if extra == "plan" and has_viewer() else ""
+    return f"run `{install_line(extra)}`{also}"
+
+
+def has_viewer() -> bool:
+    """Whether the extra `view` brings the viewer here, as its marker in pyproject.toml says."""
+    return sys.platform != "darwin" or platform.machine() == "arm64"
 
 
 def install_line(extra: str) -> str:

@@ -19,6 +19,7 @@ from shotc.cli.plans import proved
 from shotc.cli.refiner import told
 from shotc.diag.model import Diagnostic
 from shotc.ir.trajectory import VerifiedIR
+from shotc.requirements import remedy
 
 What = Annotated[str, typer.Argument(metavar="SPEC|PLAN", help="A mission, a plan.json, or its folder.")]
 
@@ -78,7 +79,7 @@ def _obstacle() -> Diagnostic | None:
             "E201",
             "the viewer is not installed",
             notes=("missing: rerun",),
-            help="run `pip install 'shotc[view]'`",
+            help=remedy(["rerun"]),
         )
     if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         return Diagnostic(

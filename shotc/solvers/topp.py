@@ -1,141 +1,28 @@
-"""The one door to toppra: the fastest profile b(s) = sdot^2 of a path under linear limits.
+"""The fastest profile b(s) = sdot^2 of a path under linear limits, by the solver that can be imported here.
 
-Left aside on purpose: toppra's own gridpoints (thousands for a long path), its default spline
-parametrizer (breaks limits) and ``compute_trajectory`` (hides failures). Constraints use the
-interpolation discretisation, which binds both ends of every cell.
+toppra has wheels for one platform. Elsewhere Clarabel, which planning needs anyway, solves the same rows as
+one linear programme, in two to three times the time.
 """
 
 from __future__ import annotations
 
-import logging
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import cache
-from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from shotc.solvers.conic import Status
-from shotc.solvers.late_pyplot import late_pyplot
-
-Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class LinearLimits:
-    """Limits of a path on a grid, as functions of a = sddot and b = sdot^2.
-
-    grid : shape (N + 1,), increasing path parameters
-    on_a, on_b : shape (N + 1, m); every row demands on_a a + on_b b <= 1
-    cap : shape (N + 1,), 0 <= b <= cap
-    """
-
-    grid: Array
-    on_a: Array
-    on_b: Array
-    cap: Array
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FastestProfile:
-    """TOPP-RA's answer.
-
-    b : shape (N + 1,), squared path velocity, zero at both ends; meaningless unless SOLVED
-    time : seconds from rest to rest
-    """
-
-    status: Status
-    b: Array
-    time: float
+from shotc.solvers import topp_lp, topp_ra
+from shotc.solvers.topp_problem import FastestProfile, LinearLimits
 
 
 def fastest(limits: LinearLimits) -> FastestProfile:
-    """Return the fastest profile from rest to rest (Pham and Pham, TOPP-RA, Seidel's LP).
-
-    The linear programs have absolute tolerances, so lengths are counted in path lengths and times so
-    that b is about 1; where rounding still hides a feasible step, other units of time are tried.
-    """
-    length = float(limits.grid[-1] - limits.grid[0])
-    ceiling = np.minimum(limits.cap, 1.0 / np.maximum(limits.on_b.max(axis=1), 1e-12))
-    unit = float(ceiling.max())
-    for share in (1.0, 0.1, 10.0, 0.01):
-        sd = _topp(_in_units(limits, length, share * unit))
-        if sd is not None:
-            sd *= np.sqrt(share * unit)
-            time = float(np.sum(2.0 * np.diff(limits.grid) / np.maximum(sd[:-1] + sd[1:], 1e-12)))
-            return FastestProfile(Status.SOLVED, sd**2, time)
-    return FastestProfile(Status.FAILED, np.zeros_like(limits.grid), float("inf"))
-
-
-def _in_units(limits: LinearLimits, length: float, b: float) -> LinearLimits:
-    """Return the limits with s from 0 to 1, and b counted in units of ``b``."""
-    grid = (limits.grid - limits.grid[0]) / length
-    grid[-1] = 1.0
-    return LinearLimits(grid, limits.on_a * (b / length), limits.on_b * b, limits.cap / b)
-
-
-def _topp(limits: LinearLimits) -> Array | None:
-    algorithm = _algorithm_class()(
-        [_constraint_class()(limits)], _Interval(0.0, 1.0), gridpoints=limits.grid, solver_wrapper="seidel"
-    )
-    algorithm.compute_parameterization(0.0, 0.0)
-    data = algorithm.problem_data
-    if data.return_code.name != "Ok" or data.sd_vec is None or not np.isfinite(data.sd_vec).all():
-        return None
-    return np.array(data.sd_vec, dtype=np.float64)
-
-
-@dataclass(frozen=True, slots=True)
-class _Interval:
-    # toppra asks a path for its range and its dimension only; the limits carry the derivatives.
-    start: float
-    end: float
-    dof: int = 1
-
-    @property
-    def path_interval(self) -> Array:
-        return np.array([self.start, self.end])
+    """Return the fastest profile from rest to rest; its status is FAILED where the solver gives none."""
+    return solver()(limits)
 
 
 @cache
-def _algorithm_class() -> Any:
-    with late_pyplot():
-        from toppra.algorithm import TOPPRA
-
-    # Without a handler of its own toppra's remarks on a failure would reach the user's terminal.
-    logging.getLogger("toppra").setLevel(logging.CRITICAL)
-    return TOPPRA
-
-
-@cache
-def _constraint_class() -> Any:
-    with late_pyplot():
-        from toppra.constraint import DiscretizationType, LinearConstraint
-        from toppra.constraint.linear_constraint import canlinear_colloc_to_interpolate
-
-    class Limits(LinearConstraint):  # type: ignore[misc]
-        def __init__(self, limits: LinearLimits) -> None:
-            super().__init__()
-            self.limits = limits
-            self.identical = True
-            self.dof = 1
-            self.set_discretization_type(DiscretizationType.Interpolation)
-
-        def compute_constraint_params(self, _path: Any, gridpoints: Array, *_rest: Any) -> Any:
-            rows = self.limits.on_a.shape[1]
-            bound = np.stack([np.zeros_like(self.limits.cap), self.limits.cap], axis=1)
-            a, b, c, lhs, rhs, _, _ = canlinear_colloc_to_interpolate(
-                self.limits.on_a,
-                self.limits.on_b,
-                np.zeros_like(self.limits.on_a),
-                np.eye(rows),
-                np.ones(rows),
-                None,
-                None,
-                gridpoints,
-                identical=True,
-            )
-            # A constraint returns (..., u bound, x bound); the helper above takes them the other way.
-            return a, b, c, lhs, rhs, None, bound
-
-    return Limits
+def solver() -> Callable[[LinearLimits], FastestProfile]:
+    """Return TOPP-RA where toppra can be imported, else the linear programme."""
+    try:
+        topp_ra.load()
+    except ImportError:
+        return topp_lp.fastest
+    return topp_ra.fastest

@@ -112,5 +112,6 @@ def test_without_the_viewer_it_says_what_to_install(
     done = run("view", str(good))
     assert done.code == 1
     assert "error[E201]" in done.err
-    assert "shotc[view]" in done.err
+    assert "pip install" in done.err
+    assert "[view]" in done.err
     assert viewer.command == []

@@ -163,6 +163,16 @@ def test_planning_without_its_libraries_says_what_to_install(planned: Path, libr
     assert not (planned / "none").exists()
 
 
+def test_planning_without_toppra_gives_a_plan_that_is_proved(place: Path) -> None:
+    env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": "toppra"}
+    result = run(*PLAN, "small.yaml", "-o", "there", folder=place, env=env)
+    assert (result.code, result.reports) == (0, [])
+    assert run("verify", "there", folder=place, env=env).code == 0
+    code = "from importlib.util import find_spec; print(find_spec('toppra'))"
+    seen = subprocess.run([sys.executable, "-c", code], env=environment(env), capture_output=True, check=True)
+    assert seen.stdout.strip() == b"None"
+
+
 @pytest.mark.parametrize("arguments", [["verify"], ["emit"], ["diff", "out/small"]], ids=lambda a: a[0])
 def test_reading_a_plan_without_libraries_says_what_to_install(planned: Path, arguments: list[str]) -> None:
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": SOLVERS}

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+import tomllib
+from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 
 from shotc import requirements
 
@@ -39,3 +42,29 @@ def test_without_metadata_the_package_is_named(monkeypatch):
 
     monkeypatch.setattr(requirements, "distribution", missing)
     assert requirements.install_line("view") == "pip install 'shotc[view]'"
+
+
+@pytest.mark.parametrize(
+    ("system", "machine"),
+    [
+        ("linux", "x86_64"),
+        ("linux", "aarch64"),
+        ("darwin", "arm64"),
+        ("darwin", "x86_64"),
+        ("win32", "AMD64"),
+    ],
+)
+def test_the_help_offers_the_viewer_where_the_extra_brings_it(monkeypatch, system, machine):
+    monkeypatch.setattr(requirements.sys, "platform", system)
+    monkeypatch.setattr(requirements.platform, "machine", lambda: machine)
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))
+    (viewer,) = project["project"]["optional-dependencies"]["view"]
+    marker = Requirement(viewer).marker
+    assert marker is not None
+    brings = marker.evaluate({"sys_platform": system, "platform_machine": machine})
+    assert requirements.has_viewer() == brings
+    assert ("[view]" in requirements.remedy(["rerun"])) == brings
+    assert ("storyboard" in requirements.remedy(["rerun"])) == (not brings)
+    assert ("[all]" in requirements.remedy(["rerun", "numpy"])) == brings
+    assert ("viewer" in requirements.remedy(["numpy"])) == brings
+    assert "[plan]" in requirements.remedy(["numpy"])

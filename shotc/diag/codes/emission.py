@@ -226,7 +226,8 @@ _VIEW_CODES = (
         Severity.ERROR,
         "`shotc view` needs the rerun viewer, and it is not installed",
         "The recording is shown by the viewer that comes with rerun-sdk, which is not part of the base "
-        "install. Install it with `pip install 'shotc[view]'`; storyboard.png shows the same plan without it.",
+        "install. Install it with `pip install 'shotc[view]'`; storyboard.png shows the same plan without it. There is no "
+        "release of it for Intel Macs.",
         "",
         "",
         "other",

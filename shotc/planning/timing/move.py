@@ -1,4 +1,4 @@
-"""Times one move from rest to rest: TOPP-RA, then a jerk-bounded profile, then the flown quintics."""
+"""Times one move from rest to rest: the fastest profile, then a jerk-bounded one, then the flown quintics."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ from shotc.solvers.retiming_socp import (
     retime,
     start_from,
 )
-from shotc.solvers.topp import LinearLimits, fastest
+from shotc.solvers.topp import fastest
+from shotc.solvers.topp_problem import LinearLimits
 
 Array = NDArray[np.float64]
 
@@ -49,7 +50,7 @@ REFINEMENTS = 8
 MOST_CELLS = 20000
 # An inaccurate profile is good enough to be flown and checked.
 USABLE = (Status.SOLVED, Status.INACCURATE)
-# Corners of the polygon that stands for the disc of accelerations in TOPP-RA: 0.1 % of time lost.
+# Corners of the polygon that stands for the disc of accelerations in TOPP: 0.1 % of time lost.
 CORNERS = 32
 
 
@@ -58,7 +59,7 @@ class Move:
     """One timed move.
 
     profile : s over local time from 0; curve : the flown quintics over the same knots
-    topp_time : the fastest time without a jerk limit, by TOPP-RA; infinite where it gave none, which
+    topp_time : the fastest time without a jerk limit; infinite where the solver gave none, which
         costs convex steps but no safety
     scale : final slowdown, at least 1
     steps, cells : convex steps solved, and pieces of the curve
@@ -174,7 +175,7 @@ def axes_of(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> tup
 
 
 def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
-    """Return the linear limits for TOPP-RA: discs of accelerations become polygons inside them."""
+    """Return the linear limits of the fastest profile: discs of accelerations become polygons inside them."""
     d1 = np.concatenate([samples.d1[:, 0], samples.d1[-1:, 2]])
     d2 = np.concatenate([samples.d2[:, 0], samples.d2[-1:, 2]])
     on_a, on_b = [], []
