@@ -8,7 +8,7 @@ STAMP := $(VENV)/.installed
 PLUGINS := $(wildcard plugins/*/pyproject.toml)
 UV := $(shell command -v uv 2>/dev/null)
 
-.PHONY: help setup demo test test-fast fuzz check lint type fmt layers gen gen-check bless bench papers build clean
+.PHONY: help setup demo test test-fast fuzz check lint type fmt layers platforms gen gen-check bless bench papers build clean
 
 help: ## List the tasks
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 14
@@ -40,7 +40,7 @@ test-fast: $(STAMP) ## Run the tests that plan no whole mission
 fuzz: $(STAMP) ## Plan 300 drawn missions, and run every property test with new random numbers
 	CI= FUZZ=1 OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "fuzz or hypothesis"
 
-check: lint type layers gen-check test build ## Everything, as CI runs it
+check: lint type layers gen-check platforms test build ## Everything, as CI runs it
 
 lint: $(STAMP) ## Lint and formatting
 	$(BIN)/ruff check .
@@ -51,6 +51,9 @@ type: $(STAMP) ## Strict types
 
 layers: $(STAMP) ## Imports point down only
 	$(BIN)/lint-imports
+
+platforms: $(STAMP) ## Every platform has wheels of what is required, or states why not
+	$(BIN)/python -m tests.platforms
 
 fmt: $(STAMP) ## Format and fix
 	$(BIN)/ruff format .
