@@ -11,11 +11,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from shotc import plugins
+from shotc import emission, plugins
 from shotc.checking import models_of
 from shotc.diag.model import Diagnostic
 from shotc.diag.plugin_faults import plugin_failed
 from shotc.diag.registry import has_errors, stops, without_answered
+from shotc.emit.base import Artifact, Emission, Emitter
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
@@ -36,10 +37,9 @@ from shotc.pipeline import (
 )
 from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load
+from shotc.spec.schema import json_schema as schema_of
 
 if TYPE_CHECKING:  # the base install has no numpy
-    from shotc.emission import Crew
-    from shotc.emit.base import Artifact, Emission, Emitter
     from shotc.ir.trajectory import Claim, VerifiedIR
     from shotc.passes.refine_path import Seat
 
@@ -110,8 +110,6 @@ class PlanReport(NamedTuple):
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON Schema of a mission, with every kind that is installed."""
-    from shotc.spec.schema import json_schema as schema_of
-
     return schema_of(models_of(plugins.shot_kinds().plugins))
 
 
@@ -197,14 +195,12 @@ def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic,
     return None, found.diagnostics
 
 
-def crew(jobs: int | None = None) -> AbstractContextManager[Crew]:
+def crew(jobs: int | None = None) -> AbstractContextManager[emission.Crew]:
     """Return processes that emit side by side, this one among them; enter it before threads are started.
 
     jobs : how many; None means the cores, up to a few
     ``prepare`` tells them early what they will emit, then ``emit_plan`` uses them.
     """
-    from shotc import emission
-
     return emission.crew(emission.usual_jobs() if jobs is None else jobs, _emitter)
 
 
@@ -213,7 +209,11 @@ def _emitter(name: str) -> Emitter | None:
 
 
 def emit_plan(
-    plan: VerifiedIR, names: Sequence[str] | None = None, crew: Crew | None = None, *, saved: bool = False
+    plan: VerifiedIR,
+    names: Sequence[str] | None = None,
+    crew: emission.Crew | None = None,
+    *,
+    saved: bool = False,
 ) -> Emitted:
     """Make the output files of a verified plan; plan.json is always among them, unless it is there already.
 
@@ -222,8 +222,6 @@ def emit_plan(
     crew : the processes to use; what is made does not depend on them
     saved : whether the plan was read from a plan.json, which is not made again
     """
-    from shotc.emission import ALONE
-    from shotc.emit.base import Emission
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
     known = plugins.discover("emitters")
@@ -237,7 +235,7 @@ def emit_plan(
     ]
     emitters = tuple(known.plugins[n] for n in wanted if n in known.plugins)
     emitters = emitters if saved else (PLAN_JSON, *emitters)
-    for emitter, made in zip(emitters, (crew or ALONE).emit(plan, emitters), strict=True):
+    for emitter, made in zip(emitters, (crew or emission.ALONE).emit(plan, emitters), strict=True):
         if not isinstance(made, Emission):
             diagnostics.append(_not_made(emitter.name, made, code))
             continue

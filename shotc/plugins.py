@@ -5,21 +5,19 @@ against). Nothing is imported until it is asked for; a clash of names, a failed 
 version is a diagnostic that names the package, never a silent choice.
 """
 
-import os
-import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
-from importlib.metadata import Distribution, EntryPoint, distributions
+from importlib.metadata import EntryPoint, entry_points
 from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.requirements import remedy
 
 API_VERSION = 1
 OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi")
 """Libraries that the base install does without: a plugin that misses one is not broken."""
 OURS = "shotc"
 OUR_REFINER, NO_REFINER = "ours", "none"
-_ENTRIES = "entry_points.txt"
 GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}
 
 
@@ -159,8 +157,6 @@ def is_optional(missing: ModuleNotFoundError) -> bool:
 
 def not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
     """Say what cannot be had without some optional libraries; P004 refuses, P005 goes on without."""
-    from shotc.requirements import remedy
-
     return Diagnostic(
         code, f"{what} needs {', '.join(libraries)}, not installed here", help=remedy(libraries)
     )
@@ -194,26 +190,9 @@ def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> Found:
 
 
 @cache
-def _installed() -> tuple[EntryPoint, ...]:
-    """Return the entry points of the packages that name one of our groups.
-
-    The library's own list parses those of every package, which takes longer than to check a mission.
-    """
-    packages = (package for place in sys.path for package in _packages(place or os.curdir))
-    naming = (package for package in packages if "shotc." in (package.read_text(_ENTRIES) or ""))
-    return tuple(entry for package in naming for entry in package.entry_points)
-
-
-def _packages(place: str) -> Iterable[Distribution]:
-    """Return the packages in a folder that have entry points; all of those in a file, such as a zip."""
-    # Text, not paths: a hundred packages' paths as objects take a millisecond.
-    if os.path.isfile(place):  # noqa: PTH113
-        return distributions(path=[place])
-    try:
-        infos = [f"{place}/{name}" for name in os.listdir(place) if name.endswith("-info")]  # noqa: PTH208
-    except OSError:  # on the path, and not there or not to be read
-        return ()
-    return (Distribution.at(info) for info in infos if os.path.isfile(f"{info}/{_ENTRIES}"))  # noqa: PTH113
+def _installed(group: str) -> tuple[EntryPoint, ...]:
+    """Return the entry points of installed packages in a group; of a package found twice, the first."""
+    return tuple(entry_points(group=GROUPS[group]))
 
 
 def _is_ours(entry: EntryPoint) -> bool:
@@ -222,11 +201,8 @@ def _is_ours(entry: EntryPoint) -> bool:
 
 def _by_name(group: str) -> dict[str, list[EntryPoint]]:
     table: dict[str, list[EntryPoint]] = {}
-    for entry in (e for e in _installed() if e.group == GROUPS[group]):
-        known = table.setdefault(entry.name, [])
-        # A package may be on the path twice, an editable install beside a wheel, say: the first one counts.
-        if all(_owner(e) != _owner(entry) for e in known):
-            known.append(entry)
+    for entry in _installed(group):
+        table.setdefault(entry.name, []).append(entry)
     return dict(sorted(table.items()))
 
 

@@ -3,9 +3,11 @@
 import errno
 import os
 import sys
+import traceback
 from collections.abc import Sequence
 from contextlib import redirect_stdout, suppress
 from importlib import import_module
+from platform import platform, python_version
 from typing import Annotated, NamedTuple
 
 import typer
@@ -13,6 +15,8 @@ import typer
 from shotc import __version__
 from shotc.cli import console
 from shotc.cli.console import Color
+from shotc.diag.model import Diagnostic
+from shotc.plugins import is_optional, not_installed
 
 
 class _Command(NamedTuple):
@@ -172,8 +176,6 @@ def _pipe_closed() -> int:
 
 def _not_installed(missing: ModuleNotFoundError) -> int:
     """Report a command that needs more than the base install."""
-    from shotc.plugins import is_optional, not_installed
-
     if not is_optional(missing):
         return _bug(missing)
     console.report([not_installed("P004", "this command", [str(missing.name)])], {})
@@ -193,11 +195,6 @@ def _no_output(error: OSError) -> int:
 
 def _bug(bug: BaseException) -> int:
     """Report our own failure as a diagnostic; the traceback is for those who ask for it."""
-    import traceback
-    from platform import platform, python_version
-
-    from shotc.diag.model import Diagnostic
-
     frames = traceback.extract_tb(bug.__traceback__)
     where = f"{frames[-1].name} at line {frames[-1].lineno} of {frames[-1].filename}" if frames else "unknown"
     diagnostic = Diagnostic(

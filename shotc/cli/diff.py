@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isfinite
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from shotc.cli import console
 from shotc.cli.console import table
 from shotc.cli.plans import proved
-from shotc.ir.measures import measure
-from shotc.ir.trajectory import Claim
-from shotc.planfile.compare import Comparison, FleetChange, ShotChange, compare
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.ir.trajectory import Claim
+    from shotc.planfile.compare import Comparison, FleetChange, ShotChange
 
 Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the folder that holds it.")]
 New = Annotated[Path, typer.Argument(metavar="NEW", help="The plan to compare it with.")]
@@ -28,6 +29,8 @@ def diff(old: Old, new: New) -> None:
 
     Example: shotc diff out/tower/plan.json out/tower-slow/plan.json
     """
+    from shotc.planfile.compare import compare
+
     found = compare(proved(old), proved(new))
     console.out("\n".join(_lines(found)))
 
@@ -74,6 +77,8 @@ def _claim(old: Claim | None, new: Claim | None) -> tuple[str, ...] | None:
 
 
 def _say(claim: Claim, value: float) -> str:
+    from shotc.ir.measures import measure
+
     return measure(value, claim.unit) if isfinite(value) else "-"
 
 

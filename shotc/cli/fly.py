@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from shotc.cli import console
+from shotc.cli.console import clock, table
 from shotc.cli.plans import PlanPath, proved
 from shotc.cli.verify import Format
+from shotc.ir.show import drone_names
 from shotc.rounding import at_least, up
 
 if TYPE_CHECKING:
@@ -51,8 +53,6 @@ def fly(plan: PlanPath, gusts: Gusty = 0.0, seed: Seed = 1, format: FormatOption
 
 
 def _text(found: list[tuple[Fleet, Rehearsal]]) -> str:
-    from shotc.cli.console import table
-
     return "\n".join([*table([HEADING, *(_row(*each) for each in found)]), "", *_remarks(found)])
 
 
@@ -65,9 +65,6 @@ def _row(fleet: Fleet, came: Rehearsal) -> tuple[str, ...]:
 
 
 def _remarks(found: list[tuple[Fleet, Rehearsal]]) -> Iterator[str]:
-    from shotc.cli.console import clock
-    from shotc.ir.show import drone_names
-
     for fleet, came in found:
         names, near = drone_names(fleet), came.near
         yield f"{fleet.name}: {names[came.drone]} strays farthest, at {clock(came.time)}"

@@ -10,6 +10,12 @@ import typer
 
 from shotc.cli import console
 from shotc.cli.inputs import STDIN, STDIN_NAME
+from shotc.diag.model import Diagnostic, Label
+from shotc.diag.registry import has_errors
+from shotc.emit.base import Artifact
+from shotc.importers.xml_tree import LARGEST
+from shotc.output import write
+from shotc.source.file import WHOLE_FILE
 
 FORMATS = ("multidrone",)
 
@@ -42,8 +48,6 @@ def import_(
     Example: `shotc import multidrone karting.xml -o karting.yaml`
     """
     from shotc.checking import check_source
-    from shotc.diag.model import Diagnostic
-    from shotc.diag.registry import has_errors
     from shotc.importers.mission import import_multidrone
 
     if format not in FORMATS:
@@ -67,10 +71,6 @@ def import_(
 
 def _read(file: str) -> bytes:
     """Return the bytes of a file, or a little more of it than an importer reads."""
-    from shotc.diag.model import Diagnostic, Label
-    from shotc.importers.xml_tree import LARGEST
-    from shotc.source.file import WHOLE_FILE
-
     try:
         if file == STDIN:
             return sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b""
@@ -91,9 +91,6 @@ def _save(text: str, output: Path | None) -> None:
     if output is None or output == Path("-"):
         console.out(text.rstrip("\n"))
         return
-    from shotc.emit.base import Artifact
-    from shotc.output import write
-
     _, faults = write([Artifact(output.name, text.encode())], output.parent)
     if faults:
         console.report(faults, {})

@@ -10,6 +10,7 @@ from typing import BinaryIO, NamedTuple
 import typer
 
 from shotc.cli import console
+from shotc.diag.codes.yaml import NO_MISSION, UNREADABLE_FILE
 from shotc.diag.model import Diagnostic, Label
 from shotc.source.file import WHOLE_FILE
 from shotc.source.limits import MAX_BYTES
@@ -127,8 +128,6 @@ def _read(spec: str, stdin_name: str | None) -> MissionText | Diagnostic:
 
 
 def _unreadable(what: str, name: str, error: OSError) -> Diagnostic:
-    from shotc.diag.codes.yaml import UNREADABLE_FILE
-
     reason = (error.strerror or str(error)).lower()
     return Diagnostic(
         UNREADABLE_FILE,
@@ -144,8 +143,6 @@ def _bounded(stream: BinaryIO) -> bytes:
 
 
 def _no_mission(folder: Path) -> Diagnostic:
-    from shotc.diag.codes.yaml import NO_MISSION
-
     return Diagnostic(
         NO_MISSION,
         "the folder holds no mission",

@@ -10,6 +10,10 @@ import typer
 
 from shotc.cli import console
 from shotc.cli.console import table
+from shotc.plugins import discover, listing
+from shotc.solvers.headings import DEFAULT, METHODS
+from shotc.spec.compositions import FRAMES
+from shotc.spec.presets import PRESETS
 
 
 class Group(StrEnum):
@@ -67,8 +71,6 @@ def _rows(group: Group) -> list[tuple[str, ...]]:
 
 def _plugins(group: Group) -> list[tuple[str, ...]]:
     """List a plugin group; a plugin of another package bears that package's name."""
-    from shotc.plugins import discover, listing
-
     found = discover(group)
     if found.diagnostics:
         console.report(found.diagnostics, {})
@@ -87,8 +89,6 @@ def _remark(plugin: Any, package: str) -> str:
 
 def _drones() -> list[tuple[str, ...]]:
     """Tell what drones may do, in the units that missions are mostly written in."""
-    from shotc.spec.presets import PRESETS
-
     return [
         DRONE_HEADING,
         *(
@@ -108,14 +108,10 @@ def _drones() -> list[tuple[str, ...]]:
 
 
 def _headings() -> list[tuple[str, ...]]:
-    from shotc.solvers.headings import DEFAULT, METHODS
-
     return [(name, said + (" [default]" if name == DEFAULT else "")) for name, said in METHODS.items()]
 
 
 def _compositions() -> list[tuple[str, ...]]:
-    from shotc.spec.compositions import FRAMES
-
     rows: list[tuple[str, ...]] = []
     for name, composition in FRAMES.items():
         points = [f"({u:.3g}, {v:.3g})" for u, v in composition.points]

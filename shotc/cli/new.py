@@ -11,6 +11,8 @@ from typing import Annotated
 import typer
 
 from shotc.cli import console
+from shotc.emit.base import Artifact
+from shotc.output import write
 
 _SUFFIX = ".yaml"
 
@@ -48,9 +50,6 @@ def new(template: Template = None, output: OutputFile = None, force: Force = Fal
 
 def _save(data: bytes, path: Path, *, force: bool) -> None:
     """Write a new file, and say what to do with it; an existing one is left alone unless forced."""
-    from shotc.emit.base import Artifact
-    from shotc.output import write
-
     if path.exists() and not force:
         raise typer.BadParameter(f"`{path}` exists; add --force to replace it", param_hint="--output")
     _, faults = write([Artifact(path.name, data)], path.parent)

@@ -15,6 +15,7 @@ from shotc.cli.console import Progress, known, listed
 from shotc.cli.inputs import read_mission
 from shotc.cli.refiner import told
 from shotc.filenames import file_name
+from shotc.ir.text import dump
 from shotc.output import earlier, left_over, write
 from shotc.pipeline import PASS_NAMES
 from shotc.solvers.headings import DEFAULT, METHODS
@@ -174,8 +175,6 @@ def _tell_left_over(folder: Path, written: set[str]) -> None:
 
 
 def _dump(done: Compilation, name: str) -> None:
-    from shotc.ir.text import dump
-
     for report in done.reports:
         if report.name == name and report.output is not None:
             console.out(dump(report.output))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,8 +11,10 @@ from shotc.api import MissionFile, PlanReport, verify_plan
 from shotc.cli import console
 from shotc.diag.codes.yaml import UNREADABLE_FILE
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.trajectory import VerifiedIR
 from shotc.source.file import WHOLE_FILE
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.ir.trajectory import VerifiedIR
 
 PlanPath = Annotated[Path, typer.Argument(metavar="PLAN", help="A plan.json, or the folder that holds it.")]
 

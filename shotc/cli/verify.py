@@ -12,6 +12,7 @@ from shotc.api import MissionFile, PlanReport
 from shotc.cli import console
 from shotc.cli.inputs import read_mission
 from shotc.cli.plans import PlanPath, prove
+from shotc.diag.render.json import render
 
 
 class Format(StrEnum):
@@ -58,7 +59,6 @@ def _print(report: PlanReport) -> None:
 
 
 def _document(report: PlanReport) -> str:
-    from shotc.diag.render.json import render
     from shotc.planfile.codec import encode
 
     document = json.loads(render(report.diagnostics, report.sources))

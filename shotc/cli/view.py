@@ -8,7 +8,7 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -18,8 +18,10 @@ from shotc.cli.inputs import read_mission
 from shotc.cli.plans import proved
 from shotc.cli.refiner import told
 from shotc.diag.model import Diagnostic
-from shotc.ir.trajectory import VerifiedIR
 from shotc.requirements import remedy
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.ir.trajectory import VerifiedIR
 
 What = Annotated[str, typer.Argument(metavar="SPEC|PLAN", help="A mission, a plan.json, or its folder.")]
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import clarabel
 import numpy as np
 from numpy.typing import NDArray
 
@@ -164,8 +165,6 @@ def _rows(block: _Block, asked: BoolArray) -> NDArray[np.int_]:
 
 def _cones(block: _Block, asked: BoolArray) -> Sequence[Any]:
     """Return the cones of a block that are asked, as Clarabel takes them."""
-    import clarabel
-
     count = int(asked.sum())
     if block.kind == "cone":
         return [clarabel.SecondOrderConeT(block.dim)] * count
@@ -183,8 +182,6 @@ def _widened(chosen: BoolArray) -> BoolArray:
 
 
 def _settings(tolerance: float, *, scaled: bool) -> Any:
-    import clarabel
-
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.max_threads = 1
@@ -196,8 +193,6 @@ def _settings(tolerance: float, *, scaled: bool) -> Any:
 
 def _solved(programme: tuple[Any, ...], settings: Any) -> tuple[Status, Array]:
     """Return what Clarabel makes of a programme."""
-    import clarabel
-
     # What is solved no finer than that is solved sooner, but a few programmes make no progress so.
     for refined in (REFINED * settings.tol_feas, ROUNDING):
         settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = refined

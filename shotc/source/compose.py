@@ -8,14 +8,17 @@ import re
 from difflib import get_close_matches
 from typing import Any, NamedTuple
 
+import yaml
+
 from shotc.source.core_schema import CORE_TAG, resolve, resolve_tagged
 from shotc.source.fault import Fault, FaultKind, shorten
 from shotc.source.file import SourceFile
 from shotc.source.limits import MAX_ALIAS_VALUES, MAX_DEPTH, MAX_DIRECTIVES, MAX_VALUES
 from shotc.source.nodes import Alias, Collection, Entry, Node, Scalar, height_of, size_of
-from shotc.source.parser import LOADER, yaml
+from shotc.source.syntax import Complaint, explain
 
 _DIRECTIVE = re.compile(r"^%", re.MULTILINE)
+_LOADER = getattr(yaml, "CLoader", yaml.Loader)  # the parser in C, wherever PyYAML has it
 _TAG = r"[^ \t\r\n,\]}]*"
 
 
@@ -37,7 +40,7 @@ def compose(file: SourceFile) -> Composed:
     if fault := _too_many_directives(file):
         return Composed(None, [fault], False)
     try:
-        for event in yaml.parse(file.text, Loader=LOADER):
+        for event in yaml.parse(file.text, Loader=_LOADER):
             composer.take(event)
     except _StopReading:
         pass
@@ -114,8 +117,6 @@ class _Composer:
 
     def explained(self, error: Any) -> Fault:
         """Return the fault behind a parser error."""
-        from shotc.source.syntax import Complaint, explain
-
         length = len(self.file.text)
         mark = error.problem_mark or error.context_mark
         opened = next((frame.node.start for frame in reversed(self.stack) if frame.flow), None)

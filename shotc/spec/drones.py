@@ -22,7 +22,7 @@ from shotc.spec.fields import (
     Speed,
 )
 from shotc.spec.fieldtypes import FieldType, Hinted, NamedOr
-from shotc.spec.later import Gimbal
+from shotc.spec.gimbal import GimbalSpec
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.presets import DEFAULT_MODEL, PRESETS
 from shotc.spec.quantities import Quantity, Tuple
@@ -139,7 +139,7 @@ class DroneSpec(Model):
     model: ModelName = Field(default=DEFAULT_MODEL, description="preset that fills in what is not given")
     home: Position = Field(default=(0.0, 0.0, 0.0), description="where it stands before and after")
     limits: LimitsSpec = section("what it may do")
-    gimbal: Gimbal | None = Field(default=None, description="what its gimbal reaches")
+    gimbal: GimbalSpec | None = Field(default=None, description="what its gimbal reaches")
     camera: CameraSpec = section("what its camera sees")
     radius: PositiveLength | None = Field(default=None, description="radius of the sphere round its body")
     endurance: Duration | None = Field(default=None, description="longest time in the air")

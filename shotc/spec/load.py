@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
+from shotc.diag.codes.yaml import text_diagnostic
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import OriginMap
 from shotc.ir.source import Chosen, KeptFiles
@@ -16,6 +17,7 @@ from shotc.source.file import SourceFile
 from shotc.source.yaml_tree import Document, parse
 from shotc.spec.mission import VERSION, MissionSpec, is_version
 from shotc.spec.places import TITLE
+from shotc.spec.shape_faults import plan_given, shape_faults
 from shotc.spec.shot import ShotBase
 
 NOTHING: Mapping[str, Diagnostic] = MappingProxyType({})
@@ -65,19 +67,13 @@ def load(
     unusable : kinds that are registered and cannot be used, and why
     """
     if data[:64].lstrip().startswith(b"{") and re.match(_PLAN, data):
-        from shotc.spec.shape_faults import plan_given
-
         return Loaded(None, (plan_given(name),), SourceFile(name, ""))
     document = parse(data, name)
     if document.faults:
-        from shotc.diag.codes.yaml import text_diagnostic
-
         return Loaded(None, tuple(text_diagnostic(fault, name) for fault in document.faults), document.file)
     origins = OriginMap(name, document.keys, document.values)
     spec, error = _validate(document, kinds)
     if spec is None or not _is_whole(document.root, kinds):
-        from shotc.spec.shape_faults import shape_faults
-
         faults = shape_faults(document.root, error, (kinds, unusable), origins, document.file)
         assert faults, "a mission is not rejected without a word"
         return Loaded(None, faults, document.file, _title(document))

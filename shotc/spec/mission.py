@@ -8,7 +8,7 @@ from pydantic import Field, PlainValidator, ValidationInfo
 from shotc.spec.drones import DroneSpec
 from shotc.spec.faults import fault
 from shotc.spec.fields import Name, Title
-from shotc.spec.later import Fleet
+from shotc.spec.fleets import FleetSpec
 from shotc.spec.model import Model, section
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase
@@ -55,7 +55,7 @@ class MissionSpec(Model):
     world: WorldSpec = section("the place and what stands in it")
     targets: dict[Name, TargetSpec] = Field(default={}, description="what is filmed")
     drones: dict[Name, DroneSpec] = Field(default={}, description="what films")
-    fleets: dict[Name, Fleet] = Field(default={}, description="drones that make pictures in the sky")
+    fleets: dict[Name, FleetSpec] = Field(default={}, description="drones that make pictures in the sky")
     rules: RulesSpec = section("rules for the whole mission")
     shots: tuple[Shot, ...] = Field(default=(), description="what is filmed when, in order")
     output: OutputSpec = section("what is written out")

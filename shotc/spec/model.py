@@ -15,7 +15,6 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from shotc.spec.faults import details_of, fault, together
-from shotc.spec.later import Later
 from shotc.spec.words import closest, elsewhere, nearest
 from shotc.units import clip, describe
 
@@ -281,9 +280,7 @@ def _instead(key: str, lack: Lack, known: Mapping[str, FieldInfo]) -> InitErrorD
 def _keys_below(field: FieldInfo) -> Mapping[str, object]:
     """Return the keys of the mapping that a field holds, if it holds one."""
     parts = (field.annotation, *get_args(field.annotation))
-    marks = (*field.metadata, *(mark for part in parts for mark in get_args(part)))
-    models = (*parts, *(mark.model for mark in marks if isinstance(mark, Later)))
-    return next((m.keys() for m in models if isinstance(m, type) and issubclass(m, Model)), {})
+    return next((m.keys() for m in parts if isinstance(m, type) and issubclass(m, Model)), {})
 
 
 def _detail(loc: tuple[str | int, ...], slug: str, message: str, help_: str = "") -> InitErrorDetails:

@@ -6,8 +6,9 @@ from shotc.spec import presets
 from shotc.spec.allow import Allowed
 from shotc.spec.compositions import COMPOSITIONS
 from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace
-from shotc.spec.later import MutualVisibility, TransitClearance
 from shotc.spec.model import Model
+from shotc.spec.transits import TransitClearanceSpec
+from shotc.spec.visibility import MutualVisibilitySpec
 
 
 class RulesSpec(Model):
@@ -27,12 +28,12 @@ class RulesSpec(Model):
     target_clearance: NonNegativeLength = Field(
         default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"
     )
-    transit_clearance: TransitClearance | None = Field(
+    transit_clearance: TransitClearanceSpec | None = Field(
         default=None,
         description="distances from a drone's body to targets and keep-out zones between shots: required "
         "where written, kept where there is room if silent",
     )
-    mutual_visibility: MutualVisibility | None = Field(
+    mutual_visibility: MutualVisibilitySpec | None = Field(
         default=None,
         description="whether drones keep out of each other's pictures; prefer, by the frame, if silent",
     )

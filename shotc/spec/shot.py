@@ -21,8 +21,8 @@ from shotc.spec.fields import (
     ShotSize,
     Station,
 )
-from shotc.spec.later import Refine, Require, Timing
 from shotc.spec.model import Model, OneOf, section
+from shotc.spec.shot_terms import RefineSpec, RequireSpec, TimingSpec
 
 # The two ways to aim a camera: at something, or by compass heading and pitch.
 AIM = OneOf((("look_at",), ("heading", "pitch")))
@@ -36,7 +36,7 @@ class ShotBase(Model):
     kind: str = Field(description="what sort of shot it is")
     drone: Name = Field(description="name of the drone that films it, or auto")
     target: Name | None = Field(default=None, description="name of the target in the picture")
-    timing: Timing = section("auto, or any of start, after, duration")
+    timing: TimingSpec = section("auto, or any of start, after, duration")
     composition: CompositionSet | None = Field(
         default=None,
         description="where on screen the target may be: a set, a named point or [[u, v], ...]; the rules' "
@@ -48,8 +48,8 @@ class ShotBase(Model):
         description="projected height over frame height to aim for: a share, or a name from establishing to "
         "extreme-close-up; from medium-full on the target is cropped",
     )
-    require: Require | None = Field(default=None, description="what the shot promises")
-    refine: Refine | None = Field(default=None, description="how refinement is used")
+    require: RequireSpec | None = Field(default=None, description="what the shot promises")
+    refine: RefineSpec | None = Field(default=None, description="how refinement is used")
     allow: Allowed = Field(
         default=(),
         description="warnings of film grammar that are not told of this shot, by name, or hidden-subject",

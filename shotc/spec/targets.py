@@ -5,8 +5,8 @@ from typing import ClassVar
 from pydantic import Field
 
 from shotc.spec.fields import Position, PositiveLength, Speed
-from shotc.spec.later import Track
 from shotc.spec.model import Model, OneOf
+from shotc.spec.tracks import TrackSpec
 
 
 class TargetSpec(Model):
@@ -15,7 +15,7 @@ class TargetSpec(Model):
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("at",), ("track",))),)
 
     at: Position | None = Field(default=None, description="centre of a target that stands")
-    track: Track | None = Field(default=None, description="motion of the centre of a target that moves")
+    track: TrackSpec | None = Field(default=None, description="motion of the centre of a target that moves")
     radius: PositiveLength = Field(description="radius of its cylinder")
     height: PositiveLength = Field(description="height of its cylinder")
     top_speed: Speed | None = Field(

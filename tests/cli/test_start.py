@@ -6,9 +6,10 @@ import json
 import subprocess
 import sys
 from importlib.metadata import entry_points
-from importlib.util import find_spec
 
 import pytest
+
+from shotc.plugins import OPTIONAL
 
 SCRIPT = """
 import json, os, sys
@@ -50,15 +51,6 @@ def test_check_loads_the_kinds_that_the_mission_uses_and_no_others(checked):
     assert kinds & checked == {"shotc.kinds.orbit"}
 
 
-def test_a_clean_check_loads_no_words_for_faults_and_no_models_that_the_mission_does_not_use(checked):
-    words = {"diag.codes.yaml", "diag.code_info", "passes.place_keyframes.faults", "source.syntax"}
-    words |= {"spec.shape_faults", "spec.translate"}
-    models = {"kinds.files", "geom.track", "spec.fleets", "spec.gimbal", "spec.tracks", "spec.visibility"}
-    late = {f"shotc.{name}" for name in words | models}
-    assert all(map(find_spec, late))
-    assert not late & checked
-
-
 def test_check_loads_no_other_command(checked):
     commands = {name for name in checked if name.startswith("shotc.cli.")}
     assert commands == {"shotc.cli.app", "shotc.cli.check", "shotc.cli.console", "shotc.cli.inputs"}
@@ -69,13 +61,13 @@ def test_check_loads_nothing_that_prints_plans_emits_or_makes_schemas(checked):
     assert not [name for name in checked for start in late if name == start or name.startswith(f"{start}.")]
 
 
+def test_the_help_of_all_commands_needs_the_base_install_only():
+    code, modules = start("--help")
+    assert (code, modules & set(OPTIONAL)) == (0, set())
+
+
 def test_the_version_loads_no_compiler():
     code, modules = start("--version")
     assert code == 0
     assert "shotc.api" not in modules
     assert "yaml" not in modules
-
-
-def test_check_loads_what_shows_need_for_shows_only(checked):
-    late = ("shotc.passes.resolve.show", "shotc.kinds.display", "shotc.kinds.pictures", "shotc.spec.colors")
-    assert not [name for name in checked if name.startswith(late)]

@@ -6,7 +6,7 @@ import pytest
 
 from shotc import plugins
 from shotc.requirements import install_line
-from tests.support.plugin_distributions import KIND
+from tests.support.plugin_distributions import KIND, lay
 
 MODULE = """
 class Sample:
@@ -31,6 +31,16 @@ def test_a_clash_uses_neither_and_names_both_packages(install):
     (clash,) = [d for d in found.diagnostics if d.code == "P001"]
     assert "maker-one" in clash.notes[0]
     assert "maker-two" in clash.notes[0]
+
+
+def test_a_package_that_is_on_the_path_twice_counts_once(install, tmp_path, monkeypatch):
+    install("sample-maker", "sample", MODULE.format(name="sample", api=1))
+    (tmp_path / "again").mkdir()
+    lay(tmp_path / "again", "sample-maker", "sample", MODULE.format(name="sample", api=1), "emitters")
+    monkeypatch.syspath_prepend(str(tmp_path / "again"))
+    plugins.forget()
+    found = plugins.discover("emitters")
+    assert ("sample" in found.plugins, found.diagnostics) == (True, ())
 
 
 def test_a_plugin_may_not_take_the_name_of_ours(install):

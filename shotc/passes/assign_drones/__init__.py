@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 from shotc.diag.model import Diagnostic
 from shotc.ir.passes import Outcome, PassContext
 from shotc.kinds.base import Kind
+from shotc.passes.assign_drones.tasks import busiest, later, tasks_of
 from shotc.passes.resolve.names import AUTO, nobody
 from shotc.spec.load import LoadedMission
 
@@ -35,7 +36,6 @@ class AssignDrones:
         if not any(shot.drone == AUTO for shot in spec.shots):
             return Outcome(ir)
         from shotc.passes.assign_drones.choice import choose
-        from shotc.passes.assign_drones.tasks import tasks_of
 
         ctx.progress("choosing drones")
         if not spec.drones:
@@ -62,8 +62,6 @@ def _with(ir: LoadedMission, choice: Choice) -> LoadedMission:
 
 
 def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:
-    from shotc.passes.assign_drones.tasks import busiest, later
-
     time, busy = busiest(tasks)
     shots = ", ".join(f"`{task.id}`" for task in busy)
     number = len(ir.spec.drones)

@@ -16,6 +16,10 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.passes import Outcome, PassContext
+from shotc.passes.place_keyframes.faults import report
+from shotc.passes.place_keyframes.keyed import place_keyed
+from shotc.passes.place_keyframes.sizes import check_size
+from shotc.passes.place_keyframes.subjects import place_subjects
 from shotc.passes.place_keyframes.turns import while_following
 from shotc.planning.framing.placing import Unmet, place_shot
 
@@ -32,15 +36,11 @@ class PlaceKeyframes:
         for shot in flown_order(ir.shots):
             ctx.progress(f"placing the keyframes of {shot.id}")
             if is_keyed(shot):
-                from shotc.passes.place_keyframes.keyed import place_keyed
-
                 moving, wrong = place_keyed(ir, shot)
                 shots.append(moving)
                 diagnostics += [*wrong, *_sized(ir, moving)]
                 continue
             if shot.ideal is not None:
-                from shotc.passes.place_keyframes.subjects import place_subjects
-
                 subjects, found = place_subjects(ir, shot)
                 shots.append(PlacedShot(shot, (), subjects))
                 diagnostics += [*found, *_sized(ir, shots[-1])]
@@ -57,15 +57,11 @@ class PlaceKeyframes:
 def _reported(mission: MissionIR, shot: Shot, misses: tuple[Unmet, ...]) -> list[Diagnostic]:
     if not misses:
         return []
-    from shotc.passes.place_keyframes.faults import report
-
     return report(mission, shot, misses)
 
 
 def _sized(mission: MissionIR, placed: PlacedShot) -> list[Diagnostic]:
     if placed.shot.size is None:
         return []
-    from shotc.passes.place_keyframes.sizes import check_size
-
     fault = check_size(mission, placed)
     return [] if fault is None else [fault]

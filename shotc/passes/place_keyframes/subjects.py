@@ -14,6 +14,8 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject
+from shotc.passes.place_keyframes.farther import least
+from shotc.passes.place_keyframes.faults import WIDEST
 from shotc.planning.framing.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
 from shotc.rounding import at_least
 
@@ -60,8 +62,6 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
 
 def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Composition) -> str:
     """Say through which lens a target is whole at a place of its composition; empty where none does."""
-    from shotc.passes.place_keyframes.farther import least
-    from shotc.passes.place_keyframes.faults import WIDEST
 
     def fits(hfov: float) -> bool:
         return nearest_candidate(setting._replace(hfov=hfov), composition, MIDDLE) is not None

@@ -5,37 +5,36 @@ reports all that can be told without a solver. A fault silences only what depend
 timing are judged once all names and places stand.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import partial
 from typing import ClassVar, Final, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors, stops
-from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, TransitClearance, Zone
+from shotc.ir.keyed import is_keyed
+from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Shot, Target, TransitClearance, Zone
+from shotc.ir.origin import KeyPath
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
+from shotc.passes.resolve.covered import covered
 from shotc.passes.resolve.deferred import deferred_features
 from shotc.passes.resolve.earth import check_earth, geo_origin
 from shotc.passes.resolve.files import Ground, Reader, match_files
 from shotc.passes.resolve.framing import check_framing
+from shotc.passes.resolve.framings import with_framings
 from shotc.passes.resolve.geometry import check_places
 from shotc.passes.resolve.grammar import allowed, check_grammar
 from shotc.passes.resolve.home import check_homes
-from shotc.passes.resolve.lazy import (
-    Show,
-    check_covered,
-    check_fleets,
-    check_ideals,
-    check_passers,
-    framed,
-    shown,
-    tracks_of,
-)
+from shotc.passes.resolve.ideals import check_ideal
+from shotc.passes.resolve.keyed import check_carried, with_times
 from shotc.passes.resolve.names import check_names, emitters_of, once
 from shotc.passes.resolve.pads import check_pads
+from shotc.passes.resolve.passers import passers_of
 from shotc.passes.resolve.shots import Cast, Shots, expand_shots
+from shotc.passes.resolve.show import Show, check_show, shown
 from shotc.passes.resolve.timing import check_timing
+from shotc.passes.resolve.tracks import read_tracks
 from shotc.passes.resolve.world import Put, check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
@@ -86,11 +85,11 @@ class Resolve:
         show = shown(ir, world.put, world.ground, shots.displays)
         names = check_names(ir.spec, ir.origins, self.emitters)
         faults = once([*world.faults, *names, *shots.diagnostics, *show.diagnostics])
-        mission, framings = framed(_mission(ir, world, shots, show))
+        mission, framings = with_framings(with_times(_mission(ir, world, shots, show)))
         faults += framings
         faults += _judged(ir, mission, world, order=not has_errors(faults))
         if not has_errors(faults):
-            faults += [*check_grammar(mission, allowed(ir.spec)), *check_covered(mission)]
+            faults += [*check_grammar(mission, allowed(ir.spec)), *covered(mission)]
         return Outcome(None if stops(faults) else mission, tuple(faults))
 
     def _shots(self, ir: LoadedMission, world: _World) -> Shots:
@@ -116,7 +115,7 @@ def _world(ir: LoadedMission) -> _World:
     ground = Ground(origin, origins, read)
     found_zones, zone_faults = zones(spec, put, origins)
     found_drones, drone_faults = drones(spec, put, origins)
-    tracks, track_faults = tracks_of(ir, put, ground)
+    tracks, track_faults = read_tracks(spec, put, ground)
     found_targets = targets(spec, put, tracks)
     buried = [] if astray else check_targets(found_targets, origins)
     return _World(
@@ -164,7 +163,9 @@ def _judged(ir: LoadedMission, mission: MissionIR, world: _World, *, order: bool
         *_static_faults(mission, timing=world.sound, order=order),
         *check_pads(ir.spec, mission),
     ]
-    return [*faults, *check_fleets(mission, ir, order=order and not has_errors(faults))]
+    if ir.spec.fleets:
+        faults += check_show(mission, ir.spec, order=order and not has_errors(faults))
+    return faults
 
 
 def _rules(spec: RulesSpec) -> Rules:
@@ -193,8 +194,9 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
     the order of the shots where all shots and homes do.
     """
-    homes = [*check_homes(mission), *check_ideals(mission), *check_passers(mission)]
-    places = [(shot, path, d) for shot in mission.shots for path, d in check_places(mission, shot)]
+    ideals = (fault for shot in mission.shots for fault in check_ideal(mission, shot))
+    homes = [*check_homes(mission), *ideals, *passers_of(mission)]
+    places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]
     if timing:
@@ -202,3 +204,8 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
         sound = [shot for shot in mission.shots if shot.path not in misplaced]
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
     return faults
+
+
+def _places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
+    """Yield what is wrong with the places of a shot's keyframes, with their lines."""
+    yield from check_carried(mission, shot) if is_keyed(shot) else check_places(mission, shot)

@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.earth import stray
 from shotc.spec.fields import Geodetic
 from shotc.spec.mission import MissionSpec
 
@@ -30,8 +31,6 @@ def check_earth(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
         return [_without_origin(places, origins)] if places else []
     if not places:
         return []
-    from shotc.kinds.earth import stray
-
     far = [(path, stray(origin, place.lat, place.lon)) for path, place in places]
     strays = [(path, found) for path, found in far if found is not None]
     if not strays:

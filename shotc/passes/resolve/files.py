@@ -11,6 +11,7 @@ from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
+from shotc.kinds.files import FileFault
 from shotc.source.limits import MAX_TABLE_BYTES
 from shotc.spec.words import closest
 
@@ -85,8 +86,6 @@ def read_file(
         reason = getattr(error, "strerror", None) or "the path cannot be followed"
         return Diagnostic("N008", f"cannot read `{name}`", label, (str(reason).lower(),), "check the file")
     if size > most:
-        from shotc.kinds.files import FileFault
-
         message = f"the file has {size / 1e6:.1f} MB, and no more than {most / 1e6:.0f} MB are read"
         return bad_file(origins, path, name, FileFault(message, None, "thin it"))
     return data

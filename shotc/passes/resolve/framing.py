@@ -14,6 +14,7 @@ from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.labels import framing_label
 from shotc.planning.framing.candidates import Setting
+from shotc.planning.framing.moments import is_sure, moments
 from shotc.planning.framing.placing import explicit_aim, setting_of
 from shotc.rounding import at_least, at_most
 
@@ -42,8 +43,6 @@ def _moments(mission: MissionIR, shot: Shot) -> Iterator[tuple[Keyframe, Mission
     if not is_keyed(shot):
         yield from ((keyframe, mission) for keyframe in shot.keyframes)
         return
-    from shotc.planning.framing.moments import is_sure, moments
-
     for keyframe, then in zip(
         shot.keyframes, moments(mission, shot, first_start(mission, shot)), strict=True
     ):

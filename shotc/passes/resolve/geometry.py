@@ -10,30 +10,22 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from functools import cache, partial
-from typing import TYPE_CHECKING
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
+from shotc.passes.resolve.clear_path import Change, clear_path
+from shotc.passes.resolve.move_out import move_out
 from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of
 from shotc.rounding import at_least
-
-if TYPE_CHECKING:
-    from shotc.passes.resolve.clear_path import Change
 
 _CODES = {"out": "G002", "in": "G003", "target": "G004"}
 
 
 def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
     """Yield the faults of a shot's keyframes, one for each keyframe line and obstacle, with that line."""
-    if is_keyed(shot):
-        from shotc.passes.resolve.keyed import check_carried
-
-        yield from check_carried(mission, shot)
-        return
     drone = mission.drone(shot.drone)
-    clear = cache(partial(_changes, mission, shot))
+    clear = cache(partial(clear_path, mission, shot))
     for path, keyframes in _by_line(shot).items():
         for fault in too_low(mission, shot, drone, path, keyframes):
             yield path, fault
@@ -137,21 +129,9 @@ def blocked(
         yield Diagnostic("G016", message, labels, notes, help_)
         return
     notes = (*notes, *_from_sea(mission, worst.at[2], obstacle))
-    help_ = free if ideal else _move_out(mission, shot, worst, obstacle)
+    help_ = free if ideal else move_out(mission, shot, worst, obstacle)
     message = f"{_what(shot, worst)} {obstacle.relation(worst.at)}"
     yield Diagnostic(_CODES[obstacle.role], message, labels, notes, help_)
-
-
-def _move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obstacle) -> str:
-    from shotc.passes.resolve.move_out import move_out
-
-    return move_out(mission, shot, keyframe, obstacle)
-
-
-def _changes(mission: MissionIR, shot: Shot) -> list[Change]:
-    from shotc.passes.resolve.clear_path import clear_path
-
-    return clear_path(mission, shot)
 
 
 def _what(shot: Shot, keyframe: Keyframe) -> str:

@@ -7,7 +7,6 @@ judged here where the mission says when the shot begins, and in planning where i
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from math import cos, sin
 
 from shotc.diag.model import Diagnostic
@@ -17,10 +16,8 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot, Target
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.geometry import blocked, too_low
-from shotc.passes.resolve.timing import SLACK, too_long
 from shotc.planning.clearances import free_place, move, obstacles_of
 from shotc.planning.framing.moments import moments
-from shotc.rounding import at_least
 
 
 def with_times(mission: MissionIR) -> MissionIR:
@@ -30,57 +27,6 @@ def with_times(mission: MissionIR) -> MissionIR:
         for shot in mission.shots
     )
     return mission._replace(shots=tuple(shots))
-
-
-def check_times(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Yield what is wrong with the times of keyframes, or with how long the shot lasts."""
-    duration, drone = shot.timing.duration or 0.0, mission.drone(shot.drone)
-    if duration > drone.endurance:
-        yield too_long(mission, shot, drone, duration)
-        return
-    holds = sum(k.hold for k in shot.keyframes)
-    if holds >= duration > 0.0:
-        held = [k for k in shot.keyframes if k.hold > 0]
-        yield Diagnostic(
-            "K003",
-            f"shot `{shot.id}` holds longer than it lasts",
-            tuple(mission.origins.value((*k.path, "hold")) for k in held),
-            (f"its holds alone last {holds:.1f} s; the shot is given {duration:.1f} s",),
-            f"give it more than {at_least(holds, 1)} s",
-        )
-        return
-    yield from _order(mission, shot, duration)
-
-
-def _order(mission: MissionIR, shot: Shot, duration: float) -> Iterator[Diagnostic]:
-    """Yield keyframes whose time is not after the one before, with its holds, or is after the end."""
-    known = [(0, 0.0), *((i, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None)]
-    for (i, start), (j, end) in pairwise(known):
-        a, b = shot.keyframes[i], shot.keyframes[j]
-        holds = sum(k.hold for k in shot.keyframes[i:j])
-        if j == 0 or end - start > holds + SLACK:
-            continue
-        labels = (
-            mission.origins.value((*b.path, "time")),
-            mission.origins.value((*a.path, "time"), "the earlier keyframe"),
-        )
-        held = f", and {holds:.1f} s of holds lie between" if holds else ""
-        note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s{held}"
-        help_ = f"set it later than {at_least(start + holds, 1)} s"
-        yield Diagnostic("K001", "keyframe times do not rise", labels, (note,), help_)
-        return
-    i, start = known[-1]
-    last = len(shot.keyframes) - 1
-    least = start + sum(k.hold for k in shot.keyframes[i:])
-    if least < duration - SLACK or (i == last and least <= duration + SLACK):
-        return
-    yield Diagnostic(
-        "K002",
-        "a keyframe ends after its shot",
-        (mission.origins.value((*shot.keyframes[i].path, "time")),),
-        (f"with what follows it ends at {least:.1f} s; the shot lasts {duration:.1f} s",),
-        f"give the shot a duration of {'' if i == last else 'more than '}{at_least(least, 1)} s",
-    )
 
 
 def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:

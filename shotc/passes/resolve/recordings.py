@@ -10,6 +10,7 @@ from shotc.geom.track import Track, unwrapped
 from shotc.ir.origin import KeyPath
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, Table, read_table
+from shotc.kinds.gpx import read_gpx  # brings an XML parser, which few missions need
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.files import Ground
 
@@ -79,6 +80,4 @@ def _fault(table: Table) -> FileFault | None:
 
 
 def _timed_gpx(data: bytes) -> Table | FileFault:
-    from shotc.kinds.gpx import read_gpx  # brings an XML parser, which few missions need
-
     return read_gpx(data, timed=True)

@@ -7,9 +7,9 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.foreign import expanded
-from shotc.passes.resolve.lazy import on_clock
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
 
@@ -82,7 +82,7 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
     expansion = expanded(kind, shot, scene) if kind.foreign else kind.expand(shot, scene)
     if not _moves(expansion.keyframes, cast.targets):
         return expansion
-    return on_clock(shot, scene, expansion)
+    return moving.on_clock(shot, scene, expansion)
 
 
 def _moves(keyframes: tuple[Keyframe, ...], targets: Mapping[str, Target | None]) -> bool:

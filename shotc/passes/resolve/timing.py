@@ -12,7 +12,6 @@ from shotc.ir.flown_order import flown_order
 from shotc.ir.keyed import is_keyed
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
-from shotc.passes.resolve.lazy import keyed_times
 from shotc.passes.resolve.motion import least_shot, least_travel, length
 from shotc.passes.resolve.wind import less_wind
 from shotc.rounding import at_least
@@ -31,10 +30,61 @@ def check_timing(mission: MissionIR, shots: Iterable[Shot], *, schedule: bool) -
     faults: list[Diagnostic] = []
     for shot in shots:
         if is_keyed(shot):
-            faults += keyed_times(mission, shot)
+            faults += _keyed_times(mission, shot)
         else:
             faults += _own_times(mission, shot) or _own_duration(mission, shot)
     return _schedule(mission) if schedule and not faults else faults
+
+
+def _keyed_times(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the times of keyframes, or with how long the shot lasts."""
+    duration, drone = shot.timing.duration or 0.0, mission.drone(shot.drone)
+    if duration > drone.endurance:
+        yield too_long(mission, shot, drone, duration)
+        return
+    holds = sum(k.hold for k in shot.keyframes)
+    if holds >= duration > 0.0:
+        held = [k for k in shot.keyframes if k.hold > 0]
+        yield Diagnostic(
+            "K003",
+            f"shot `{shot.id}` holds longer than it lasts",
+            tuple(mission.origins.value((*k.path, "hold")) for k in held),
+            (f"its holds alone last {holds:.1f} s; the shot is given {duration:.1f} s",),
+            f"give it more than {at_least(holds, 1)} s",
+        )
+        return
+    yield from _keyed_order(mission, shot, duration)
+
+
+def _keyed_order(mission: MissionIR, shot: Shot, duration: float) -> Iterator[Diagnostic]:
+    """Yield keyframes whose time is not after the one before, with its holds, or is after the end."""
+    known = [(0, 0.0), *((i, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None)]
+    for (i, start), (j, end) in pairwise(known):
+        a, b = shot.keyframes[i], shot.keyframes[j]
+        holds = sum(k.hold for k in shot.keyframes[i:j])
+        if j == 0 or end - start > holds + SLACK:
+            continue
+        labels = (
+            mission.origins.value((*b.path, "time")),
+            mission.origins.value((*a.path, "time"), "the earlier keyframe"),
+        )
+        held = f", and {holds:.1f} s of holds lie between" if holds else ""
+        note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s{held}"
+        help_ = f"set it later than {at_least(start + holds, 1)} s"
+        yield Diagnostic("K001", "keyframe times do not rise", labels, (note,), help_)
+        return
+    i, start = known[-1]
+    last = len(shot.keyframes) - 1
+    least = start + sum(k.hold for k in shot.keyframes[i:])
+    if least < duration - SLACK or (i == last and least <= duration + SLACK):
+        return
+    yield Diagnostic(
+        "K002",
+        "a keyframe ends after its shot",
+        (mission.origins.value((*shot.keyframes[i].path, "time")),),
+        (f"with what follows it ends at {least:.1f} s; the shot lasts {duration:.1f} s",),
+        f"give the shot a duration of {'' if i == last else 'more than '}{at_least(least, 1)} s",
+    )
 
 
 def _own_times(mission: MissionIR, shot: Shot) -> list[Diagnostic]:

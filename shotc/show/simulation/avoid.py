@@ -1,7 +1,8 @@
 """Avoidance while flying: each drone gives way by half to those near it (ORCA), in the stretched metric.
 
 An adapter of the RVO2-3D library (van den Berg et al., "Reciprocal n-body collision avoidance"). The paper's
-own avoidance also knows the vehicle's dynamics; this one takes a new velocity to be had at once.
+own avoidance also knows the vehicle's dynamics; this one takes a new velocity to be had at once. The
+library has wheels for Linux and Windows on x86 only; without it this module cannot be imported.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from rvo23d import PyRVOSimulator
 
 from shotc.geom.apart import Distances, ball, stretch
 from shotc.geom.bernstein import Array
@@ -37,10 +39,7 @@ class Avoidance:
     _world: Any = field(init=False, default=None)
 
     def __call__(self, position: Array, velocity: Array, wanted: Array) -> Array:
-        """Return velocities (n, 3) as near to the wanted ones as leaves everyone free for the horizon.
-
-        ImportError : the library is not installed; it has wheels for Linux and Windows on x86.
-        """
+        """Return velocities (n, 3) as near to the wanted ones as leaves everyone free for the horizon."""
         height = np.array([1.0, 1.0, stretch(self.apart)])
         if self._world is None:
             self._world = self._filled(position * height)
@@ -55,8 +54,6 @@ class Avoidance:
         return np.asarray(found / height)
 
     def _filled(self, position: Array) -> Any:
-        from rvo23d import PyRVOSimulator
-
         radius = 0.5 * ball(self.apart)
         world = PyRVOSimulator(self.period, SIGHT, NEIGHBOURS, HORIZON, radius, self.speed)
         for at in position.tolist():

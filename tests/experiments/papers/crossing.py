@@ -18,7 +18,6 @@ from shotc.geom.separation import closest
 from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.simulation.avoid import Avoidance
 from shotc.show.simulation.fly import PERIOD, Conditions, Flown, fly
 from shotc.show.simulation.near import nearest
 from shotc.show.simulation.vehicle import Gusts, Vehicle
@@ -111,6 +110,8 @@ def flight(breaks: Array, coef: Array, case: Case) -> Flown:
     if case.avoids:
         # A margin keeps the metric's shape only if it is scaled like the rest.
         room = NEEDED._replace(horizontal=0.7 + ROOM, vertical=(0.7 + ROOM) / stretch(NEEDED))
+        from shotc.show.simulation.avoid import Avoidance  # its library has few wheels
+
         avoid = Avoidance(room, SPEED, PERIOD)
     return fly(breaks, coef, Conditions(case.vehicle, gusts=Gusts(case.gusts), seed=6), avoid)
 

@@ -1,7 +1,7 @@
 """Film grammar: what an audience stumbles over, told from a mission whose names and places stand.
 
 Every finding is a warning, for a filmmaker may break any of these rules; `allow` names the rules that are
-broken on purpose. A rule that a mission cannot break is not even loaded.
+broken on purpose.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
+from shotc.passes.resolve.grammar.alone import check_alone
+from shotc.passes.resolve.grammar.cuts import check_cuts
 from shotc.spec.mission import MissionSpec
 
 
@@ -30,13 +32,9 @@ def check_grammar(mission: MissionIR, allow: Mapping[KeyPath, frozenset[str]]) -
 
     found: list[Diagnostic] = []
     if len(mission.shots) > 1:
-        from shotc.passes.resolve.grammar.cuts import check_cuts
-
         found += check_cuts(mission, judged)
     lasting = [shot for shot in mission.shots if shot.timing.duration is not None or _timed(shot)]
     if lasting:
-        from shotc.passes.resolve.grammar.alone import check_alone
-
         for shot in lasting:
             found += check_alone(mission, shot, judged)
     return found

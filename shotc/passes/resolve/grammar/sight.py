@@ -4,6 +4,7 @@ from math import hypot, tan
 from typing import NamedTuple
 
 from shotc.geom.vec import minus
+from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, carriers, is_keyed
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
@@ -78,8 +79,6 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
     start, duration = begins(mission, shot), shot.timing.duration
     if start is None or duration is None or not shot.subjects:
         return None
-    from shotc.ir.ideal import ideal_place
-
     t = start + share * duration
     names = [subject.target for subject in shot.subjects]
     if is_keyed(shot):

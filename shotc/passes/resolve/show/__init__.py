@@ -1,7 +1,38 @@
 """Fleets and displays: layouts made pads, files read, and all that numbers tell of a show before planning."""
 
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.show import Display, Fleet
+from shotc.ir.source import KeptFiles
+from shotc.passes.resolve.files import Ground
 from shotc.passes.resolve.show.check import check_show
 from shotc.passes.resolve.show.fleets import fleets_of
-from shotc.passes.resolve.show.material import digests, not_kept, read_material
+from shotc.passes.resolve.show.material import Material, digests, not_kept, read_material
+from shotc.passes.resolve.world import Put
+from shotc.spec.load import LoadedMission
 
-__all__ = ["check_show", "digests", "fleets_of", "not_kept", "read_material"]
+__all__ = ["Show", "check_show", "shown"]
+
+
+class Show(NamedTuple):
+    """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others.
+
+    files : (name, bytes); drawn : (name, SHA-256) of the same
+    """
+
+    fleets: tuple[Fleet, ...] = ()
+    files: Material = ()
+    drawn: tuple[tuple[str, str], ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def shown(ir: LoadedMission, put: Put, ground: Ground, displays: tuple[Display, ...]) -> Show:
+    """Resolve the fleets, and read what their displays draw."""
+    if not ir.spec.fleets:
+        return Show()
+    fleets, wrong = fleets_of(ir.spec, put, ground)
+    if isinstance(ir.folder, KeptFiles):
+        return Show(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
+    files, missing = read_material(displays, ir.folder, ir.origins)
+    return Show(fleets, files, digests(files), (*wrong, *missing))
