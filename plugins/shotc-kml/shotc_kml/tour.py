@@ -14,7 +14,17 @@ from xml.etree.ElementTree import Element, SubElement, indent, register_namespac
 import numpy as np
 import pymap3d
 
-from shotc.plugin_api import Artifact, Diagnostic, DroneTrajectory, Emission, MissionIR, VerifiedIR
+from shotc.plugin_api import (
+    CAM_PITCH,
+    CAM_YAW,
+    HFOV,
+    Artifact,
+    Diagnostic,
+    DroneTrajectory,
+    Emission,
+    MissionIR,
+    VerifiedIR,
+)
 
 KML = "http://www.opengis.net/kml/2.2"
 GX = "http://www.google.com/kml/ext/2.2"
@@ -93,11 +103,11 @@ def _tour(
         _text(camera, KML, "longitude", f"{place[1]:.8f}")
         _text(camera, KML, "latitude", f"{place[0]:.8f}")
         _text(camera, KML, "altitude", f"{place[2]:.3f}")
-        _text(camera, KML, "heading", f"{degrees((pi / 2 - state[3]) % (2 * pi)):.4f}")
-        _text(camera, KML, "tilt", f"{90 + degrees(state[4]):.4f}")
+        _text(camera, KML, "heading", f"{degrees((pi / 2 - state[CAM_YAW]) % (2 * pi)):.4f}")
+        _text(camera, KML, "tilt", f"{90 + degrees(state[CAM_PITCH]):.4f}")
         _text(camera, KML, "roll", "0")
         _text(camera, KML, "altitudeMode", "absolute")
-        _text(camera, GX, "horizFov", f"{degrees(state[6]):.4f}")
+        _text(camera, GX, "horizFov", f"{degrees(state[HFOV]):.4f}")
 
 
 def geodetic(mission: MissionIR, points: np.ndarray) -> list[tuple[float, float, float]]:
