@@ -14,7 +14,6 @@ from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
 from shotc.geom.camera import ROUNDING
 from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
-from shotc.ir.bodies import cylinder
 from shotc.ir.comparison import FlownShot, Score, Trace
 from shotc.ir.path import X, Y, Z
 from shotc.ir.phases import Phase
@@ -107,5 +106,5 @@ def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) 
         return None
     t = view.times
     share = (t - phase.start) / (phase.end - phase.start)
-    points = points_in_frame(cameras(mission, track, t), cylinder(mission.target(target)))
+    points = points_in_frame(cameras(mission, track, t), mission.target(target).solid)
     return Trace(target, t, share, view.error, view.frames.margin, points.astype(np.float64))

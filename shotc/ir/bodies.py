@@ -7,7 +7,6 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.line_of_sight import are_one
 from shotc.geom.pieces import Mask
-from shotc.geom.solids import Cylinder
 from shotc.geom.track_array import places
 from shotc.ir.mission import Target
 
@@ -17,12 +16,6 @@ def moved(target: Target, t: Array) -> Array:
     if target.track is None:
         return np.zeros((len(t), 3))
     return np.asarray(places(target.track, t) - np.array(target.centre))
-
-
-def cylinder(target: Target) -> Cylinder:
-    """Return the target as a solid, where it stands or is at mission time 0."""
-    x, y, z = target.centre
-    return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
 
 
 def parts_of_one(a: Target, b: Target, t: Array) -> Mask:

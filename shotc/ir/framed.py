@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from shotc.geom.camera import aim_at
 from shotc.geom.line_of_sight import are_one, crosses
-from shotc.geom.solids import Cylinder, depth, distance
+from shotc.geom.solids import depth, distance
 from shotc.geom.vec import Vec2, Vec3, minus, plus
 from shotc.geom.viewpoint import (
     LONG,
@@ -165,7 +165,7 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
             yield "zone", zone.name, lack
     need = mission.rules.target_clearance + drone.radius
     for target in mission.targets:
-        lack = need - distance(_cylinder(target, t), p)
+        lack = need - distance(target.solid_at(t), p)
         if lack > SAME:
             yield "target", target.name, lack
 
@@ -187,18 +187,13 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
     points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
     solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
     others = (o for o in mission.targets if o.name != name and not _parts_of_one(o, target, t))
-    solids += [(o.name, _cylinder(o, t)) for o in others]
+    solids += [(o.name, o.solid_at(t)) for o in others]
     for p in points:
         yield next((n for n, solid in solids if crosses(solid, eye, p)), None)
 
 
 def _parts_of_one(a: Target, b: Target, t: float) -> bool:
     return bool(are_one(minus(a.at(t), b.at(t)), a.radius + b.radius, 0.5 * (a.height + b.height)))
-
-
-def _cylinder(target: Target, t: float) -> Cylinder:
-    x, y, z = target.at(t)
-    return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
 
 
 def _before(mission: MissionIR, shot: Shot) -> Vec3:

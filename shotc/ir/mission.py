@@ -6,7 +6,7 @@ the mission file (see ``OriginMap``).
 
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
-from shotc.geom.solids import Solid
+from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.source import MissionSource
@@ -52,9 +52,23 @@ class Target(NamedTuple):
     path: KeyPath
     track: "Track | None" = None
 
+    @property
+    def solid(self) -> Cylinder:
+        """Its body where it stands, or is at mission time 0."""
+        return _upright(self, self.centre)
+
+    def solid_at(self, t: float) -> Cylinder:
+        """Return its body at a mission time."""
+        return _upright(self, self.at(t))
+
     def at(self, t: float) -> Vec3:
         """Return its centre at a mission time, metres."""
         return self.centre if self.track is None else self.track.at(t)
+
+
+def _upright(target: Target, centre: Vec3) -> Cylinder:
+    x, y, z = centre
+    return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
 
 
 class Gimbal(NamedTuple):

@@ -15,7 +15,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import hidden
 from shotc.geom.pieces import Mask
-from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
+from shotc.ir.bodies import flying, moved, parts_of_one
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 
@@ -35,7 +35,7 @@ def hiders(
     for other in mission.targets:
         if other.name != target:
             away = moved(other, t)
-            before = hidden(eyes - away, centres - away, (cylinder(other),))
+            before = hidden(eyes - away, centres - away, (other.solid,))
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
     for flight in others:
         ball = flying(flight.curve, t)

@@ -16,7 +16,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, Frames, frames
 from shotc.geom.pieces import Mask
 from shotc.geom.track_array import rate_seen_from, seen_from
-from shotc.ir.bodies import cylinder, moved
+from shotc.ir.bodies import moved
 from shotc.ir.fleet import Colors, Lights
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.occlusion import hiders
@@ -91,7 +91,7 @@ def seen(
         covered |= hides
     # From a camera that moves with the target, the target stands.
     still = replace(eyes, position=eyes.position - moved(filmed, t))
-    return replace(frames(still, cylinder(filmed)), hidden=covered)
+    return replace(frames(still, filmed.solid), hidden=covered)
 
 
 def beside(curve: Piecewise, target: Target) -> Piecewise:

@@ -1,8 +1,12 @@
-"""Zones and targets as obstacles to one drone: how much room a place lacks, and the shortest way out."""
+"""What a drone keeps clear of, and by how much: the rule of the language's checks and of all planners.
+
+The judge has its own (``passes.verify.space``), and a test holds one against the other. Plain Python. With it
+stand how much a place lacks, and the shortest way out.
+"""
 
 from collections.abc import Iterator
 from math import atan2, degrees, dist, hypot, isfinite, pi
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.geom.solids import (
     Cylinder,
@@ -11,11 +15,12 @@ from shotc.geom.solids import (
     closest_on_segment,
     edges,
     inside_polygon,
+    point,
     signed_distance,
 )
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.origin import KeyPath
+from shotc.ir.owners import Owner, drone_owner, target_owner, zone_owner
 from shotc.rounding import at_least, at_most, down, up
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
@@ -26,45 +31,42 @@ NUDGE = 0.01  # metres that a proposed place lies farther off than it must
 WINDS = ("east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east")
 
 
-class Obstacle(NamedTuple):
-    """Something to keep a distance from, or to stay inside of by a distance.
+class Clearance(NamedTuple):
+    """Something that stands and is kept away from, or stayed inside of, by a distance.
 
-    room : metres from the body's centre that must be free
+    inside : whether the solid is to be stayed in; metres : from the body's centre, its radius included
     """
 
-    name: str
-    role: Literal["out", "in", "target"]
+    owner: Owner
     solid: Solid
-    room: float
-    path: KeyPath
+    metres: float
+    inside: bool = False
 
     def lack(self, p: Vec3) -> float:
         """Return how many metres of room are missing at ``p``; 0 or less where there is enough."""
-        return self.room - self._clear(p)
+        return self.metres - self._clear(p)
 
     def _clear(self, p: Vec3) -> float:
         """Return the free distance: to the solid, or into it for a keep-in zone; negative beyond its face."""
         gap = signed_distance(self.solid, p)
-        return -gap if self.role == "in" else gap
+        return -gap if self.inside else gap
 
     def relation(self, p: Vec3) -> str:
         """Say how ``p`` stands to the obstacle."""
         clear = self._clear(p)
-        if self.role == "in":
-            return (
-                f"is {'outside' if clear <= 0 else 'too close to the border of'} keep-in zone `{self.name}`"
-            )
-        what = f"target `{self.name}`" if self.role == "target" else f"zone `{self.name}`"
-        return f"is {'inside' if clear <= 0 else 'too close to'} {what}"
+        if self.inside:
+            how = "outside" if clear <= 0 else "too close to the border of"
+            return f"is {how} keep-in {self.owner.words}"
+        return f"is {'inside' if clear <= 0 else 'too close to'} {self.owner.words}"
 
     def measure(self, p: Vec3, radius: float) -> str:
         """Give the numbers: how deep or how close ``p`` is, and how much room it needs."""
         clear = self._clear(p)
-        if self.role == "in":
+        if self.inside:
             where = f"{abs(clear):.2f} m outside" if clear <= 0 else f"{clear:.2f} m from its border"
         else:
             where = f"{abs(clear):.2f} m deep in it" if clear <= 0 else f"{clear:.2f} m away from it"
-        clearance = self.room - radius
+        clearance = self.metres - radius
         need = f"the body radius of {radius:.2f} m"
         if clearance > 0:
             need = f"the target clearance of {clearance:.2f} m and {need}"
@@ -72,21 +74,21 @@ class Obstacle(NamedTuple):
 
     def free_of(self) -> str:
         """Say where a whole path would be free of it."""
-        low, high = self.solid.bottom + self.room, self.solid.top - self.room
-        if self.role == "in":
-            return f"stay {self.room:.2f} m inside of it, from z = {at_least(low)} to {at_most(high)}"
-        top = self.solid.top + self.room
+        low, high = self.solid.bottom + self.metres, self.solid.top - self.metres
+        if self.inside:
+            return f"stay {self.metres:.2f} m inside of it, from z = {at_least(low)} to {at_most(high)}"
+        top = self.solid.top + self.metres
         above = f", or fly at z = {at_least(top)} or higher" if isfinite(top) else ""
         if isinstance(self.solid, Cylinder):
-            aside = f"stay {at_least(self.solid.radius + self.room)} m or more from its axis"
+            aside = f"stay {at_least(self.solid.radius + self.metres)} m or more from its axis"
         else:
-            aside = f"stay {at_least(self.room)} m or more from its sides"
+            aside = f"stay {at_least(self.metres)} m or more from its sides"
         return aside + above
 
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:
         """Yield places near ``p`` that may have the room: up, down and sideways."""
-        room = self.room + NUDGE
-        if self.role == "in":
+        room = self.metres + NUDGE
+        if self.inside:
             z = min(max(p[2], self.solid.bottom + room), self.solid.top - room)
             yield (p[0], p[1], z)
             level = list(_sideways(self.solid, (p[0], p[1]), -room))
@@ -102,38 +104,43 @@ class Obstacle(NamedTuple):
             yield (x, y, p[2])
 
 
-def obstacles_of(mission: MissionIR, drone: "Drone | Fleet") -> list[Obstacle]:
-    """Return all that stands and that a drone keeps clear of, the ground excepted."""
-    zones = [Obstacle(z.name, z.keep, z.solid, drone.radius, z.path) for z in mission.zones]
-    room = mission.rules.target_clearance + drone.radius
-    targets = [
-        Obstacle(
-            t.name,
-            "target",
-            Cylinder(
-                (t.centre[0], t.centre[1]), t.radius, t.centre[2] - t.height / 2, t.centre[2] + t.height / 2
-            ),
-            room,
-            t.path,
-        )
-        for t in mission.targets
-        if t.track is None
+def clearances_of(mission: MissionIR, body: "Drone | Fleet", *, at_pad: bool = False) -> list[Clearance]:
+    """Return all that stands and that a body keeps clear of; the ground and parked drones excepted.
+
+    at_pad : whether it rises from its pad or sinks to it, where a target's clearance does not count
+    """
+    beside = body.radius if at_pad else mission.rules.target_clearance + body.radius
+    zones = [Clearance(zone_owner(z), z.solid, body.radius, z.keep == "in") for z in mission.zones]
+    standing = (t for t in mission.targets if t.track is None)
+    return [*zones, *(Clearance(target_owner(t), t.solid, beside) for t in standing)]
+
+
+def from_parked(mission: MissionIR, drone: Drone) -> list[Clearance]:
+    """Return what another drone keeps from those that film nothing and stand on their pads."""
+    return [
+        Clearance(drone_owner(other), point(other.home), mission.rules.separation)
+        for other in mission.parked
+        if other.name != drone.name
     ]
-    return [*zones, *targets]
 
 
-def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Obstacle) -> str:
+def lowest(mission: MissionIR, body: "Drone | Fleet") -> float:
+    """Return the least z of a body's centre over flat ground, metres."""
+    return mission.rules.ground_clearance + body.radius
+
+
+def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -> str:
     """Return in words the shortest move out of an obstacle to a place that is free of all, or nothing."""
     place = free_place(mission, drone, p, obstacle)
     return "" if place is None else move(p, place)
 
 
-def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Obstacle) -> Vec3 | None:
+def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -> Vec3 | None:
     """Return the nearest place out of an obstacle that is free of all, or None."""
-    others = obstacles_of(mission, drone)
-    lowest = mission.rules.ground_clearance + drone.radius
+    others = clearances_of(mission, drone)
+    low = lowest(mission, drone)
     places = [outward(p, q) for q in obstacle.ways_out(p)]
-    free = [q for q in places if q[2] >= lowest - ROUNDING and all(o.lack(q) <= ROUNDING for o in others)]
+    free = [q for q in places if q[2] >= low - ROUNDING and all(o.lack(q) <= ROUNDING for o in others)]
     return min(free, key=lambda place: dist(p, place), default=None)
 
 

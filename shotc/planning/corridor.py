@@ -8,7 +8,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray, Rows, control_rows
-from shotc.geom.corridor import Planes, Room, corridor, kept
+from shotc.ir.owners import Owner
+from shotc.planning.free_space import Planes, Room, corridor, kept
 from shotc.solvers.spline_problem import Cones, Floors, SplineProblem
 
 
@@ -50,7 +51,7 @@ def points_of(breaks: Array, pieces: IntArray) -> Rows:
     return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
 
 
-def _wall_floors(around: Around, index: dict[str, int]) -> list[Floors]:
+def _wall_floors(around: Around, index: dict[Owner, int]) -> list[Floors]:
     floors = []
     for wall in around.room.walls:
         n = np.array(wall.normal)
@@ -64,7 +65,7 @@ def _wall_floors(around: Around, index: dict[str, int]) -> list[Floors]:
     return floors
 
 
-def _disc_cones(around: Around, index: dict[str, int]) -> tuple[Cones, ...]:
+def _disc_cones(around: Around, index: dict[Owner, int]) -> tuple[Cones, ...]:
     cones = []
     for disc in around.room.discs:
         centre = np.array(disc.centre)

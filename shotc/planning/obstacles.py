@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from math import hypot, inf
 from typing import NamedTuple
 
 from shotc.geom.convex import bounded
-from shotc.geom.corridor import MARGIN, Disc, Obstacle, Room, Wall
-from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges, hull_and_pockets, point
+from shotc.geom.solids import Cylinder, Prism, convex_parts, edges, hull_and_pockets
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.origin import KeyPath
+from shotc.ir.owners import GROUND, Owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
-
-GROUND = "ground"
+from shotc.planning.clearances import Clearance, clearances_of, from_parked, lowest
+from shotc.planning.free_space import MARGIN, Disc, Obstacle, Room, Wall
 
 
 class Rooms(NamedTuple):
@@ -24,7 +24,7 @@ class Rooms(NamedTuple):
 
     flight: Room
     transit: Room
-    required: frozenset[str] = frozenset()
+    required: frozenset[Owner] = frozenset()
 
 
 def flight_room(mission: MissionIR, drone: Drone) -> Room:
@@ -32,17 +32,9 @@ def flight_room(mission: MissionIR, drone: Drone) -> Room:
 
     A drone that films nothing stands on its pad; those that fly are no part of a room.
     """
-    obstacles = _keep_outs(mission, drone)
-    for target in (t for t in mission.targets if t.track is None):
-        half = target.height / 2
-        x, y, z = target.centre
-        part = Cylinder((x, y), target.radius, z - half, z + half)
-        clearance = drone.radius + mission.rules.target_clearance
-        obstacles.append(Obstacle(f"target {target.name}", part, clearance))
-    obstacles += _parked(mission, drone)
-    over_ground = mission.rules.ground_clearance + drone.radius
+    over_ground = lowest(mission, drone)
     walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
-    return _with_keep_ins(mission, drone, (obstacles, walls), floors=True)
+    return _room((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
 
 
 def rooms_of(mission: MissionIR, drone: Drone) -> Rooms:
@@ -59,10 +51,10 @@ def rooms_of(mission: MissionIR, drone: Drone) -> Rooms:
     return Rooms(room, replace(room, obstacles=tuple(map(widened, room.obstacles))), required)
 
 
-def _kept_on_ways(mission: MissionIR) -> dict[str, Apart | None]:
+def _kept_on_ways(mission: MissionIR) -> dict[Owner, Apart | None]:
     zones = from_zones(mission)
-    kept = {f"zone {z.name}": zones for z in mission.zones if z.keep == "out"}
-    return kept | {f"target {t.name}": from_target(mission, t.name) for t in mission.targets}
+    kept = {zone_owner(z): zones for z in mission.zones if z.keep == "out"}
+    return kept | {target_owner(t): from_target(mission, t.name) for t in mission.targets}
 
 
 def pad_room(mission: MissionIR, drone: Drone) -> Room:
@@ -70,88 +62,46 @@ def pad_room(mission: MissionIR, drone: Drone) -> Room:
 
     Zones and the targets' own bodies still bind, and so does the separation from parked drones.
     """
-    obstacles = _keep_outs(mission, drone)
-    for target in (t for t in mission.targets if t.track is None):
-        half = target.height / 2
-        x, y, z = target.centre
-        part = Cylinder((x, y), target.radius, z - half, z + half)
-        obstacles.append(Obstacle(f"target {target.name}", part, drone.radius))
-    obstacles += _parked(mission, drone)
-    return _with_keep_ins(mission, drone, (obstacles, []), floors=False)
+    around = (*clearances_of(mission, drone, at_pad=True), *from_parked(mission, drone))
+    return _room(around, [], floors=False)
 
 
-def owner_path(mission: MissionIR, owner: str) -> KeyPath:
-    """Return where the mission file writes down an obstacle's or a wall's owner."""
-    for zone in mission.zones:
-        if owner == f"zone {zone.name}":
-            return zone.path
-    for target in mission.targets:
-        if owner == f"target {target.name}":
-            return target.path
-    for drone in mission.drones:
-        if owner == f"drone {drone.name}":
-            return drone.path
-    return ("rules", "ground_clearance")
+def _room(around: Iterable[Clearance], walls: list[Wall], *, floors: bool) -> Room:
+    """Return clearances as a room.
 
-
-def named(owner: str) -> str:
-    """Write an owner for people: zone `tree` instead of zone tree."""
-    kind, _, name = owner.partition(" ")
-    return (
-        f"{kind} `{name}`"
-        if kind in {"zone", "target", "drone"}
-        else owner
-        if owner != GROUND
-        else "the ground"
-    )
-
-
-def _keep_outs(mission: MissionIR, drone: Drone) -> list[Obstacle]:
-    return [
-        Obstacle(f"zone {zone.name}", bounded(part), drone.radius)
-        for zone in mission.zones
-        if zone.keep == "out"
-        for part in convex_parts(zone.solid)
+    walls : half-spaces that come first; floors : whether the floors of keep-in zones bind
+    """
+    kept = list(around)
+    obstacles = [
+        Obstacle(c.owner, bounded(part), c.metres)
+        for c in kept
+        if not c.inside
+        for part in convex_parts(c.solid)
     ]
-
-
-def _parked(mission: MissionIR, drone: Drone) -> list[Obstacle]:
-    return [
-        Obstacle(f"drone {other.name}", point(other.home), mission.rules.separation)
-        for other in mission.parked
-        if other.name != drone.name
-    ]
-
-
-def _with_keep_ins(
-    mission: MissionIR, drone: Drone, found: tuple[list[Obstacle], list[Wall]], *, floors: bool
-) -> Room:
-    obstacles, walls = found
     discs: list[Disc] = []
-    for zone in mission.zones:
-        if zone.keep == "out":
+    for c in kept:
+        if not c.inside:
             continue
-        owner = f"zone {zone.name}"
-        walls += _lids(owner, zone.solid, drone.radius, floors=floors)
-        if isinstance(zone.solid, Cylinder):
-            discs.append(Disc(owner, zone.solid.centre, zone.solid.radius - drone.radius))
+        walls += _lids(c, floors=floors)
+        if isinstance(c.solid, Cylinder):
+            discs.append(Disc(c.owner, c.solid.centre, c.solid.radius - c.metres))
             continue
-        hull, pockets = hull_and_pockets(zone.solid)
-        walls += _sides(owner, hull, drone.radius)
-        obstacles += [Obstacle(owner, bounded(pocket), drone.radius) for pocket in pockets]
+        hull, pockets = hull_and_pockets(c.solid)
+        walls += _sides(c.owner, hull, c.metres)
+        obstacles += [Obstacle(c.owner, bounded(pocket), c.metres) for pocket in pockets]
     return Room(tuple(obstacles), tuple(walls), tuple(discs))
 
 
-def _lids(owner: str, solid: Solid, radius: float, *, floors: bool) -> list[Wall]:
+def _lids(zone: Clearance, *, floors: bool) -> list[Wall]:
     lids = []
-    if floors and solid.bottom > -inf:
-        lids.append(Wall(owner, (0.0, 0.0, 1.0), solid.bottom + radius, radius))
-    if solid.top < inf:
-        lids.append(Wall(owner, (0.0, 0.0, -1.0), radius - solid.top, radius))
+    if floors and zone.solid.bottom > -inf:
+        lids.append(Wall(zone.owner, (0.0, 0.0, 1.0), zone.solid.bottom + zone.metres, zone.metres))
+    if zone.solid.top < inf:
+        lids.append(Wall(zone.owner, (0.0, 0.0, -1.0), zone.metres - zone.solid.top, zone.metres))
     return lids
 
 
-def _sides(owner: str, hull: Prism, radius: float) -> list[Wall]:
+def _sides(owner: Owner, hull: Prism, radius: float) -> list[Wall]:
     sides = []
     for (ax, ay), (bx, by) in edges(hull.points):
         length = hypot(bx - ax, by - ay)

@@ -10,13 +10,12 @@ from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, silhouette_bounds
 from shotc.geom.convex import bounded, distances
-from shotc.geom.corridor import Room, corridor, kept, shortfall
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import worst_of_runs
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
 from shotc.geom.vec import wrapped
-from shotc.ir.bodies import cylinder, flying, moved, parts_of_one
+from shotc.ir.bodies import flying, moved, parts_of_one
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.needs import with_need
@@ -35,6 +34,7 @@ from shotc.planning.clock.keyed import Keyed
 from shotc.planning.clock.pictures import least_out
 from shotc.planning.clock.surroundings import Planes, Surroundings, surroundings
 from shotc.planning.framing.moments import placed_at
+from shotc.planning.free_space import Room, corridor, kept, shortfall
 from shotc.planning.obstacles import flight_room
 from shotc.planning.path.angles import smoother
 from shotc.planning.path.rejoin import rejoined
@@ -86,7 +86,6 @@ __all__ = [
     "bounds_of",
     "convex_parts",
     "corridor",
-    "cylinder",
     "distances",
     "fit",
     "flight_room",

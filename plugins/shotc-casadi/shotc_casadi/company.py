@@ -149,7 +149,7 @@ def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
     for motion in around.motions:
         lack = float(replace(around, motions=(motion,)).lacking(flown.ctrl[:, :, :3]).max())
         if lack > PROVED:
-            found[motion.what.owner] = lack
+            found[str(motion.what.owner)] = lack
     return found
 
 

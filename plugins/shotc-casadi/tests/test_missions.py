@@ -13,7 +13,7 @@ from shotc_casadi.rounds import ROUNDS, refine_shot
 
 from shotc.api import emit_plan
 from shotc.diag.registry import has_errors
-from shotc.geom.corridor import shortfall
+from shotc.planning.free_space import shortfall
 from shotc.planning.timing.leg import fastest_moves, plan_of
 from shotc.planning.timing.limits import ceiling_of
 from tests.support.path_scenes import assert_continuous, least_room

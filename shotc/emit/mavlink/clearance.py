@@ -2,55 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.geom.solids import Cylinder, Solid, edges, point
+from shotc.geom.solids import Cylinder, Solid, edges
 from shotc.ir.mission import Drone, MissionIR
+from shotc.planning.clearances import Clearance, clearances_of, from_parked
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class Obstacle:
-    """A solid, and how far from it the drone's centre has to stay, metres."""
-
-    name: str
-    solid: Solid
-    clearance: float
-
-
-def obstacles_of(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
+def keep_outs(mission: MissionIR, drone: Drone) -> tuple[Clearance, ...]:
     """Return keep-out zones, standing targets and parked drones, with the clearances they are held to."""
-    zones = [Obstacle(f"zone {z.name}", z.solid, drone.radius) for z in mission.zones if z.keep == "out"]
-    clearance = drone.radius + mission.rules.target_clearance
-    targets = [
-        Obstacle(
-            f"target {t.name}",
-            Cylinder(
-                (t.centre[0], t.centre[1]), t.radius, t.centre[2] - t.height / 2, t.centre[2] + t.height / 2
-            ),
-            clearance,
-        )
-        for t in mission.targets
-        if t.track is None
-    ]
-    pads = [
-        Obstacle(f"drone {other.name}", point(other.home), mission.rules.separation)
-        for other in mission.parked
-        if other.name != drone.name
-    ]
-    return (*zones, *targets, *pads)
+    around = (*clearances_of(mission, drone), *from_parked(mission, drone))
+    return tuple(each for each in around if not each.inside)
 
 
-def shortfall(obstacle: Obstacle, points: Array) -> Array:
+def shortfall(obstacle: Clearance, points: Array) -> Array:
     """Return by how much each point, shape (n, 3), is too near to the obstacle, metres; negative is free."""
     solid = obstacle.solid
     across = footprint_distance(solid, points[:, :2])
     above = np.maximum(np.maximum(solid.bottom - points[:, 2], points[:, 2] - solid.top), 0.0)
-    return np.asarray(obstacle.clearance - np.hypot(across, above))
+    return np.asarray(obstacle.metres - np.hypot(across, above))
 
 
 def footprint_distance(solid: Solid, xy: Array) -> Array:

@@ -8,13 +8,14 @@ from math import ceil, floor
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.clearance import Obstacle, shortfall
+from shotc.emit.mavlink.clearance import shortfall
 from shotc.emit.mavlink.refly import STAY_PACE, Flown
 from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.clearances import Clearance
 
 Array = NDArray[np.float64]
 
@@ -61,9 +62,10 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown) -> Error:
     return Error(position, heading, screen, *worst, filmed, planned)
 
 
-def nearest_miss(obstacles: tuple[Obstacle, ...], flown: Flown) -> tuple[str, float]:
+def nearest_miss(obstacles: tuple[Clearance, ...], flown: Flown) -> tuple[str, float]:
     """Return the obstacle whose clearance is cut deepest, and by how much, m; ("", 0) if none is."""
-    cuts = [(float(shortfall(o, flown.position).max()), o.name) for o in obstacles if len(flown.position)]
+    deepest = ((float(shortfall(o, flown.position).max()), str(o.owner)) for o in obstacles)
+    cuts = list(deepest) if len(flown.position) else []
     depth, name = max(cuts, default=(0.0, ""))
     return (name, depth) if depth > 0 else ("", 0.0)
 

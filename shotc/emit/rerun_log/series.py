@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids_array import signed_distance
-from shotc.ir.bodies import cylinder, moved
+from shotc.ir.bodies import moved
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, UPRIGHT, X, Y, Z
 from shotc.ir.trajectory import DroneTrajectory
@@ -92,7 +92,7 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
         for zone in mission.zones
     ]
     subjects = [
-        signed_distance(cylinder(target), p - moved(target, t)) - radius - rules.target_clearance + bound
+        signed_distance(target.solid, p - moved(target, t)) - radius - rules.target_clearance + bound
         for target in mission.targets
     ]
     ground = p[:, 2] - radius - rules.ground_clearance + bound

@@ -12,7 +12,7 @@ from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTI
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid, triangles
-from shotc.ir.bodies import cylinder, moved
+from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
@@ -127,7 +127,7 @@ def _targets(stream: Any, mission: MissionIR, last: float) -> None:
     for target in mission.targets:
         if target.track is not None:
             _motion(stream, target, last)
-        solid = cylinder(target)
+        solid = target.solid
         points, faces, light = solid_mesh(solid)
         colors = [rgba8(shade(SUBJECT, float(value))) for value in light]
         mesh = rr.Mesh3D(vertex_positions=points, triangle_indices=faces, vertex_colors=colors)

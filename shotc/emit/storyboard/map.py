@@ -28,7 +28,6 @@ from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import view
 from shotc.geom.solids import Cylinder, convex_hull
-from shotc.ir.bodies import cylinder
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 
@@ -127,7 +126,7 @@ def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
 
 def _body(sheet: Sheet, target: Target) -> Array:
     """Return the shape of a target on the page, never too small to be seen."""
-    solid = cylinder(target)
+    solid = target.solid
     return sheet.outline(
         Cylinder(solid.centre, max(target.radius, 0.06 / sheet.inches), solid.bottom, solid.top)
     )

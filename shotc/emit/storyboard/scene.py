@@ -16,7 +16,7 @@ from shotc.geom.camera import View, view
 from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
 from shotc.geom.solids import convex_parts
 from shotc.geom.vec import Vec3
-from shotc.ir.bodies import cylinder, parts_of_one
+from shotc.ir.bodies import parts_of_one
 from shotc.ir.mission import MissionIR, Target, Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 
@@ -98,7 +98,7 @@ def _is_behind(eye: Vec3, a: Target | Zone, b: Target | Zone) -> bool:
         return False
     if _holds(a, b) or _holds(b, a):
         return _holds(a, b) and not _holds(b, a)
-    return dist(cylinder(a).closest(eye), eye) > dist(cylinder(b).closest(eye), eye)
+    return dist(a.solid.closest(eye), eye) > dist(b.solid.closest(eye), eye)
 
 
 def _overlap(a: Target, b: Target) -> bool:
@@ -119,7 +119,7 @@ def _span(thing: Target | Zone) -> tuple[float, float]:
 
 
 def _distance(eye: Vec3, thing: Target | Zone) -> float:
-    solid = cylinder(thing) if isinstance(thing, Target) else thing.solid
+    solid = thing.solid
     return min(
         float(np.hypot(q[0] - eye[0], q[1] - eye[1]))
         for q in (part.closest(eye) for part in convex_parts(solid))

@@ -11,7 +11,6 @@ from shotc.emit.storyboard.canvas import Box
 from shotc.emit.storyboard.content import ShotBoard
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
-from shotc.ir.bodies import cylinder
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_YAW
 
@@ -114,12 +113,12 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
     """Return the lower left and upper right corner of what is to be shown, metres."""
     framed = {target for m in board.moments for target in m.targets}
     subjects = [target for target in mission.targets if target.name in framed]
-    shapes = [board.path @ axes.T, *(outline(axes, cylinder(subject)) for subject in subjects)]
+    shapes = [board.path @ axes.T, *(outline(axes, subject.solid) for subject in subjects)]
     low, high = _corners(shapes)
     if axes[1, 2] != 0 and 0 < low[1] < high[1] - low[1]:
         low = np.array([low[0], 0.0])
     reach = np.maximum(high - low, 10.0) * (NEAR - 1) / 2
-    things = [cylinder(t) for t in mission.targets] + [z.solid for z in mission.zones if z.keep == "out"]
+    things = [t.solid for t in mission.targets] + [z.solid for z in mission.zones if z.keep == "out"]
     pad = np.array([board.drone.home]) @ axes.T
     for shape in (pad, *(outline(axes, thing) for thing in things)):
         first, last = _corners([shape])

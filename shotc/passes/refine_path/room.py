@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.corridor import Room, breaches, shortfall
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, sup_channel
 from shotc.ir.mission import Drone, MissionIR
@@ -32,7 +31,8 @@ from shotc.ir.path import (
 from shotc.ir.tolerances import ON_PLACE
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.solver_reports import place
-from shotc.planning.obstacles import flight_room, named, owner_path
+from shotc.planning.free_space import Room, breaches, shortfall
+from shotc.planning.obstacles import flight_room
 
 TOLERANCE = 2e-6
 """Metres and radians beyond a limit that still keep it, as where the convex path is made."""
@@ -96,11 +96,11 @@ def _clearance(mission: MissionIR, room: Room, leg: Leg | TimedLeg, curve: Piece
     clearance = f"short of its clearance of {breach.clearance:.2f} m"
     lacks = clearance if breach.clearance > 0 else "beyond where the drone's centre must stay"
     x, y, z = near.point
-    owner = owner_path(mission, breach.owner)
+    owner = breach.owner.path
     find = mission.origins.value if owner[:1] == ("rules",) else mission.origins.key
     yield Finding(
         "R006",
-        f"flies {_which(leg)} too near to {named(breach.owner)}",
+        f"flies {_which(leg)} too near to {breach.owner.words}",
         (
             f"{near.lack:.3g} m {lacks}, at ({x:.2f}, {y:.2f}, {z:.2f}) m",
             place(leg, near.s),

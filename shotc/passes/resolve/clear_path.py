@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
-from shotc.planning.clearances import ROUNDING, obstacles_of
+from shotc.planning.clearances import ROUNDING, clearances_of
 from shotc.planning.framing.placing import place_shot
 
 STEP = 1.0  # metres between the values that are tried
@@ -57,7 +57,7 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
 def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator[float]:
     """Yield the least change up, and the least one down to ``least``, that free a path, metres."""
     drone = mission.drone(shot.drone)
-    around, floor = obstacles_of(mission, drone), mission.rules.ground_clearance + drone.radius
+    around, floor = clearances_of(mission, drone), mission.rules.ground_clearance + drone.radius
 
     def blocked(k: Keyframe) -> bool:
         if k.at[2] < floor - ROUNDING:

@@ -16,10 +16,8 @@ from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.clear_path import Change, clear_path
 from shotc.passes.resolve.move_out import move_out
-from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of
+from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
 from shotc.rounding import at_least
-
-_CODES = {"out": "G002", "in": "G003", "target": "G004"}
 
 
 def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
@@ -30,7 +28,7 @@ def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diag
         for fault in too_low(mission, shot, drone, path, keyframes):
             yield path, fault
         raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
-        for obstacle in obstacles_of(mission, drone):
+        for obstacle in clearances_of(mission, drone):
             for fault in blocked(mission, shot, raised, obstacle, clear):
                 yield path, fault
 
@@ -84,10 +82,10 @@ def _over_ground(mission: MissionIR, keyframe: Keyframe, floor: float) -> tuple[
     )
 
 
-def _from_sea(mission: MissionIR, z: float, obstacle: Obstacle) -> tuple[str, ...]:
+def _from_sea(mission: MissionIR, z: float, obstacle: Clearance) -> tuple[str, ...]:
     """Note a height that would do if it was meant to count from sea level."""
     alt = _altitude(mission)
-    if obstacle.role != "in" or z <= obstacle.solid.top or z - alt < obstacle.solid.bottom:
+    if not obstacle.inside or z <= obstacle.solid.top or z - alt < obstacle.solid.bottom:
         return ()
     if z - alt > obstacle.solid.top:
         return ()
@@ -104,7 +102,7 @@ def blocked(
     mission: MissionIR,
     shot: Shot,
     keyframes: list[Keyframe],
-    obstacle: Obstacle,
+    obstacle: Clearance,
     clear: Callable[[], list[Change]],
 ) -> Iterator[Diagnostic]:
     """Yield the fault of a line whose keyframes an obstacle blocks; ``clear`` finds what frees a path."""
@@ -116,7 +114,7 @@ def blocked(
     ideal = not worst.placed
     changes = clear() if ideal else []
     label = mission.origins.value((*shot.path, changes[0].key)) if changes else _label(mission, shot, worst)
-    labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
+    labels = (label, mission.origins.key(obstacle.owner.path, "the obstacle"))
     free = " or ".join(f"{change}" for change in changes)
     free = f"write {free}" if changes else obstacle.free_of()
     place = ", ".join(f"{c:.1f}" for c in worst.at)
@@ -131,7 +129,13 @@ def blocked(
     notes = (*notes, *_from_sea(mission, worst.at[2], obstacle))
     help_ = free if ideal else move_out(mission, shot, worst, obstacle)
     message = f"{_what(shot, worst)} {obstacle.relation(worst.at)}"
-    yield Diagnostic(_CODES[obstacle.role], message, labels, notes, help_)
+    yield Diagnostic(_code(obstacle), message, labels, notes, help_)
+
+
+def _code(obstacle: Clearance) -> str:
+    if obstacle.inside:
+        return "G003"
+    return "G004" if obstacle.owner.kind == "target" else "G002"
 
 
 def _what(shot: Shot, keyframe: Keyframe) -> str:

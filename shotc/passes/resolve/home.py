@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
-from shotc.planning.clearances import NUDGE, ROUNDING, Obstacle, move, obstacles_of, outward
+from shotc.planning.clearances import NUDGE, ROUNDING, Clearance, clearances_of, move, outward
 from shotc.rounding import at_least
 
 ROUND = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
@@ -32,10 +32,10 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
             message = f"the home of `{drone.name}` is underground"
             faults.append(Diagnostic("G006", message, (label,), (note,), help_))
             continue
-        for obstacle in obstacles_of(mission, drone):
+        for obstacle in clearances_of(mission, drone):
             said = _obstructed(mission, drone, obstacle)
             if said is not None:
-                labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
+                labels = (label, mission.origins.key(obstacle.owner.path, "the obstacle"))
                 faults.append(
                     Diagnostic("G005", said[0], labels, (said[1],), _remedy(mission, drone, obstacle))
                 )
@@ -84,52 +84,51 @@ def stands_free(mission: MissionIR, drone: Drone) -> bool:
     """Tell whether a home is clear of what stands, on it and above it, and apart from the other homes."""
     others = (other.home for other in mission.drones if other.name != drone.name)
     apart = all(dist(drone.home, home) >= mission.rules.separation - ROUNDING for home in others)
-    return apart and all(_obstructed(mission, drone, o) is None for o in obstacles_of(mission, drone))
+    return apart and all(_obstructed(mission, drone, o) is None for o in clearances_of(mission, drone))
 
 
-def _obstructed(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> tuple[str, str] | None:
+def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[str, str] | None:
     """Return what stands against a home, and the numbers; None where nothing does."""
     top = max(drone.home[2], mission.rules.ground_clearance + drone.radius)
     room = take_off_room(drone.home, top, obstacle)
     if room >= drone.radius - ROUNDING:
         return None
-    if obstacle.role == "in":
+    if obstacle.inside:
         where = f"{room:.2f} m from its border" if room > 0 else f"{abs(room):.2f} m outside"
         note = f"the take-off is {where}; the body radius of {drone.radius:.2f} m must be free"
-        return f"the home of `{drone.name}` is outside keep-in zone `{obstacle.name}`", note
-    what = "target" if obstacle.role == "target" else "zone"
+        return f"the home of `{drone.name}` is outside keep-in zone `{obstacle.owner.name}`", note
     where = "in" if signed_distance(obstacle.solid, drone.home) < drone.radius else "under"
     reach = f"comes within {room:.2f} m" if room > 0 else f"reaches {-room:.2f} m into it"
     note = (
         f"between the ground and {top:.2f} m it {reach}; the body radius of {drone.radius:.2f} m must be free"
     )
-    return f"the home of `{drone.name}` is {where} {what} `{obstacle.name}`", note
+    return f"the home of `{drone.name}` is {where} {obstacle.owner.words}", note
 
 
-def take_off_room(home: Vec3, top: float, obstacle: Obstacle) -> float:
+def take_off_room(home: Vec3, top: float, obstacle: Clearance) -> float:
     """Return the free metres about the way straight up from a pad to z = ``top``; negative in an obstacle.
 
     The floors of keep-in zones do not apply on it.
     """
-    if obstacle.role == "in":
+    if obstacle.inside:
         walls = obstacle.solid._replace(bottom=-inf)
         return min(-signed_distance(walls, p) for p in (home, (home[0], home[1], top)))
     return signed_distance(obstacle.solid, _nearest_level(home, top, obstacle))
 
 
-def _remedy(mission: MissionIR, drone: Drone, obstacle: Obstacle) -> str:
+def _remedy(mission: MissionIR, drone: Drone, obstacle: Clearance) -> str:
     """Propose the nearest level place from which the drone can take off, if there is one close by."""
     home = drone.home
-    ways = obstacle._replace(room=drone.radius).ways_out(home)
+    ways = obstacle._replace(metres=drone.radius).ways_out(home)
     places = [outward(home, (x, y, home[2])) for x, y, _ in ways if (x, y) != home[:2]]
-    around = obstacles_of(mission, drone)
+    around = clearances_of(mission, drone)
     free = [q for q in places if all(_obstructed(mission, drone._replace(home=q), o) is None for o in around)]
     if not free:
         return "move the home, or the obstacle"
     return move(home, min(free, key=lambda q: dist(home, q)))
 
 
-def _nearest_level(home: Vec3, top: float, obstacle: Obstacle) -> Vec3:
+def _nearest_level(home: Vec3, top: float, obstacle: Clearance) -> Vec3:
     """Return the place of the vertical take-off that is closest to an obstacle, or deepest in it."""
     low, high = max(home[2], obstacle.solid.bottom), min(top, obstacle.solid.top)
     if low > high:  # it is all above the take-off, or all below

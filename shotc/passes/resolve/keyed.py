@@ -16,7 +16,7 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot, Target
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.geometry import blocked, too_low
-from shotc.planning.clearances import free_place, move, obstacles_of
+from shotc.planning.clearances import clearances_of, free_place, move
 from shotc.planning.framing.moments import moments
 
 
@@ -41,10 +41,10 @@ def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Dia
         found = []
         if sure or (beside is not None and _level(beside)):
             found += list(too_low(mission, shot, drone, keyframe.path, [keyframe]))
-        for obstacle in obstacles_of(then, drone):
-            if not sure and (beside is None or obstacle.path != beside.path):
+        for obstacle in clearances_of(then, drone):
+            if not sure and (beside is None or obstacle.owner.path != beside.path):
                 continue
-            if beside is None and shot.timing.start is None and _moves(mission, obstacle.path):
+            if beside is None and shot.timing.start is None and _moves(mission, obstacle.owner.path):
                 continue
             for fault in blocked(then, shot, [keyframe], obstacle, list):
                 place = free_place(then, drone, keyframe.at, obstacle)

@@ -7,7 +7,7 @@ from math import dist
 
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.planning.clearances import ROUNDING, Obstacle, free_place, move, obstacles_of, outward
+from shotc.planning.clearances import ROUNDING, Clearance, clearances_of, free_place, move, outward
 from shotc.planning.framing.placing import place_shot
 
 STEP = 1.1  # times the distance to the target, from one place that is tried to the next
@@ -15,7 +15,7 @@ TRIES = 40  # of them on each way
 WAYS = 6  # out of an obstacle, the nearest ones
 
 
-def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obstacle) -> str:
+def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clearance) -> str:
     """Return in words the move to the nearest place that will do; to a free one where none shows the target.
 
     Tried are the ways out of the obstacle, and on from there straight away from the target. A camera that
@@ -26,7 +26,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Obsta
     looks = keyframe.target is not None and keyframe.aim is None
     if not looks or (free is not None and _shown(mission, shot, keyframe, free)):
         return "move it to a free place" if free is None else move(p, free)
-    around, floor = obstacles_of(mission, drone), mission.rules.ground_clearance + drone.radius
+    around, floor = clearances_of(mission, drone), mission.rules.ground_clearance + drone.radius
     centre = mission.target(str(keyframe.target)).centre
     found: list[Vec3] = []
     for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:WAYS]:

@@ -8,8 +8,9 @@ from math import dist
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import point
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.owners import drone_owner
 from shotc.passes.resolve.names import AUTO
-from shotc.planning.clearances import ROUNDING, Obstacle, free_move
+from shotc.planning.clearances import ROUNDING, Clearance, free_move
 from shotc.spec.mission import MissionSpec
 
 
@@ -31,7 +32,7 @@ def check_pads(spec: MissionSpec, mission: MissionIR) -> Iterator[Diagnostic]:
 
 def _too_near(mission: MissionIR, shot: Shot, keyframe: Keyframe, other: Drone) -> Diagnostic:
     least, away = mission.rules.separation, dist(keyframe.at, other.home)
-    pad = Obstacle(other.name, "out", point(other.home), least, other.path)
+    pad = Clearance(drone_owner(other), point(other.home), least)
     place = ", ".join(f"{c:.2f}" for c in keyframe.at)
     return Diagnostic(
         "Q004",

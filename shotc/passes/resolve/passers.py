@@ -11,7 +11,7 @@ from math import cos, dist, hypot, inf, radians, sin
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.solids import Cylinder, closest_on_segment, distance
+from shotc.geom.solids import closest_on_segment, distance
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start
@@ -127,9 +127,7 @@ def _risen(drone: Drone, t: float) -> float:
 
 def _room(drone: Drone, target: Target, place: Vec3, t: float) -> float:
     """Return the metres between a drone's body at a place and a target's; negative where they touch."""
-    x, y, z = target.at(t)
-    body = Cylinder((x, y), target.radius, z - 0.5 * target.height, z + 0.5 * target.height)
-    return distance(body, place) - drone.radius
+    return distance(target.solid_at(t), place) - drone.radius
 
 
 def _touches(drone: Drone, target: Target, track: Track) -> Iterator[Touch]:

@@ -14,7 +14,6 @@ from typing import ClassVar, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.corridor import Room
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
@@ -39,6 +38,7 @@ from shotc.planning.clock.shot import NoMotion, Traffic
 from shotc.planning.clock.sights import sights_of
 from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate, Trouble
 from shotc.planning.framing.moments import placed_at
+from shotc.planning.free_space import Room
 from shotc.planning.obstacles import pad_room, rooms_of
 from shotc.planning.path.legs import Flight, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point

@@ -18,7 +18,6 @@ from shotc.geom.pieces import cut
 from shotc.geom.proof import norm, sup_convex
 from shotc.geom.solids import distance, signed_distance
 from shotc.geom.vec import wrapped
-from shotc.ir.bodies import cylinder
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
@@ -196,7 +195,7 @@ def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
         if (apart if zone.keep == "out" else -apart) < body:
             return False
     standing = [target for target in mission.targets if target.track is None]
-    return all(distance(cylinder(target), at) >= rules.target_clearance + body for target in standing)
+    return all(distance(target.solid, at) >= rules.target_clearance + body for target in standing)
 
 
 def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:

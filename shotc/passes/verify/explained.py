@@ -20,7 +20,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.solids_array import signed_distance
-from shotc.ir.bodies import cylinder, flying, moved
+from shotc.ir.bodies import flying, moved
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import Deviation
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
@@ -115,7 +115,7 @@ def _targets(flight: Flight, way: Way, *, placed: bool) -> Iterator[tuple[str, f
         if (placed and target.track is None) or (way.times is None and target.track is not None):
             continue
         beside = way.places - (_centre(target, way.times) - np.array(target.centre))
-        if signed_distance(cylinder(target), beside).min() < near:
+        if signed_distance(target.solid, beside).min() < near:
             yield f"target {target.name}", max(2.0 * target.radius, target.height) + 2.0 * near
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import depth, distance
-from shotc.ir.bodies import cylinder, moved
+from shotc.ir.bodies import moved
 from shotc.ir.limits import Vec3
 from shotc.ir.measures import measure
 from shotc.ir.mission import Drone, MissionIR
@@ -112,7 +112,7 @@ def _space(mission: MissionIR, drone: Drone, track: DroneTrajectory, time: float
     for target in mission.targets:
         away = moved(target, np.array([time]))[0]
         if (
-            distance(cylinder(target), (x - away[0], y - away[1], z - away[2]))
+            distance(target.solid, (x - away[0], y - away[1], z - away[2]))
             < drone.radius + rules.target_clearance + AT_EDGE
         ):
             yield f"the clearance of target `{target.name}` ({measure(rules.target_clearance, 'm')})"

@@ -12,7 +12,6 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import cut
 from shotc.geom.proof import inf_distance
 from shotc.geom.solids import Solid, distance
-from shotc.ir.bodies import cylinder
 from shotc.ir.measures import told_apart
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
@@ -88,7 +87,7 @@ def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> tuple[Solid
     curve = track.curve.channels(0, 1, 2)
     for target in mission.targets:
         if name == f"target {target.name}":
-            return cylinder(target), target.path, beside(curve, target)
+            return target.solid, target.path, beside(curve, target)
     zone = next(zone for zone in mission.zones if name == f"zone {zone.name}")
     return zone.solid, zone.path, curve
 

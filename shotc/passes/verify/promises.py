@@ -8,6 +8,7 @@ from math import isfinite
 from shotc.diag.model import Diagnostic
 from shotc.ir.measures import enough, told_apart
 from shotc.ir.mission import Shot
+from shotc.ir.owners import owner_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.rounding import at_least, away
 
@@ -76,8 +77,8 @@ def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
     """Yield how far and why the path of a shot leaves the one that its kind generates."""
     for found in ir.deviations:
         if found.shot == shot:
-            kind, space, name = found.cause.partition(" ")
-            cause = f"{kind} `{name}`" if space and kind in ("zone", "target") else found.cause
+            owner = owner_of(ir.keyframes.mission, found.cause)
+            cause = found.cause if owner is None else owner.words
             yield f"the shot leaves its ideal path by up to {at_least(found.distance)} m, round {cause}"
 
 

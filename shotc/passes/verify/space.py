@@ -14,7 +14,6 @@ import numpy as np
 from shotc.geom.pieces import Pieces, cut, join
 from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solids import Solid, distance
-from shotc.ir.bodies import cylinder
 from shotc.ir.mission import Target, Zone
 from shotc.ir.path import UPRIGHT
 from shotc.ir.sampling import beside
@@ -45,7 +44,7 @@ def space(flight: Flight) -> Iterator[Claim]:
         near = (free, upright) if target.track is None else _split(flight, target)
         parts = (*near, rules.target_clearance)
         path = ("rules", "target_clearance")
-        yield from _keep_out(flight, f"target {target.name}", cylinder(target), parts, path)
+        yield from _keep_out(flight, f"target {target.name}", target.solid, parts, path)
     if len(upright):
         yield from _vertical(flight, upright)
 

@@ -16,7 +16,6 @@ from shotc.geom.pieces import cut
 from shotc.geom.proof import Bound, inf_tapered
 from shotc.geom.solids import Solid, distance
 from shotc.geom.taper import SLOPE, Taper
-from shotc.ir.bodies import cylinder
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.ir.transits import Apart, Way, from_target, from_zones, ways
@@ -33,7 +32,7 @@ def transits(flight: Flight) -> Iterator[Claim]:
     for target in mission.targets:
         apart = from_target(mission, target.name)
         if apart is not None:
-            yield from _kept(flight, f"target {target.name}", (cylinder(target), beside(own, target)), apart)
+            yield from _kept(flight, f"target {target.name}", (target.solid, beside(own, target)), apart)
     apart = from_zones(mission)
     for zone in mission.zones:
         if apart is not None and zone.keep == "out":

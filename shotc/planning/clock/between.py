@@ -10,10 +10,10 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
-from shotc.geom.corridor import STEEPER
 from shotc.geom.pieces import Mask
 from shotc.geom.taper import SLOPE, Taper
 from shotc.planning.clock.moving import Even, Moving, Sides, evened, relative_to, sides
+from shotc.planning.free_space import STEEPER
 
 STEP = 0.05  # seconds between the places that are compared
 STAND = 1.0  # seconds that a drone stands at least where it has come from far, or leaves for there

@@ -22,6 +22,7 @@ from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
 from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.owners import Owner
 from shotc.ir.path import Leg, PhaseName
 from shotc.ir.preference import LONGEST_WAIT
 from shotc.planning.clock.moving import Moving
@@ -51,7 +52,7 @@ class Meeting:
     phase : "takeoff" or "land" where that is at the pad, "transit" elsewhere
     """
 
-    owner: str
+    owner: Owner
     time: float
     lack: float
     phase: PhaseName = "transit"

@@ -15,13 +15,14 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.convex import separate, support
-from shotc.geom.corridor import MARGIN, six
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.track_array import places
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.owners import Owner, target_owner
 from shotc.ir.transits import from_target
 from shotc.planning.corridor import points_of
+from shotc.planning.free_space import MARGIN, six
 from shotc.planning.obstacles import Rooms
 from shotc.solvers.spline_problem import Floors
 
@@ -40,7 +41,7 @@ class Moving:
     apart : the clearance on ways between shots, metres; required : whether the mission writes that down
     """
 
-    owner: str
+    owner: Owner
     part: Solid
     clearance: float
     at: Callable[[Array], Array]
@@ -87,7 +88,7 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     for target in mission.targets:
         if target.track is not None:
             half = target.height / 2
-            name, part = f"target {target.name}", Cylinder((0.0, 0.0), target.radius, -half, half)
+            name, part = target_owner(target), Cylinder((0.0, 0.0), target.radius, -half, half)
             kept = from_target(mission, target.name)
             apart = clearance if kept is None else drone.radius + kept.metres + MARGIN
             required = kept is not None and kept.required

@@ -10,6 +10,7 @@ import numpy as np
 from shotc.geom.solids import point
 from shotc.ir.bodies import flying, standing_at
 from shotc.ir.mission import MissionIR
+from shotc.ir.owners import drone_owner
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.moving import Moving
 
@@ -28,5 +29,5 @@ def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTraje
             continue
         flight = flights.get(drone.name)
         at = partial(standing_at, np.array(drone.home)) if flight is None else partial(flying, flight.curve)
-        found.append(Moving(f"drone {drone.name}", POINT, mission.rules.separation, at, always=True))
+        found.append(Moving(drone_owner(drone), POINT, mission.rules.separation, at, always=True))
     return tuple(found)

@@ -10,8 +10,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
-from shotc.geom.corridor import Room, shortfall
 from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.owners import Owner
 from shotc.ir.preference import Price, prefers_free_pictures
 from shotc.planning.clock.aims import Looker
 from shotc.planning.clock.between import lacking, sides_apart, standing_apart
@@ -23,6 +23,7 @@ from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.clock.sights import Kept, Sights, keep_free
 from shotc.planning.corridor import Around, with_corridor
+from shotc.planning.free_space import Room, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
@@ -82,7 +83,7 @@ class Task:
         return self.looker.drone
 
     @property
-    def owners(self) -> tuple[str, ...]:
+    def owners(self) -> tuple[Owner, ...]:
         """Everything that may stop the motion, by index: the walls' owners, then the motions'."""
         return (*self.walls.owners, *(m.what.owner for m in self.motions))
 

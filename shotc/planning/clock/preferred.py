@@ -14,7 +14,6 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, frames
 from shotc.geom.pieces import Mask
 from shotc.geom.track_array import places as track_places
-from shotc.ir.bodies import cylinder
 from shotc.ir.mission import Target
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
 from shotc.planning.clock.aims import Looker, aims_at
@@ -62,7 +61,7 @@ def _whole(looker: Looker, target: Target, times: Array, places: Array) -> Mask:
     aims = aims_at(looker, times, places)
     still = places - _places(target, times) + np.array(target.centre)
     cameras = Cameras(still, aims[:, 0], aims[:, 1], looker.hfov(times), looker.drone.aspect)
-    return np.asarray(frames(cameras, cylinder(target)).in_frame)
+    return np.asarray(frames(cameras, target.solid).in_frame)
 
 
 def _places(target: Target, times: Array) -> Array:

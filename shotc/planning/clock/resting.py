@@ -13,9 +13,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import distances
-from shotc.geom.corridor import MARGIN, Room, bounds_slack
 from shotc.geom.sampling import directions
 from shotc.planning.clock.moving import COMFORT, Moving
+from shotc.planning.free_space import MARGIN, Room, bounds_slack
 
 LONG = 20.0  # seconds before a film, or after it, for which nothing comes near
 STEP = 0.1  # seconds between the moments that are looked at

@@ -9,11 +9,11 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
-from shotc.geom.corridor import Room, breaches
 from shotc.geom.sampling import worst_of_runs
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot
+from shotc.ir.owners import Owner
 from shotc.ir.path import LIMITS, Deviation, FramingSpan, TimedLeg
 from shotc.ir.preference import noted
 from shotc.planning.clock.aims import Looker, looker_of
@@ -29,6 +29,7 @@ from shotc.planning.clock.resting import LONG, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp, run_ups
 from shotc.planning.clock.sights import Sights
 from shotc.planning.framing.moments import placed_at, slowed
+from shotc.planning.free_space import Room, breaches
 from shotc.planning.obstacles import Rooms
 from shotc.solvers.conic import Status
 
@@ -107,7 +108,7 @@ class Away(NamedTuple):
     keyframe: int
     distance: float
     t: float
-    owner: str | None
+    owner: Owner | None
     lack: float
 
 
@@ -131,7 +132,7 @@ class NoMotion:
     """
 
     status: Status
-    lacks: tuple[tuple[str, float], ...]
+    lacks: tuple[tuple[Owner, float], ...]
     what: str = "position"
     missed: Missed | None = None
 
@@ -264,7 +265,7 @@ def _lens(looker: Looker, clock: Clock) -> Array:
     return np.full((len(clock.breaks) - 1, 6, 1), looker.drone.hfov)
 
 
-def _lacks(task: Task, flown: Flown) -> tuple[tuple[str, float], ...]:
+def _lacks(task: Task, flown: Flown) -> tuple[tuple[Owner, float], ...]:
     if flown.relaxation is None:
         return ()
     found = zip(task.owners, flown.relaxation.floor_lack, strict=True)
@@ -305,11 +306,11 @@ def _away(task: Task, curve: Piecewise) -> Array:
 def _cause(task: Task, flown: Flown, t: float) -> str:
     near = _in_the_way(task, np.array(ideal_place(task.mission, task.shot, task.clock.start, t)), t)
     if near is not None:
-        return near[0]
+        return str(near[0])
     return PICTURES if flown.freed else LIMITS
 
 
-def _in_the_way(task: Task, place: Array, t: float) -> tuple[str, float] | None:
+def _in_the_way(task: Task, place: Array, t: float) -> tuple[Owner, float] | None:
     """Return the owner of what a place, shape (3,), is too near to at a time, and by how much, metres."""
     near = breaches(task.room, place)
     if near:

@@ -13,7 +13,6 @@ from math import inf
 
 import numpy as np
 
-from shotc.geom.corridor import Room, bounds_slack
 from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
@@ -22,6 +21,7 @@ from shotc.planning.clock.departure import Meeting, Way
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.shot import NoMotion, TimedShot
 from shotc.planning.framing.moments import placed_at
+from shotc.planning.free_space import Room, bounds_slack
 from shotc.planning.path.shots import Failure
 from shotc.rounding import down, up
 

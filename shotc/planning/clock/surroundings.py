@@ -12,7 +12,6 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray, restrict
-from shotc.geom.corridor import Room, kept, shortfall
 from shotc.ir.mission import Drone
 from shotc.ir.path import PathIR, TimedLeg
 from shotc.planning.clock.aims import Looker
@@ -21,6 +20,7 @@ from shotc.planning.clock.flights import flights
 from shotc.planning.clock.moving import Even, Moving, evened, moving_targets, shortfalls, sides, standing
 from shotc.planning.clock.others import other_drones
 from shotc.planning.clock.sights import Sights, keep_free, sights_of
+from shotc.planning.free_space import Room, kept, shortfall
 from shotc.planning.obstacles import rooms_of
 
 

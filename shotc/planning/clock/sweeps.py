@@ -12,9 +12,9 @@ from math import cos, pi
 
 import numpy as np
 
-from shotc.geom.corridor import Obstacle, Room
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_hull
 from shotc.planning.clock.moving import Moving
+from shotc.planning.free_space import Obstacle, Room
 from shotc.planning.obstacles import Rooms
 
 STEP = 0.5  # seconds between the places that a hull is drawn about

@@ -9,10 +9,11 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import closest_points, support
-from shotc.geom.corridor import MARGIN, Obstacle, Room, Wall
-from shotc.geom.route import find_route
 from shotc.ir.mission import Drone, MissionIR
-from shotc.planning.obstacles import GROUND, flight_room, named
+from shotc.ir.owners import GROUND, Owner
+from shotc.planning.free_space import MARGIN, Obstacle, Room, Wall
+from shotc.planning.obstacles import flight_room
+from shotc.planning.path.route import find_route
 from shotc.rounding import down
 
 HALVINGS = 7
@@ -27,7 +28,7 @@ class Gap:
     help: str
 
 
-def opening(room: Room, start: Array, end: Array) -> tuple[str, ...]:
+def opening(room: Room, start: Array, end: Array) -> tuple[Owner, ...]:
     """Return the owners each of which, taken away alone, leaves a way; the ground cannot be taken away."""
     names = (name for name in room.owners if name != GROUND)
     return tuple(name for name in names if find_route(room.without(name), start, end) is not None)
@@ -49,7 +50,7 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
     return down(low)
 
 
-def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -> Gap | None:
+def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[Owner, ...]) -> Gap | None:
     """Return the narrowest place that closes the way and what would have to change; None if nothing fits."""
     lent = _least_loan(room, start, end)
     if lent is None:
@@ -62,7 +63,7 @@ def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[str, ...]) -
         )
     (first, second), gap, needed = pair
     return Gap(
-        f"the gap between {named(first)} and {named(second)} is {gap:.2f} m; the drone needs {needed:.2f} m",
+        f"the gap between {first.words} and {second.words} is {gap:.2f} m; the drone needs {needed:.2f} m",
         f"widen the gap by {needed - gap + MARGIN:.2f} m, or use a drone with a radius {lent:.2f} m smaller",
     )
 
@@ -83,10 +84,10 @@ def _least_loan(room: Room, start: Array, end: Array) -> float | None:
 
 
 def _closing_pair(
-    room: Room, openers: tuple[str, ...], lent: float
-) -> tuple[tuple[str, str], float, float] | None:
+    room: Room, openers: tuple[Owner, ...], lent: float
+) -> tuple[tuple[Owner, Owner], float, float] | None:
     """Return two owners whose gap is what the loan opens, the gap and what it should be, metres."""
-    best: tuple[float, tuple[str, str], float, float] | None = None
+    best: tuple[float, tuple[Owner, Owner], float, float] | None = None
     for a, b in combinations(room.obstacles, 2):
         if a.owner == b.owner or (openers and not {a.owner, b.owner} & set(openers)):
             continue
@@ -101,12 +102,12 @@ def _closing_pair(
 
 
 def _closer(
-    best: tuple[float, tuple[str, str], float, float] | None,
+    best: tuple[float, tuple[Owner, Owner], float, float] | None,
     lent: float,
-    names: tuple[str, str],
+    names: tuple[Owner, Owner],
     gap: float,
     needed: float,
-) -> tuple[float, tuple[str, str], float, float] | None:
+) -> tuple[float, tuple[Owner, Owner], float, float] | None:
     # The loan opens exactly the gap that lacks twice the loan (once on either side).
     lack = needed - gap
     if lack <= 0.0 or gap <= 0.0:

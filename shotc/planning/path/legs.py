@@ -11,10 +11,10 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, subdivide
 from shotc.geom.convex import segment_distances
-from shotc.geom.corridor import Room, bounds_slack, breaches
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop, TimedLeg
+from shotc.planning.free_space import Room, bounds_slack, breaches
 from shotc.planning.obstacles import Rooms, pad_room
 from shotc.planning.path.body import BodyTask, allowed_body, body_line
 from shotc.planning.path.lines import SAME_PLACE, TURN_LENGTH

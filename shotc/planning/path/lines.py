@@ -13,10 +13,10 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import FAR, support
-from shotc.geom.corridor import MARGIN, Breach, Room, blocked, bounds_slack, breaches
-from shotc.geom.route import NODE_MARGIN, find_route
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
+from shotc.planning.free_space import MARGIN, Breach, Room, blocked, bounds_slack, breaches
+from shotc.planning.path.route import NODE_MARGIN, find_route
 
 TURN_LENGTH = 2.0  # metres of path parameter for each radian turned on the spot
 SAME_PLACE = 1e-3  # metres

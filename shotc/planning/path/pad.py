@@ -9,8 +9,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import FAR, segment_distances
-from shotc.geom.corridor import Room, bounds_slack, breaches
 from shotc.ir.mission import Drone
+from shotc.ir.owners import Owner
+from shotc.planning.free_space import Room, bounds_slack, breaches
 
 PAD_MARGIN = 0.1  # metres that the transit altitude keeps beyond what clearances ask
 LIFT = 1.0  # metres above the pad at least
@@ -28,7 +29,7 @@ class PadBlocked:
             rules allow, and the highest
     """
 
-    owner: str
+    owner: Owner
     why: Literal["above", "outside", "beside", "ceiling"]
     needs: float
     has: float

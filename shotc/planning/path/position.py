@@ -23,9 +23,10 @@ from shotc.geom.bspline import (
     subdivide,
     value_rows,
 )
-from shotc.geom.corridor import Room, shortfall
 from shotc.ir.limits import Limits
+from shotc.ir.owners import Owner
 from shotc.planning.corridor import Around, with_corridor
+from shotc.planning.free_space import Room, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
@@ -83,7 +84,7 @@ class Solved:
     objective: float
     rounds: int
     relaxation: Relaxation | None = None
-    owners: tuple[str, ...] = ()
+    owners: tuple[Owner, ...] = ()
 
 
 def solve_stretch(room: Room, stretch: Stretch, limits: Limits, wide: Room | None = None) -> Solved:

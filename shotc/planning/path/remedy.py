@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from shotc.geom.corridor import Room
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.planning.obstacles import GROUND, named
+from shotc.ir.owners import GROUND, Owner, zone_owner
+from shotc.planning.free_space import Room
 from shotc.planning.path.lines import Line, straight_line
 from shotc.planning.path.shots import ShotCurve, Stuck, shot_curve
 from shotc.planning.path.transit import smooth
@@ -17,7 +17,7 @@ from shotc.rounding import up
 LEAST = 5e-3  # metres of give-way that count as part of a conflict: less is printed as nothing
 FACTORS = (1, 2, 4)  # of the least give-way: with more room the way leads along other corners
 
-Gives = Mapping[str, float]
+Gives = Mapping[Owner, float]
 """By how many metres owners give way, on every side."""
 
 
@@ -28,7 +28,7 @@ class Conflict:
     points : index of an anchor of the stretch, and by how far it would have to move
     """
 
-    owners: tuple[tuple[str, float], ...]
+    owners: tuple[tuple[Owner, float], ...]
     points: tuple[tuple[int, float], ...]
 
 
@@ -56,23 +56,23 @@ def remedy(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None
     return None
 
 
-def needed(mission: MissionIR, owner: str, metres: float) -> str:
+def needed(mission: MissionIR, owner: Owner, metres: float) -> str:
     """Say by how much an owner would have to give way."""
     if owner == GROUND:
         return f"rules.ground_clearance would have to be {metres:.2f} m lower"
     change = "wider" if _holds_in(mission, owner) else "smaller"
-    return f"{named(owner)} would have to be {metres:.2f} m {change} on every side"
+    return f"{owner.words} would have to be {metres:.2f} m {change} on every side"
 
 
-def _asked(mission: MissionIR, owner: str, metres: float) -> str:
+def _asked(mission: MissionIR, owner: Owner, metres: float) -> str:
     if owner == GROUND:
         return f"lower rules.ground_clearance by {metres:.2f} m"
     verb = "widen" if _holds_in(mission, owner) else "shrink"
-    return f"{verb} {named(owner)} by {metres:.2f} m on every side"
+    return f"{verb} {owner.words} by {metres:.2f} m on every side"
 
 
-def _holds_in(mission: MissionIR, owner: str) -> bool:
-    return any(owner == f"zone {zone.name}" and zone.keep == "in" for zone in mission.zones)
+def _holds_in(mission: MissionIR, owner: Owner) -> bool:
+    return any(owner == zone_owner(zone) and zone.keep == "in" for zone in mission.zones)
 
 
 def _giving(mission: MissionIR, room: Room, gives: Gives) -> Room | None:

@@ -8,11 +8,11 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
-from shotc.geom.corridor import Room, breaches
 from shotc.geom.sampling import worst_of_runs
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, Mark, Stop
+from shotc.planning.free_space import Room, breaches
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.lines import SAME_PLACE, Line, NoWay, TooNear, shot_line
@@ -255,7 +255,7 @@ def _deviations(room: Room, placed: PlacedShot, keyed: KeyedPath) -> tuple[Devia
 
 def _cause(room: Room, point: Array) -> str:
     near = breaches(room, point)
-    return near[0].owner if near else "what lies between its keyframes"
+    return str(near[0].owner) if near else "what lies between its keyframes"
 
 
 def _stats(

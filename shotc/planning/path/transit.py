@@ -17,15 +17,16 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import BoolArray, distances
-from shotc.geom.corridor import MARGIN, Obstacle, Room, bounds_slack, taper
-from shotc.geom.route import find_route, length
 from shotc.geom.sampling import directions
 from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone
+from shotc.ir.owners import Owner
+from shotc.planning.free_space import MARGIN, Obstacle, Room, bounds_slack, taper
 from shotc.planning.obstacles import Rooms
 from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
 from shotc.planning.path.position import Stretch, solve_stretch
+from shotc.planning.path.route import find_route, length
 from shotc.planning.path.shots import Stuck
 
 TIMES_LONGER, MORE = 1.5, 20.0  # how much longer than without the clearances a way may be, times and metres
@@ -76,7 +77,7 @@ def _widest(rooms: Rooms, near: Array) -> Iterator[Room]:
             yield _lessened(rooms, _needed(rooms, owners, share, near), share)
 
 
-def _greatest(rooms: Rooms, owners: frozenset[str], near: Array) -> float | None:
+def _greatest(rooms: Rooms, owners: frozenset[Owner], near: Array) -> float | None:
     """Return the greatest share, for some owners, of their clearances with which there is a way."""
     low, high = 0.0, 1.0
     if not owners or _line(rooms, _lessened(rooms, owners, low), near) is None:
@@ -88,7 +89,7 @@ def _greatest(rooms: Rooms, owners: frozenset[str], near: Array) -> float | None
     return low
 
 
-def _needed(rooms: Rooms, owners: frozenset[str], share: float, near: Array) -> frozenset[str]:
+def _needed(rooms: Rooms, owners: frozenset[Owner], share: float, near: Array) -> frozenset[Owner]:
     """Return those of some owners whose clearances have to be lessened for a way."""
     found = _line(rooms, _lessened(rooms, owners, share), near)
     assert found is not None
@@ -99,7 +100,7 @@ def _needed(rooms: Rooms, owners: frozenset[str], share: float, near: Array) -> 
     return less
 
 
-def _lessened(rooms: Rooms, owners: frozenset[str], share: float) -> Room:
+def _lessened(rooms: Rooms, owners: frozenset[Owner], share: float) -> Room:
     """Return the room of transits with a share of what it asks beyond that of all phases, of some owners."""
     pairs = zip(rooms.flight.obstacles, rooms.transit.obstacles, strict=True)
     obstacles = tuple(
@@ -111,7 +112,7 @@ def _lessened(rooms: Rooms, owners: frozenset[str], share: float) -> Room:
     return replace(rooms.transit, obstacles=obstacles)
 
 
-def _passed_nearer(room: Room, corners: Array) -> frozenset[str]:
+def _passed_nearer(room: Room, corners: Array) -> frozenset[Owner]:
     points = _along(corners)
     return frozenset(
         o.owner for o in room.obstacles if (distances(o.part, points) < taper(room, o).needs(points)).any()

@@ -11,7 +11,7 @@ from shotc.geom.apart import spacing, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
-from shotc.planning.clearances import ROUNDING, Obstacle
+from shotc.planning.clearances import ROUNDING, Clearance
 from shotc.rounding import at_least, at_most
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.remedies import Remedies
@@ -170,7 +170,7 @@ def _whole(goals: Array) -> Array:
 
 
 def _at_obstacle(
-    obstacle: Obstacle, goals: Array, about: tuple[MissionIR, Fleet, Label, str, int]
+    obstacle: Clearance, goals: Array, about: tuple[MissionIR, Fleet, Label, str, int]
 ) -> list[Diagnostic]:
     mission, fleet, label, help_, frames = about
     lack = lack_of(obstacle, goals)
@@ -181,7 +181,7 @@ def _at_obstacle(
     count = int((lack > ROUNDING).sum()) // frames or 1
     message = f"the picture {obstacle.relation(place)}: {_of(count, fleet)}"
     note = f"the worst is at [{place[0]:.2f}, {place[1]:.2f}, {place[2]:.2f}]: "
-    labels = (label, mission.origins.key(obstacle.path, "the obstacle"))
+    labels = (label, mission.origins.key(obstacle.owner.path, "the obstacle"))
     return [Diagnostic("D058", message, labels, (note + obstacle.measure(place, fleet.radius),), help_)]
 
 

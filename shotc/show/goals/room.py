@@ -10,7 +10,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solids_array import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet
-from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of, outward
+from shotc.planning.clearances import ROUNDING, Clearance, clearances_of, outward
 
 FAR = 1000.0
 """Metres beyond which no shift is looked for."""
@@ -22,7 +22,7 @@ DIRECTIONS = 16
 class Room:
     """What stands around; lowest : z that the centre of a drone may have, metres."""
 
-    obstacles: tuple[Obstacle, ...]
+    obstacles: tuple[Clearance, ...]
     lowest: float
 
     def lack(self, goals: Array) -> Array:
@@ -40,13 +40,13 @@ class Room:
 
 def room_of(mission: MissionIR, fleet: Fleet) -> Room:
     """Return what a fleet's goals keep clear of."""
-    return Room(tuple(obstacles_of(mission, fleet)), mission.rules.ground_clearance + fleet.radius)
+    return Room(tuple(clearances_of(mission, fleet)), mission.rules.ground_clearance + fleet.radius)
 
 
-def lack_of(obstacle: Obstacle, goals: Array) -> Array:
+def lack_of(obstacle: Clearance, goals: Array) -> Array:
     """Return by how many metres room is missing at goals (n, 3), negative where there is more."""
     gap = signed_distance(obstacle.solid, goals)
-    return obstacle.room + (gap if obstacle.role == "in" else -gap)
+    return obstacle.metres + (gap if obstacle.inside else -gap)
 
 
 def least_shift(goals: Array, room: Room) -> Array | None:

@@ -10,10 +10,10 @@ import pytest
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import subdivide
-from shotc.geom.corridor import Disc, Obstacle, Room, Wall
 from shotc.geom.solids import Cylinder
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Z
 from shotc.passes.refine_path.room import nearest
+from shotc.planning.free_space import Disc, Obstacle, Room, Wall
 from tests.support.bad_refiners import (
     MISSION,
     PASS,

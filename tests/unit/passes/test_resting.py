@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import distances
-from shotc.geom.corridor import Room, Wall
 from shotc.geom.solids import Cylinder
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.resting import FARTHEST, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp
+from shotc.planning.free_space import Room, Wall
 
 LIMITS = Limits(
     speed=8.0, climb=3.0, descent=2.0, acceleration=3.0, jerk=8.0, yaw_rate=1.0, yaw_acceleration=1.0

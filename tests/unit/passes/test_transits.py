@@ -8,7 +8,7 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
 from shotc.geom.convex import distances
-from shotc.ir.bodies import cylinder, moved
+from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
@@ -56,7 +56,7 @@ def gaps(plan: VerifiedIR, target: str, way: Way) -> tuple[np.ndarray, np.ndarra
     t = np.append(np.arange(way.start, way.end, STEP), way.end)
     beside = ir.drones[0].curve(t)[:, :3] - moved(solid, t)
     away = np.linalg.norm(beside[:, None] - beside[[0, -1]], axis=2)
-    return distances(cylinder(solid), beside) - RADIUS, away
+    return distances(solid.solid, beside) - RADIUS, away
 
 
 def nearest(plan: VerifiedIR, target: str) -> float:

@@ -14,7 +14,6 @@ from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.geom.convex import distances
-from shotc.geom.corridor import Room
 from shotc.geom.solids import Cylinder, point
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
@@ -31,6 +30,7 @@ from shotc.planning.clock.shot import TimedShot, Traffic, timed_shot
 from shotc.planning.clock.sights import Sights
 from shotc.planning.clock.starts import CLOSE, SPARE, Reached, Trouble, put_off
 from shotc.planning.clock.sweeps import with_sweeps
+from shotc.planning.free_space import Room
 from shotc.planning.obstacles import Rooms, rooms_of
 from shotc.planning.path.legs import Flight, Pose, way_to
 from shotc.planning.timing.estimate import leg_time

@@ -18,7 +18,6 @@ from shotc.plugin_api.refiner import (
     Mask,
     Solid,
     convex_parts,
-    cylinder,
     flights,
     flying,
     moved,
@@ -82,7 +81,7 @@ def _screens(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Screen
                 yield Screen(scale, still + centre)
     for other in mission.targets:
         if other.name != name:
-            scale, centre = enclosing(cylinder(other))
+            scale, centre = enclosing(other.solid)
             apart = ~parts_of_one(mission.target(name), other, breaks)
             yield Screen(scale, centre + moved(other, breaks), apart=apart)
     for drone, flight in flights(subject.path).items():

@@ -13,7 +13,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet
 from shotc.passes.resolve.home import take_off_room
-from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of
+from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
 from shotc.rounding import at_least, up
 from shotc.show.geom.pads import first_nearer, nearest_pair
 from shotc.show.labels import wider
@@ -141,14 +141,14 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
         help_ = f"raise the layout by {at_least(-z)} m{_anchored(mission, fleet, higher)}"
         yield Diagnostic("D006", message, (label,), (note,), help_)
         return
-    obstacles = obstacles_of(mission, fleet)
+    obstacles = clearances_of(mission, fleet)
     blocked = [found for obstacle in obstacles if (found := _blocked(mission, fleet, obstacle)) is not None]
     yield from blocked
     if not blocked:
         yield from _low_rise(mission, fleet, obstacles, z)
 
 
-def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Obstacle) -> Diagnostic | None:
+def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnostic | None:
     """Say how many pads have an obstacle in or over them, and which has least room."""
     rooms = [take_off_room(pad, pad[2] + fleet.rise, obstacle) for pad in fleet.pads]
     lacking = [i for i, room in enumerate(rooms) if room < fleet.radius - ROUNDING]
@@ -156,12 +156,11 @@ def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Obstacle) -> Diagnostic
         return None
     worst = min(lacking, key=lambda i: rooms[i])
     who = f"{len(lacking)} of {len(fleet.pads)} drones of fleet `{fleet.name}`"
-    if obstacle.role == "in":
-        message = f"{who} do not rise inside keep-in zone `{obstacle.name}`"
+    if obstacle.inside:
+        message = f"{who} do not rise inside keep-in zone `{obstacle.owner.name}`"
     else:
-        what = "target" if obstacle.role == "target" else "zone"
-        message = f"{who} cannot rise clear of {what} `{obstacle.name}`"
-    labels = (_place(mission, fleet), mission.origins.key(obstacle.path, "the obstacle"))
+        message = f"{who} cannot rise clear of {obstacle.owner.words}"
+    labels = (_place(mission, fleet), mission.origins.key(obstacle.owner.path, "the obstacle"))
     note = _least_room(fleet, obstacle, worst, rooms[worst])
     return Diagnostic("D006", message, labels, (note,), _cleared(mission, fleet))
 
@@ -188,7 +187,7 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
 def _rises(mission: MissionIR, fleet: Fleet) -> bool:
     """Tell whether all drones of a fleet can rise from their pads."""
     least = fleet.radius - ROUNDING
-    around = obstacles_of(mission, fleet)
+    around = clearances_of(mission, fleet)
     return all(take_off_room(p, p[2] + fleet.rise, o) >= least for o in around for p in fleet.pads)
 
 
@@ -197,10 +196,10 @@ def _shifted(fleet: Fleet, by: Vec3) -> Fleet:
     return fleet._replace(pads=tuple((px + x, py + y, pz + z) for px, py, pz in fleet.pads))
 
 
-def _least_room(fleet: Fleet, obstacle: Obstacle, worst: int, room: float) -> str:
+def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> str:
     """Give the numbers of the pad that has least room."""
     x, y, _ = fleet.pads[worst]
-    if obstacle.role == "in":
+    if obstacle.inside:
         where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
     else:
         where = f"{room:.2f} m away from it" if room > 0 else f"{-room:.2f} m deep in it"
@@ -211,13 +210,13 @@ def _least_room(fleet: Fleet, obstacle: Obstacle, worst: int, room: float) -> st
 
 
 def _low_rise(
-    mission: MissionIR, fleet: Fleet, obstacles: Sequence[Obstacle], lowest: float
+    mission: MissionIR, fleet: Fleet, obstacles: Sequence[Clearance], lowest: float
 ) -> Iterator[Diagnostic]:
     """Yield where the drones have risen to a height at which they may not fly yet."""
     floors: list[tuple[float, str, KeyPath]] = [
         (mission.rules.ground_clearance, "the ground clearance", ("rules", "ground_clearance"))
     ]
-    floors += [(o.solid.bottom, f"the floor of zone `{o.name}`", o.path) for o in obstacles if o.role == "in"]
+    floors += [(o.solid.bottom, f"the floor of {o.owner.words}", o.owner.path) for o in obstacles if o.inside]
     floor_, what, path = max(floors, key=lambda found: found[0])
     lacks = floor_ + fleet.radius - lowest - fleet.rise
     if lacks <= ROUNDING:

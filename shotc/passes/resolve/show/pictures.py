@@ -11,7 +11,7 @@ from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
-from shotc.planning.clearances import ROUNDING, Obstacle, obstacles_of
+from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
 from shotc.rounding import at_least, down
 from shotc.show.geom.fit import MOST_DARK, growth, most_drones
 from shotc.show.geom.shape import Ball, balls, depth_in, highest, lowest
@@ -33,7 +33,7 @@ WAYS: tuple[tuple[Vec3, str], ...] = (
 
 def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
     """Yield what is wrong with each picture of a display, as far as its shape is known without a solver."""
-    obstacles = obstacles_of(mission, fleet)
+    obstacles = clearances_of(mission, fleet)
     for picture in display.pictures:
         yield from _viewed(mission, display, fleet, picture)
         yield from _too_many(mission, fleet, picture)
@@ -106,35 +106,35 @@ def _too_low(
 
 
 def _against(
-    mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], obstacle: Obstacle
+    mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], obstacle: Clearance
 ) -> Iterator[Diagnostic]:
     """Yield how a shape stands to one zone or target."""
-    if obstacle.role == "in":
+    if obstacle.inside:
         yield from _inside(mission, fleet, picture, shape, obstacle)
         return
     gaps = [signed_distance(obstacle.solid, ball.centre) for ball in shape]
     swallowed = all(gap <= -ball.radius for gap, ball in zip(gaps, shape, strict=True))
-    reach = max(obstacle.room + ball.radius - gap for gap, ball in zip(gaps, shape, strict=True))
+    reach = max(obstacle.metres + ball.radius - gap for gap, ball in zip(gaps, shape, strict=True))
     if reach <= ROUNDING:
         return
-    labels = (centre_label(mission, picture), mission.origins.key(obstacle.path, "the obstacle"))
-    what = f"{'target' if obstacle.role == 'target' else 'zone'} `{obstacle.name}`"
+    labels = (centre_label(mission, picture), mission.origins.key(obstacle.owner.path, "the obstacle"))
+    what = obstacle.owner.words
     if swallowed:
         message = f"this {word_of(picture)} is inside {what}"
         help_ = _cleared(mission, fleet, picture, shape) or "move it out of there"
         yield Diagnostic("D016", message, labels, ("no drone can stand in it",), help_)
         return
     message = f"this {word_of(picture)} reaches into {what}"
-    note = f"by {reach:.2f} m, the {obstacle.room:.2f} m included that must be free"
+    note = f"by {reach:.2f} m, the {obstacle.metres:.2f} m included that must be free"
     help_ = _cleared(mission, fleet, picture, shape) or "move it clear"
     yield Diagnostic("D017", message, labels, (note,), f"{help_}; the plan refuses drones that stand there")
 
 
 def _inside(
-    mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], zone: Obstacle
+    mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], zone: Clearance
 ) -> Iterator[Diagnostic]:
     """Hold a shape to a zone that it has to be in: to its heights, and to its walls as far as is known."""
-    labels = (centre_label(mission, picture), mission.origins.key(zone.path, "the zone"))
+    labels = (centre_label(mission, picture), mission.origins.key(zone.owner.path, "the zone"))
     word = word_of(picture)
     # Below the ground clearance it is too low anyway, which is told once.
     low = max(lowest(shape), mission.rules.ground_clearance + fleet.radius)
@@ -145,7 +145,7 @@ def _inside(
             f"it reaches from z = {low:.2f} to {high:.2f}; the zone, less the body radius of "
             f"{fleet.radius:.2f} m, from {bottom:.2f} to {top:.2f}"
         )
-        message = f"this {word} reaches out of the heights of keep-in zone `{zone.name}`"
+        message = f"this {word} reaches out of the heights of keep-in zone `{zone.owner.name}`"
         yield Diagnostic("D015", message, labels, (note,), _fitted(picture, (low, high), (bottom, top)))
         return
     walls = zone.solid._replace(bottom=-inf, top=inf)
@@ -155,19 +155,19 @@ def _inside(
     if lacks <= ROUNDING:
         return
     if outside:
-        message = f"this {word} is outside keep-in zone `{zone.name}`"
+        message = f"this {word} is outside keep-in zone `{zone.owner.name}`"
         help_ = _cleared(mission, fleet, picture, shape) or "move it into the zone"
         yield Diagnostic("D015", message, labels, ("no drone can stand in it",), help_)
         return
     note = f"by {lacks:.2f} m, the body radius of {fleet.radius:.2f} m included"
-    message = f"this {word} reaches out of keep-in zone `{zone.name}`"
+    message = f"this {word} reaches out of keep-in zone `{zone.owner.name}`"
     help_ = _cleared(mission, fleet, picture, shape) or "move it inside"
     yield Diagnostic("D017", message, labels, (note,), f"{help_}; the plan refuses drones that stand there")
 
 
 def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]) -> str:
     """Propose the shortest way to where a picture is clear of everything; empty where none is found."""
-    centre, around = picture.source.centre, obstacles_of(mission, fleet)
+    centre, around = picture.source.centre, clearances_of(mission, fleet)
     floor_ = mission.rules.ground_clearance + fleet.radius
     if centre is None or len(shape) * len(around) > MANY:
         return ""
@@ -181,12 +181,12 @@ def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ba
     return ""
 
 
-def _is_clear(shape: tuple[Ball, ...], obstacle: Obstacle, radius: float) -> bool:
+def _is_clear(shape: tuple[Ball, ...], obstacle: Clearance, radius: float) -> bool:
     """Tell whether a shape is all out of a zone or target, or within a keep-in zone."""
     gaps = (signed_distance(obstacle.solid, ball.centre) for ball in shape)
-    if obstacle.role == "in":
+    if obstacle.inside:
         return all(-gap - ball.radius >= radius - ROUNDING for gap, ball in zip(gaps, shape, strict=True))
-    return all(gap - ball.radius >= obstacle.room - ROUNDING for gap, ball in zip(gaps, shape, strict=True))
+    return all(gap - ball.radius >= obstacle.metres - ROUNDING for gap, ball in zip(gaps, shape, strict=True))
 
 
 def _plus(p: Vec3, by: Vec3) -> Vec3:

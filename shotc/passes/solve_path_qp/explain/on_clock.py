@@ -6,9 +6,9 @@ from collections.abc import Iterable
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.owners import owner_of
 from shotc.ir.path import Deviation, from_what_was_asked
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
-from shotc.planning.obstacles import GROUND, named, owner_path
 from shotc.rounding import at_least, up
 
 TOLD = 5  # stretches of a shot that are told one by one
@@ -30,10 +30,10 @@ def _left_place(mission: MissionIR, stretches: list[Deviation]) -> Diagnostic:
     labels: list[Label] = [mission.origins.value((*shot.path, "kind"))]
     causes = []
     for cause in dict.fromkeys(d.cause for d in (worst, *stretches)):
-        stands = cause == GROUND or cause.startswith(("zone ", "target ", "drone "))
-        if stands:
-            labels.append(mission.origins.key(owner_path(mission, cause), "what stands there"))
-        causes.append(named(cause) if stands else cause)
+        owner = owner_of(mission, cause)
+        if owner is not None:
+            labels.append(mission.origins.key(owner.path, "what stands there"))
+        causes.append(cause if owner is None else owner.words)
     notes = [f"what stands against it: {', '.join(causes)}, and that it is flown smoothly"]
     if len(stretches) > 1:
         often = ", ".join(f"{d.distance:.2f} m at t = {d.s:.1f} s" for d in stretches[:TOLD])
@@ -59,13 +59,13 @@ def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagn
         notes: tuple[str, ...] = (f"the solver says: {trouble.status}",)
         return Diagnostic("M009", message, (label,), notes, "give the shot more room or more time")
     most = max(trouble.lacks, key=lambda pair: pair[1])
-    labels = (label, mission.origins.key(owner_path(mission, most[0]), "what is most in the way"))
+    labels = (label, mission.origins.key(most[0].path, "what is most in the way"))
     notes = tuple(
-        f"{named(owner)} would have to give way by {at_least(lack)} m" for owner, lack in trouble.lacks
+        f"{owner.words} would have to give way by {at_least(lack)} m" for owner, lack in trouble.lacks
     )
     return Diagnostic(
         "M009",
-        f"shot `{shot.id}` cannot be flown clear of {named(most[0])}",
+        f"shot `{shot.id}` cannot be flown clear of {most[0].words}",
         labels,
         notes,
         "move the shot or what is in its way by so much",
@@ -79,7 +79,7 @@ def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
     owners = dict.fromkeys(a.owner for a in missed.away if a.owner is not None)
     labels = (
         *(mission.origins.value((*k.path, "at")) for k in dict.fromkeys(keyframes)),
-        *(mission.origins.key(owner_path(mission, owner), "too near then") for owner in owners),
+        *(mission.origins.key(owner.path, "too near then") for owner in owners),
     )
     remedies = ["raise its `limits`", "move them nearer to the way of the target"]
     if blocked:
@@ -104,7 +104,7 @@ def _passed(away: Away) -> str:
     if away.owner is None:
         return text
     return (
-        f"{text}: at t = {away.t:.1f} s its place is {at_least(away.lack)} m too near to {named(away.owner)}"
+        f"{text}: at t = {away.t:.1f} s its place is {at_least(away.lack)} m too near to {away.owner.words}"
     )
 
 

@@ -10,11 +10,12 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.bernstein import Array
-from shotc.geom.corridor import Room
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.owners import GROUND, Owner, owner_of
 from shotc.ir.path import Deviation
-from shotc.planning.obstacles import GROUND, flight_room, named, owner_path, pad_room
+from shotc.planning.free_space import Room
+from shotc.planning.obstacles import flight_room, pad_room
 from shotc.planning.path.angles import NOTICE, Cut
 from shotc.planning.path.gap import lower_clearance, narrow_gap, opening
 from shotc.planning.path.lines import NoWay, TooNear
@@ -54,7 +55,7 @@ def failure(
 
 def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnostic:
     """Return the error for a pad that cannot be left straight up."""
-    lack, owner = what.needs - what.has, named(what.owner)
+    lack, owner = what.needs - what.has, what.owner.words
     match what.why:
         case "outside":
             message = f"the pad of `{drone.name}` is not inside {owner}"
@@ -113,12 +114,13 @@ def moved(mission: MissionIR, shot: PlacedShot, deviation: Deviation) -> Diagnos
     """Return the warning for a generated path that had to leave its ideal."""
     where = f"{deviation.s:.1f} m along the shot"
     labels = [mission.origins.key(shot.shot.path, "the path leaves its ideal here")]
-    if deviation.cause.startswith(("zone ", "target ", GROUND)):
-        labels.append(_owner_label(mission, deviation.cause, "is in the way"))
+    owner = owner_of(mission, deviation.cause)
+    if owner is not None:
+        labels.append(_owner_label(mission, owner, "is in the way"))
     return Diagnostic(
         "Q006",
         f"shot `{shot.shot.id}` leaves its ideal path by up to {at_least(deviation.distance)} m, "
-        f"round {named(deviation.cause)}",
+        f"round {deviation.cause if owner is None else owner.words}",
         tuple(labels),
         (f"the largest distance is {where}",),
         "move the path or what is in its way if the ideal matters",
@@ -185,7 +187,7 @@ def _no_way(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | Non
         notes.append(gap.note)
         help_ = gap.help
     elif openers:
-        help_ = f"move or shrink {_either(tuple(map(named, openers)))}, or move the end points"
+        help_ = f"move or shrink {_either(tuple(owner.words for owner in openers))}, or move the end points"
     else:
         help_ = "move the end points to one side, or remove zones between them"
     if lower is not None:
@@ -212,10 +214,10 @@ def _too_near(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: T
     )
     return Diagnostic(
         "Q004",
-        f"{_point(what.point)} is too near to {named(breach.owner)} for `{drone.name}`",
+        f"{_point(what.point)} is too near to {breach.owner.words} for `{drone.name}`",
         tuple(labels),
         (note,),
-        f"move the point or {named(breach.owner)} by {breach.lack + 0.01:.2f} m",
+        f"move the point or {breach.owner.words} by {breach.lack + 0.01:.2f} m",
     )
 
 
@@ -281,8 +283,8 @@ def _bound_name(what: Stuck, k: int) -> str:
     return str(what.keyframes[k] + 1) if k < len(what.keyframes) else "at the end"
 
 
-def _owner_label(mission: MissionIR, owner: str, text: str) -> Label:
-    return mission.origins.key(owner_path(mission, owner), text)
+def _owner_label(mission: MissionIR, owner: Owner, text: str) -> Label:
+    return mission.origins.key(owner.path, text)
 
 
 def _point(p: Array) -> str:

@@ -10,7 +10,6 @@ from shotc.ir.ideal import TO_CATCH_UP, ideal_place
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.passes.labels import phases_in_words, timing_value
 from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate
-from shotc.planning.obstacles import named, owner_path
 from shotc.rounding import at_least, down, plain, up
 
 ALONE = "or have the drone start nearer"
@@ -96,11 +95,11 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -
         else mission.origins.key(shot.path, "on the way to this shot")
     )
     remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
-    remedies.append(f"put `home` where {named(met.owner)} is not between it and the shots")
+    remedies.append(f"put `home` where {met.owner.words} is not between it and the shots")
     return Diagnostic(
         "M011",
-        f"`{drone.name}` comes too near to {named(met.owner)} {lead}",
-        (where, mission.origins.key(owner_path(mission, met.owner), "is in the way")),
+        f"`{drone.name}` comes too near to {met.owner.words} {lead}",
+        (where, mission.origins.key(met.owner.path, "is in the way")),
         (
             f"on the best of them its body is {at_least(met.lack)} m nearer than "
             f"`target_clearance` allows, at t = {met.time:.1f} s",
@@ -113,7 +112,7 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -
 def _pad_met(mission: MissionIR, drone: Drone, found: Meets) -> Diagnostic:
     """Return M013: a target is over the pad whenever the drone could take off from it, or land."""
     met = found.met
-    target = next(t for t in mission.targets if met.owner == f"target {t.name}")
+    target = mission.target(met.owner.name)
     verb = "take off" if met.phase == "takeoff" else "land"
     labels = (
         mission.origins.value((*drone.path, "home")),

@@ -17,8 +17,8 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.convex import FAR, BoolArray, distances, segment_distances
-from shotc.geom.corridor import MARGIN, Obstacle, Room, blocked, bounds_slack
 from shotc.geom.solids import Cylinder, Solid
+from shotc.planning.free_space import MARGIN, Obstacle, Room, blocked, bounds_slack
 
 ROUTE_MARGIN = 2 * MARGIN  # the route leaves the corridor some play
 NODE_MARGIN = 2.4 * MARGIN  # nodes stand clear of the prisms that edges are tested against

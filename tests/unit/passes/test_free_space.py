@@ -11,8 +11,18 @@ from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.convex import bounded, closest_points, distances, segment_distances, separate, support
-from shotc.geom.corridor import COMFORT, Disc, Obstacle, Room, Wall, blocked, breaches, corridor, shortfall
 from shotc.geom.solids import Cylinder, Prism, box, convex_parts, distance
+from shotc.planning.free_space import (
+    COMFORT,
+    Disc,
+    Obstacle,
+    Room,
+    Wall,
+    blocked,
+    breaches,
+    corridor,
+    shortfall,
+)
 
 metres = st.floats(-15, 15)
 cylinders = st.builds(

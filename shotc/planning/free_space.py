@@ -18,6 +18,7 @@ from shotc.geom.convex import BoolArray, distances, segment_distances, separate,
 from shotc.geom.solids import Solid
 from shotc.geom.taper import SLOPE, Taper
 from shotc.geom.vec import Vec3
+from shotc.ir.owners import Owner
 
 COMFORT = 0.5  # kept beyond that by a curve where there is room, metres
 STEEPER = 1.4  # times the slope of what is needed: planned curves leave their polylines a little
@@ -28,10 +29,10 @@ MARGIN = 0.05  # kept beyond what verification asks, metres: later stages interp
 class Obstacle:
     """A convex solid that the drone's centre keeps ``clearance`` metres away from.
 
-    owner : what it is part of, e.g. "zone tree"; several obstacles may share one owner
+    owner : what it is part of; several obstacles may share one owner
     """
 
-    owner: str
+    owner: Owner
     part: Solid
     clearance: float
 
@@ -43,7 +44,7 @@ class Wall:
     clearance : the part of the offset that is not the border itself but the room to keep from it
     """
 
-    owner: str
+    owner: Owner
     normal: tuple[float, float, float]
     offset: float
     clearance: float = 0.0
@@ -53,7 +54,7 @@ class Wall:
 class Disc:
     """An upright cylinder of unbounded height the drone's centre stays in."""
 
-    owner: str
+    owner: Owner
     centre: tuple[float, float]
     radius: float
 
@@ -71,12 +72,12 @@ class Room:
     ends: tuple[Vec3, ...] = ()
 
     @property
-    def owners(self) -> tuple[str, ...]:
+    def owners(self) -> tuple[Owner, ...]:
         """Everything that may stop a path, each once, in a fixed order."""
         names = [o.owner for o in self.obstacles] + [w.owner for w in self.walls]
         return tuple(dict.fromkeys(names + [d.owner for d in self.discs]))
 
-    def without(self, owner: str) -> Room:
+    def without(self, owner: Owner) -> Room:
         """Return the room with everything of one owner taken away."""
         return Room(
             tuple(o for o in self.obstacles if o.owner != owner),
@@ -88,7 +89,7 @@ class Room:
         """Return the room with every clearance that much smaller (never below zero for obstacles)."""
         return self.giving(dict.fromkeys(self.owners, metres))
 
-    def giving(self, metres: Mapping[str, float]) -> Room:
+    def giving(self, metres: Mapping[Owner, float]) -> Room:
         """Return the room with the clearances of some owners that much smaller, as in ``lent``."""
 
         def of(part: Obstacle | Wall | Disc) -> float:
@@ -105,7 +106,7 @@ class Room:
 class Breach:
     """A point too near to something: by how many metres it misses the clearance."""
 
-    owner: str
+    owner: Owner
     lack: float
     clearance: float
 

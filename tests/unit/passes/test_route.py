@@ -10,9 +10,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.convex import segment_distances
-from shotc.geom.corridor import Obstacle, Room, Wall, breaches
-from shotc.geom.route import DETOUR, find_route, length
 from shotc.geom.solids import Cylinder, Prism, box
+from shotc.planning.free_space import Obstacle, Room, Wall, breaches
+from shotc.planning.path.route import DETOUR, find_route, length
 
 GROUND = Wall("ground", (0.0, 0.0, 1.0), 2.6)
 ROOF = Wall("zone yard", (0.0, 0.0, -1.0), -19.4)
