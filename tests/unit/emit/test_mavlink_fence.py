@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink.clearance import Obstacle, footprint_distance, shortfall
+from shotc.emit.mavlink.clearance import footprint_distance, shortfall
 from shotc.emit.mavlink.fence import fence_of
 from shotc.emit.mavlink.geo import tie
 from shotc.geom.solids import Cylinder, Prism, distance, signed_area
 from shotc.ir.mission import MissionIR, Zone
+from shotc.ir.owners import GROUND
+from shotc.planning.clearances import Clearance
 from tests.support.film_plans import orbit_mission
 from tests.support.mavlink_flights import plan, straight
 from tests.support.records import replace
@@ -87,7 +89,7 @@ def test_distances_agree_with_the_solids_own() -> None:
     points = rng.uniform(-30, 30, (200, 3))
     bent = Prism(((0.0, 0.0), (20.0, 0.0), (20.0, 5.0), (5.0, 5.0), (5.0, 20.0), (0.0, 20.0)), -5.0, 8.0)
     for solid in (Cylinder((3.0, -4.0), 6.0, -5.0, 8.0), Prism(SQUARE, -5.0, 8.0), bent):
-        near = shortfall(Obstacle("it", solid, 1.5), points)
+        near = shortfall(Clearance(GROUND, solid, 1.5), points)
         exact = [1.5 - distance(solid, tuple(p)) for p in points]
         assert near == pytest.approx(exact, abs=1e-9)
         assert footprint_distance(solid, points[:, :2]).min() >= 0.0

@@ -9,6 +9,7 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.owners import GROUND, zone_owner
 from shotc.passes.solve_path_qp.explain.path import failure
 from shotc.planning.obstacles import flight_room
 from shotc.planning.path.position import Solved, Stretch, solve_stretch
@@ -100,7 +101,9 @@ def test_what_need_not_give_way_is_not_listed():
 
     def fault(owners, points):
         nothing = Relaxation(Status.SOLVED, None, np.array(owners), np.array(points))
-        solved = Solved(None, Status.INFEASIBLE, float("nan"), 1, nothing, ("zone pole", "ground"))
+        solved = Solved(
+            None, Status.INFEASIBLE, float("nan"), 1, nothing, (zone_owner(made.zones[0]), GROUND)
+        )
         return failure(made, drone, room, placed, Stuck(solved, PAST, (0, 1, 2)))
 
     some = fault([0.4, 0.004], [0.0, 0.003, 0.0])

@@ -9,7 +9,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.cli.summary import summary
 from shotc.emit.csv_table import CsvTable
-from shotc.emit.mavlink.clearance import obstacles_of
+from shotc.emit.mavlink.clearance import keep_outs
 from shotc.ir.mission import Drone
 from shotc.ir.parked import bodies, parked
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
@@ -109,12 +109,12 @@ def test_planners_keep_clear_of_it_wherever_they_look_at_what_stands() -> None:
     mission = with_spare((9.0, -60.0, 0.5), separation=7.0).keyframes.mission
     flies, stands = mission.drones
     for room in (flight_room(mission, flies), pad_room(mission, flies)):
-        (pad,) = (o for o in room.obstacles if o.owner == "drone cam2")
+        (pad,) = (o for o in room.obstacles if str(o.owner) == "drone cam2")
         assert pad.clearance == 7.0
         assert (pad.part.bottom, pad.part.top) == (0.5, 0.5)
         assert "drone cam1" not in {o.owner for o in room.obstacles}
     assert "drone cam2" not in {o.owner for o in flight_room(mission, stands).obstacles}
-    assert "drone cam2" in {o.name for o in obstacles_of(mission, flies)}
+    assert "drone cam2" in {str(o.owner) for o in keep_outs(mission, flies)}
 
 
 @pytest.mark.parametrize(("strength", "count"), [("require", 1), ("prefer", 0), ("off", 0)])

@@ -27,6 +27,7 @@ from tests.support.bad_refiners import (
     returns,
     with_leg,
 )
+from tests.support.owners import owner
 from tests.support.records import replace
 
 EARLY = (0.05, 0.5)
@@ -235,8 +236,12 @@ def line(start, end, pieces=1):
     return Piecewise(breaks, np.stack([(1 - x) * curve(a) + x * curve(b) for a, b in pairwise(breaks)]))
 
 
-POLE = Obstacle("zone pole", Cylinder((0.0, 0.0), 1.0, 0.0, 20.0), 0.5)
-ROOM = Room((POLE,), (Wall("ground", (0.0, 0.0, 1.0), 2.0, 2.0),), (Disc("zone ring", (0.0, 0.0), 50.0),))
+POLE = Obstacle(owner("zone pole"), Cylinder((0.0, 0.0), 1.0, 0.0, 20.0), 0.5)
+ROOM = Room(
+    (POLE,),
+    (Wall(owner("ground"), (0.0, 0.0, 1.0), 2.0, 2.0),),
+    (Disc(owner("zone ring"), (0.0, 0.0), 50.0),),
+)
 
 
 @pytest.mark.parametrize("pieces", [1, 7])

@@ -13,9 +13,10 @@ from shotc.geom.convex import segment_distances
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.planning.free_space import Obstacle, Room, Wall, breaches
 from shotc.planning.path.route import DETOUR, find_route, length
+from tests.support.owners import owner
 
-GROUND = Wall("ground", (0.0, 0.0, 1.0), 2.6)
-ROOF = Wall("zone yard", (0.0, 0.0, -1.0), -19.4)
+GROUND = Wall(owner("ground"), (0.0, 0.0, 1.0), 2.6)
+ROOF = Wall(owner("zone yard"), (0.0, 0.0, -1.0), -19.4)
 
 
 def block(x, y, z):
@@ -88,8 +89,8 @@ def test_there_may_be_no_way():
     yard = (
         GROUND,
         ROOF,
-        Wall("zone yard", (0.0, 1.0, 0.0), -30.0),
-        Wall("zone yard", (0.0, -1.0, 0.0), -30.0),
+        Wall(owner("zone yard"), (0.0, 1.0, 0.0), -30.0),
+        Wall(owner("zone yard"), (0.0, -1.0, 0.0), -30.0),
     )
     assert way(room(block((-1, 1), (-40, 40), (0, 60)), walls=yard), (-20, 0, 8), (20, 0, 8)) is None
     open_side = room(block((-1, 1), (-40, 25), (0, 60)), walls=yard)

@@ -35,6 +35,7 @@ from shotc.planning.obstacles import Rooms, rooms_of
 from shotc.planning.path.legs import Flight, Pose, way_to
 from shotc.planning.timing.estimate import leg_time
 from tests.support.front_passes import placed
+from tests.support.owners import owner
 
 EMPTY = Room((), (), ())
 PAIR = """\
@@ -266,7 +267,7 @@ def test_a_motion_is_near_what_it_films_or_there_is_none() -> None:
         return np.array([ideal_place(mission, first.shot, 7.41, float(t)) for t in held])
 
     drone = mission.drones[1]
-    beside = Moving("drone cam1", point((0.0, 0.0, 0.0)), 3.0, flown, always=True)
+    beside = Moving(owner("drone cam1"), point((0.0, 0.0, 0.0)), 3.0, flown, always=True)
     looker = Looker(mission, drone, second.subjects)
     made = timed_shot(looker, (rooms_of(mission, drone), Traffic((beside,), Sights())), second, 8.14)
     assert isinstance(made, TimedShot)
@@ -287,7 +288,9 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
         ways = [way_to(flight, a, b, ("shots", 0)) for a, b in pairwise(poses)]
         return [leg for way in ways if isinstance(way, list) for leg in way]
 
-    hovers = Moving("drone b", point((20.0, 0.0, 5.0)), 3.0, lambda t: np.zeros((len(t), 3)), always=True)
+    hovers = Moving(
+        owner("drone b"), point((20.0, 0.0, 5.0)), 3.0, lambda t: np.zeros((len(t), 3)), always=True
+    )
     straight, over = legs(here, there), legs(here, high, above, there)
     lasts = sum(leg_time(drone, leg) for leg in straight)
     way = choose(mission, drone, Traffic((hovers,), Sights()), [straight, over], When(0.0, lasts + 0.1))
@@ -302,14 +305,14 @@ def test_a_sweep_holds_all_places_of_its_target() -> None:
     def at(times: np.ndarray) -> np.ndarray:
         return np.column_stack([np.sin(times), 0.3 * times, 1.0 + 0.1 * times])
 
-    moving = [Moving("target x", part, 1.6, at, apart=5.6)]
+    moving = [Moving(owner("target x"), part, 1.6, at, apart=5.6)]
     flight, transit, _ = with_sweeps(Rooms(EMPTY, EMPTY), moving, (2.0, 5.0))
     (swept,), (wide,) = flight.obstacles, transit.obstacles
     angle = np.linspace(0.0, 2 * np.pi, 24)
     rim = np.column_stack([0.89 * np.cos(angle), 0.89 * np.sin(angle), np.zeros(24)])
     for t in np.arange(2.0, 5.01, 0.5):
         assert distances(swept.part, at(np.array([t])) + rim).max() == pytest.approx(0.0, abs=1e-9)
-    assert (swept.owner, swept.clearance) == ("target x", 1.6)
+    assert (str(swept.owner), swept.clearance) == ("target x", 1.6)
     assert (wide.part, wide.clearance) == (swept.part, 5.6)
 
 
