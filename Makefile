@@ -7,6 +7,9 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 PLUGINS := $(wildcard plugins/*/pyproject.toml)
 UV := $(shell command -v uv 2>/dev/null)
+PYTEST := $(BIN)/pytest -n 2 --dist loadgroup --no-loadscope-reorder
+# Tests start many processes: all but the first find the modules compiled.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help setup demo test test-fast fuzz check lint type fmt layers platforms gen gen-check bless bench papers build clean
 
@@ -32,13 +35,13 @@ demo: $(STAMP) ## Plan a real mission and say where to look at it
 	@echo "  look      out/westerhever-lighthouse/storyboard.png, or play it: $(BIN)/shotc view out/westerhever-lighthouse/plan.json"
 
 test: $(STAMP) ## Run every test
-	$(BIN)/pytest -n 2
+	$(PYTEST)
 
-test-fast: $(STAMP) ## Run the tests that plan no whole mission
-	$(BIN)/pytest -n 2 --ignore=tests/e2e
+test-fast: $(STAMP) ## Run the tests that are not marked slow, in a minute
+	$(PYTEST) -m "not slow and not fuzz"
 
 fuzz: $(STAMP) ## Plan 300 drawn missions, and run every property test with new random numbers
-	CI= FUZZ=1 OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "fuzz or hypothesis"
+	CI= FUZZ=1 OMP_NUM_THREADS=1 $(PYTEST) -m "fuzz or hypothesis"
 
 check: lint type layers gen-check platforms test build ## Everything, as CI runs it
 
@@ -66,7 +69,7 @@ gen-check: $(STAMP) ## Fail where a generated file is out of date
 	$(BIN)/python -m shotc.cli.generate --check
 
 bless: $(STAMP) ## Rewrite the golden files of the tests; read the diff before you commit it
-	$(BIN)/pytest -n 2 --bless tests
+	$(PYTEST) --bless tests
 
 bench: $(STAMP) ## Measure: ratios to bare imports, growth, memory
 	$(BIN)/python -m tests.experiments.bench

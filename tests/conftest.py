@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import pkgutil
 from importlib import import_module
@@ -24,6 +25,21 @@ if CI:
 
 def pytest_addoption(parser):
     parser.addoption("--bless", action="store_true", help="rewrite golden files instead of comparing")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Keep the tests of a file in one process, where what they share is made once; slow ones go first."""
+    for item in items:
+        if item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(item.path.stem))
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+
+
+def pytest_collection_finish():
+    """Spare the collector what stays for the whole run: modules and tests."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_configure(config):

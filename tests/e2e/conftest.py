@@ -16,6 +16,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from tests.support import csv_tables, written_missions
 from tests.support.command import run
+from tests.support.compiled import compiled
 from tests.support.csv_tables import Table
 from tests.support.lakeside_show import LAKE, Show
 from tests.support.written_missions import Course, Written
@@ -94,18 +95,13 @@ class Planned:
 Plan = Callable[[Path], Planned]
 
 
-def compiled(path: Path) -> api.Compilation:
-    """Compile a file, named as one that stands in the current folder, without a refiner."""
-    return api.compile_source(path.read_bytes(), path.name, path.parent, api.PlanOptions(refiner="none"))
-
-
 @pytest.fixture(scope="session")
 def plan() -> Plan:
     """Plan a mission; the second time it is at hand."""
 
     @cache
     def planned(path: Path) -> Planned:
-        done = compiled(path)
+        done = compiled(path, "none")
         assert done.plan is not None, [(d.code, d.message) for d in done.diagnostics]
         return Planned(path, done.plan, done.diagnostics)
 

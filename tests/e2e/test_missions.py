@@ -10,8 +10,9 @@ import pytest
 from shotc import api
 from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
-from tests.e2e.conftest import MISSIONS, Plan, compiled, each_mission
+from tests.e2e.conftest import MISSIONS, Plan, each_mission
 from tests.support import written_missions
+from tests.support.compiled import freshly_compiled
 
 EMITTERS = ("csv", "mavlink", "storyboard", "rerun")
 SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
@@ -85,7 +86,7 @@ def test_all_outputs_are_made(plan: Plan, path: Path) -> None:
 
 @pytest.mark.parametrize("path", [path for path in MISSIONS if path.stem in TWICE], ids=TWICE)
 def test_the_same_mission_gives_the_same_bytes(plan: Plan, path: Path) -> None:
-    again = compiled(path).plan
+    again = freshly_compiled(path, "none").plan
     assert again is not None
     files = {a.name: a.data for a in api.emit_plan(again, ["csv"]).artifacts}
     assert files == plan(path).files

@@ -12,7 +12,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from shotc import api
-from tests.golden.missions import DRAWN, compiled, missions
+from tests.golden.missions import DRAWN, missions
+from tests.support.compiled import compiled
 from tests.support.generated.judge import write
 from tests.support.generated.missions import mission
 

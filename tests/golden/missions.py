@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.api import Compilation
 from tests.golden.sample import sampled
 
 HERE = Path(__file__).parent
@@ -22,11 +22,6 @@ def missions() -> dict[str, Path]:
 def recorded(name: str) -> Path:
     """Return where the plan of a mission is recorded."""
     return DRAWN / name / "plan.txt" if (DRAWN / name).is_dir() else HERE / "specs" / f"{name}.txt"
-
-
-def compiled(path: Path) -> Compilation:
-    """Plan a mission as `shotc plan` does."""
-    return compile_source(path.read_bytes(), path.name, path.parent, PlanOptions())
 
 
 def as_text(done: Compilation) -> str:

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.golden.missions import as_text, compiled, missions, recorded
+from tests.golden.missions import as_text, missions, recorded
 from tests.golden.sample import SAME, differences
+from tests.support.compiled import compiled
 
 MISSIONS = missions()
 PLAN = """\

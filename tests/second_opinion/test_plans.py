@@ -15,7 +15,7 @@ from tests.support.second_opinion.reflight import reflights
 
 ROOT = Path(__file__).parents[2]
 FILMED = [
-    pytest.param(path, id=path.stem, marks=pytest.mark.xdist_group(f"second-{path.stem}"))
+    pytest.param(path, id=path.stem, marks=pytest.mark.xdist_group(path.stem))
     for path in sorted(ROOT.glob("specs/*.yaml"))
     if "fleets" not in yaml.safe_load(path.read_text(encoding="utf-8"))
 ]

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from shotc import api
+from tests.support.compiled import compiled
 from tests.support.second_opinion.case import Case
 from tests.support.second_opinion.mission import Mission
 
@@ -16,10 +17,7 @@ def case_of(
     path: Path, refiner: str | None = None, autopilot: Literal["px4", "ardupilot"] | None = None
 ) -> Case:
     """Return the files that a mission becomes."""
-    options = api.PlanOptions(autopilot=autopilot)
-    if refiner is not None:
-        options = options._replace(refiner=refiner)
-    done = api.compile_source(path.read_bytes(), path.name, path.parent, options)
+    done = compiled(path, refiner, autopilot)
     assert done.plan is not None, [(d.code, d.message) for d in done.diagnostics]
     emitted = api.emit_plan(done.plan, ["csv", "mavlink"])
     files = {artifact.name: artifact.data for artifact in emitted.artifacts}

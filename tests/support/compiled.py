@@ -1,0 +1,33 @@
+"""Missions compiled once a process: a plan is frozen, so all tests may look at the same one."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Literal
+
+from shotc.api import Compilation, PlanOptions, compile_source
+
+Autopilot = Literal["px4", "ardupilot"]
+
+
+def compiled(path: Path, refiner: str | None = None, autopilot: Autopilot | None = None) -> Compilation:
+    """Compile a file, named as one that stands in the current folder."""
+    return _kept(path, refiner, autopilot)
+
+
+def freshly_compiled(
+    path: Path, refiner: str | None = None, autopilot: Autopilot | None = None
+) -> Compilation:
+    """Compile a file anew, for a test of two runs."""
+    options = PlanOptions(refiner=refiner, autopilot=autopilot)
+    return compile_source(path.read_bytes(), path.name, path.parent, options)
+
+
+_kept = cache(freshly_compiled)
+
+
+@cache
+def compiled_text(text: str, refiner: str | None = None, name: str = "mission.yaml") -> Compilation:
+    """Compile a text that names no files."""
+    return compile_source(text.encode(), name, None, PlanOptions(refiner=refiner))
