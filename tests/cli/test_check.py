@@ -68,6 +68,7 @@ def test_a_name_no_file_can_have(run: Run) -> None:
     assert " Y022 the file cannot be read: " in result.out
 
 
+@pytest.mark.slow
 def test_closed_standard_input() -> None:
     command = f"exec {sys.executable} -m shotc check - --format concise <&-"
     done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False)
@@ -189,6 +190,7 @@ def test_bad_bytes_are_rejected_without_traceback(run: Run, data: bytes) -> None
     assert "Traceback" not in result.err
 
 
+@pytest.mark.slow
 def test_check_loads_nothing_heavy(good: Path) -> None:
     heavy = ["numpy", "scipy", "cvxpy", "clarabel", "toppra", "rerun", "matplotlib", "casadi"]
     code = (
@@ -200,6 +202,7 @@ def test_check_loads_nothing_heavy(good: Path) -> None:
     assert done.stdout == "0 []\n"
 
 
+@pytest.mark.slow
 def test_check_defines_no_dataclasses(good: Path) -> None:
     code = (
         "import sys; from shotc.cli.app import run\n"

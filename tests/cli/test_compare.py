@@ -18,6 +18,8 @@ from tests.cli.conftest import Run
 from tests.support.bad_refiners import MISSION, PASS, ROUND, text
 from tests.support.plugin_distributions import lay, refiner
 
+pytestmark = pytest.mark.slow
+
 ALONG = "from tests.support.bad_refiners import along, bumped"
 BENT = (ALONG, "return Outcome(bumped(path, 'pass', along(3, 0.2)))")
 FAILING = ("raise RuntimeError('no camera')",)

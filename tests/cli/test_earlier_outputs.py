@@ -8,6 +8,8 @@ import pytest
 
 from tests.cli.conftest import GOOD, Run
 
+pytestmark = pytest.mark.slow
+
 FAST = GOOD + "output: {emit: []}\n"
 IMPOSSIBLE = FAST.replace("at: [0, -50, 15]", "at: [0, 0, 12]")
 NOTE = (

@@ -14,6 +14,8 @@ from tests.cli.conftest import Run
 from tests.support.film_plans import orbit_plan
 from tests.support.show_plans import PADS, fleet, mission, plan
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

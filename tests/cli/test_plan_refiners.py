@@ -71,6 +71,7 @@ def without_ours(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plugins, "names", lambda group: [n for n in names(group) if n != "ours"])
 
 
+@pytest.mark.slow
 def test_without_ours_the_convex_path_is_flown_and_that_is_said(
     run: Run, good: Path, without_ours: None
 ) -> None:
@@ -135,6 +136,7 @@ def test_a_refiner_that_cannot_be_loaded_is_told_with_its_package(
     assert plan(run, good, "--refiner", "none").code == 0
 
 
+@pytest.mark.slow
 def test_a_refiner_that_cannot_be_loaded_does_not_matter_where_the_mission_says_so(
     run: Run, lenient: Path, install: Install
 ) -> None:
@@ -146,6 +148,7 @@ def test_a_refiner_that_cannot_be_loaded_does_not_matter_where_the_mission_says_
     assert "odd-maker" in done.err
 
 
+@pytest.mark.slow
 def test_a_refiner_is_told_where_it_broke_the_mission(run: Run, yard: Path, install: Install) -> None:
     lines = ("from tests.support.bad_refiners import along, bumped, returns",
              "return returns(lambda ir: bumped(ir, 'pass', along(1, -8), (0.05, 0.5)))(path)")  # fmt: skip
@@ -160,6 +163,7 @@ def test_a_refiner_is_told_where_it_broke_the_mission(run: Run, yard: Path, inst
     assert not (yard.parent / "out").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NEVER)
 @pytest.mark.timeout(60)
 @POSIX
@@ -172,6 +176,7 @@ def test_a_refiner_that_takes_forever_is_stopped(run: Run, good: Path, install: 
     assert "error[R004]: refiner `slow` of package odd-maker was stopped after 1.5 s" in done.err
 
 
+@pytest.mark.slow
 @POSIX
 @pytest.mark.timeout(60)
 def test_what_a_refiner_started_ends_with_it(run: Run, good: Path, install: Install) -> None:
@@ -194,6 +199,7 @@ def test_what_a_refiner_started_ends_with_it(run: Run, good: Path, install: Inst
         time.sleep(0.01)
 
 
+@pytest.mark.slow
 @POSIX
 def test_a_refiner_that_takes_forever_keeps_the_convex_path_where_it_may(
     run: Run, lenient: Path, install: Install
@@ -205,6 +211,7 @@ def test_a_refiner_that_takes_forever_keeps_the_convex_path_where_it_may(
     assert "was stopped after 1 s" in done.err
 
 
+@pytest.mark.slow
 def test_a_refiner_in_time_makes_the_same_plan_in_its_own_process(
     run: Run, yard: Path, install: Install
 ) -> None:
@@ -230,6 +237,7 @@ ENDS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ENDS)
 @POSIX
 def test_however_a_refiner_s_process_ends_it_is_told(

@@ -45,6 +45,7 @@ def checked(tmp_path_factory) -> set[str]:
     return modules
 
 
+@pytest.mark.slow
 def test_check_loads_the_kinds_that_the_mission_uses_and_no_others(checked):
     kinds = {entry.module for entry in entry_points(group="shotc.kinds")}
     assert len(kinds) > 10

@@ -143,6 +143,7 @@ def test_a_file_that_is_not_there(run: Run) -> None:
         assert "cannot be read" in done.err
 
 
+@pytest.mark.slow
 def test_emit_writes_beside_the_plan_or_elsewhere(run: Run, plan: Path, tmp_path: Path) -> None:
     before = plan.read_bytes()
     assert run("emit", str(plan), "--emit", "csv").code == 0
@@ -154,6 +155,7 @@ def test_emit_writes_beside_the_plan_or_elsewhere(run: Run, plan: Path, tmp_path
     assert (tmp_path / "tables" / "framing.csv").read_bytes() == (plan.parent / "framing.csv").read_bytes()
 
 
+@pytest.mark.slow
 def test_emit_does_not_write_the_plan_again(run: Run, plan: Path) -> None:
     text = plan.read_text()
     plan.write_text(text.replace("{", "{ ", 1))  # as good, and not as shotc writes it
@@ -181,6 +183,7 @@ def test_emit_refuses_a_broken_plan_and_unknown_emitters(run: Run, plan: Path) -
     assert run("emit", str(plan), "--emit", "kmz").code == 2
 
 
+@pytest.mark.slow
 def test_diff_of_a_plan_with_itself_and_with_another(run: Run, plan: Path) -> None:
     same = run("diff", str(plan), str(plan))
     assert same.code == 0

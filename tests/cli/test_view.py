@@ -51,6 +51,7 @@ def plan(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_plan_is_shown_and_nothing_is_left_behind(run: Run, viewer: Viewer, plan: Path) -> None:
     for place in (plan, plan.parent):
         done = run("view", str(place))
@@ -62,6 +63,7 @@ def test_a_plan_is_shown_and_nothing_is_left_behind(run: Run, viewer: Viewer, pl
         assert [path.name for path in plan.parent.iterdir()] == ["plan.json"]
 
 
+@pytest.mark.slow
 def test_a_mission_is_planned_and_shown(run: Run, viewer: Viewer, good: Path) -> None:
     done = run("view", str(good))
     assert done.code == 0, done.err
@@ -84,6 +86,7 @@ def test_a_plan_that_cannot_be_read(run: Run, viewer: Viewer, tmp_path: Path) ->
     assert viewer.command == []
 
 
+@pytest.mark.slow
 def test_a_viewer_that_fails(run: Run, viewer: Viewer, plan: Path) -> None:
     viewer.status = 3
     done = run("view", str(plan))

@@ -97,6 +97,7 @@ def test_interrupt(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     assert (result.code, result.out, result.err) == (130, "", "interrupted\n")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_interrupt_of_a_process() -> None:
     process = subprocess.Popen([*SHOTC, "check", "-"], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -120,6 +121,7 @@ def test_an_interrupt_while_the_command_line_loads() -> None:
     assert (done.returncode, done.stderr) == (130, b"interrupted\n")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="pipes")
 def test_a_closed_pipe_is_quiet() -> None:
     process = subprocess.Popen([*SHOTC, "explain"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -130,6 +132,7 @@ def test_a_closed_pipe_is_quiet() -> None:
     assert (process.wait(timeout=20), err) == (141, b"")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_a_full_disk_is_said() -> None:
     with Path("/dev/full").open("wb") as full:
@@ -138,6 +141,7 @@ def test_a_full_disk_is_said() -> None:
     assert done.stderr.startswith(b"standard output cannot be written: ")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="file descriptors")
 def test_closed_streams() -> None:
     done = subprocess.run(["sh", "-c", f"exec {sys.executable} -m shotc explain >&- 2>&-"], check=False)

@@ -11,6 +11,8 @@ import pytest
 from shotc.cli import app
 from tests.support.meshes import box_mesh, obj, ply, sphere_mesh
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: bad

@@ -50,6 +50,7 @@ def planned(text: str) -> tuple[bool, list[Diagnostic]]:
     return done.plan is not None, list(done.diagnostics)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", SLIPS)
 def test_check_knows_a_bound_and_plan_the_number(code: str) -> None:
     assert SLIPS[code][0] in MISSION
@@ -74,6 +75,7 @@ def test_what_check_proposes_says_that_it_is_a_bound(code: str) -> None:
     assert "`shotc plan` finds" in told.help
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", ["K006", "K007"])
 def test_shots_in_each_others_way_are_answered_once(code: str) -> None:
     text = registry()[code].failing

@@ -55,6 +55,7 @@ def test_stopping_after_a_pass_times_the_passes_and_writes_nothing(shotc: Shotc,
     assert not Path("out").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("emit", "files"),
     [
@@ -69,6 +70,7 @@ def test_emitters_are_chosen_by_name(shotc: Shotc, emit: str, files: list[str]) 
     assert sorted(path.name for path in Path("out/small").iterdir()) == files
 
 
+@pytest.mark.slow
 def test_a_written_plan_is_verified_and_an_edited_one_refused(shotc: Shotc) -> None:
     shotc(*PLAN, "small.yaml")
     result = shotc("verify", "out/small")
@@ -88,6 +90,7 @@ def test_a_written_plan_is_verified_and_an_edited_one_refused(shotc: Shotc) -> N
     assert {path.name: path.read_bytes() for path in plan.parent.iterdir()} == before
 
 
+@pytest.mark.slow
 def test_emit_writes_the_same_tables_again(shotc: Shotc) -> None:
     shotc(*PLAN, "small.yaml")
     assert shotc("emit", "out/small", "-o", "again", "--emit", "csv").code == 0
@@ -96,6 +99,7 @@ def test_emit_writes_the_same_tables_again(shotc: Shotc) -> None:
         assert Path("again", name).read_bytes() == Path("out/small", name).read_bytes()
 
 
+@pytest.mark.slow
 def test_diff_tells_two_plans_apart(shotc: Shotc) -> None:
     shotc(*PLAN, "small.yaml", "-o", "old")
     Path("small.yaml").write_text(SMALL.replace("[0, -50, 15]", "[0, -50, 17]"))

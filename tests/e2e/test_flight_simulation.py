@@ -13,6 +13,8 @@ from shotc.geom.camera import View
 from tests.e2e.conftest import ROOT
 from tests.support import written_missions
 
+pytestmark = pytest.mark.slow
+
 GRAVITY = np.array([0.0, 0.0, -9.81])
 STEP = 0.005
 ATTITUDE_LAG, THRUST_LAG, GIMBAL_LAG = 0.08, 0.05, 0.05

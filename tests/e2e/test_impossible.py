@@ -16,6 +16,8 @@ import pytest
 from shotc.cli import app, console
 from tests.support.command import PLAN, Report, Result
 
+pytestmark = pytest.mark.slow
+
 TOWER = """\
 shotc: 1
 mission: hard

@@ -64,6 +64,7 @@ def test_check_says_what_is_expected(path: Path) -> None:
     assert said(report.diagnostics) == SAID[path.stem].get("check", [])
 
 
+@pytest.mark.slow
 @every_mission
 def test_all_outputs_are_made(plan: Plan, path: Path) -> None:
     planned = plan(path)
@@ -84,6 +85,7 @@ def test_all_outputs_are_made(plan: Plan, path: Path) -> None:
     assert all(len(data) > 60 for data in files.values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", [path for path in MISSIONS if path.stem in TWICE], ids=TWICE)
 def test_the_same_mission_gives_the_same_bytes(plan: Plan, path: Path) -> None:
     again = freshly_compiled(path, "none").plan

@@ -30,6 +30,7 @@ def blocks(language):
     return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
 
 
+@pytest.mark.slow
 def test_the_first_mission_plans_without_a_warning_but_the_missing_origin():
     mission = blocks("yaml")[0]
     done = compile_source(mission.encode(), "readme.yaml", None, PlanOptions())
@@ -37,6 +38,7 @@ def test_the_first_mission_plans_without_a_warning_but_the_missing_origin():
     assert done.plan is not None
 
 
+@pytest.mark.slow
 def test_the_show_is_the_template_and_plans_without_a_warning():
     (mission,) = (block for block in blocks("yaml") if "kind: display" in block)
     template = (ROOT / "shotc" / "templates" / "drone-show.yaml").read_text(encoding="utf-8")
@@ -46,6 +48,7 @@ def test_the_show_is_the_template_and_plans_without_a_warning():
     assert done.plan is not None
 
 
+@pytest.mark.slow
 def test_the_answer_to_an_impossible_duration_is_what_it_says():
     """The block shows what `shotc plan` prints of the first mission with eighteen seconds for the shot."""
     from shotc.diag.render.text import render

@@ -106,6 +106,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("seeded")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_show_keeps_what_it_asks_or_says_why_not(seed: int, folder: Path) -> None:
     plan, said = planned(seed, folder)

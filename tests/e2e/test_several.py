@@ -31,6 +31,7 @@ def test_there_is_such_a_mission() -> None:
     assert SEVERAL
 
 
+@pytest.mark.slow
 @each_of_several
 def test_every_pair_is_apart_all_the_time(plan: Plan, path: Path) -> None:
     planned = plan(path)

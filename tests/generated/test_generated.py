@@ -14,6 +14,8 @@ from shotc.diag.registry import has_errors
 from tests.support.generated.judge import judge, write
 from tests.support.generated.missions import Mission, mission
 
+pytestmark = pytest.mark.slow
+
 FEW = (1, 4, 7, 12, 18, 24, 27, 33, 39, 41)
 """Small missions of ``make test``, at most two drones with a shot each; ``tests/golden`` has 44 more."""
 

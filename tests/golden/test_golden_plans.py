@@ -22,6 +22,7 @@ drone cam
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MISSIONS)
 def test_a_plan_is_as_recorded(name: str, pytestconfig: pytest.Config) -> None:
     now, path = as_text(compiled(MISSIONS[name])), recorded(name)

@@ -251,6 +251,7 @@ def test_actions_one_after_the_other_follow_one_target_and_leave_time_to_change(
     assert second["start"] + second["duration"] == 100
 
 
+@pytest.mark.slow
 def test_rule_of_thirds_is_flown_and_proved() -> None:
     made = imported(action("LATERAL", '{"y_0": -9, "z_0": 4}'))
     assert made.text is not None
@@ -289,6 +290,7 @@ def test_every_production_mission_is_imported_and_accepted(path: Path) -> None:
         )
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not ORIGINALS, reason="no original missions: MULTIDRONE_MISSIONS=DIR names their folder")
 @pytest.mark.parametrize("path", ORIGINALS, ids=lambda path: path.stem)
 def test_every_production_mission_is_planned(path: Path) -> None:

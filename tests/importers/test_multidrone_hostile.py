@@ -67,6 +67,7 @@ def test_more_than_a_mission_can_be_is_refused_at_once() -> None:
     assert [d.code for d in large.diagnostics] == ["I001"]
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(st.binary(max_size=200))
 def test_any_bytes_are_read_without_a_traceback(data: bytes) -> None:
@@ -75,6 +76,7 @@ def test_any_bytes_are_read_without_a_traceback(data: bytes) -> None:
     assert made.diagnostics
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(st.data())
 def test_a_mission_that_lost_or_gained_something_is_read_without_a_traceback(data: st.DataObject) -> None:
@@ -96,6 +98,7 @@ GARBLED = st.sampled_from(
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(
     st.lists(GARBLED, min_size=6, max_size=6),

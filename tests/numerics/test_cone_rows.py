@@ -28,6 +28,7 @@ def through(rng: np.random.Generator, count: int = 40) -> tuple[ConeRows, Array]
     return rows, wanted
 
 
+@pytest.mark.slow
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.3, 0.8, 1.0]))
 def test_the_optimum_is_that_under_all_cones(seed: int, share: float) -> None:
     rows, wanted = through(np.random.default_rng(seed))

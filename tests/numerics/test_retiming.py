@@ -108,6 +108,7 @@ def test_every_move_begins_and_ends_at_rest_without_acceleration():
         assert np.abs(derivative[-1, -1]).max() == 0.0
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None, derandomize=True)
 @given(
     seed=st.integers(0, 10**6),
@@ -134,6 +135,7 @@ def test_no_limit_is_broken_at_any_instant_of_a_random_path(
     assert acceleration < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_without_any_answer_of_the_solver_a_rough_profile_keeps_every_limit(
     seed: int, monkeypatch: pytest.MonkeyPatch
@@ -149,6 +151,7 @@ def test_without_any_answer_of_the_solver_a_rough_profile_keeps_every_limit(
     assert all(jump < 1e-6 for jump in jumps(move.curve))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 10, 12, 13])
 def test_turns_within_centimetres_among_long_ways_cost_no_more_than_they_must(seed: int):
     rng = np.random.default_rng(seed)
@@ -177,6 +180,7 @@ def test_a_path_along_the_end_of_the_gimbal_s_range_is_flown_within_it():
     assert move.curve(t)[:, 4].max() <= 0.3 + 2e-7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_the_flown_quintics_stay_on_the_path(seed: int):
     path = smooth(seed)

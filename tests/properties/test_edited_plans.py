@@ -16,6 +16,8 @@ from shotc import api
 from tests.support.kinds_plan import kinds_plan
 from tests.support.resealed_plans import Document, resealed
 
+pytestmark = pytest.mark.slow
+
 FEW, MANY = 10, 2000
 CHANGES = (
     ("sweep: -180 deg", "sweep: -20 deg"),

@@ -22,6 +22,8 @@ from shotc.diag.render import json as json_report
 from shotc.diag.render import text as text_report
 from tests.support.damaged_missions import bent_trees, damaged_bytes, damaged_trees
 
+pytestmark = pytest.mark.slow
+
 
 def examine(data: bytes, folder: Path) -> bool:
     """Check a mission, hold its report to the rules, and tell whether it is accepted."""

@@ -12,6 +12,8 @@ from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.verify import Verify
 from tests.support.bad_refiners import PASS, ROUND, bumped, path, refine, returns
 
+pytestmark = pytest.mark.slow
+
 GEOMETRY = {"V005", "V007", "V008", "V009", "V010", "V011", "V016", "V017", "V018"}
 """What is broken by where a path leads and not by when."""
 

@@ -14,6 +14,8 @@ from shotc.geom.sight import off_axis, outside
 from shotc.passes.verify.claims import slack
 from tests.support.sight_plans import at, claims, film, mission, through, unfilmed
 
+pytestmark = pytest.mark.slow
+
 RADIUS = 0.5
 LENGTH = 6.0
 COARSE, DENSE = 2.0, 200.0  # Hz

@@ -14,6 +14,8 @@ from shotc.kinds.files import FileFault, Table, read_table
 from shotc.kinds.gpx import read_gpx
 from shotc.passes.resolve.recordings import LAYOUTS
 
+pytestmark = pytest.mark.slow
+
 PLACES = st.tuples(*[st.floats(-1e4, 1e4)] * 3)
 STEPS = st.floats(1e-3, 100.0)
 

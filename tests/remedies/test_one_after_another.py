@@ -9,6 +9,8 @@ from tests.remedies.test_planned import planned
 from tests.support.front_passes import placed
 from tests.support.remedies.apply import remedies
 
+pytestmark = pytest.mark.slow
+
 CAR = """\
 shotc: 1
 mission: run

@@ -16,6 +16,8 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
 from tests.support.remedies.tried import failed
 
+pytestmark = pytest.mark.slow
+
 PLANNED = [info for info in registry().values() if info.phase == "plan"]
 
 TOLD_IN_WORDS = {

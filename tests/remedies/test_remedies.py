@@ -15,6 +15,8 @@ from shotc.diag.registry import registry
 from tests.support.front_passes import placed
 from tests.support.remedies.tried import failed
 
+pytestmark = pytest.mark.slow
+
 CHECKED = [info for info in registry().values() if info.phase == "check" and not info.code.startswith("Y")]
 """Those of the Y family are faults of the text: there is no tree yet in which to set a key."""
 

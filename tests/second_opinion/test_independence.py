@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 HERE = Path(__file__).parents[1] / "support" / "second_opinion"
 DOOR = {"compiled.py": {"shotc", "tests"}}
 """Missions go in and bytes come out there."""

@@ -13,6 +13,8 @@ from tests.support.second_opinion.compiled import case_of
 from tests.support.second_opinion.judge import judge
 from tests.support.second_opinion.reflight import reflights
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 FILMED = [
     pytest.param(path, id=path.stem, marks=pytest.mark.xdist_group(path.stem))

@@ -16,6 +16,8 @@ from tests.support.second_opinion.judge import findings, judge
 from tests.support.second_opinion.mission import Mission
 from tests.support.second_opinion.reflight import reflights
 
+pytestmark = pytest.mark.slow
+
 FOLDER = Path(__file__).parent
 Plan = dict[str, Any]
 Edit = Callable[[Plan], None]

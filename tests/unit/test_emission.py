@@ -138,6 +138,7 @@ def test_what_was_not_prepared_is_made_here():
     assert maker(outcome) == HERE
 
 
+@pytest.mark.slow
 def test_no_worker_outlives_its_crew():
     with crew(4, {}.get):
         assert len(children()) == 3

@@ -49,6 +49,7 @@ def numbers(scale: Array, centre: Array, reach: float) -> Array:
     return np.array([*scale.T.ravel(), *centre, 0.0, reach**2])
 
 
+@pytest.mark.slow
 def test_the_distance_and_the_field_are_the_paper_s() -> None:
     rng = np.random.default_rng(3)
     scale, centre = rng.normal(size=(3, 3)) + 2 * np.eye(3), rng.normal(size=3)
@@ -149,6 +150,7 @@ def test_what_is_far_away_makes_no_part_of_the_problem() -> None:
     assert kept_from((far,), near, course).bodies.shape[1] == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 5])
 def test_walkers_who_come_near_are_kept_farther_away_and_the_picture_stays(seed: int) -> None:
     text = crowd.scene(seed)
@@ -167,6 +169,7 @@ def test_walkers_who_come_near_are_kept_farther_away_and_the_picture_stays(seed:
     assert weights.FIELD > 0.0
 
 
+@pytest.mark.slow
 def test_drones_that_need_no_distance_are_refined_beside_one_another() -> None:
     text = HEAD.replace("rules: {", "rules: {separation: 0, ") + SIDE + PASS
     done = compile_source(text.encode(), "m.yaml", None, PlanOptions())

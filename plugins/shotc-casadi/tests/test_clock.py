@@ -26,6 +26,8 @@ from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, TimedLeg
 from shotc.plugin_api.refiner import ideal_places, restrict, surroundings
 
+pytestmark = pytest.mark.slow
+
 RUN = """\
 shotc: 1
 mission: run

@@ -10,6 +10,8 @@ from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.diag.registry import has_errors
 from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
 
+pytestmark = pytest.mark.slow
+
 SEVERAL = """\
 shotc: 1
 mission: several

@@ -16,6 +16,8 @@ from shotc.ir.path import PathIR, filmed
 from shotc.ir.trajectory import VerifiedIR
 from shotc.passes.refine_path.settle import same
 
+pytestmark = pytest.mark.slow
+
 ALONE = (Path(__file__).parents[3] / "specs/tower-fly-past.yaml").read_text()
 HOME, TOWER = "home: [-90, -90, 0]}", "  tower: {at: [0, 0, 30], radius: 6, height: 60}\n"
 SECOND = f"{HOME[:-1]}, priority: 1}}\n  cam2: {{model: x500, priority: 2, home: "

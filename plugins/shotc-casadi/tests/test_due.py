@@ -18,6 +18,7 @@ def leg():
     return leg_named(path_of(compiled(HEAD + keyed(*keys, more="timing: {duration: 60}"), "none")))
 
 
+@pytest.mark.slow
 def test_times_are_without_the_holds_before(leg):
     asked = due(leg)
     assert asked.t.tolist() == [0.0, 24.0, 57.0]

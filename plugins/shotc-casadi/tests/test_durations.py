@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from shotc.api import PlanOptions, compile_source
+
+pytestmark = pytest.mark.slow
 
 MISSION = """\
 shotc: 1

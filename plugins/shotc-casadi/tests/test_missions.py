@@ -19,6 +19,8 @@ from shotc.planning.timing.limits import ceiling_of
 from tests.support.path_scenes import assert_continuous, least_room
 from tests.support.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of, seen
 
+pytestmark = pytest.mark.slow
+
 NEAR = HEAD.replace("thirds", "center") + keyed(
     "at: [-60, -40, 12], look_at: tower", "at: [60, -26, 12], look_at: tower"
 )

@@ -19,6 +19,8 @@ from shotc.ir.passes import PassContext
 from shotc.ir.preference import MOST_MOVED
 from shotc.plugin_api.refiner import ideal_places
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: low

@@ -156,6 +156,7 @@ def test_a_state_that_may_not_move_is_held(solver, width, which, middle):
     assert np.abs(solution.states[:, which] - middle).max() < NARROW
 
 
+@pytest.mark.slow
 def test_more_stages_do_not_take_many_more_iterations():
     counts = {n: solve(task(walled(), count=n), "fatrop") for n in (12, 24, 48, 96, 192)}
     assert all(s.status == "solved" for s in counts.values())
@@ -212,6 +213,7 @@ print(solve(short, "fatrop").status, solve(task(arc()), "fatrop").status)
 """
 
 
+@pytest.mark.slow
 def test_the_process_goes_on_and_ends_after_a_solver_that_does_not():
     """Seventy metres in half a second: the linear system is so bad that fatrop never has done with it."""
     run = subprocess.run(

@@ -56,6 +56,7 @@ def test_a_target_that_sticks_out_between_nodes_is_found():
     assert checked(of, OURS_4PT, found).cropped == 0.0  # the paper's four points are no promise
 
 
+@pytest.mark.slow
 def test_a_duration_that_the_fastest_flight_misses_is_late():
     of = arc()
     quick = of._replace(leg=replace(of.leg, duration=9.0))

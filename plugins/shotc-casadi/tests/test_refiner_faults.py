@@ -19,6 +19,8 @@ from shotc.passes.refine_path import RefinePath, Seat
 from shotc.plugin_api.refiner import NoTransit, rejoined
 from tests.support.bad_refiners import PASS, ROUND, leg, path
 
+pytestmark = pytest.mark.slow
+
 REAL = program.solve
 
 

@@ -94,6 +94,7 @@ def test_a_line_of_sight_is_covered_where_points_of_it_are_in_the_ellipsoid(seed
     assert (found[ends < 1.0] == -np.inf).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("radius", "one"), [("0.4", False), ("2.7", True)])
 def test_who_overlaps_the_subject_is_a_part_of_it_and_not_looked_past(radius: str, one: bool) -> None:
     text = mission(LATERAL, **(PASSING | {"speed": 3.0, "first": 0}))
@@ -139,6 +140,7 @@ def test_a_solid_without_an_end_is_held_by_an_ellipsoid_without_one() -> None:
     assert np.linalg.norm(scale @ (np.array([1.5, 2.0, 1e4]) - centre)) < 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shot", [LATERAL, FRAMING])
 @pytest.mark.parametrize("walk", [PASSING, CROSSING])
 def test_who_passes_between_camera_and_subject_is_looked_past(shot: str, walk: dict[str, object]) -> None:
@@ -155,6 +157,7 @@ def test_who_passes_between_camera_and_subject_is_looked_past(shot: str, walk: d
     assert claims["runner screen error"] < 0.01
 
 
+@pytest.mark.slow
 def test_a_drone_between_camera_and_subject_is_looked_past() -> None:
     text = mission(
         LATERAL.replace("altitude: 3", "altitude: 4.5, allow: [hidden-subject]"), **(AWAY | {"more": BIRD})
@@ -163,6 +166,7 @@ def test_a_drone_between_camera_and_subject_is_looked_past() -> None:
     assert visible(text, "ours") > 0.99
 
 
+@pytest.mark.slow
 def test_where_nothing_hides_the_subject_the_shot_is_refined_as_ever() -> None:
     of = subject(mission(LATERAL, **AWAY))
     plain = refine_clock(of)
@@ -170,12 +174,14 @@ def test_where_nothing_hides_the_subject_the_shot_is_refined_as_ever() -> None:
     assert past_what_hides(of, plain) is None
 
 
+@pytest.mark.slow
 def test_a_place_that_the_author_gave_is_kept_whatever_hides_the_subject() -> None:
     of = subject(mission("kind: static, at: [63, -8, 3], look_at: runner", **CROSSING))
     assert shown(of, of.leg).hidden > 0.01
     assert past_what_hides(of, refine_clock(of)) is None
 
 
+@pytest.mark.slow
 def test_a_promise_goes_before_the_line_of_sight() -> None:
     text = mission(LATERAL + ", require: {size: [0.29, 0.3005]}", **PASSING)
     of = subject(text)

@@ -11,6 +11,8 @@ from shotc.diag.registry import has_errors
 from shotc.geom.camera import aim_at
 from tests.support.refiner_scenes import compiled, path_of, seen
 
+pytestmark = pytest.mark.slow
+
 ASPECT, HFOV = 16 / 9, radians(70)
 
 

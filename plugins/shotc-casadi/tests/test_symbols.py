@@ -68,6 +68,7 @@ def node(z, form="none", /, **fields):
     return float(function(form)(z, row(**fields))[1])
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(-10, 10), min_size=STATES + INPUTS, max_size=STATES + INPUTS), st.floats(1e-3, 20))
 def test_the_next_state_is_the_integral_of_constant_jerk(z, length):
     z = np.array(z)
@@ -88,6 +89,7 @@ def test_the_next_state_is_the_integral_of_constant_jerk(z, length):
     assert following[TIME] == pytest.approx(z[TIME] + length)
 
 
+@pytest.mark.slow
 @given(
     st.tuples(COORDINATE, COORDINATE, COORDINATE),
     st.tuples(st.floats(-0.9, 0.9), st.floats(-0.9, 0.9)),
@@ -147,6 +149,7 @@ CYLINDERS = st.tuples(st.floats(0.1, 20), st.floats(0.1, 60))
 ASKED = st.tuples(*[st.sampled_from([-0.1, 0.0, 0.03, 0.3])] * 4)
 
 
+@pytest.mark.slow
 @given(
     st.tuples(ANGLE, PITCHES),
     HFOV,
@@ -182,6 +185,7 @@ def cloud(offset, radius, height):
     return np.concatenate([np.array(offset) + rim + [0, 0, end * height / 2] for end in (-1, 1)])
 
 
+@pytest.mark.slow
 @given(st.tuples(ANGLE, PITCHES), HFOV, st.tuples(st.floats(10, 150), st.floats(-0.6, 0.6)), CYLINDERS)
 def test_the_hinge_agrees_with_a_cloud_of_points(look, hfov, where, cylinder):
     yaw, pitch = look
@@ -226,6 +230,7 @@ def four_points(p, radius, height, wide, tall):
     return total
 
 
+@pytest.mark.slow
 @given(
     ANGLE,
     st.tuples(st.floats(25, 120), st.floats(-20, 20), st.floats(-20, 20)),
@@ -242,6 +247,7 @@ def test_at_no_pitch_the_four_points_are_those_of_the_paper(yaw, p, cylinder, hf
     assert ours == pytest.approx(theirs, rel=1e-6, abs=1e-9)
 
 
+@pytest.mark.slow
 @given(
     st.tuples(ANGLE, PITCHES),
     HFOV,

@@ -25,6 +25,8 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
 from shotc.plugin_api.refiner import restrict, surroundings
 from tests.experiments.faces import MISSION, drawn
 
+pytestmark = pytest.mark.slow
+
 FRAMES = "{target: a, frame: [-0.3, 0]}, {target: b, frame: [0.3, 0]}"
 STILL = MISSION.format(
     world="", a="at: [-2, 0, 4]", b="at: [2, 0, 4]", start="", lasts=8,

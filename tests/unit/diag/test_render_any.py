@@ -14,6 +14,8 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import registry
 from shotc.source.file import SourceFile, Span
 
+pytestmark = pytest.mark.slow
+
 NASTY = st.text(st.sampled_from([*"ab:% ,\t\n\r\x00\x1b\x7f\u202e\u2028é日😀\ud800", "\u0301"]), max_size=30)
 NUMBER = st.integers(0, 9) | st.integers(0, 400)
 SPANS = st.builds(Span, NUMBER, NUMBER, NUMBER, NUMBER)

@@ -28,6 +28,7 @@ from tests.support.records import replace
 SIZE = (480, 270)
 
 
+@pytest.mark.slow
 def test_a_page_with_both_pictures() -> None:
     (artifact,) = EMITTER.emit(show_flights.plan()).artifacts
     assert artifact.name == "contact-sheet.png"
@@ -50,6 +51,7 @@ def crowded(count: int, apart: float) -> VerifiedIR:
     return replace(plan, trajectory=replace(plan.trajectory, fleets=(flight,)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("apart", [0.0, 60.0])
 @pytest.mark.parametrize("count", [2, 5, 10])
 def test_the_map_has_a_number_for_each_picture_and_none_is_over_another(count: int, apart: float) -> None:
@@ -140,6 +142,7 @@ def test_a_frame_of_the_way_there_holds_the_fleet_then() -> None:
     assert max(np.abs(u).max(), np.abs(v).max()) < 1.0
 
 
+@pytest.mark.slow
 def test_without_a_viewpoint_the_audience_stands_in_the_south() -> None:
     plan = show_flights.plan(show_flights.mission(displays=(show_flights.display(viewpoint=None),)))
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
@@ -155,6 +158,7 @@ def test_no_fleet_no_sheet() -> None:
     assert len(emission.notes) == 1
 
 
+@pytest.mark.slow
 def test_a_picture_counts_the_lights_that_shine() -> None:
     plan = show_flights.plan()
     flight = plan.trajectory.fleets[0]

@@ -140,6 +140,7 @@ def test_flags_follow_the_scene() -> None:
     assert not column(tables(narrow)[1], "in_frame").any()
 
 
+@pytest.mark.slow
 def test_drones_are_sorted_and_every_one_has_its_own_end() -> None:
     track = PLAN.trajectory.drones[0]
     short = Piecewise(track.curve.breaks[:3], track.curve.ctrl[:2])

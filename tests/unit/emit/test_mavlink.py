@@ -64,12 +64,14 @@ def test_the_note_states_count_tolerances_and_the_worst_frame() -> None:
     assert emission.notes[0].endswith("; its waypoints take about 31 s where the plan films 30 s")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("autopilot", ["px4", "ardupilot"])
 def test_the_same_plan_gives_the_same_bytes(autopilot: str) -> None:
     source = retold(orbit_plan(), autopilot=autopilot)
     assert EMITTER.emit(source) == EMITTER.emit(source)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("autopilot", "most"), [("px4", 500), ("ardupilot", 649)])
 def test_a_flight_too_long_for_the_autopilot_is_coarsened_and_says_how_far(autopilot: str, most: int) -> None:
     emission = EMITTER.emit(plan(restless(), autopilot=autopilot))
@@ -102,6 +104,7 @@ def test_a_zoom_is_not_carried_and_the_warning_says_from_what_to_what() -> None:
     assert "50.0 deg to 70.0 deg" in emission.diagnostics[0].notes[0]
 
 
+@pytest.mark.slow
 def test_every_drone_gets_its_files() -> None:
     mission = orbit_mission()
     one = mission.drones[0]

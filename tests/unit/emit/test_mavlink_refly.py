@@ -61,6 +61,7 @@ def test_px4_holds_the_middle_of_a_legs_turn() -> None:
     assert radians(1.0) < error.heading <= radians(3.2)
 
 
+@pytest.mark.slow
 def test_files_of_both_formats_fly_alike() -> None:
     source = retold(orbit_plan(), autopilot=ARDUPILOT)
     one = fly(source, *read_plan(artifact(source, "cam1.plan")))
@@ -69,6 +70,7 @@ def test_files_of_both_formats_fly_alike() -> None:
     assert np.abs(one.cam_yaw - other.cam_yaw).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_an_edited_file_is_noticed() -> None:
     source = orbit_plan()
     items, home = read_plan(artifact(source, "cam1.plan"))
@@ -131,6 +133,7 @@ def test_progress_pairs_a_turn_on_the_spot_with_its_own_instant() -> None:
     assert error.filmed == pytest.approx(20.0, abs=1.0)
 
 
+@pytest.mark.slow
 def test_a_body_without_a_swivelling_gimbal_is_turned_by_ardupilot_itself() -> None:
     fixed = replace(GIMBAL, yaw=(0.0, 0.0))
     source = retold(orbit_plan(), autopilot=ARDUPILOT, gimbal=fixed)

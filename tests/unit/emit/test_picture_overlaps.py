@@ -99,6 +99,7 @@ def among(plan: VerifiedIR, targets: tuple[Target, ...]) -> VerifiedIR:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [orbit_plan, pair_plan, crowded, straight_down])
 def test_no_label_lies_over_a_target_or_another_label(make: Callable[[], VerifiedIR]) -> None:
     assert overlaps(make()) == []
@@ -124,6 +125,7 @@ def test_a_label_without_any_room_is_handed_back() -> None:
         assert write_labels(canvas, whole, [label], []) == []
 
 
+@pytest.mark.slow
 def test_a_small_target_is_seen_inside_of_its_mark(monkeypatch: pytest.MonkeyPatch) -> None:
     discs: list[float] = []
     disc = Canvas.disc

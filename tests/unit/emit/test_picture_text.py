@@ -15,6 +15,8 @@ from tests.support.page_texts import texts
 from tests.support.records import replace
 from tests.support.two_target_plans import pair_plan
 
+pytestmark = pytest.mark.slow
+
 LONG = "a name that somebody has made as long as a sentence, because nothing said that it may not be"
 
 

@@ -131,6 +131,7 @@ def test_the_recording_has_one_active_layout(rrd: Path) -> None:
     assert len(reader.blueprints()) == 1
 
 
+@pytest.mark.slow
 def test_the_viewer_s_own_check_accepts_the_file(rrd: Path) -> None:
     command = [sys.executable, "-m", "rerun", "rrd", "verify", str(rrd)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
@@ -138,6 +139,7 @@ def test_the_viewer_s_own_check_accepts_the_file(rrd: Path) -> None:
     assert "1 file" in done.stdout + done.stderr
 
 
+@pytest.mark.slow
 def test_two_runs_record_the_same(rrd: Path, tmp_path: Path) -> None:
     again = tmp_path / "again.rrd"
     again.write_bytes(EMITTER.emit(orbit_plan()).artifacts[0].data)
@@ -148,6 +150,7 @@ def test_two_runs_record_the_same(rrd: Path, tmp_path: Path) -> None:
             np.testing.assert_array_equal(repr(first[name]), repr(second[name]), err_msg=name)
 
 
+@pytest.mark.slow
 def test_the_camera_flies_and_looks_as_planned(rrd: Path) -> None:
     plan, seen = orbit_plan(), columns(rrd)
     (flight,) = plan.trajectory.drones
@@ -160,6 +163,7 @@ def test_the_camera_flies_and_looks_as_planned(rrd: Path) -> None:
     assert lens[0][0][6:8] == [640.0, 360.0]
 
 
+@pytest.mark.slow
 def test_a_zoom_is_logged_over_time(tmp_path: Path) -> None:
     plan = orbit_plan()
     (flight,) = plan.trajectory.drones
@@ -199,6 +203,7 @@ def test_camera_turns_take_camera_axes_to_the_world() -> None:
             np.testing.assert_allclose(turn.T @ direction, expected, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_overlay_is_there_while_it_is_filmed_and_gone_after(rrd: Path) -> None:
     found = columns(rrd)
     for name in ("tower/outline", "tower/wanted", "composition"):

@@ -72,6 +72,7 @@ def test_entities_of_a_refiner_lie_below_it():
     assert place_of("a b/c") == r"refiners/a\ b\/c"
 
 
+@pytest.mark.slow
 def test_a_page_has_a_column_for_each_refiner_also_where_it_has_no_plan():
     plan = orbit_plan()
     shots = flown_shots(plan)

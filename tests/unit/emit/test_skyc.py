@@ -43,6 +43,7 @@ def north_west_up(points: np.ndarray) -> np.ndarray:
     return np.stack([points[..., 1], -points[..., 0], points[..., 2]], axis=-1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", STEPS)
 def test_drones_are_where_the_plan_has_them(step: float) -> None:
     flight = show_flights.plan(step=step).trajectory.fleets[0]

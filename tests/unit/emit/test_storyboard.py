@@ -30,6 +30,7 @@ def size_of(png: bytes) -> tuple[int, int]:
     return width, height
 
 
+@pytest.mark.slow
 def test_the_storyboard_is_one_png_of_the_page_s_size_and_always_the_same() -> None:
     emission = EMITTER.emit(orbit_plan())
     (artifact,) = emission.artifacts
@@ -42,6 +43,7 @@ def test_the_storyboard_is_one_png_of_the_page_s_size_and_always_the_same() -> N
     assert b"tIME" not in artifact.data
 
 
+@pytest.mark.slow
 def test_the_user_s_plot_style_does_not_reach_the_page() -> None:
     import matplotlib as mpl
 
@@ -51,6 +53,7 @@ def test_the_user_s_plot_style_does_not_reach_the_page() -> None:
         assert mpl.rcParams["font.size"] == 30
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("plan", "panels"),
     [(orbit_plan(), 5), (dense_plan(placed=False), 6), (dense_plan(placed=True), 12)],

@@ -84,6 +84,7 @@ def test_a_map_s_grid_is_as_wide_as_it_says(monkeypatch: pytest.MonkeyPatch, nam
     assert max(box.width, box.height) / 2 / sheet.inches / steps[0] <= MOST_SQUARES
 
 
+@pytest.mark.slow
 def test_every_grid_of_a_page_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     grids: list[float] = []
     draw = page.draw_frame
@@ -98,6 +99,7 @@ def test_every_grid_of_a_page_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [t for t in texts if t.startswith("grid")] == [f"grid in pictures {g:g} m" for g in set(grids)]
 
 
+@pytest.mark.slow
 def test_the_map_of_a_show_says_its_grid(monkeypatch: pytest.MonkeyPatch) -> None:
     steps, texts = drawn(monkeypatch, ground, lambda: CONTACT_SHEET.emit(show_plan()))
     assert len(steps) == 1

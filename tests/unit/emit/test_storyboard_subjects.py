@@ -67,6 +67,7 @@ def test_every_subject_has_its_cross_and_its_dot(monkeypatch: pytest.MonkeyPatch
     assert any("41 m away" in t for t in texts)
 
 
+@pytest.mark.slow
 def test_both_subjects_are_drawn_in_full_colour(monkeypatch: pytest.MonkeyPatch) -> None:
     from shotc.emit.storyboard import frame
 

@@ -73,6 +73,7 @@ def test_without_a_place_on_screen_it_is_where_the_edge_is_nearest() -> None:
     assert worst.worst.endswith(" m from the frame's edge")
 
 
+@pytest.mark.slow
 def test_the_worst_is_written_with_its_number(monkeypatch: pytest.MonkeyPatch) -> None:
     texts: list[str] = []
     text = Canvas.text

@@ -50,6 +50,7 @@ def test_samples_do_not_bound_what_lies_between():
     assert limited.fastest(breaks, proved) <= 1.0 + 1e-5
 
 
+@pytest.mark.slow
 def test_the_square_at_three_metres_a_second_is_followed_within_six_centimetres():
     breaks, coef = following.limited_square(15.0)
     assert fly(breaks, coef[None], Conditions()).rmse <= 0.06
@@ -67,6 +68,7 @@ def test_the_solver_of_plan_finds_what_the_papers_programme_finds():
     assert np.abs(plan - paper).max() < 0.02
 
 
+@pytest.mark.slow
 def test_what_is_preferred_dips_before_the_path_does():
     breaks, coef = following.moving_sphere(10.0)
     flown = fly(breaks, coef, Conditions())

@@ -54,6 +54,7 @@ def test_a_cubic_has_the_velocities_of_its_ends() -> None:
         assert [slope(0.0), slope(2.0)] == pytest.approx([start[axis + 3], end[axis + 3]])
 
 
+@pytest.mark.slow
 @both
 def test_all_eight_configurations_are_solved_and_stay_out_of_the_no_fly_circle(reading: Reading) -> None:
     assert len(flown(reading)) == 8
@@ -129,6 +130,7 @@ def test_the_full_cost_is_as_calm_as_the_paper_s(reading: Reading) -> None:
         assert measures[PITCH_JERK] <= 0.03
 
 
+@pytest.mark.slow
 def test_the_lateral_goes_round_the_circle_and_back() -> None:
     one = multidrone.lateral()
     assert one.solved
@@ -138,6 +140,7 @@ def test_the_lateral_goes_round_the_circle_and_back() -> None:
     assert np.abs(one.states[-1, :2] - [30.0, -8.0]).max() < 0.2
 
 
+@pytest.mark.slow
 def test_the_tables_can_be_read() -> None:
     for reading in (REACHED, PRINTED):
         flyby = text(multidrone.flyby_table(reading, flown(reading), ("a note",)))

@@ -31,6 +31,7 @@ def test_missions_depend_on_the_seed_and_their_number_only():
     assert missions(3, seed=8) != missions(3)
 
 
+@pytest.mark.slow
 def test_check_accepts_every_mission_and_composition_puts_each_target_on_its_set():
     for draft in missions(60):
         assert not has_errors(check_source(draft.text.encode(), draft.name, None).diagnostics)
@@ -43,6 +44,7 @@ def test_check_accepts_every_mission_and_composition_puts_each_target_on_its_set
         assert ir.mission.drones[0].aspect == pytest.approx(ASPECT)
 
 
+@pytest.mark.slow
 def test_the_noise_of_the_authors_framing_is_as_stated():
     drafts = missions(60)
     off = np.array(
@@ -68,6 +70,7 @@ def still_leg(curve: Piecewise, target_places: list[tuple[float, float]]) -> tup
     return ir.mission, keyframes, leg
 
 
+@pytest.mark.slow
 def test_a_camera_on_a_line_shows_what_geometry_says():
     # The camera slides sideways past a target straight ahead: u = -x / (d tan(hfov/2)), jerk zero.
     draft = next(d for d in missions(20) if d.targets == 1)
@@ -140,6 +143,7 @@ def test_a_percentile_is_one_of_the_values():
     assert percentile(np.array([3.0]), 0.95) == 3.0
 
 
+@pytest.mark.slow
 def test_two_missions_from_text_to_table():
     results = {"none": [one(d.name, "none", convex_path(d)) for d in missions(2)]}
     for result in results["none"]:
@@ -175,6 +179,7 @@ def test_the_page_is_filled_between_its_marks_again_and_again():
         page.filled("nothing", "body")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lens", [20, 100])
 def test_near_a_subject_the_refiner_shows_all_of_it_through_any_lens(lens):
     (draft,) = lenses.drawn(lens, 1)
@@ -184,6 +189,7 @@ def test_near_a_subject_the_refiner_shows_all_of_it_through_any_lens(lens):
     assert result.shown.error.mean() < 0.01
 
 
+@pytest.mark.slow
 def test_a_mission_beside_another_drone_is_the_same_mission():
     (draft,) = missions(1)
     alone, beside = (one(d.name, "none", convex_path(d)).shown for d in (draft, lenses.beside(draft)))

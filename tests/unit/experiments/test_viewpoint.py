@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from tests.experiments.papers import viewpoint
 from tests.experiments.papers.report import text
@@ -18,6 +19,8 @@ from tests.experiments.papers.viewpoint import (
     portrait,
     roaming,
 )
+
+pytestmark = pytest.mark.slow
 
 
 def test_four_setpoints_are_had_as_asked() -> None:

@@ -37,6 +37,7 @@ def sample(breaks, seed=0):
     return coef, BSpline(knots, coef, DEGREE)
 
 
+@pytest.mark.slow
 @given(widths)
 def test_it_is_the_b_spline(steps):
     breaks = breaks_of(steps)
@@ -46,6 +47,7 @@ def test_it_is_the_b_spline(steps):
     assert value_rows(breaks, s).apply(coef) == pytest.approx(truth(s), abs=1e-10)
 
 
+@pytest.mark.slow
 @given(widths)
 def test_derivatives_up_to_the_fourth_are_continuous(steps):
     breaks = breaks_of(steps)
@@ -88,6 +90,7 @@ def test_energy_is_the_integral_of_the_squared_derivative(order):
     assert float((energy_rows(breaks, order).apply(coef) ** 2).sum()) == pytest.approx(exact)
 
 
+@pytest.mark.slow
 @given(widths)
 def test_linear_functions_are_reproduced(steps):
     breaks = breaks_of(steps)
@@ -96,6 +99,7 @@ def test_linear_functions_are_reproduced(steps):
     assert curve(s)[:, 0] == pytest.approx(3.0 * s - 1.0, abs=1e-9 * (1 + breaks[-1]))
 
 
+@pytest.mark.slow
 @given(widths, st.integers(1, 5))
 def test_finer_breaks_change_nothing(steps, parts):
     breaks = breaks_of(steps)

@@ -71,6 +71,7 @@ def test_every_point_is_of_its_nearest_goal_whatever_they_begin_with() -> None:
         assert distance == pytest.approx(cKDTree(found.goals).query(points)[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [ball_of, cube_of])
 def test_momentum_ends_below_plain_steps(shape: Callable[[int, int], Array]) -> None:
     shares = []
@@ -98,6 +99,7 @@ def test_the_cost_is_that_of_the_reference() -> None:
     assert cost == pytest.approx(0.0904, rel=0.02)
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000), st.integers(1, 60), st.sampled_from([0.0, 0.1, 0.5, 3.0]))
 def test_no_step_raises_the_cost(seed: int, n: int, weight: float) -> None:

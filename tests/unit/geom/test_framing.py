@@ -41,6 +41,7 @@ poses = st.tuples(
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(poses, st.floats(0.3, 8), st.floats(0.5, 30))
 def test_size_and_flags_are_those_of_the_projected_cylinder(pose, radius: float, height: float) -> None:  # type: ignore[no-untyped-def]

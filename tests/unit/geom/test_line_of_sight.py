@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
@@ -30,6 +31,7 @@ def resized(solid: Solid, middle: tuple[float, float], by: float) -> Solid:
     return Prism(tuple((x + by * (u - x), y + by * (v - y)) for u, v in solid.points), bottom, top)
 
 
+@pytest.mark.slow
 @given(a=point, b=point, which=st.integers(0, 2))
 @example(a=(0.0, 0.0, 4.0), b=(0.0, -1e-9, 0.0), which=2)  # past an acute corner
 def test_it_agrees_with_the_one_on_arrays(a, b, which) -> None:

@@ -46,6 +46,7 @@ def dense(curve: Piecewise, count: int = 4001) -> np.ndarray:
     return curve(np.linspace(curve.start, curve.end, count))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(curves())
 def test_norm_bound_holds_at_every_sample_and_is_tight(curve: Piecewise) -> None:
@@ -56,6 +57,7 @@ def test_norm_bound_holds_at_every_sample_and_is_tight(curve: Piecewise) -> None
     assert min(abs(hypot(*there[:3]) - bound.attained), abs(hypot(*there[3:]) - bound.attained)) < 1e-6
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(curves(channels=2))
 def test_channel_bounds_enclose_every_sample(curve: Piecewise) -> None:
@@ -132,6 +134,7 @@ INTO_A_SEAM = Piecewise(
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=30)
 @given(curve=curves(), solid=st.sampled_from(SOLIDS))
 @example(curve=INTO_A_SEAM, solid=L_SHAPE)
@@ -213,6 +216,7 @@ def inside(solid: Solid, p: np.ndarray) -> bool:
     return inside_polygon(solid.points, (p[0], p[1]))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=80)
 @given(
     st.sampled_from(SOLIDS),
@@ -236,6 +240,7 @@ def test_sight_lines_against_marching(solid: Solid, a: tuple, b: tuple) -> None:
         assert not blocks(solid, eye[None], point, least=length / 400)[0]
 
 
+@pytest.mark.slow
 @given(st.floats(0.01, 0.99), st.floats(-9, 9))
 def test_no_sight_line_slips_through_between_two_parts(share: float, rise: float) -> None:
     solid = Prism(tuple((x + 0.1, y + 0.7) for x, y in L_SHAPE.points), 1.0, 8.0)

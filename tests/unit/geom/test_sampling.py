@@ -1,6 +1,7 @@
 """Stretches of a sampled signal: each told once, by its worst sample."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -21,6 +22,7 @@ def test_nothing_is_told_of_nothing() -> None:
     assert worst_of_runs(np.zeros(3), 0.2, 0.5) == []
 
 
+@pytest.mark.slow
 @given(st.lists(st.sampled_from([0.0, 0.3, 0.7, 1.0]), max_size=20))
 def test_it_is_what_walking_along_finds(signal: list[float]) -> None:
     found, best = [], None

@@ -66,6 +66,7 @@ def test_a_collision_between_samples_is_found() -> None:
     assert found.time == pytest.approx(5.0, abs=1e-5)
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 2**31), st.sampled_from([BALL, CAN]), st.integers(2, 25))
 def test_the_bound_is_below_every_sample_and_close_to_one(seed: int, apart: Apart, count: int) -> None:

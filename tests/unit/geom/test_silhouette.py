@@ -62,6 +62,7 @@ def ahead(pose: tuple[float, float, float], depth: float, spread: tuple[float, f
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=120, deadline=None)
 @given(
     st.tuples(angle, pitch, hfov),
@@ -85,6 +86,7 @@ def test_outline_contains_every_point_and_touches_the_exact_extremes(
     np.testing.assert_allclose(found, bounds, atol=1e-3 * scale)
 
 
+@pytest.mark.slow
 @settings(max_examples=80, deadline=None)
 @given(angle, st.floats(-1.0, 1.0), st.floats(7, 25), st.floats(-1.5, 1.5), st.floats(-20, 20))
 def test_what_is_in_front_of_a_cut_cylinder_is_inside_its_outline(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -9,6 +10,8 @@ from shotc.diag.registry import registry
 from shotc.spec.allow import GRAMMAR
 from tests.support.front_passes import resolved
 from tests.support.grammar_missions import mission
+
+pytestmark = pytest.mark.slow
 
 SIDES = {"left": "right", "right": "left"}
 Way = dict[str, object]

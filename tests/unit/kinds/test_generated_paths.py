@@ -132,6 +132,7 @@ def test_a_crane_may_keep_its_distance() -> None:
     assert all(radius(k) == pytest.approx(50) for k in found)
 
 
+@pytest.mark.slow
 @given(st.floats(-20 * pi, 20 * pi), st.floats(-pi, pi), st.floats(1, 100), st.floats(1, 100))
 def test_rings_turn_by_their_sweep_in_small_even_steps(
     sweep: float, start: float, r0: float, r1: float

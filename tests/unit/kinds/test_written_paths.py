@@ -111,6 +111,7 @@ def test_a_long_track_is_thinned_and_stops_are_dropped(tmp_path: Path) -> None:
     assert (found[0].at, found[-1].at) == (rows[0], rows[-1])
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(*[st.floats(-100, 100)] * 3), min_size=2, max_size=200))
 def test_thinning_leaves_no_point_farther_than_the_tolerance(points: list[Vec3]) -> None:
     kept = thin(points, 5.0)
@@ -150,6 +151,7 @@ def test_places_on_earth_agree_with_pymap3d(
     assert to_world(place, origin) == pytest.approx(pymap3d.geodetic2enu(*place, *origin), abs=1e-6)
 
 
+@pytest.mark.slow
 @NEAR_AN_ORIGIN
 def test_a_height_over_the_ground_is_z_and_the_way_back_differs_by_the_curve(
     lat: float, lon: float, dlat: float, dlon: float, height: float

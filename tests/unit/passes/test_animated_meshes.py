@@ -5,9 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from shotc.api import PlanOptions, compile_source
 from tests.support.animated_meshes import animated
+
+pytestmark = pytest.mark.slow
 
 
 def test_goals_follow_each_other(tmp_path: Path) -> None:

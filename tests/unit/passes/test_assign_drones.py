@@ -44,6 +44,7 @@ PLACE = st.floats(-80.0, 80.0)
 START = st.one_of(st.none(), st.floats(0.0, 120.0))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(st.lists(st.tuples(START, st.floats(1.0, 40.0), PLACE, PLACE), min_size=1, max_size=4))
 def test_the_choice_is_the_best_of_all(drawn: list[tuple[float | None, float, float, float]]) -> None:
@@ -60,6 +61,7 @@ def test_the_choice_is_the_best_of_all(drawn: list[tuple[float | None, float, fl
     assert taken <= min(possible) + 1e-3
 
 
+@pytest.mark.slow
 def test_the_nearest_drone_films_and_one_drone_is_never_in_two_places() -> None:
     auto = (SIDE + PASS + TAIL).replace("cam1", "auto").replace("cam2", "auto").replace("cam3", "auto")
     done = compile_source((HEAD + auto).encode(), "m.yaml", None, PlanOptions(refiner="none"))

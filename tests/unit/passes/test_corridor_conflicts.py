@@ -61,6 +61,7 @@ def test_a_remedy_that_is_told_plans_when_it_is_applied():
     assert len(legs(planned(scene(shrunk), through(PAST)), "shot")) == 1
 
 
+@pytest.mark.slow
 def test_a_border_is_widened():
     rim = np.array([[-20.0, -78.0, 4.0], [0.0, -79.7, 8.0], [20.0, -78.0, 4.0]])
     made = mission(inside("field", FIELD), targets=(), home=(-40.0, -60.0, 0.0))
@@ -74,6 +75,7 @@ def test_a_border_is_widened():
     assert len(legs(planned(replace(made, zones=(inside("field", larger),)), through(rim)), "shot")) == 1
 
 
+@pytest.mark.slow
 def test_the_ground_cannot_shrink_but_its_clearance_can():
     low = np.array([[-20.0, 0.0, 4.0], [0.0, 1.0, 2.3], [20.0, 0.0, 4.0]])
     made = mission(targets=())
@@ -113,6 +115,7 @@ def test_what_need_not_give_way_is_not_listed():
     assert fault([0.004, 0.0], [0.0, 0.003, 0.0]).code == "Q008"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("radius", "height"), [(1000, 4), (3000, 4), (1000, 2)])
 def test_a_way_of_kilometres_round_a_rim_of_metres_is_planned(radius, height):
     text = f"""\

@@ -42,6 +42,7 @@ def test_a_circle_is_even_and_an_open_line_has_both_ends() -> None:
     assert rows(bent) == {(0.0, 0.0), (3.0, 0.0), (6.0, 0.0), (6.0, 3.0)}
 
 
+@pytest.mark.slow
 @given(st.integers(1, 40), st.integers(1, 12))
 def test_there_are_as_many_as_asked_for(count: int, shapes: int) -> None:
     edges = [closed(SQUARE + 10.0 * k) for k in range(shapes)]

@@ -97,6 +97,7 @@ shots:
 """
 
 
+@pytest.mark.slow
 def test_a_camera_that_was_placed_stands_there() -> None:
     done = api.compile_source(STANDS.encode(), "stands.yaml", None, api.PlanOptions(refiner="none"))
     assert done.plan is not None, done.diagnostics

@@ -222,6 +222,7 @@ def test_a_picture_that_limits_bend_is_told(period: float, warned: bool) -> None
         assert "period" in done.diagnostics[0].help
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["ellipsoid", "cylinder"])
 def test_drones_matched_at_random_are_pushed_apart(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(5)
@@ -241,6 +242,7 @@ def test_drones_matched_at_random_are_pushed_apart(shape: str, monkeypatch: pyte
     assert stat(done.value, "fleet swarm apart shift") < 4.0
 
 
+@pytest.mark.slow
 def test_curved_ways_that_come_too_near_are_mended() -> None:
     done = planned(turning(60, 20, 1.0, 1.1))
     assert done.value is not None, done.diagnostics
@@ -257,6 +259,7 @@ def test_places_that_are_too_near_are_told() -> None:
     assert "0.80 m" in found.message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wide", [1.0, 3.0, 12.0])
 def test_pads_at_just_the_distance_that_is_kept_are_enough(wide: float) -> None:
     """The proof's gap goes with the distance, and so does what it may fall short of."""
@@ -269,6 +272,7 @@ def test_pads_at_just_the_distance_that_is_kept_are_enough(wide: float) -> None:
     assert closest(flight.breaks, flight.coef, asked).attained == pytest.approx(wide, abs=2e-6 * wide)
 
 
+@pytest.mark.slow
 def test_two_fleets_that_meet_are_told() -> None:
     near = fleet(8, name="other", pads=tuple(map(tuple, (grid(8) + np.array([60.0, 0, 0])).tolist())))
     sets = {"show": [[lattice(8, [0, 0, 40], 2.0, 2)]], "next": [[lattice(8, [4, 0, 40], 2.0, 2)]]}

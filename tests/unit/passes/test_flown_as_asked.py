@@ -14,6 +14,8 @@ from tests.support.kinds_plan import kinds_plan
 from tests.support.records import replace
 from tests.support.resealed_plans import Document, resealed
 
+pytestmark = pytest.mark.slow
+
 Edit = Callable[[Document], Any]
 
 

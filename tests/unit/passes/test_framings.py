@@ -24,6 +24,8 @@ from shotc.planfile.write import plan_bytes
 from tests.support.front_passes import clean, placed
 from tests.support.remedies.apply import remedies
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: faces

@@ -69,6 +69,7 @@ def test_the_distance_of_a_segment_is_that_of_its_nearest_point(solid, a, b):
     assert found >= sampled - np.linalg.norm(b - a) / 2000
 
 
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(solids, hulls(6), st.integers(0, 99))
 def test_a_gap_proves_a_distance(solid, hull, seed):
@@ -79,6 +80,7 @@ def test_a_gap_proves_a_distance(solid, hull, seed):
     assert float(distances(solid, weights @ hull).min()) >= gap[0] - 1e-9
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(solids, points, points)
 def test_the_gap_of_a_segment_is_nearly_its_distance(solid, a, b):
@@ -89,6 +91,7 @@ def test_the_gap_of_a_segment_is_nearly_its_distance(solid, a, b):
     assert gap[0] >= 0.9 * true - 0.01
 
 
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(solids, hulls(2), hulls(6), st.floats(0.1, 2))
 def test_control_points_beyond_the_plane_keep_the_curve_clear(solid, chord, ctrl, clearance):

@@ -21,6 +21,8 @@ from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.sources import bodies_of
 from tests.support.display_missions import display, fleet, picture, show
 
+pytestmark = pytest.mark.slow
+
 CENTRE = (0.0, 20.0, 40.0)
 EYE = (0.0, -90.0, 2.0)
 APART = Apart("ellipsoid", 1.2, 2.0, 0.2)

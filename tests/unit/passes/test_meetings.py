@@ -8,6 +8,8 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 
+pytestmark = pytest.mark.slow
+
 PAIR = """\
 shotc: 1
 mission: pair

@@ -51,6 +51,7 @@ def at_home(plan: VerifiedIR) -> Claim:
     return next(c for c in plan.certificate if c.constraint == "target walker at home")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mission", [PADS, STATIC])
 @pytest.mark.parametrize(
     ("track", "start", "off"), [(CROSSES, "start: 20,", 6.3), (CROSSES, "", 6.3), (SOON, "start: 20,", 4.5)]
@@ -67,6 +68,7 @@ def test_a_drone_is_off_its_pad_before_a_target_comes_over_it(
     assert lifted > 2.4
 
 
+@pytest.mark.slow
 def test_a_drone_waits_with_its_landing_until_its_pad_is_free() -> None:
     plan, found = compiled(PADS, TARRIES, "start: 16,")
     assert plan is not None, found
@@ -96,6 +98,7 @@ def test_a_drone_that_films_nothing_is_in_the_way_for_all_the_mission() -> None:
     assert "films nothing" in told.notes[0]
 
 
+@pytest.mark.slow
 def test_what_planning_alone_can_tell_names_the_pad_and_the_track() -> None:
     plan, found = compiled(PADS, STAYS)
     assert plan is None
@@ -119,6 +122,7 @@ shots:
 """
 
 
+@pytest.mark.slow
 def test_a_motion_begins_where_walkers_have_just_passed() -> None:
     """Three seconds before it begins they are there: the drone comes from aside, just in time."""
     plan, found = compiled(WALKERS, "")

@@ -40,6 +40,8 @@ from tests.support.timing_paths import (
     uses,
 )
 
+pytestmark = pytest.mark.slow
+
 
 class TestFlight:
     def test_phases_cover_the_flight_without_gaps(self) -> None:

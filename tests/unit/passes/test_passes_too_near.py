@@ -72,6 +72,7 @@ def told(found: Diagnostic, key: str) -> float:
     return float(found.help.split(f"`{key}: ")[1].split("`")[0])
 
 
+@pytest.mark.slow
 def test_a_period_that_is_too_short_comes_with_one_that_does() -> None:
     said: list[str] = []
     (found,) = planned(half_a_turn(0.27), said).diagnostics
@@ -90,6 +91,7 @@ def test_a_period_that_is_too_short_comes_with_one_that_does() -> None:
     assert any(f"would `period: {period:.2f}` do" in text for text in said)
 
 
+@pytest.mark.slow
 def test_a_transition_that_is_too_short_comes_with_one_that_does(monkeypatch: pytest.MonkeyPatch) -> None:
     """All swap sides through the middle, which no matching of ours would have them do."""
     kindly = order.matched

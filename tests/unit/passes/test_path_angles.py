@@ -195,6 +195,7 @@ shots:
 """
 
 
+@pytest.mark.slow
 def test_keyframes_that_a_wall_pushes_together_do_not_spin_the_camera():
     """Half of the spiral lies behind a wall, where all its keyframes are nearest to the path's end."""
     options = PlanOptions(refiner="none", stop_after="solve-path-qp")

@@ -29,6 +29,7 @@ def test_the_path_does_not_depend_on_the_duration():
     assert all(curve.ctrl.tobytes() == curves[0].ctrl.tobytes() for curve in curves)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, 3, 4])
 def test_the_shortest_duration_named_is_met_and_a_hundredth_less_is_not(count):
     made = mission()

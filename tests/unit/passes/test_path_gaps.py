@@ -50,6 +50,7 @@ def across(*zones: Zone, clearance: float = 2.0):
     return solve(made, shot([free(0, (-20, 0, 8)), free(1, (20, 0, 8))]))
 
 
+@pytest.mark.slow
 def test_a_gap_under_a_ceiling_is_measured_from_the_ceiling():
     wall = out("wall", block((-1, 1), (-90, 90), (0, 59.2)))
     (fault,) = across(inside("field", FIELD), wall).diagnostics
@@ -58,6 +59,7 @@ def test_a_gap_under_a_ceiling_is_measured_from_the_ceiling():
     assert across(inside("field", FIELD), lower).value is not None
 
 
+@pytest.mark.slow
 def test_the_ground_is_nothing_to_move_but_its_clearance_is():
     wall = out("wall", block((-1, 1), (-90, 90), (2.4, 70)))
     field = inside("field", replace(FIELD, bottom=-5.0))
@@ -69,6 +71,7 @@ def test_the_ground_is_nothing_to_move_but_its_clearance_is():
     assert across(field, wall, clearance=lower).value is not None
 
 
+@pytest.mark.slow
 def test_of_many_zones_that_close_a_way_any_one_is_enough():
     sides = [((10, 30), (8, 12)), ((10, 30), (-12, -8)), ((8, 12), (-12, 12)), ((28, 32), (-12, 12))]
     walls = [out(f"w{i}", block(x, y, (-20, 60))) for i, (x, y) in enumerate(sides)]

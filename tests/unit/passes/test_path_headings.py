@@ -12,6 +12,8 @@ from shotc.ir.path import CAM_YAW
 from shotc.solvers.headings import METHODS
 from tests.support.front_passes import placed
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: look

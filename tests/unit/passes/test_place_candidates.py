@@ -59,6 +59,7 @@ def whole(setting: Setting, uv: tuple[float, float]) -> bool:
     return max(abs(b) for b in silhouette_bounds(camera, setting.offset, setting.radius, setting.height)) <= 1
 
 
+@pytest.mark.slow
 @given(settings, places)
 def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_candidate(setting, THIRDS, asked)
@@ -72,6 +73,7 @@ def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting: Se
         assert setting.apart(asked, chosen) <= min(setting.apart(asked, p) for p in good) + 1e-9
 
 
+@pytest.mark.slow
 @given(settings, places)
 @example(TWO_STRETCHES, (1.0, 1.0))
 @example(TWO_STRETCHES, (-1.0, 1.0))
@@ -98,6 +100,7 @@ def test_a_target_moved_until_it_fits_is_whole_and_not_only_but_for_rounding() -
     assert 0.0 <= near.slack(chosen) <= 2 * TOUCH
 
 
+@pytest.mark.slow
 @given(settings, places)
 def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_on_verticals(setting, THIRDS, asked)

@@ -46,6 +46,7 @@ def nearest(points: np.ndarray, apart: Apart) -> float:
     return float(pdist(points * (1, 1, stretch(apart))).min())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("info", [c for c in CODES if c.phase == "plan"], ids=lambda c: c.slug)
 def test_the_examples_that_planning_finds(info: CodeInfo) -> None:
     for text, codes in ((info.failing, {info.code}), (info.passing, set())):
@@ -119,6 +120,7 @@ def test_frames_come_in_the_order_of_the_pictures() -> None:
     assert [(f.display, f.picture, f.index) for f in frames] == [("show", 0, 0), ("show", 1, 0)]
 
 
+@pytest.mark.slow
 def test_frames_of_an_animation_follow_each_other() -> None:
     files = {f"{k}.ply": ply(sphere_mesh(6.0, 12) + np.array([2.0 * k, 0, 0])) for k in range(6)}
     walk = Model(tuple(files), 1.0, (0.0, 0.0, 40.0), None, 0.0)
@@ -168,6 +170,7 @@ def test_a_point_cloud_is_its_points() -> None:
     assert (fault.code, "20 points" in fault.message) == ("D061", True)
 
 
+@pytest.mark.slow
 def test_too_many_drones_and_what_would_do() -> None:
     tight = Sphere(MIDDLE, 5.0)
     (fault,) = PlaceGoals().run(show(display(picture(tight)), fleet(200)), PassContext()).diagnostics
@@ -190,6 +193,7 @@ def apart_enough(points, of) -> bool:
     return bool(pdist(scaled).min() >= spacing(of) * (1 - 1e-9))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("viewpoint", [None, (0.0, -200.0, 2.0)])
 def test_drones_without_room_stay_dark_behind_the_outline_of_a_cube(viewpoint) -> None:
     cube = Box(MIDDLE, (24.0, 24.0, 24.0), 0.0)
@@ -206,6 +210,7 @@ def test_drones_without_room_stay_dark_behind_the_outline_of_a_cube(viewpoint) -
     assert frame.points[dark][:, 1].min() > frame.points[~dark][:, 1].max() + 1.0
 
 
+@pytest.mark.slow
 def test_dark_drones_of_a_solid_stand_in_front_where_there_is_no_room_behind() -> None:
     """As those of a flat picture do: one rule places both."""
     cube = Box(MIDDLE, (24.0, 24.0, 24.0), 0.0)
@@ -219,6 +224,7 @@ def test_dark_drones_of_a_solid_stand_in_front_where_there_is_no_room_behind() -
     assert apart_enough(frame.points, crowd.apart)
 
 
+@pytest.mark.slow
 def test_of_an_animation_the_same_drones_stay_dark_in_every_frame() -> None:
     files = {f"w{k}.ply": ply(sphere_mesh(5.0 + 0.5 * k, 12)) for k in range(3)}
     model = Model(tuple(files), 2.0, MIDDLE, None, 0.0)

@@ -278,6 +278,7 @@ points = st.tuples(st.floats(-120, 120), st.floats(-120, 120), st.floats(3, 60))
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(
     points,

@@ -32,6 +32,7 @@ def turn(first: float, second: float) -> float | None:
     return None if found is None else -degrees(found)
 
 
+@pytest.mark.slow
 @given(WRITTEN, WRITTEN)
 def test_turns_are_the_difference_or_free(first: float, second: float) -> None:
     found = turn(first, second)
@@ -41,6 +42,7 @@ def test_turns_are_the_difference_or_free(first: float, second: float) -> None:
         assert found == pytest.approx(second - first, abs=1e-6)
 
 
+@pytest.mark.slow
 @given(WRITTEN, WRITTEN)
 def test_a_stated_turn_leads_to_the_yaw(first: float, second: float) -> None:
     a, b = clean(MISSION.format(first, second)).shots[0].keyframes

@@ -14,6 +14,8 @@ from shotc.passes.solve_path_qp.explain.on_clock import left_places
 from shotc.planning.clock import position
 from shotc.planning.clock.preferred import Cost
 
+pytestmark = pytest.mark.slow
+
 FAR = """\
 shotc: 1
 mission: far

@@ -10,6 +10,8 @@ from shotc.ir.passes import Outcome
 from tests.support.bad_refiners import PASS, ROUND, Odd, along, bumped, text
 from tests.support.remedies.apply import remedies
 
+pytestmark = pytest.mark.slow
+
 DURATION = 22
 
 

@@ -98,6 +98,7 @@ def with_legs(ir: PathIR, drone: str, act) -> PathIR:
     return replace(ir, timed=tuple(timed))
 
 
+@pytest.mark.slow
 def test_a_shot_put_back_keeps_its_time_and_its_neighbours():
     made = rejoined(path(), {"pass": bumped("pass")})
     drone = made.keyframes.mission.drone("cam1")
@@ -124,6 +125,7 @@ def test_where_a_shot_looks_elsewhere_at_its_ends_the_ways_beside_it_turn_in_the
     assert outcome.value is not None, outcome.diagnostics
 
 
+@pytest.mark.slow
 def test_a_shot_that_takes_longer_than_its_convex_path_is_not_put_back():
     straight = camera("pass")
     winding = straight.ctrl.copy()
@@ -172,6 +174,7 @@ def test_a_refined_leg_that_misses_its_keyframe_is_a_fault():
     assert {"R002", "R007"} <= codes
 
 
+@pytest.mark.slow
 def test_a_spoilt_shot_that_may_is_flown_convex_and_the_others_stay_refined():
     made = rejoined(path(), {"pass": bumped("pass"), "round": bumped("round")})
 

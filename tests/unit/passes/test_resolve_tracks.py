@@ -339,6 +339,7 @@ def test_a_shot_that_comes_after_another_does_not_begin_before_that_ends(tmp_pat
     assert "the shot lasts 11.00 s and begins at 30.00 s at the earliest" in d.notes[0]
 
 
+@pytest.mark.slow
 def test_a_million_rows_are_refused_at_once(tmp_path: Path) -> None:
     for rows in ("".join(f"{i},1,2,3\n" for i in range(1_000_000)), "\n".join("1" * 1_000_000)):
         file = recorded(tmp_path, rows)
@@ -346,6 +347,7 @@ def test_a_million_rows_are_refused_at_once(tmp_path: Path) -> None:
         assert d.code == "N009"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["x,y,z", "lat,lon,height"])
 def test_as_many_rows_as_are_read_are_checked(tmp_path: Path, place: str) -> None:
     values = "{0},0,1" if place == "x,y,z" else "{1},8.5417,1"

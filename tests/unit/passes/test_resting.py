@@ -21,6 +21,8 @@ from shotc.planning.clock.run_up import RunUp
 from shotc.planning.free_space import Room, Wall
 from tests.support.owners import owner
 
+pytestmark = pytest.mark.slow
+
 LIMITS = Limits(
     speed=8.0, climb=3.0, descent=2.0, acceleration=3.0, jerk=8.0, yaw_rate=1.0, yaw_acceleration=1.0
 )

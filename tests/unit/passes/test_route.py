@@ -77,6 +77,7 @@ def test_heights_change_evenly_along_the_way():
     assert route[:, 2] == pytest.approx(5 + 10 * flat / flat[-1])
 
 
+@pytest.mark.slow
 def test_corners_above_one_another_are_one_where_heights_change_evenly():
     """The way ends close over a roof, whose corner right above the end is levelled down onto it."""
     roof, tower = Cylinder((112.6, -108.8), 119.4, 0.0, 11.75), Cylinder((24.7, 94.3), 110.0, 0.0, 12.4)
@@ -112,6 +113,7 @@ def test_ends_close_to_a_face_find_their_way_out():
     assert np.abs(route[1:-1, 1]).max() > 10.6
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(
     st.lists(

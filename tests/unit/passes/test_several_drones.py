@@ -9,6 +9,8 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.ir.trajectory import VerifiedIR
 
+pytestmark = pytest.mark.slow
+
 KEPT, GIVEN_UP = 1.0, 2.5  # metres off a place
 
 HEAD = """\

@@ -61,6 +61,7 @@ def inside(source: Source, p: Vec3) -> bool:
     return hypot(hypot(right, level) - source.radius, along) <= source.tube
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=2, max_size=25), aparts)
 def test_the_nearest_pads_are_found(pads: list[Vec3], apart: Apart) -> None:
     found = nearest_pair(pads, apart)
@@ -95,6 +96,7 @@ def test_how_deep_a_point_lies_agrees_with_the_shape(source: Source, share: Vec3
         assert all(a - 1e-9 <= x <= b + 1e-9 for a, x, b in zip(low, p, high, strict=True))
 
 
+@pytest.mark.slow
 @given(solids, st.randoms(use_true_random=False))
 def test_balls_lie_in_the_shape_and_reach_as_high_and_low(source: Source, rng: random.Random) -> None:
     shape = balls(source)
@@ -131,6 +133,7 @@ def packed(gap: float, stretch: float, offset: Vec3) -> list[Vec3]:
     ]
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(solids, st.sampled_from([(1.0, 1.0), (1.0, 2.0), (2.0, 1.2)]), st.tuples(*[st.floats(0, 1)] * 3))
 def test_the_densest_packing_never_beats_the_bound(
@@ -142,6 +145,7 @@ def test_the_densest_packing_never_beats_the_bound(
     assert len(held) <= most_drones(picture(source), apart)
 
 
+@pytest.mark.slow
 @given(st.floats(1.0, 30.0), st.integers(2, 400))
 def test_points_spread_on_a_sphere_never_beat_the_bound(radius: float, count: int) -> None:
     golden = pi * (3 - sqrt(5))

@@ -71,6 +71,7 @@ def test_a_still_camera_is_a_hold_leg():
     assert len(legs(path, "transit")) == 1  # the second shot starts where the first one stands
 
 
+@pytest.mark.slow
 def test_a_generated_path_leaves_its_ideal_and_says_so():
     pole = Cylinder((0.0, 40.0), 3.0, 0.0, 30.0)
     made = mission(out("pole", pole), inside("field", FIELD), targets=(TOWER,))
@@ -121,6 +122,7 @@ def test_the_transit_altitude_obeys_ground_and_floors():
     assert 7.6 < end[2] < 7.8
 
 
+@pytest.mark.slow
 def test_the_same_input_gives_the_same_path():
     made = mission(TREE, HOUSE, inside("field", FIELD), body="forward")
     one, two = (planned(made, shot(circle(TOWER, 7, 40, 20, sweep=pi))) for _ in range(2))
@@ -138,6 +140,7 @@ def test_sizes_from_decimetres_to_kilometres_are_planned(scale):
     assert np.abs(passed - points).max() < 1e-6 * max(1.0, scale)
 
 
+@pytest.mark.slow
 def test_plan_says_once_that_an_ideal_path_is_blocked():
     text = """\
 shotc: 1

@@ -14,6 +14,7 @@ from shotc.planning.path.turns import steady
 from tests.support.path_scenes import framed, free, legs, mission, planned, shot
 
 
+@pytest.mark.slow
 @settings(max_examples=80, deadline=None, derandomize=True)
 @given(
     steps=st.lists(st.floats(0.01, 50.0), min_size=1, max_size=12),

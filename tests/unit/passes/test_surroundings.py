@@ -62,6 +62,7 @@ def fine(shot: str) -> Piecewise:
     return restrict(curve.channels(0, 1, 2), subdivide(curve.breaks, 4))
 
 
+@pytest.mark.slow
 def test_flights_are_as_the_time_pass_flies_them() -> None:
     timed = ParameterizeTime().run(path(), PassContext()).value
     assert timed is not None

@@ -81,6 +81,7 @@ class TestKeyframeTimes:
         assert still(ir, start, start + 3.0)
         assert end - start == pytest.approx(15.0, abs=1e-9)
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("end", [None, 20.0])
     def test_too_early_names_the_earliest_which_then_works(self, end: float | None) -> None:
         marks = self.marks((0.0, None), (20.0, 2.0), (40.0, None))
@@ -94,6 +95,7 @@ class TestKeyframeTimes:
         ir = timed(flight(mission(), straight(marks=again, duration=end)))
         assert self.at(ir, earliest) == pytest.approx(20.0, abs=8.0 * 1e-3)
 
+    @pytest.mark.slow
     def test_the_rest_too_fast_blames_the_duration(self) -> None:
         marks = self.marks((0.0, None), (10.0, 10.0), (40.0, None))
         (fault,) = faults(flight(mission(), straight(marks=marks, duration=12.0)))

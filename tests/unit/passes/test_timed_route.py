@@ -18,6 +18,8 @@ from shotc.ir.path import BODY_YAW, CAM_YAW
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.front_passes import clean
 
+pytestmark = pytest.mark.slow
+
 RUN = """\
 shotc: 1
 mission: run

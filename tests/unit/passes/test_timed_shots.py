@@ -34,11 +34,13 @@ from tests.support.timing_paths import (
 
 
 class TestPace:
+    @pytest.mark.slow
     def test_pace_is_a_share_of_every_limit(self) -> None:
         half = s_curve_time(40.0, 4.0, 1.5, 4.0)
         assert shot_time(straight(pace=0.5)) == pytest.approx(half, rel=0.02)
         assert shot_time(straight(pace=0.5)) >= half * (1 - 1e-6)
 
+    @pytest.mark.slow
     def test_what_is_not_filmed_is_flown_at_full_limits(self) -> None:
         drone = timed(flight(mission(), straight(pace=0.3))).drones[0]
         takeoff = drone.phases[0]
@@ -62,6 +64,7 @@ class TestDuration:
         # Both moves are slowed alike, and they are alike.
         assert middle[0] - (start + 1.0) == pytest.approx(end - 0.5 - middle[1], rel=1e-3)
 
+    @pytest.mark.slow
     def test_too_short_names_the_shortest_which_then_works(self) -> None:
         (fault,) = faults(flight(mission(), straight(duration=6.0)))
         assert fault.code == "T001"
@@ -72,6 +75,7 @@ class TestDuration:
         assert fault.labels[0].span == mission().origins.values["shots", 0, "timing", "duration"]
         assert f"duration: {shortest:.2f} s" in fault.help
 
+    @pytest.mark.slow
     def test_too_short_names_the_limit_that_binds_and_how_far_to_raise_it(self) -> None:
         (fault,) = faults(flight(mission(), straight(duration=7.8)))
         assert any("from keyframe 1 to 2" in note and "speed 8.00 m/s" in note for note in fault.notes)
@@ -85,6 +89,7 @@ class TestDuration:
         slower = mission(limits=replace(limits, speed=0.95 * raised))
         assert faults(flight(slower, straight(duration=7.8)))[0].code == "T001"
 
+    @pytest.mark.slow
     def test_a_raised_speed_is_told_with_the_wind_that_was_taken_off(self) -> None:
         calm = faults(flight(mission(), straight(duration=7.8)))[0].help
         windy = faults(flight(replace(mission(), wind=2.0), straight(duration=7.8)))[0].help
@@ -96,6 +101,7 @@ class TestDuration:
         (fault,) = faults(flight(mission(), straight(duration=9.0, stops=stops)))
         assert number_before(fault.message, " s is the shortest") >= 10.0 + FORTY
 
+    @pytest.mark.slow
     @settings(max_examples=8, deadline=None, derandomize=True)
     @given(seed=st.integers(0, 1000), share=st.floats(1.0, 5.0))
     def test_any_duration_from_the_shortest_up_can_be_flown(self, seed: int, share: float) -> None:
@@ -132,6 +138,7 @@ class TestStart:
         assert (transit.name, transit.end) == ("transit", 30.0)
         assert still(ir, 29.0, 30.0)
 
+    @pytest.mark.slow
     def test_too_early_names_the_earliest_which_then_works(self) -> None:
         (fault,) = faults(flight(mission(), straight(start=5.0)))
         assert fault.code == "T003"
@@ -141,6 +148,7 @@ class TestStart:
         assert "transit" in fault.notes[0]
         assert fault.labels[0].span == mission().origins.values["shots", 0, "timing", "start"]
 
+    @pytest.mark.slow
     def test_a_fault_does_not_bring_others_after_it(self) -> None:
         found = faults(flight(mission(), straight(start=14.0, duration=1.0)))
         assert [d.code for d in found] == ["T001"]

@@ -16,6 +16,8 @@ from shotc.ir.transits import Way, ways
 from shotc.passes.verify import judge
 from tests.support.records import replace
 
+pytestmark = pytest.mark.slow
+
 HEAD = """\
 shotc: 1
 mission: m

@@ -120,6 +120,7 @@ def test_one_drone_that_is_faster_is_named() -> None:
     assert found["acceleration"].position[0] == pytest.approx(8.0, abs=3.0)
 
 
+@pytest.mark.slow
 def test_bounds_are_above_dense_samples_and_near() -> None:
     rng = np.random.default_rng(7)
     pads = tuple((3.0 * i, 0.0, 0.0) for i in range(30))

@@ -105,6 +105,7 @@ def test_a_target_within_a_zone_is_hidden_in_every_frame_and_that_is_an_error_un
     assert codes(with_mission(zones=(*MISSION.zones, hall), shots=(meant,))) == []
 
 
+@pytest.mark.slow
 def test_a_target_hidden_in_just_most_of_the_frames_is_an_error() -> None:
     """Between hidden for a while, which is told, and hidden in most frames, there is half of them."""
     found = {}
@@ -157,6 +158,7 @@ def test_a_range_to_paste_holds_for_both_ends() -> None:
     assert not [d for d in kept if d.code == "V021"]
 
 
+@pytest.mark.slow
 def test_a_broken_screen_error_is_told_with_a_promise_to_paste() -> None:
     aside = shifted(CAM_YAW, radians(3))
     (found,) = promising(Promise(screen_error=0.05), aside)

@@ -57,6 +57,7 @@ def test_a_pan_that_check_tells_is_told_once_a_shot() -> None:
     assert told(planned("{duration: 5}")) == ["V051"]
 
 
+@pytest.mark.slow
 def test_the_duration_of_the_remedy_mends_it() -> None:
     (found,) = (d for d in planned("auto").diagnostics if d.code == "V051")
     asked = re.search(r"duration: [\d.]+ s", found.help or "")
@@ -64,6 +65,7 @@ def test_the_duration_of_the_remedy_mends_it() -> None:
     assert told(planned(f"{{{asked[0]}}}")) == []
 
 
+@pytest.mark.slow
 def test_what_is_meant_is_not_told() -> None:
     assert told(planned("auto", SWEEP.replace("drone: cam", "drone: cam\n    allow: [fast-pan]"))) == []
     assert told(planned("auto", SWEEP.replace("shots:", "rules: {allow: [fast-pan]}\nshots:"))) == []

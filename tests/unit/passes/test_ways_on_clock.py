@@ -37,6 +37,8 @@ from shotc.planning.timing.estimate import leg_time
 from tests.support.front_passes import placed
 from tests.support.owners import owner
 
+pytestmark = pytest.mark.slow
+
 EMPTY = Room((), (), ())
 PAIR = """\
 shotc: 1

@@ -1,6 +1,10 @@
 from __future__ import annotations
 
+import pytest
+
 from shotc.api import PlanOptions, compile_source
+
+pytestmark = pytest.mark.slow
 
 MISSION = """\
 shotc: 1

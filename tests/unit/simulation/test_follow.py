@@ -77,6 +77,7 @@ def test_no_lag_is_left_on_a_straight_line():
     assert flown.error[0, -1] < 0.06
 
 
+@pytest.mark.slow
 def test_feed_forward_turns_a_corner_closer():
     path = spline(square(10.0))
     with_it, without = fly(*path, Conditions()), fly(*path, Conditions(gains=Gains(forward=0.0)))
@@ -84,6 +85,7 @@ def test_feed_forward_turns_a_corner_closer():
     assert with_it.error.max() < without.error.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hold", [2, 4])
 @pytest.mark.parametrize("degrees", [90, 150, 180])
 def test_nobody_is_left_behind_a_turn_after_a_hold(degrees, hold):
@@ -94,6 +96,7 @@ def test_nobody_is_left_behind_a_turn_after_a_hold(degrees, hold):
     assert cured.error.max() < 0.4
 
 
+@pytest.mark.slow
 def test_gusts_leave_nobody_behind_either():
     path = spline(there_and_off(180, 2), repeats=30)
     cured = fly(*path, Conditions(gusts=Gusts(0.3), seed=3))
@@ -110,6 +113,7 @@ def test_a_look_ahead_leads_by_its_time():
     assert lead == pytest.approx(2.0 * 0.1, abs=0.01)
 
 
+@pytest.mark.slow
 def test_flights_depend_on_their_seed_alone():
     path = spline(square(5.0), 4)
     one, same, other = (fly(*path, Conditions(gusts=Gusts(0.3), seed=s)) for s in (1, 1, 2))

@@ -27,6 +27,7 @@ def test_heights_are_stretched():
     assert nearest(np.array([0.0, 1.0]), still, apart, 1.0).distance == pytest.approx(2.0 / 3.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["ellipsoid", "cylinder"])
 def test_as_near_as_a_fine_search_finds_them(shape):
     rng = np.random.default_rng(4)

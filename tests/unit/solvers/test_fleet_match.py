@@ -47,6 +47,7 @@ def test_a_large_fleet_has_no_crossing_pair_and_nearly_the_least_sum(
     assert least <= ((starts - goals[order]) ** 2).sum() * (1 + 1e-12) <= 1.3 * least
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 2**31), st.integers(2, 40), st.booleans())
 def test_straight_moves_keep_the_distance_that_is_promised(seed: int, count: int, large: bool) -> None:

@@ -7,6 +7,8 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 pytest.importorskip("toppra", reason="it has wheels for Linux x86-64 only", exc_type=ModuleNotFoundError)
 
 SEEN = """

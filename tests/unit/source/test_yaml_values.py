@@ -151,6 +151,7 @@ JSON = st.recursive(
 )
 
 
+@pytest.mark.slow
 @given(st.dictionaries(WORDS, JSON, max_size=4))
 @example({"a": 1e300, "<<": "\u2028"})
 def test_json_is_read_as_json(data: dict[str, Any]) -> None:
@@ -160,6 +161,7 @@ def test_json_is_read_as_json(data: dict[str, Any]) -> None:
     assert found.root == json.loads(text)
 
 
+@pytest.mark.slow
 @given(st.dictionaries(WORDS, JSON, max_size=4))
 def test_spans_cut_out_what_was_written(data: dict[str, Any]) -> None:
     text = json.dumps(data, ensure_ascii=True, indent=1)

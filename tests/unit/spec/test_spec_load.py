@@ -236,6 +236,7 @@ def test_the_fingerprint_is_of_the_bytes(loads):
     assert one.mission.sha256 == same.mission.sha256 != other.mission.sha256
 
 
+@pytest.mark.slow
 def test_each_wrong_value_gives_one_report_in_its_place(kinds, whole_language):
     tree = tree_of(whole_language)
     checked = 0
@@ -264,6 +265,7 @@ def allows_mapping(path):
     return path[-1] in names or (len(path) > 1 and path[-2] == "points") or path[:-1] == ("shots",)
 
 
+@pytest.mark.slow
 @given(JUNK)
 @SLOW
 def test_any_tree_is_judged_without_an_exception(kinds, tree):
@@ -272,6 +274,7 @@ def test_any_tree_is_judged_without_an_exception(kinds, tree):
     assert result.diagnostics
 
 
+@pytest.mark.slow
 @given(st.data())
 @SLOW
 def test_a_mutated_mission_is_judged_without_an_exception(kinds, whole_language, data):
@@ -298,6 +301,7 @@ def test_any_bytes_are_judged_without_an_exception(kinds, data):
     assert load(data, "m", None, kinds).diagnostics
 
 
+@pytest.mark.slow
 def test_loading_needs_no_heavy_library():
     heavy = {"numpy", "scipy", "cvxpy", "clarabel", "toppra", "rerun", "matplotlib"}
     code = (
@@ -324,6 +328,7 @@ def test_endless_words_give_short_messages(loads, right, wrong):
     assert len(found.message + found.help) < 400
 
 
+@pytest.mark.slow
 def test_thousands_of_faults_in_one_mapping_are_judged_in_linear_time(loads):
     keys = "\n".join(f"oddity{i}: 1" for i in range(4000))
     found = loads(BASE + keys + "\n").diagnostics

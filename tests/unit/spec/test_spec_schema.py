@@ -43,6 +43,7 @@ def node(tree, path):
     return tree
 
 
+@pytest.mark.slow
 def test_it_is_a_schema_of_the_dialect(document):
     Draft202012Validator.check_schema(document)
     assert document["$schema"].endswith("2020-12/schema")
@@ -101,6 +102,7 @@ def verdicts(tree, accepts, kinds):
     return accepts(tree), load(json.dumps(tree).encode(), "m", None, kinds).mission is not None
 
 
+@pytest.mark.slow
 def test_leaving_out_any_key_is_judged_alike(accepts, kinds, whole_language):
     seen = set()
     for piece in pieces(tree_of(whole_language)):
@@ -115,6 +117,7 @@ def test_leaving_out_any_key_is_judged_alike(accepts, kinds, whole_language):
     assert seen == {True, False}
 
 
+@pytest.mark.slow
 def test_adding_a_key_anywhere_is_refused_by_both(accepts, kinds, whole_language):
     named = {"zones", "targets", "drones", "fleets"}
     for piece in pieces(tree_of(whole_language)):
@@ -125,6 +128,7 @@ def test_adding_a_key_anywhere_is_refused_by_both(accepts, kinds, whole_language
                 assert verdicts(mutant, accepts, kinds) == (False, False), path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("junk", [None, True, [], {}, "7 parsecs", -7, 1e300, [[0]]], ids=repr)
 def test_any_value_replaced_by_junk_is_judged_alike(junk, accepts, kinds, whole_language):
     for piece in pieces(tree_of(whole_language)):

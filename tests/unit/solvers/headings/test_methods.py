@@ -74,6 +74,7 @@ def test_solutions_are_smooth(method: str, yaw: list[float]) -> None:
     np.testing.assert_allclose(rate.ctrl[1:, 0], rate.ctrl[:-1, -1], atol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["winding", "nearest", "virtual"])
 @settings(max_examples=25, deadline=None)
 @given(yaw=YAWS, by=st.floats(-20.0, 20.0))
@@ -89,6 +90,7 @@ def test_turning_the_keyframes_turns_the_result(method: str, yaw: list[float], b
         np.testing.assert_allclose(np.diff(one.angles), np.diff(other.angles), atol=1e-9)
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(yaw=st.lists(st.floats(-pi, pi), min_size=3, max_size=4), each=st.floats(3.8, 9.0))
 def test_winding_is_the_cheapest_of_all_windings(yaw: list[float], each: float) -> None:
@@ -139,6 +141,7 @@ def test_a_limit_that_binds_is_met_by_the_best_curve() -> None:
     assert curve.derivative()(3.0)[0] == pytest.approx(0.65, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_limit_on_the_rate_that_binds_is_met_by_the_best_curve() -> None:
     problem = task([0.0, 3.0], each=3.0, acceleration=np.inf, rate=1.45)
     cost = energy(problem.at, 0.0, problem.rates)
