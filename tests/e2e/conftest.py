@@ -110,7 +110,8 @@ def plan() -> Plan:
 
 def each_mission() -> list[object]:
     """Return all missions as parameters; with ``--dist loadgroup`` one process has all tests of a mission."""
-    return [pytest.param(path, id=path.stem, marks=pytest.mark.xdist_group(path.stem)) for path in MISSIONS]
+    marks = [(pytest.mark.slow, pytest.mark.xdist_group(path.stem)) for path in MISSIONS]
+    return [pytest.param(path, id=path.stem, marks=m) for path, m in zip(MISSIONS, marks, strict=True)]
 
 
 @pytest.fixture(scope="session")

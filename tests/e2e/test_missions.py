@@ -64,7 +64,6 @@ def test_check_says_what_is_expected(path: Path) -> None:
     assert said(report.diagnostics) == SAID[path.stem].get("check", [])
 
 
-@pytest.mark.slow
 @every_mission
 def test_all_outputs_are_made(plan: Plan, path: Path) -> None:
     planned = plan(path)

@@ -12,6 +12,8 @@ from shotc.geom.bernstein import Array
 from tests.e2e.conftest import MISSIONS, Plan, Planned
 from tests.support.written_missions import KINDS, Course, Written, course, number, place, read
 
+pytestmark = pytest.mark.slow
+
 NOTICE = 0.5
 """Metres off its place that a shot may be without a word."""
 BETWEEN = 0.03

@@ -14,6 +14,8 @@ from shotc import api
 from shotc.diag.registry import has_errors
 from tests.e2e.conftest import ROOT, Plan, each_mission
 
+pytestmark = pytest.mark.slow
+
 TOWER = ROOT / "specs" / "tower-reveal.yaml"
 ORBIT = ROOT / "shotc" / "templates" / "orbit.yaml"
 
@@ -143,7 +145,6 @@ def test_an_edit_that_matters_is_noticed(plan: Plan, name: str) -> None:
     assert all(d.labels for d in report.diagnostics)
 
 
-@pytest.mark.slow
 def test_an_edited_screen_promise_is_noticed(plan: Plan) -> None:
     document = json.loads(plan(ORBIT).files["plan.json"])
     document["mission"]["shots"][0]["promise"]["screen_error"] = 1e-12
@@ -153,7 +154,6 @@ def test_an_edited_screen_promise_is_noticed(plan: Plan) -> None:
     assert {"V020", "V040"} <= {d.code for d in report.diagnostics}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("channel", range(7))
 def test_every_control_point_counts(plan: Plan, channel: int) -> None:
     """Whichever of the control points moves by a hundredth, something jumps or does not agree."""
@@ -169,7 +169,6 @@ def test_every_control_point_counts(plan: Plan, channel: int) -> None:
         assert "V" in {d.code[0] for d in report.diagnostics}
 
 
-@pytest.mark.slow
 def test_every_break_counts_where_the_drone_moves(plan: Plan) -> None:
     source = plan(TOWER).files["plan.json"]
     curve = plan(TOWER).track.curve

@@ -14,6 +14,8 @@ from tests.support.csv_tables import Table
 from tests.support.solid_distances import apart, body
 from tests.support.written_missions import number, read
 
+pytestmark = pytest.mark.slow
+
 ROUNDING = 1e-5
 """What nine digits of some hundred metres leave."""
 SEPARATION = 3.0
@@ -31,7 +33,6 @@ def test_there_is_such_a_mission() -> None:
     assert SEVERAL
 
 
-@pytest.mark.slow
 @each_of_several
 def test_every_pair_is_apart_all_the_time(plan: Plan, path: Path) -> None:
     planned = plan(path)

@@ -9,12 +9,11 @@ from shotc.geom.bernstein import Array
 from tests.support import show_files
 from tests.support.lakeside_show import COLORS, DIGITS, LIGHT, Show, asked, held
 
-pytestmark = pytest.mark.xdist_group("shows")
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("shows")]
 
 MIDDLE = np.array([0.0, 20.0, 50.0])
 
 
-@pytest.mark.slow
 def test_pictures_stand_still_in_their_colours(show: Show) -> None:
     for (picture, places, lights), color in zip(held(show), COLORS, strict=True):
         assert np.ptp(places, axis=1).max() < DIGITS, picture

@@ -22,7 +22,7 @@ from tests.support.lakeside_show import COLORS, DIGITS, LAKE, POSITION, Show, as
 from tests.support.skyc_reader import color_at, place_at
 from tests.support.solid_distances import signed_distance
 
-pytestmark = pytest.mark.xdist_group("shows")
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("shows")]
 
 OUTPUTS = {
     "plan.json",
@@ -40,7 +40,6 @@ def test_every_show_of_the_tree_is_tested_here() -> None:
     assert [path for path in SHOWS if path.parent == LAKE.parent] == [LAKE]
 
 
-@pytest.mark.slow
 def test_check_says_nothing(show: Show) -> None:
     done = run("check", LAKE.name, "--format", "concise", folder=show.folder)
     assert (done.code, done.out) == (0, "")
@@ -64,7 +63,6 @@ def test_the_contact_sheet_is_a_picture(show: Show) -> None:
     assert (picture[..., :3].max(axis=2) < 0.25).mean() > 0.2  # it is night
 
 
-@pytest.mark.slow
 def test_the_plan_is_proved_from_its_bytes(show: Show) -> None:
     done = run("verify", "out", "--format", "json", folder=show.folder)
     assert done.code == 0
@@ -73,7 +71,6 @@ def test_the_plan_is_proved_from_its_bytes(show: Show) -> None:
     assert len(report["certificate"]) == len(show.document["certificate"])
 
 
-@pytest.mark.slow
 def test_a_second_run_gives_the_same_bytes(show: Show) -> None:
     done = run("plan", LAKE.name, "-o", "again", "--emit", "csv", "--jobs", "1", folder=show.folder)
     assert done.code == 0
@@ -81,7 +78,6 @@ def test_a_second_run_gives_the_same_bytes(show: Show) -> None:
         assert (show.folder / "again" / name).read_bytes() == show.bytes(name), name
 
 
-@pytest.mark.slow
 def test_a_drone_moved_by_hand_is_noticed(show: Show) -> None:
     """Two drones are put near each other in the middle of a picture."""
     document = json.loads(show.bytes("plan.json"))
@@ -178,7 +174,6 @@ def test_the_table_is_the_plan(show: Show) -> None:
         assert np.abs(np.swapaxes(planned, 0, 1) - show.rows[names][:, :-1]).max() < DIGITS
 
 
-@pytest.mark.slow
 def test_limits_are_kept(show: Show) -> None:
     assert max(show_files.beyond_limits(show.fleet).values()) <= 1 + 1e-9
     limits = show.fleet.asked["limits"]
@@ -215,7 +210,6 @@ def test_latitude_longitude_and_altitude(show: Show) -> None:
 # What separation is kept.
 
 
-@pytest.mark.slow
 def test_all_pairs_keep_the_separation_all_the_time(show: Show) -> None:
     """Of all pairs, at fifty instants a second, from the splines of the plan."""
     across, upright = asked(show)
@@ -226,7 +220,6 @@ def test_all_pairs_keep_the_separation_all_the_time(show: Show) -> None:
     assert (np.diff(show.fleet.times) <= 0.02).all()
 
 
-@pytest.mark.slow
 def test_the_certificate_is_what_is_flown(show: Show) -> None:
     across, _ = asked(show)
     claim = show.claim("separation")
@@ -252,7 +245,6 @@ def test_the_certificate_is_what_is_flown(show: Show) -> None:
 # What is made of it.
 
 
-@pytest.mark.slow
 def test_the_show_file_flies_the_plan(show: Show) -> None:
     content = skyc_reader.read(show.bytes("lakeside-show.skyc"))
     drones = content["swarm"]["drones"]
@@ -268,7 +260,6 @@ def test_the_show_file_flies_the_plan(show: Show) -> None:
         assert color_at(code, (stands["start"] + stands["end"]) / 2) == color
 
 
-@pytest.mark.slow
 def test_drones_that_lag_and_are_blown_about_keep_what_is_asked(show: Show) -> None:
     """Without the margin, which is there to be used up."""
     done = run("fly", "out", "--gusts", "0.3", "--format", "json", folder=show.folder)

@@ -49,7 +49,6 @@ def largest(values: Array) -> float:
     return float(np.abs(values).max())
 
 
-@pytest.mark.slow
 def test_columns_and_clock(plan: Plan, path: Path) -> None:
     for planned, drone, table, step in flown(plan, path):
         geodetic = ",lat_deg,lon_deg,alt_m" if planned.mission.origin else ""

@@ -16,7 +16,7 @@ from shotc import api
 from tests.support.kinds_plan import kinds_plan
 from tests.support.resealed_plans import Document, resealed
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("kinds-plan")]
 
 FEW, MANY = 10, 2000
 CHANGES = (

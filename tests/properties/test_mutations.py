@@ -70,7 +70,7 @@ def test_the_command_accepts_or_rejects_and_writes_json(damaged: tuple[bytes, Pa
 
 
 @pytest.mark.timeout(240)
-@settings(max_examples=12, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+@settings(max_examples=6, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 @given(bent_trees())
 def test_a_bent_mission_is_planned_or_refused_with_a_reason(bent: tuple[bytes, Path]) -> None:
     data, folder = bent

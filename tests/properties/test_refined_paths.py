@@ -29,7 +29,7 @@ PUSHES = st.tuples(
 
 
 @pytest.mark.timeout(240)
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(PUSHES, min_size=1, max_size=2))
 def test_a_refined_path_that_is_taken_keeps_its_distances_keyframes_and_angles(pushes) -> None:
     ir = path()

@@ -61,7 +61,7 @@ def pose_of(drawn: tuple) -> np.ndarray:
 
 
 @pytest.mark.timeout(240)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(
     st.lists(POSE, min_size=2, max_size=3),
     st.lists(PLACE, min_size=2, max_size=4),

@@ -14,7 +14,7 @@ from tests.support.kinds_plan import kinds_plan
 from tests.support.records import replace
 from tests.support.resealed_plans import Document, resealed
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("kinds-plan")]
 
 Edit = Callable[[Document], Any]
 

@@ -344,7 +344,7 @@ def test_check_knows_all_of_it_without_a_solver() -> None:
     assert not has_errors(report.diagnostics)
 
 
-@settings(deadline=None, max_examples=10, phases=(Phase.explicit, Phase.generate))
+@settings(deadline=None, max_examples=3, phases=(Phase.explicit, Phase.generate))
 @given(
     size=st.floats(0.12, 0.45),
     azimuth=st.floats(0, 2 * pi),

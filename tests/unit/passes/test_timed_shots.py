@@ -102,7 +102,7 @@ class TestDuration:
         assert number_before(fault.message, " s is the shortest") >= 10.0 + FORTY
 
     @pytest.mark.slow
-    @settings(max_examples=8, deadline=None, derandomize=True)
+    @settings(max_examples=4, deadline=None, derandomize=True)
     @given(seed=st.integers(0, 1000), share=st.floats(1.0, 5.0))
     def test_any_duration_from_the_shortest_up_can_be_flown(self, seed: int, share: float) -> None:
         path = smooth(seed, size=8.0)
