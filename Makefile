@@ -11,7 +11,7 @@ PYTEST := $(BIN)/pytest -n 2 --dist loadgroup --no-loadscope-reorder
 # Tests start many processes: all but the first find the modules compiled.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help setup demo test test-fast fuzz check lint type fmt layers platforms gen gen-check bless bench papers build clean
+.PHONY: help setup demo test test-fast fuzz check lint type fmt layers platforms gen gen-check bless bench mutants papers build clean
 
 help: ## List the tasks
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 14
@@ -73,6 +73,9 @@ bless: $(STAMP) ## Rewrite the golden files of the tests; read the diff before y
 
 bench: $(STAMP) ## Measure: ratios to bare imports, growth, memory
 	$(BIN)/python -m tests.experiments.bench
+
+mutants: $(STAMP) ## Put 1,000 seeded faults into verification, geometry and solvers; count those that a test finds
+	$(BIN)/python -m tests.experiments.mutants $(MUTANTS)
 
 papers: $(STAMP) ## Run the papers' experiments; report in out/papers, tables in shotc/docs/papers.md
 	$(BIN)/python -m tests.experiments.papers --write-page

@@ -123,6 +123,7 @@ BROKEN = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_refiner_that_cannot_be_loaded_is_told_with_its_package(
     run: Run, good: Path, install: Install, name: str
@@ -258,6 +259,7 @@ def test_a_deadline_is_a_time(run: Run, good: Path, seconds: str) -> None:
     assert "--deadline" in done.err
 
 
+@pytest.mark.slow
 @POSIX
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize("flags", [[], ["--deadline", "600"]], ids=["here", "there"])

@@ -173,6 +173,7 @@ def test_planning_without_its_libraries_says_what_to_install(planned: Path, libr
     assert not (planned / "none").exists()
 
 
+@pytest.mark.slow
 def test_planning_without_toppra_gives_a_plan_that_is_proved(place: Path) -> None:
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": "toppra"}
     result = run(*PLAN, "small.yaml", "-o", "there", folder=place, env=env)

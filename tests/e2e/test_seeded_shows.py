@@ -16,7 +16,7 @@ from shotc.geom.bernstein import Array
 from tests.support import show_files
 from tests.support.meshes import box_mesh, obj, ply, sphere_mesh
 
-pytestmark = pytest.mark.xdist_group("seeded-shows")
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("seeded-shows")]
 
 SEEDS = range(20)
 
@@ -106,7 +106,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("seeded")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_show_keeps_what_it_asks_or_says_why_not(seed: int, folder: Path) -> None:
     plan, said = planned(seed, folder)

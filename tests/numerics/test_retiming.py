@@ -270,6 +270,7 @@ def test_paths_of_any_size_are_timed_within_the_limits(path: Piecewise):
     assert np.diff(move.curve.breaks).min() > 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jerk", [1e-3, 0.1, 1e3])
 def test_any_jerk_limit_will_do(jerk: float):
     ceiling = replace(CEILING, jerk=jerk)

@@ -103,6 +103,7 @@ def test_on_random_paths_the_linear_programme_keeps_every_row_and_is_no_slower(s
     assert -1e-6 < other.time / mine.time - 1.0 < 5e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FILMS)
 def test_missions_are_planned_without_toppra(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[LinearLimits] = []

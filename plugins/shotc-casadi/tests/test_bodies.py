@@ -100,6 +100,7 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
     return replace(made, parameters=table), body
 
 
+@pytest.mark.slow
 def test_the_hard_solution_is_found_by_any_price_that_is_high_enough() -> None:
     places = []
     for price in (1e2, 1e4):
@@ -128,6 +129,7 @@ def test_where_there_is_no_way_out_the_slack_is_what_is_lacking() -> None:
     assert found.inputs[1:, -1].max() < 1e-3
 
 
+@pytest.mark.slow
 def test_the_field_pushes_away_only_where_it_reaches() -> None:
     for at, moves in ((1.2, True), (1.6, False)):
         plain, pushed = (in_the_way(at, 1e3, field) for field in (0.0, 1.0))

@@ -25,6 +25,7 @@ def test_times_are_without_the_holds_before(leg):
     assert asked.s.tolist() == [leg.curve.start, leg.marks[1].s, leg.curve.end]
 
 
+@pytest.mark.slow
 def test_a_wait_at_the_start_is_no_flight(leg):
     first, *others = leg.marks
     waiting = replace(leg, marks=(replace(first, time=3.0), *others))
@@ -37,6 +38,7 @@ def test_a_shot_that_lasts_on_at_its_last_keyframe_gets_there_in_time(leg):
     assert due(resting).t.tolist() == [0.0, 24.0, 47.0]
 
 
+@pytest.mark.slow
 def test_a_leg_without_times_has_none(leg):
     assert not due(unhurried(leg))
     assert due(leg)

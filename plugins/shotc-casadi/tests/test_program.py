@@ -30,6 +30,7 @@ def solved(solver, condition=OURS):
     return solve(task(walled(), condition), solver)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("condition", [OURS, OURS_4PT, LOOK_AT], ids=lambda c: c.name)
 def test_both_solvers_come_to_the_same(condition):
     one, two = solved("fatrop", condition), solved("ipopt", condition)

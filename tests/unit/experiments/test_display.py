@@ -16,6 +16,7 @@ from shotc.show.solvers.qcqp import Bounds, bounded, deviation
 from tests.experiments.papers import bodies, coverage, crossing, following, limited
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "draw", "n", "axis", "paper"), coverage.OBJECTS)
 def test_with_less_weight_the_view_gains_and_the_volume_loses_less(name, draw, n, axis, paper):
     volume, view = coverage.costs(draw, n, axis, seed=0)

@@ -63,6 +63,7 @@ def test_all_eight_configurations_are_solved_and_stay_out_of_the_no_fly_circle(r
         assert one.measures[DIST] > -1e-6, name
 
 
+@pytest.mark.slow
 @both
 def test_no_configuration_planned_whole_needs_many_iterations(reading: Reading) -> None:
     assert max(flown(reading)[name].iterations for name in CONFIGURATIONS) <= 20
@@ -82,6 +83,7 @@ def test_a_second_solver_finds_the_same_flight_within_all_limits(name: str, read
     assert np.abs(x[:, 3:]).max() < SPEED + 1e-6
 
 
+@pytest.mark.slow
 def test_with_the_weights_as_printed_the_paper_s_order_holds_at_each_step() -> None:
     order = [flown(PRINTED)[name].measures for name in PITCH_UP]
     for a, b in pairwise(order):
@@ -93,6 +95,7 @@ def test_with_the_weights_as_printed_the_paper_s_order_holds_at_each_step() -> N
     assert multidrone.in_order(PRINTED, SCENE)
 
 
+@pytest.mark.slow
 def test_with_the_end_reached_flights_go_wider_and_the_camera_calms_down_to_medium() -> None:
     order = [flown(REACHED)[name].measures for name in PITCH_UP]
     for column in (DIST, RMSE, ACC):

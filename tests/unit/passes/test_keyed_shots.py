@@ -19,6 +19,8 @@ from shotc.planfile.read import read_plan
 from shotc.planfile.write import document
 from tests.support.front_passes import resolved
 
+pytestmark = pytest.mark.slow
+
 WALK = """\
 shotc: 1
 mission: walk
@@ -84,7 +86,6 @@ def film(flight: DroneTrajectory) -> Array:
 
 
 class TestFlown:
-    @pytest.mark.slow
     @pytest.mark.parametrize("refiner", ["none", "ours"])
     def test_placed_keyframes_are_passed_at_their_times(self, refiner: str) -> None:
         mission, flight, _ = assert_planned(KEYS, refiner=refiner)
@@ -114,14 +115,12 @@ class TestFlown:
         lens = [np.degrees(flight.curve(k.time)[HFOV]) for k in flight.keyframes]
         assert lens[1:] == pytest.approx([45.0, 60.0])
 
-    @pytest.mark.slow
     def test_a_start_that_is_open_is_placed_when_it_is_known(self) -> None:
         mission, flight, _ = assert_planned(KEYS, "{duration: 20}")
         a = flight.keyframes[0].time
         offset = flight.curve(a)[:3] - np.array(mission.target("walker").at(a))
         assert offset == pytest.approx([-6.0, 1.0, 3.1], abs=1e-3)
 
-    @pytest.mark.slow
     def test_keyframes_may_hand_a_moving_target_over_to_one_that_stands(self) -> None:
         shot = """kind: keyframes
     keyframes:
@@ -137,7 +136,6 @@ class TestFlown:
         assert np.degrees(flight.curve(times[3])[CAM_PITCH]) == pytest.approx(-5.0, abs=0.5)
         assert np.degrees(flight.curve(times[3])[CAM_YAW]) % 360 == pytest.approx(70.0, abs=1.0)
 
-    @pytest.mark.slow
     def test_own_angles_are_composed_at_the_moment_of_the_keyframe(self) -> None:
         shot = """kind: keyframes
     target: walker
@@ -149,7 +147,6 @@ class TestFlown:
         first = references(flight, "s", "walker", np.array([flight.keyframes[0].time]))[0]
         assert abs(first[0]) == pytest.approx(1 / 3)
 
-    @pytest.mark.slow
     @pytest.mark.parametrize("refiner", ["none", "ours"])
     def test_a_view_from_above_goes_along_and_looks_straight_down(self, refiner: str) -> None:
         mission, flight, _ = assert_planned(ABOVE, refiner=refiner)
@@ -240,7 +237,6 @@ ZIGZAG = """kind: keyframes
 
 
 class TestRefused:
-    @pytest.mark.slow
     def test_keyframes_out_of_reach_are_told_with_the_times_that_do(self) -> None:
         done = compiled(ZIGZAG)
         (fault,) = [d for d in done.diagnostics if d.code == "M015"]
@@ -253,7 +249,6 @@ class TestRefused:
         slower = re.sub(r"time: ([\d.]+)", lambda at: f"time: {float(at[1]) * times}", ZIGZAG)
         assert_planned(slower, f"{{start: 15, duration: {lasts}}}")
 
-    @pytest.mark.slow
     def test_a_target_that_has_moved_on_is_told_with_a_framing_that_does(self) -> None:
         shot = KEYS.replace("[45, -22, 9], look_at: walker", "[45, -22, 9], heading: 180 deg, pitch: 0 deg")
         (fault,) = [d for d in compiled(shot, "{duration: 20}").diagnostics if d.code == "M016"]
@@ -261,7 +256,6 @@ class TestRefused:
         mended = KEYS.replace("[45, -22, 9], look_at: walker", f"[45, -22, 9], {angles}")
         assert_planned(mended, f"{{{start}, duration: 20}}")
 
-    @pytest.mark.slow
     def test_a_keyframe_that_another_drone_is_too_near_to_is_told_with_both(self) -> None:
         beside = """\
 shotc: 1

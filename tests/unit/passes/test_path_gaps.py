@@ -22,6 +22,7 @@ from tests.support.path_scenes import (
 from tests.support.records import replace
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [1.22, 1.3, 1.4, 3.0])
 def test_a_gap_that_the_drone_fits_through_is_used(width):
     south = out("south", block((-1, 1), (-90, -width / 2), (0, 70)))

@@ -14,6 +14,8 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, PathIR, TimedLeg, TimedPath, X, Y
 from tests.support.bad_refiners import Odd, along, refine, returns
 from tests.support.records import replace
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: run
@@ -149,7 +151,6 @@ def test_a_refiner_that_ignores_them_keeps_them() -> None:
     assert outcome.value.timed is guide().timed
 
 
-@pytest.mark.slow
 def test_a_motion_that_breaks_a_limit_is_blamed_on_its_refiner(monkeypatch) -> None:
     odd = plugins.Source(Odd(lambda ir: Outcome(bent(ir, along(Z, 20.0)))), "odd-maker", "")
     monkeypatch.setattr(plugins, "one", lambda group, name: odd)
@@ -161,7 +162,6 @@ def test_a_motion_that_breaks_a_limit_is_blamed_on_its_refiner(monkeypatch) -> N
     assert [d.code for d in kept.diagnostics if d.code != "V034"] == ["R003", "R014"]
 
 
-@pytest.mark.slow
 def test_a_deadline_s_process_hands_timed_legs_back() -> None:
     options = api.PlanOptions(refiner="ours", deadline=60.0)
     plain = api.PlanOptions(refiner="ours")

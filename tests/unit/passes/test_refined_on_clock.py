@@ -111,6 +111,7 @@ def test_a_shot_put_back_keeps_its_time_and_its_neighbours():
     assert flown_shot(made, "round").start == pytest.approx(flown_shot(path(), "round").start, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_where_a_shot_looks_elsewhere_at_its_ends_the_ways_beside_it_turn_in_their_time():
     made = rejoined(path(), {"pass": camera("pass", ends=-0.05)})
     drone = made.keyframes.mission.drone("cam1")
@@ -144,6 +145,7 @@ def test_a_refined_leg_that_takes_another_time_is_a_fault():
     assert "100.000000 s instead of" in " ".join(told.notes)
 
 
+@pytest.mark.slow
 def test_a_way_that_is_flown_elsewhere_is_a_fault():
     def higher(one):
         if one.phase != "transit":

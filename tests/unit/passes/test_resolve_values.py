@@ -146,6 +146,7 @@ def test_holds_cut_a_shot_into_rests(mission: MissionIR) -> None:
     assert least_shot(three[1:2], LIMITS) == 2
 
 
+@pytest.mark.slow
 def test_the_front_loads_neither_numpy_nor_a_solver() -> None:
     code = (
         "import sys; from tests.support.front_passes import placed; placed(sys.argv[1]); "

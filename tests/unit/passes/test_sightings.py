@@ -16,6 +16,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.path import CAM_YAW
 from shotc.planfile.write import document
 
+pytestmark = pytest.mark.slow
+
 PAIR = """\
 shotc: 1
 mission: pair
@@ -53,7 +55,6 @@ def lines(diagnostic: Diagnostic) -> list[int]:
     return [label.span.line for label in diagnostic.labels]
 
 
-@pytest.mark.slow
 def test_a_silent_mission_prefers_and_warns_of_either_direction() -> None:
     found = planned(FACING)
     assert found.plan is not None
@@ -68,7 +69,6 @@ def test_a_silent_mission_prefers_and_warns_of_either_direction() -> None:
     assert "strength: off" in first.help
 
 
-@pytest.mark.slow
 def test_all_who_are_preferred_not_to_be_seen_in_a_shot_are_told_in_one() -> None:
     third = "  three: {model: x500, home: [0, 5, 0]}\nRULES"
     text = PAIR.replace("RULES", third).replace("PLACE", "0, 30").replace("HEADING", "0")
@@ -81,12 +81,10 @@ def test_all_who_are_preferred_not_to_be_seen_in_a_shot_are_told_in_one() -> Non
     assert len({d.message.partition(" in shot ")[2] for d in said}) == len(said)
 
 
-@pytest.mark.slow
 def test_one_may_see_the_other_alone() -> None:
     assert [d.message for d in told(planned(BEFORE))] == ["two is in the picture of one in shot `look`"]
 
 
-@pytest.mark.slow
 def test_a_requirement_refuses_and_points_at_its_line() -> None:
     found = planned(FACING, REQUIRE)
     assert found.plan is None
@@ -95,13 +93,11 @@ def test_a_requirement_refuses_and_points_at_its_line() -> None:
     assert "strength: prefer" in told(found)[0].help
 
 
-@pytest.mark.slow
 def test_nothing_is_told_where_it_is_off_or_kept() -> None:
     assert told(planned(FACING, "rules: {mutual_visibility: {strength: off}}")) == []
     assert told(planned(ABREAST, REQUIRE)) == []
 
 
-@pytest.mark.slow
 def test_a_cone_is_told_in_degrees() -> None:
     cone = planned(FACING, "rules: {mutual_visibility: {half_angle: 20 deg, strength: prefer}}")
     (first, _) = told(cone)
@@ -109,7 +105,6 @@ def test_a_cone_is_told_in_degrees() -> None:
     assert "0 deg off the axis, 20 deg are to be kept free" in first.notes[1]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("where", "rules", "said"),
     [

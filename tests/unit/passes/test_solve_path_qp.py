@@ -35,6 +35,7 @@ TREE = out("tree", Cylinder((-20.0, 10.0), 3.0, 0.0, 12.0))
 HOUSE = out("house", block((10, 25), (-8, 6), (0, 9)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", ["follow-camera", "forward", "free"])
 def test_a_whole_flight_is_sound_in_every_body_mode(body):
     made = mission(TREE, HOUSE, inside("field", FIELD), body=body)

@@ -17,6 +17,8 @@ from shotc.planning.clock.aims import Looker
 from shotc.planning.clock.flights import flights
 from shotc.planning.clock.surroundings import surroundings
 
+pytestmark = pytest.mark.slow
+
 HEAD = """\
 shotc: 1
 mission: two
@@ -62,7 +64,6 @@ def fine(shot: str) -> Piecewise:
     return restrict(curve.channels(0, 1, 2), subdivide(curve.breaks, 4))
 
 
-@pytest.mark.slow
 def test_flights_are_as_the_time_pass_flies_them() -> None:
     timed = ParameterizeTime().run(path(), PassContext()).value
     assert timed is not None

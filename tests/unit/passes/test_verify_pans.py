@@ -71,6 +71,7 @@ def test_what_is_meant_is_not_told() -> None:
     assert told(planned("auto", SWEEP.replace("shots:", "rules: {allow: [fast-pan]}\nshots:"))) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("look", "found"), [("look_at: mast", []), ("heading: 53 deg, pitch: 0 deg", ["V051"])]
 )

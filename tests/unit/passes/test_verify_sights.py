@@ -120,6 +120,7 @@ def test_what_holds_is_proved_between_samples() -> None:
     assert least * 0.98 <= found.worst <= least
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("visibility", ["require", "prefer"])
 def test_a_claim_that_is_broken_tells_a_proved_bound_too(visibility: str) -> None:
     """What is called bounded is nowhere worse, whether it holds or not."""

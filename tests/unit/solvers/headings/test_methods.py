@@ -45,6 +45,7 @@ def test_every_method_has_a_solver_and_the_default_is_one() -> None:
     assert DEFAULT in METHODS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @settings(max_examples=25, deadline=None)
 @given(yaw=YAWS)

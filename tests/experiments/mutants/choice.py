@@ -1,0 +1,19 @@
+"""A pytest plugin that runs chosen tests in a chosen order: ``-p tests.experiments.mutants.choice``."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+CHOSEN = "MUTANTS_TESTS"
+"""Environment: a file with the ids of the tests, one a line."""
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Leave the chosen tests, in their order."""
+    chosen = Path(os.environ[CHOSEN]).read_text(encoding="utf-8").split("\n")
+    place = {name: i for i, name in enumerate(chosen)}
+    items[:] = sorted((i for i in items if i.nodeid in place), key=lambda i: place[i.nodeid])

@@ -1,0 +1,148 @@
+"""A pytest plugin that records which tests run which lines: ``-p tests.experiments.mutants.recording``.
+
+What several tests share (a cached call of a helper, a fixture of a module or of the session) is run once, by
+whichever test comes first. Its lines count for all tests that ask for it.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import time
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import coverage
+import pytest
+
+FOLDER, PATHS = "MUTANTS_RECORD", "MUTANTS_PATHS"
+"""Environment: the folder to write into, and the folders whose lines count, one a line."""
+
+IMPORT = ""
+"""The context of what runs when a module is imported."""
+
+
+class Recorder:
+    """Lines by context, and who asked for what is shared.
+
+    A context is the id of a test, or the name of a shared value while it is made.
+    """
+
+    def __init__(self, folder: Path, paths: list[str]) -> None:
+        self.folder = folder
+        self.coverage = coverage.Coverage(data_file=None, config_file=False, source=paths)
+        self.stack = [IMPORT]
+        self.asked: dict[str, set[str]] = defaultdict(set)
+        self.seconds: dict[str, float] = {}
+        self.failed: set[str] = set()
+
+    def enter(self, context: str) -> None:
+        self.stack.append(context)
+        self.coverage.switch_context(context)
+
+    def leave(self) -> None:
+        self.stack.pop()
+        self.coverage.switch_context(self.stack[-1])
+
+    def shares(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Cache a function as functools does, and note who asks for which of its values."""
+
+        def made(*args: Any, **kwargs: Any) -> Any:
+            self.enter(name(args, kwargs))
+            try:
+                return function(*args, **kwargs)
+            finally:
+                self.leave()
+
+        def name(args: Any, kwargs: Any) -> str:
+            key = hash((args, tuple(sorted(kwargs.items()))))
+            return f"shared {function.__module__}.{function.__qualname__} {key}"
+
+        kept = functools.lru_cache(maxsize=None)(made)
+
+        @functools.wraps(function)
+        def asking(*args: Any, **kwargs: Any) -> Any:
+            self.asked[name(args, kwargs)].add(self.stack[-1])
+            return kept(*args, **kwargs)
+
+        asking.cache_clear = kept.cache_clear  # type: ignore[attr-defined]
+        return asking
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
+        name = _plain(item)
+        self.enter(name)
+        before = time.process_time()
+        result = yield
+        self.seconds[name] = time.process_time() - before
+        self.leave()
+        return result
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(self, item: pytest.Item) -> Iterator[None]:
+        report: Any = yield
+        if report.failed:
+            self.failed.add(_plain(item))
+        return report
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_fixture_setup(self, fixturedef: Any, request: pytest.FixtureRequest) -> Iterator[None]:
+        if fixturedef.scope == "function":
+            return (yield)
+        self.enter(_fixture(fixturedef, request))
+        try:
+            return (yield)
+        finally:
+            self.leave()
+
+    def pytest_runtest_setup(self, item: Any) -> None:
+        for definitions in item._fixtureinfo.name2fixturedefs.values():
+            for definition in definitions:
+                self.asked[f"fixture {definition.baseid} {definition.argname}"].add(_plain(item))
+
+    def pytest_unconfigure(self) -> None:
+        self.coverage.stop()
+        data = self.coverage.get_data()
+        lines = {
+            str(Path(path).relative_to(Path.cwd())): {
+                str(line): contexts for line, contexts in data.contexts_by_lineno(path).items()
+            }
+            for path in data.measured_files()
+        }
+        record = {
+            "lines": lines,
+            "asked": {name: sorted(by) for name, by in self.asked.items()},
+            "seconds": self.seconds,
+            "failed": sorted(self.failed),
+        }
+        (self.folder / f"{os.getpid()}.json").write_text(json.dumps(record), encoding="utf-8")
+
+
+def _fixture(definition: Any, request: pytest.FixtureRequest) -> str:
+    return f"fixture {definition.baseid} {request.fixturename}"
+
+
+def _plain(item: pytest.Item) -> str:
+    """Return the id of a test without the group that xdist adds to it."""
+    group = item.get_closest_marker("xdist_group")
+    return item.nodeid.removesuffix(f"@{group.args[0]}") if group else item.nodeid
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Start; the process that only hands tests out records nothing."""
+    if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        return
+    recorder = Recorder(Path(os.environ[FOLDER]), os.environ[PATHS].split("\n"))
+    config.pluginmanager.register(recorder)
+    cache = functools.cache
+
+    def cached(function: Callable[..., Any]) -> Callable[..., Any]:
+        ours = function.__module__.startswith("tests.") or ".test_" in f".{function.__module__}"
+        return recorder.shares(function) if ours else cache(function)
+
+    functools.cache = cached  # type: ignore[assignment]
+    recorder.coverage.start()
+    recorder.coverage.switch_context(IMPORT)

@@ -1,0 +1,127 @@
+"""One mutant against the tests that run its line, in a copy of the tree."""
+
+from __future__ import annotations
+
+import os
+import resource
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.experiments.mutants.changes import Mutant
+from tests.experiments.mutants.choice import CHOSEN
+from tests.experiments.mutants.coverage_map import CoverageMap
+
+FIRST_TESTS, FIRST_SECONDS = 40, 5.0
+"""A first round of few tests, which kills most mutants and imports little."""
+
+START_SECONDS, LONGER = 30.0, 4.0
+"""CPU that a round may take: its imports, and so many times what its tests took without the fault."""
+
+FAILED, NOTHING_RUN = 1, 5
+"""Exit statuses of pytest."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What became of a mutant: killed, timeout, survived or uncovered; tests : how many were to run it."""
+
+    mutant: Mutant
+    verdict: str
+    tests: int
+
+
+def copy_tree(root: Path, to: Path) -> None:
+    """Copy what git tracks, or would."""
+    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    names = subprocess.run(listed, cwd=root, check=True, capture_output=True, text=True).stdout
+    shutil.rmtree(to, ignore_errors=True)
+    for name in filter(None, names.split("\0")):
+        if (root / name).is_file():
+            (to / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(root / name, to / name)
+
+
+def tried(mutant: Mutant, covered: CoverageMap, copy: Path, longest: float) -> Trial:
+    """Put a fault into the copy, run its tests until one fails, and take the fault out again.
+
+    longest : seconds of CPU that its tests may take without the fault; the broadest are left out beyond
+    """
+    tests = _within(covered.tests(mutant), covered, longest)
+    if not tests:
+        return Trial(mutant, "uncovered", 0)
+    path = copy / mutant.path
+    text = path.read_text(encoding="utf-8")
+    path.write_text(mutant.applied(text), encoding="utf-8")
+    try:
+        return Trial(mutant, _verdict(tests, covered, copy), len(tests))
+    finally:
+        path.write_text(text, encoding="utf-8")
+
+
+def _verdict(tests: Sequence[str], covered: CoverageMap, copy: Path) -> str:
+    for part in _rounds(tests, covered):
+        verdict = run(part, copy, START_SECONDS + LONGER * sum(covered.seconds[t] for t in part))
+        if verdict != "survived":
+            return verdict
+    return "survived"
+
+
+def _within(tests: Sequence[str], covered: CoverageMap, longest: float) -> list[str]:
+    total, found = 0.0, []
+    for test in tests:
+        total += covered.seconds[test]
+        if total > longest and found:
+            break
+        found.append(test)
+    return found
+
+
+def _rounds(tests: Sequence[str], covered: CoverageMap) -> Iterator[Sequence[str]]:
+    first = _within(tests[:FIRST_TESTS], covered, FIRST_SECONDS)
+    yield first
+    if rest := tests[len(first) :]:
+        yield rest
+
+
+def run(tests: Sequence[str], copy: Path, seconds: float) -> str:
+    """Run tests in a copy: killed, timeout or survived.
+
+    The limit is one of CPU time, so that a loaded machine kills no mutant; a wall-clock limit, ten times as
+    long, ends what waits for ever.
+    """
+    chosen = copy / "chosen-tests.txt"
+    chosen.write_text("\n".join(tests), encoding="utf-8")
+    files = sorted({test.partition("::")[0] for test in tests})
+    paths = [copy, *(p for p in sorted(copy.glob("plugins/*")) if p.is_dir())]
+    environment = dict(os.environ) | {
+        CHOSEN: str(chosen),
+        "PYTHONPATH": os.pathsep.join(map(str, paths)),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "OMP_NUM_THREADS": "1",
+    }
+    command = [
+        *(sys.executable, "-m", "pytest", "-x", "-q", "-m", "", "-p", "no:cacheprovider", "-p", "no:xdist"),
+        *("-p", "tests.experiments.mutants.choice", *files),
+    ]
+    limit = int(seconds) + 1
+    try:
+        done = subprocess.run(
+            command,
+            cwd=copy,
+            env=environment,
+            capture_output=True,
+            check=False,
+            timeout=10 * limit,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)),
+        )
+    except subprocess.TimeoutExpired:
+        return "timeout"
+    if done.returncode == NOTHING_RUN:
+        raise RuntimeError(done.stdout.decode())
+    if done.returncode < 0:
+        return "timeout"
+    return "killed" if done.returncode else "survived"
