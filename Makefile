@@ -1,9 +1,9 @@
 # shotc: every task a contributor needs. `make` lists them.
 .DEFAULT_GOAL := help
-SHELL := /bin/bash
+SHELL := $(if $(filter Windows_NT,$(OS)),bash,/bin/bash)
 PYTHON ?= python3
 VENV := .venv
-BIN := $(VENV)/bin
+BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 STAMP := $(VENV)/.installed
 PLUGINS := $(wildcard plugins/*/pyproject.toml)
 UV := $(shell command -v uv 2>/dev/null)
