@@ -129,7 +129,7 @@ def about(folder: Path, found: dict[str, Any]) -> None:
 
 
 def test_what_it_refuses(tmp_path: Path) -> None:
-    """The damage that our reader names (``tests/unit/emit/test_skyc.py``), and it has no more rules."""
+    """The damage that our reader names (``tests/unit/show/emit/test_skyc.py``), and it has no more rules."""
     (artifact,) = EMITTER.emit(show_flights.plan(show_flights.mission(4))).artifacts
     file = tmp_path / artifact.name
     file.write_bytes(artifact.data)

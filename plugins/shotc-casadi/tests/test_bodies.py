@@ -21,7 +21,7 @@ from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism, Solid, box
 from shotc.plugin_api.refiner import Array, Planes, restrict
 from tests.experiments import crowd
-from tests.unit.passes.test_several_drones import HEAD, PASS, SIDE
+from tests.unit.planning.clock.test_several_drones import HEAD, PASS, SIDE
 
 PARTS = (
     Cylinder((3.0, -2.0), 0.4, 0.0, 1.8),

@@ -17,7 +17,7 @@ from shotc.solvers.conic import Status
 from shotc.solvers.topp_problem import FastestProfile, LinearLimits
 from tests.support.timing_paths import CEILING, smooth
 
-SPECS = Path(__file__).parents[2] / "specs"
+SPECS = Path(__file__).parents[3] / "specs"
 FILMS = sorted(p.stem for p in SPECS.glob("*.yaml") if "fleets:" not in p.read_text(encoding="utf-8"))
 
 ROUNDING = {"shotc.solvers.topp_ra": 4e-4, "shotc.solvers.topp_lp": 1e-6}

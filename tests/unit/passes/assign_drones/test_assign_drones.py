@@ -13,7 +13,7 @@ from shotc.checking import check_source
 from shotc.passes.assign_drones.choice import LEAST_WAY, choose
 from shotc.passes.assign_drones.tasks import Task
 from tests.support.front_passes import clean
-from tests.unit.passes.test_several_drones import HEAD, PASS, SIDE, TAIL
+from tests.unit.planning.clock.test_several_drones import HEAD, PASS, SIDE, TAIL
 
 DRONES = {d.name: d for d in clean(HEAD + SIDE + PASS + TAIL).mission.drones}
 

@@ -13,7 +13,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.diag.registry import severity_of
 from shotc.passes.solver_reports import SolverState, fallback, impossible, solver_nan, stopped_early
 
-TEMPLATE = Path(__file__).parents[3] / "shotc" / "templates" / "keyframes.yaml"
+TEMPLATE = Path(__file__).parents[4] / "shotc" / "templates" / "keyframes.yaml"
 TEXT = TEMPLATE.read_text()
 
 
