@@ -21,7 +21,7 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
 from shotc.lowering import lower, lower_kept, with_autopilot
-from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import (
     ASSIGN,
     FILM,

@@ -16,7 +16,7 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
 from shotc.ir.passes import PassContext
 from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, kept_files
-from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import FRONT, Setting, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shotc.geom.track import Track, unwrapped
 from shotc.kinds.files import FileFault, Table, read_table
 from shotc.kinds.gpx import read_gpx
-from shotc.passes.resolve.recordings import LAYOUTS
+from shotc.passes.resolve.lower.recordings import LAYOUTS
 
 pytestmark = pytest.mark.slow
 

@@ -14,7 +14,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.passes import Outcome, PassContext
 from shotc.kinds.base import Kind
 from shotc.passes.assign_drones.tasks import busiest, later, tasks_of
-from shotc.passes.resolve.names import AUTO, nobody
+from shotc.passes.resolve.lower.names import AUTO, nobody
 from shotc.spec.load import LoadedMission
 
 if TYPE_CHECKING:  # the base install has no numpy

@@ -12,8 +12,8 @@ from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.passes import PassContext
 from shotc.kinds.base import Kind
 from shotc.passes.resolve import Resolve
-from shotc.passes.resolve.motion import least_shot, least_travel
-from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.checks.motion import least_shot, least_travel
+from shotc.passes.resolve.lower.names import AUTO
 from shotc.spec.load import LoadedMission
 
 SLOWER = 2.0

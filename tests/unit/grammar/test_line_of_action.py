@@ -8,7 +8,7 @@ import pytest
 
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Composition, Ideal, MissionIR, Shot, Subject
-from shotc.passes.resolve.grammar import check_grammar
+from shotc.passes.resolve.checks.grammar import check_grammar
 from tests.support.front_passes import resolved
 from tests.support.grammar_missions import codes, grammar, mission
 

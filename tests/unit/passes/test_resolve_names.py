@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from shotc.diag.model import Diagnostic
-from shotc.passes.resolve.names import emitters_of
+from shotc.passes.resolve.lower.names import emitters_of
 from shotc.spec.mission import MissionSpec
 from tests.support.front_passes import placed
 

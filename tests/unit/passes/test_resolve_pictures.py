@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from shotc.passes.resolve.show.clock import least_display
+from shotc.passes.resolve.checks.show.clock import least_display
 from tests.support.front_passes import resolved
 from tests.support.show_texts import SPHERE, faults, marked, only, resolve, show
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.mission import MissionIR, Promise
-from shotc.passes.resolve.motion import least_shot, least_travel
+from shotc.passes.resolve.checks.motion import least_shot, least_travel
 from shotc.spec.presets import PRESETS
 from tests.support import resolve_missions
 from tests.support.front_passes import resolved

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.grammar.alone import check_alone
-from shotc.passes.resolve.grammar.cuts import check_cuts
+from shotc.passes.resolve.checks.grammar.alone import check_alone
+from shotc.passes.resolve.checks.grammar.cuts import check_cuts
 from shotc.spec.mission import MissionSpec
 
 

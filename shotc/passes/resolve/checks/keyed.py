@@ -11,22 +11,13 @@ from math import cos, sin
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.begins import first_start
-from shotc.ir.keyed import arrivals, in_order, is_keyed, settled
+from shotc.ir.keyed import arrivals, in_order
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot, Target
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.geometry import blocked, too_low
+from shotc.passes.resolve.checks.places import blocked, too_low
 from shotc.planning.clearances import clearances_of, free_place, move
 from shotc.planning.framing.moments import moments
-
-
-def with_times(mission: MissionIR) -> MissionIR:
-    """Return the mission with all such shots as they are if they begin as early as they may."""
-    shots = (
-        settled(mission, shot, first_start(mission, shot)) if is_keyed(shot) else shot
-        for shot in mission.shots
-    )
-    return mission._replace(shots=tuple(shots))
 
 
 def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:

@@ -16,8 +16,8 @@ from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start
 from shotc.ir.mission import Drone, MissionIR, Target
-from shotc.passes.resolve.home import ROUND, stands_free
-from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.checks.home import ROUND, stands_free
+from shotc.passes.resolve.lower.names import AUTO
 from shotc.planning.clearances import move, outward
 from shotc.rounding import at_least
 

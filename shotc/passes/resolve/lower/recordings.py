@@ -12,7 +12,7 @@ from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, Table, read_table
 from shotc.kinds.gpx import read_gpx  # brings an XML parser, which few missions need
 from shotc.kinds.located import in_world
-from shotc.passes.resolve.files import Ground
+from shotc.passes.resolve.lower.files import Ground
 
 PLACES = (("t", "x", "y", "z"), ("t", "lat", "lon", "height"))
 FACING = ((), ("heading",), ("heading_deg",))

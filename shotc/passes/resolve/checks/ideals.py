@@ -13,9 +13,9 @@ from shotc.geom.track import Track
 from shotc.ir.begins import known_start
 from shotc.ir.keyed import carriers, in_order, is_keyed
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.framing import beyond_gimbal
-from shotc.passes.resolve.keeping_up import check_speed
-from shotc.passes.resolve.timing import timing_label
+from shotc.passes.resolve.checks.framing import beyond_gimbal
+from shotc.passes.resolve.checks.keeping_up import check_speed
+from shotc.passes.resolve.checks.timing import timing_label
 from shotc.planning.clearances import ROUNDING
 from shotc.rounding import at_least, down, up
 

@@ -12,8 +12,8 @@ from shotc.ir.show import Apart, Fleet
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
-from shotc.passes.resolve.files import Ground
-from shotc.passes.resolve.world import Put, becalmed, beyond_model, limits_of
+from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.world import Put, becalmed, beyond_model, limits_of
 from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import PRESETS

@@ -9,8 +9,8 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.vec import minus
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.grammar.places import framing
-from shotc.passes.resolve.grammar.sight import begins
+from shotc.passes.resolve.checks.grammar.places import framing
+from shotc.passes.resolve.checks.grammar.sight import begins
 from shotc.planning.framing.candidates import Setting
 
 EMPTY = 0.5  # seconds without its subject that a shot may have

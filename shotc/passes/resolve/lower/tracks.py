@@ -11,10 +11,10 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.passes.resolve.files import Ground
-from shotc.passes.resolve.recordings import Recording, read_recording
-from shotc.passes.resolve.track_jumps import Course, check_gap, check_jump, check_velocity
-from shotc.passes.resolve.world import Put
+from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.recordings import Recording, read_recording
+from shotc.passes.resolve.lower.track_jumps import Course, check_gap, check_jump, check_velocity
+from shotc.passes.resolve.lower.world import Put
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import TOP_SPEED
 from shotc.spec.tracks import TrackSpec

@@ -11,8 +11,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
-from shotc.passes.resolve.motion import least_travel
-from shotc.passes.resolve.timing import EARLIEST, SHORTEST
+from shotc.passes.resolve.checks.motion import least_travel
+from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST
 from shotc.rounding import at_least
 from shotc.show.geom.shape import bounds
 from shotc.show.labels import key_of, word_of

@@ -13,10 +13,10 @@ from math import acos, degrees, dist, hypot, radians, sqrt
 from shotc.diag.model import Diagnostic
 from shotc.ir.flown_order import flown_order
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.grammar.aside import to_the_side
-from shotc.passes.resolve.grammar.line import check_line
-from shotc.passes.resolve.grammar.places import placing
-from shotc.passes.resolve.grammar.sight import Sight, sight
+from shotc.passes.resolve.checks.grammar.aside import to_the_side
+from shotc.passes.resolve.checks.grammar.line import check_line
+from shotc.passes.resolve.checks.grammar.places import placing
+from shotc.passes.resolve.checks.grammar.sight import Sight, sight
 from shotc.rounding import at_least, at_most
 
 APART = radians(30.0)  # between two views of one subject, for a cut to look meant: the 30-degree rule

@@ -14,7 +14,7 @@ from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.svg import svg_fault
-from shotc.passes.resolve.files import NOT_KEPT, read_file
+from shotc.passes.resolve.lower.files import NOT_KEPT, read_file
 from shotc.show.labels import key_of
 from shotc.source.limits import MAX_TABLE_BYTES
 

@@ -2,7 +2,7 @@
 
 from shotc.ir.limits import Limits
 from shotc.ir.mission import Drone, MissionIR, Shot
-from shotc.passes.resolve.motion import least_shot
+from shotc.passes.resolve.checks.motion import least_shot
 from shotc.rounding import at_least, down
 
 FASTEST = 100.0  # m/s, beyond which speed is not what is lacking

@@ -1,18 +1,15 @@
-"""Fleets and displays: layouts made pads, files read, and all that numbers tell of a show before planning."""
+"""Fleets and displays, lowered: layouts made pads, and the files that displays draw read."""
 
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.show import Display, Fleet
 from shotc.ir.source import KeptFiles
-from shotc.passes.resolve.files import Ground
-from shotc.passes.resolve.show.check import check_show
-from shotc.passes.resolve.show.fleets import fleets_of
-from shotc.passes.resolve.show.material import Material, digests, not_kept, read_material
-from shotc.passes.resolve.world import Put
+from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.fleets import fleets_of
+from shotc.passes.resolve.lower.material import Material, digests, not_kept, read_material
+from shotc.passes.resolve.lower.world import Put
 from shotc.spec.load import LoadedMission
-
-__all__ = ["Show", "check_show", "shown"]
 
 
 class Show(NamedTuple):

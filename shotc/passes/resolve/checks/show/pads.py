@@ -12,7 +12,7 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet
-from shotc.passes.resolve.home import take_off_room
+from shotc.passes.resolve.checks.home import take_off_room
 from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
 from shotc.rounding import at_least, up
 from shotc.show.geom.pads import first_nearer, nearest_pair

@@ -9,12 +9,12 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.solids import point
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.owners import drone_owner
-from shotc.passes.resolve.names import AUTO
+from shotc.passes.resolve.lower.names import AUTO
 from shotc.planning.clearances import ROUNDING, Clearance, free_move
 from shotc.spec.mission import MissionSpec
 
 
-def check_pads(spec: MissionSpec, mission: MissionIR) -> Iterator[Diagnostic]:
+def check_parked(spec: MissionSpec, mission: MissionIR) -> Iterator[Diagnostic]:
     """Yield the placed keyframes that are too near to a drone which films nothing, and so stands on its pad.
 
     Where it is open who films a shot, nobody is known to stand.

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
-from shotc.passes.resolve.show.clock import check_clock
-from shotc.passes.resolve.show.pads import check_pads
-from shotc.passes.resolve.show.pictures import check_pictures
+from shotc.passes.resolve.checks.show.clock import check_clock
+from shotc.passes.resolve.checks.show.pads import check_pads
+from shotc.passes.resolve.checks.show.pictures import check_pictures
 from shotc.spec.mission import MissionSpec
 
 

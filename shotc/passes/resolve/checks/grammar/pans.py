@@ -10,9 +10,9 @@ from shotc.geom.pan import WINDOW, slowest, whose
 from shotc.geom.vec import TURN, minus, wrapped
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.passes.resolve.grammar.places import lasting
-from shotc.passes.resolve.grammar.sight import begins, sight
-from shotc.passes.resolve.timing import SLACK
+from shotc.passes.resolve.checks.grammar.places import lasting
+from shotc.passes.resolve.checks.grammar.sight import begins, sight
+from shotc.passes.resolve.checks.timing import SLACK
 from shotc.planning.framing.placing import explicit_aim
 from shotc.planning.framing.turns import ROUNDING
 from shotc.rounding import at_least

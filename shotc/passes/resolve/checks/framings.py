@@ -1,4 +1,4 @@
-"""Framings: where their cameras go is settled here, and what no camera can have is told."""
+"""Framings that no camera can have, and what would help: tried before it is said."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from shotc.ir.framed import (
 )
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.framing import beyond_gimbal
-from shotc.passes.resolve.framing_remedies import (
+from shotc.passes.resolve.checks.framing import beyond_gimbal
+from shotc.passes.resolve.checks.framing_remedies import (
     for_azimuth,
     for_elevation,
     for_free_elevation,
@@ -37,19 +37,6 @@ OFF_VIEW = 0.09  # rad
 APART = 2.0  # times smaller than asked that a subject may be, for others to be in the picture with it
 OUT = 0.02  # half frames that a whole subject may reach out of the frame
 ROUNDING = 1e-6
-
-
-def with_framings(mission: MissionIR) -> tuple[MissionIR, list[Diagnostic]]:
-    """Return the mission with every framing's ideal and places on screen, and what stands against them."""
-    faults: list[Diagnostic] = []
-    for i, shot in enumerate(mission.shots):
-        if shot.ideal is None or not shot.ideal.framed:
-            continue
-        course = course_of(mission, shot, first_start(mission, shot))
-        faults += check_course(mission, course)
-        shots = (*mission.shots[:i], course.shot, *mission.shots[i + 1 :])
-        mission = mission._replace(shots=shots)
-    return mission, faults
 
 
 def check_course(mission: MissionIR, course: Course, *, advise: bool = True) -> Iterator[Diagnostic]:

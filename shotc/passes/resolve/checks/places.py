@@ -14,8 +14,8 @@ from functools import cache, partial
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.clear_path import Change, clear_path
-from shotc.passes.resolve.move_out import move_out
+from shotc.passes.resolve.checks.clear_path import Change, clear_path
+from shotc.passes.resolve.checks.move_out import move_out
 from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
 from shotc.rounding import at_least
 

@@ -9,7 +9,7 @@ from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Rule
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
-from shotc.passes.resolve.foreign import expanded
+from shotc.passes.resolve.lower.foreign import expanded
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
 

@@ -1,0 +1,69 @@
+"""What can be told of a resolved mission without a solver. A fault silences only what depends on it."""
+
+from collections.abc import Iterator
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.keyed import is_keyed
+from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.origin import KeyPath
+from shotc.passes.resolve.checks.covered import covered
+from shotc.passes.resolve.checks.framing import check_framing
+from shotc.passes.resolve.checks.framings import check_course
+from shotc.passes.resolve.checks.grammar import allowed, check_grammar
+from shotc.passes.resolve.checks.home import check_homes
+from shotc.passes.resolve.checks.ideals import check_ideal
+from shotc.passes.resolve.checks.keyed import check_carried
+from shotc.passes.resolve.checks.parked import check_parked
+from shotc.passes.resolve.checks.passers import passers_of
+from shotc.passes.resolve.checks.places import check_places
+from shotc.passes.resolve.checks.show import check_show
+from shotc.passes.resolve.checks.timing import check_timing
+from shotc.passes.resolve.lower import Lowered
+from shotc.spec.load import LoadedMission
+
+
+def check(ir: LoadedMission, what: Lowered) -> list[Diagnostic]:
+    """Return the faults of a mission as written and as it is resolved, those of its words first."""
+    mission = what.mission
+    faults = [*what.faults, *(d for course in what.courses for d in check_course(mission, course))]
+    if not what.astray:
+        faults += _judged(ir, what, order=not has_errors(faults))
+    if not has_errors(faults):
+        faults += [*check_grammar(mission, allowed(ir.spec)), *covered(mission)]
+    return faults
+
+
+def _judged(ir: LoadedMission, what: Lowered, *, order: bool) -> list[Diagnostic]:
+    """Return what can be told from numbers alone; ``order`` is whether names and waits all stand."""
+    mission = what.mission
+    faults = [
+        *_static_faults(mission, timing=what.sound, order=order),
+        *check_parked(ir.spec, mission),
+    ]
+    if ir.spec.fleets:
+        faults += check_show(mission, ir.spec, order=order and not has_errors(faults))
+    return faults
+
+
+def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Diagnostic]:
+    """Return what is wrong with places and times.
+
+    What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
+    the order of the shots where all shots and homes do.
+    """
+    ideals = (fault for shot in mission.shots for fault in check_ideal(mission, shot))
+    homes = [*check_homes(mission), *ideals, *passers_of(mission)]
+    places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
+    wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
+    faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]
+    if timing:
+        misplaced = {shot.path for shot, _ in wrong}
+        sound = [shot for shot in mission.shots if shot.path not in misplaced]
+        faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
+    return faults
+
+
+def _places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
+    """Yield what is wrong with the places of a shot's keyframes, with their lines."""
+    yield from check_carried(mission, shot) if is_keyed(shot) else check_places(mission, shot)

@@ -1,0 +1,162 @@
+"""A loaded mission made a MissionIR: names, presets, units, places, files and kinds resolved."""
+
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.framed import Course
+from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, TransitClearance, Zone
+from shotc.ir.source import MissionSource
+from shotc.kinds.base import Kind, placed
+from shotc.passes.resolve.lower.deferred import deferred_features
+from shotc.passes.resolve.lower.earth import check_earth, geo_origin
+from shotc.passes.resolve.lower.files import Ground, Reader, match_files
+from shotc.passes.resolve.lower.ideals import with_framings, with_times
+from shotc.passes.resolve.lower.names import check_names, emitters_of, once
+from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
+from shotc.passes.resolve.lower.show import Show, shown
+from shotc.passes.resolve.lower.tracks import read_tracks
+from shotc.passes.resolve.lower.world import Put, check_targets, drones, resolve_drone, targets, zones
+from shotc.spec.drones import DroneSpec
+from shotc.spec.load import LoadedMission
+from shotc.spec.presets import RATE, SHOW_RATE, TRANSIT_FILMED, TRANSIT_OTHER
+from shotc.spec.rules import RulesSpec
+
+ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
+
+
+class Lowered(NamedTuple):
+    """A mission as far as it can be resolved, and what is wrong with its words.
+
+    courses : of its framings, in the order of the shots
+    astray : whether its places on earth lie too far from each other
+    sound : whether every drone can fly as it is written
+    """
+
+    mission: MissionIR
+    courses: tuple[Course, ...]
+    faults: tuple[Diagnostic, ...]
+    astray: bool
+    sound: bool
+
+
+def lowered(
+    ir: LoadedMission,
+    kinds: Mapping[str, Kind],
+    emitters: Collection[str] | None,
+    progress: Callable[[str], None],
+) -> Lowered:
+    """Resolve a mission; kinds, emitters : as ``Resolve`` has them."""
+    world = _world(ir)
+    progress("expanding the shots")
+    shots = _shots(ir, world, kinds)
+    show = shown(ir, world.put, world.ground, shots.displays)
+    names = check_names(ir.spec, ir.origins, emitters)
+    faults = once([*world.faults, *names, *shots.diagnostics, *show.diagnostics])
+    mission, courses = with_framings(with_times(_mission(ir, world, shots, show)))
+    return Lowered(mission, courses, tuple(faults), world.astray, world.sound)
+
+
+class _World(NamedTuple):
+    """All but the shots.
+
+    put : puts a place into W; read : who reads the files, and has those that were read
+    astray : whether its places on earth lie too far from each other
+    sound : whether every drone can fly as it is written
+    """
+
+    put: Put
+    ground: Ground
+    read: Reader
+    zones: tuple[Zone, ...]
+    drones: Mapping[str, Drone]
+    targets: Mapping[str, Target | None]
+    rules: Rules
+    faults: tuple[Diagnostic, ...]
+    astray: bool
+    sound: bool
+
+
+def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots:
+    cast = Cast(
+        kinds,
+        world.drones,
+        world.targets,
+        world.rules,
+        world.ground.origin or (ANYWHERE if world.astray else None),
+        ir.origins,
+        world.ground.read,
+        partial(match_files, ir.folder, ir.origins),
+    )
+    return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, 0.0))
+
+
+def _world(ir: LoadedMission) -> _World:
+    spec, origins = ir.spec, ir.origins
+    astray = check_earth(spec, origins)
+    origin = geo_origin(spec)
+    put = partial(placed, origin or ANYWHERE)
+    read = Reader(ir.folder, origins)
+    ground = Ground(origin, origins, read)
+    found_zones, zone_faults = zones(spec, put, origins)
+    found_drones, drone_faults = drones(spec, put, origins)
+    tracks, track_faults = read_tracks(spec, put, ground)
+    found_targets = targets(spec, put, tracks)
+    buried = [] if astray else check_targets(found_targets, origins)
+    return _World(
+        put,
+        ground,
+        read,
+        found_zones,
+        found_drones,
+        found_targets,
+        _rules(spec.rules),
+        (*astray, *zone_faults, *drone_faults, *buried, *track_faults),
+        astray=bool(astray),
+        sound=not has_errors(drone_faults),
+    )
+
+
+def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> MissionIR:
+    spec = ir.spec
+    return MissionIR(
+        name=spec.mission,
+        origin=world.ground.origin,
+        wind=spec.world.wind,
+        zones=world.zones,
+        targets=tuple(t for t in world.targets.values() if t is not None),
+        drones=tuple(world.drones.values()),
+        rules=world.rules,
+        shots=shots.shots,
+        rate=spec.output.rate or (SHOW_RATE if shots.displays and not shots.shots else RATE),
+        emit=emitters_of(spec),
+        source_sha256=ir.sha256,
+        deferred=deferred_features(spec, shots.deferred),
+        origins=ir.origins,
+        fleets=show.fleets,
+        displays=shots.displays,
+        files=show.files,
+        source=MissionSource(ir.text, tuple(world.read.tables.items()), show.drawn, ir.chosen),
+    )
+
+
+def _rules(spec: RulesSpec) -> Rules:
+    rules = Rules(spec.separation, spec.ground_clearance, spec.target_clearance)
+    rules = rules._replace(transits=_transits(spec))
+    visibility = spec.mutual_visibility
+    if visibility is None:
+        return rules
+    return rules._replace(visibility=visibility.strength, half_angle=visibility.half_angle)
+
+
+def _transits(spec: RulesSpec) -> TransitClearance:
+    asked = spec.transit_clearance
+    filmed, other = (None, None) if asked is None else (asked.filmed, asked.other)
+    return TransitClearance(
+        TRANSIT_FILMED if filmed is None else filmed,
+        TRANSIT_OTHER if other is None else other,
+        filmed is not None,
+        other is not None,
+    )
