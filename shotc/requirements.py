@@ -19,8 +19,8 @@ def remedy(libraries: Sequence[str]) -> str:
         packages -= {VIEWER}
         if not packages:
             return (
-                "ask for the output `storyboard`, which shows the same plan: the viewer has no release for "
-                "Intel Macs; on another machine `shotc view` and `shotc emit` take the plan.json of this one"
+                "leave it out: the viewer has no release for Intel Macs; the output `storyboard` shows a "
+                "plan without it, and `shotc view` on another machine takes the plan.json of this one"
             )
     extra = "view" if packages == {VIEWER} else "all" if VIEWER in packages else "plan"
     also = "; `all` instead of `plan` brings the viewer, too" if extra == "plan" and has_viewer() else ""

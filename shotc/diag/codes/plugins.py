@@ -75,7 +75,7 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.WARNING,
         "an output needs a library that is not installed",
         "The rerun recording needs rerun-sdk, which weighs half a gigabyte and comes with "
-        "`pip install 'shotc[view]'`. The other outputs are written; this one is left out.",
+        "`pip install 'shotc[view]'`; it has no release for Intel Macs. The other outputs are written; this one is left out.",
         "",
         "",
         "other",
