@@ -10,15 +10,17 @@ without workers. Files do not depend on how many there are.
 from __future__ import annotations
 
 import os
-import pickle
 import re
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, BinaryIO
+from multiprocessing import Pipe, active_children, get_context, parent_process
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from shotc.emit.base import Artifact, Emission, Emitter, Prepares
 
@@ -41,64 +43,51 @@ def usual_jobs() -> int:
     return min(MOST, len(os.sched_getaffinity(0))) if sys.platform == "linux" else 1
 
 
-@dataclass(slots=True, eq=False)
-class _Worker:
-    """A process, the pipe to it, the pipe from it, and the names of the emitters that it has prepared."""
-
-    pid: int
-    orders: BinaryIO
-    results: BinaryIO
-    names: list[str] = field(default_factory=list)
-
-    def send(self, order: Any) -> None:
-        """Send an order whole or not at all; a worker that is gone shows when its results are missing."""
-        data = pickle.dumps(order, pickle.HIGHEST_PROTOCOL)
-        with suppress(OSError):
-            self.orders.write(data)
-            self.orders.flush()
-
-    def receive(self) -> Mapping[str, Emission]:
-        try:
-            return dict(pickle.load(self.results))
-        except (OSError, EOFError, pickle.UnpicklingError):
-            return {}
-
-    def end(self) -> None:
-        os.kill(self.pid, signal.SIGKILL)  # it writes nothing to the disk
-        os.waitpid(self.pid, 0)
-        self.results.close()
-        with suppress(OSError):
-            self.orders.close()
-
-
 class Crew:
-    """The processes that emit: this one, and the workers that ``crew`` made beside it."""
+    """The processes that emit: this one, and the workers of the pool that ``crew`` made beside it.
 
-    def __init__(self, workers: Sequence[_Worker] = (), load: Load | None = None) -> None:
-        self._workers = workers
+    plans : the ends of pipes by which each worker gets its plan
+    """
+
+    def __init__(
+        self, pool: Executor | None = None, plans: Sequence[Connection] = (), load: Load | None = None
+    ) -> None:
+        self._pool = pool
+        self._plans = plans
         self._load = load
+        self._work: list[_Work] = []
 
     def prepare(self, names: Sequence[str]) -> None:
         """Let the workers load what these emitters need; those that need no preparation stay here."""
-        if not self._workers or self._load is None:
+        if self._pool is None or self._load is None:
             return
         heavy = [name for name in names if isinstance(self._load(name), Prepares)]
-        for i, worker in enumerate(self._workers):
-            worker.names = heavy[i :: len(self._workers)]
-            if worker.names:
-                worker.send(worker.names)
+        for i, plan in enumerate(self._plans):
+            if share := heavy[i :: len(self._plans)]:
+                with suppress(BrokenExecutor):
+                    self._work.append(_Work(share, plan, self._pool.submit(_made, i, share)))
 
     def emit(self, plan: VerifiedIR, emitters: Sequence[Emitter]) -> list[Outcome]:
         """Run emitters and return what came of each, in their order."""
         wanted = {emitter.name for emitter in emitters}
-        busy = [worker for worker in self._workers if wanted.intersection(worker.names)]
-        for worker in busy:
-            worker.send((plan, [name for name in worker.names if name in wanted]))
-        away = {name for worker in busy for name in worker.names}
+        busy = [work for work in self._work if wanted.intersection(work.names)]
+        for work in busy:
+            with suppress(OSError):  # a worker that is gone shows when its result is missing
+                work.plan.send((plan, wanted))
+        away = {name for work in busy for name in work.names}
         made: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in away}
-        for worker in busy:
-            made |= worker.receive()
+        for work in busy:
+            with suppress(Exception):  # what a worker does not bring back is made here, and fails here
+                made |= work.made.result()
         return [made[e.name] if e.name in made else _outcome(e, plan) for e in emitters]
+
+
+class _Work(NamedTuple):
+    """The emitters that one worker has prepared, the pipe for its plan, and what it will have made."""
+
+    names: list[str]
+    plan: Connection
+    made: Future[dict[str, Emission]]
 
 
 ALONE = Crew()
@@ -111,17 +100,27 @@ def crew(jobs: int, load: Load) -> Iterator[Crew]:
     load : returns an emitter by its name, None for one that cannot be used; called in the workers, too
     There are no workers where a fork is not safe: off Linux, and in a process with several threads.
     """
-    safe = sys.platform == "linux" and threading.active_count() == 1
-    workers: list[_Worker] = []
+    if jobs < 2 or sys.platform != "linux" or threading.active_count() > 1:
+        yield Crew(load=load)
+        return
+    pipes = [Pipe(duplex=False) for _ in range(jobs - 1)]
+    orders, plans = [end for end, _ in pipes], [start for _, start in pipes]
+    others, workers = set(active_children()), set[BaseProcess]()
+    pool = ProcessPoolExecutor(jobs - 1, get_context("fork"), _begin, (load, orders, plans))
     try:
         with _uninterrupted():
-            for _ in range(jobs - 1 if safe else 0):
-                workers.append(_hire(load, workers))
-        yield Crew(workers, load)
+            pool.submit(os.getpid)  # it forks all its workers at the first task, before it starts a thread
+            workers = set(active_children()) - others
+        for end in orders:
+            end.close()
+        yield Crew(pool, plans, load)
     finally:
         with _uninterrupted():
             for worker in workers:
-                worker.end()
+                worker.kill()  # it writes nothing to the disk
+            pool.shutdown()
+            for start in plans:
+                start.close()
 
 
 @contextmanager
@@ -137,51 +136,36 @@ def _uninterrupted() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _hire(load: Load, others: Sequence[_Worker]) -> _Worker:
-    """Fork a worker; others : those that are there already."""
-    inward, orders = _pipe()
-    results, outward = _pipe()
-    pid = os.fork()
-    if pid == 0:
-        # A worker sees the end of its orders only if nobody but this process can write any.
-        _live(inward, outward, load, [orders, results, *(s for o in others for s in (o.orders, o.results))])
-    inward.close()
-    outward.close()
-    return _Worker(pid, orders, results)
+_HERE: list[Any] = []
+"""In a worker: how emitters load, and the ends of the pipes by which plans come."""
 
 
-def _pipe() -> tuple[BinaryIO, BinaryIO]:
-    end, start = os.pipe()
-    return os.fdopen(end, "rb"), os.fdopen(start, "wb")
+def _begin(load: Load, orders: Sequence[Connection], plans: Sequence[Connection]) -> None:
+    """Begin as a worker; one whose parent is killed ends, too."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for start in plans:
+        start.close()
+    _HERE[:] = load, orders
+    threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
-def _live(inward: BinaryIO, outward: BinaryIO, load: Load, ours: Sequence[BinaryIO]) -> None:
-    """Be a worker until the process ends, without a word: what fails is done again where it is reported."""
-    try:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        for stream in ours:
-            stream.close()
-        _work(inward, outward, load)
-    finally:
-        os._exit(0)
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+    os._exit(0)
 
 
-def _work(orders: BinaryIO, results: BinaryIO, load: Load) -> None:
-    emitters = [emitter for name in pickle.load(orders) if (emitter := load(name)) is not None]
+def _made(i: int, names: Sequence[str]) -> dict[str, Emission]:
+    """Prepare emitters, wait for a plan in pipe ``i``, and return what they make; what fails is left out."""
+    load, orders = _HERE
+    emitters = [emitter for name in names if (emitter := load(name)) is not None]
     for emitter in emitters:
-        if isinstance(emitter, Prepares):
-            with suppress(Exception):
-                emitter.prepare()
-    plan, names = pickle.load(orders)
-    made: dict[str, Emission] = {}
-    for emitter in emitters:
-        if emitter.name in names:
-            with suppress(Exception):
-                emission = emitter.emit(plan)
-                if not _wrong(emission):
-                    made[emitter.name] = emission
-    pickle.dump(made, results, pickle.HIGHEST_PROTOCOL)
-    results.flush()
+        with suppress(Exception):
+            emitter.prepare()
+    plan, wanted = orders[i].recv()
+    outcomes = {emitter.name: _outcome(emitter, plan) for emitter in emitters if emitter.name in wanted}
+    return {name: made for name, made in outcomes.items() if isinstance(made, Emission)}
 
 
 def _outcome(emitter: Emitter, plan: VerifiedIR) -> Outcome:

@@ -9,8 +9,10 @@ import sys
 import threading
 import time
 from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from traceback import extract_tb
+from typing import ClassVar
 
 import pytest
 
@@ -35,6 +37,18 @@ class Light:
 class Heavy(Light):
     def prepare(self):
         """Nothing to load."""
+
+
+class Together(Heavy):
+    """Waits until every worker prepares something, so that none can do the work of two."""
+
+    met = None
+    waited: ClassVar[set[int]] = set()
+
+    def prepare(self):
+        if self.met is not None and os.getpid() not in self.waited:
+            self.waited.add(os.getpid())
+            self.met.wait(60)
 
 
 class Broken(Heavy):
@@ -62,6 +76,11 @@ class Deadly(Heavy):
         return super().emit(plan)
 
 
+class Stillborn(Heavy):
+    def prepare(self):
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
 class Unsendable(Heavy):
     def emit(self, plan):
         return Emission((Artifact(self.name, b"made"),), notes=(lambda: None,))
@@ -84,8 +103,9 @@ def children():
 
 
 @pytest.mark.parametrize("jobs", [1, 2, 3, 4])
-def test_results_come_in_the_order_of_the_emitters(jobs):
-    emitters = [Heavy("a"), Light("b"), Heavy("c"), Light("d"), Heavy("e")]
+def test_results_come_in_the_order_of_the_emitters_and_every_worker_has_some(jobs, monkeypatch):
+    emitters = [Together("a"), Light("b"), Together("c"), Light("d"), Together("e")]
+    monkeypatch.setattr(Together, "met", get_context("fork").Barrier(jobs - 1) if jobs > 1 else None)
     outcomes = emitted(emitters, jobs)
     assert [outcome.notes for outcome in outcomes] == [("a",), ("b",), ("c",), ("d",), ("e",)]
     assert all(outcome.artifacts[0].data.startswith(b"plan by ") for outcome in outcomes)
@@ -124,9 +144,10 @@ def test_a_missing_library_is_an_outcome():
     assert lacking.name == "rerun"
 
 
-@pytest.mark.parametrize("kind", [Deadly, Unsendable])
-def test_what_a_worker_does_not_bring_back_is_made_here(kind):
-    lost, other = emitted([kind("lost"), Heavy("other")], 2)
+@pytest.mark.parametrize("kind", [Deadly, Stillborn, Unsendable])
+@pytest.mark.parametrize("jobs", [2, 3])
+def test_what_a_worker_does_not_bring_back_is_made_here(kind, jobs):
+    lost, other = emitted([kind("lost"), Heavy("other")], jobs, "x" * 5_000_000)
     assert lost.artifacts[0].name == "lost"
     assert other.notes == ("other",)
 
