@@ -146,6 +146,7 @@ EDITS: list[tuple[str, Callable[[dict[str, Any]], None], str, str]] = [
     ("not a number", lambda d: d["mission"].update(rate="50"), "E003", "mission.rate"),
     ("true for a number", lambda d: d["mission"].update(rate=True), "E003", "mission.rate"),
     ("missing field", lambda d: drone(d).pop("hfov"), "E003", "drones[0].hfov"),
+    ("no keyframes", lambda d: d["keyframes"][0].pop("keyframes"), "E003", "keyframes[0].keyframes"),
     ("unknown field", lambda d: d["mission"]["rules"].update(height=3), "E003", "mission.rules.height"),
     ("wrong length", lambda d: d["mission"]["targets"][0].update(centre=[0, 0]), "E003", "3"),
     ("ragged table", lambda d: curve(d)["control"][3].pop(), "E003", "curve.control"),
