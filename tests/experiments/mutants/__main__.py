@@ -19,7 +19,7 @@ from queue import SimpleQueue
 from tests.experiments.mutants.changes import Mutant, mutants
 from tests.experiments.mutants.coverage_map import CoverageMap, recorded
 from tests.experiments.mutants.equivalents import EQUIVALENTS
-from tests.experiments.mutants.trial import Trial, copy_tree, tried
+from tests.experiments.mutants.trial import Trial, copy_tree, failing, tried
 
 ROOT = Path(__file__).resolve().parents[3]
 OUT = ROOT / "out" / "mutants"
@@ -74,6 +74,9 @@ def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Names
     for k in range(options.jobs):
         copy_tree(ROOT, OUT / f"copy-{k}")
         copies.put(OUT / f"copy-{k}")
+    tests = sorted({test for mutant in drawn for test in covered.tests(mutant)})
+    print(f"{len(tests)} tests are run without a fault first", flush=True)
+    covered.forget(failing(tests, OUT / "copy-0", options.jobs))
     equivalent = {e.key for e in EQUIVALENTS}
 
     def one(mutant: Mutant) -> Trial:

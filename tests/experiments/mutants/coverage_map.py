@@ -38,8 +38,7 @@ class CoverageMap:
             for path, lines in record["lines"].items():
                 for line, contexts in lines.items():
                     self.lines[path][int(line)].update(contexts)
-        for test in failed:
-            self.seconds.pop(test, None)
+        self.forget(failed)
 
     @cached_property
     def breadth(self) -> dict[str, int]:
@@ -59,6 +58,11 @@ class CoverageMap:
             contexts.update(*lines.values())
         return sorted(self._asking(contexts), key=lambda t: (self.breadth[t], self.seconds[t], t))
 
+    def forget(self, tests: set[str]) -> None:
+        """Leave tests out that fail without a fault."""
+        for test in tests:
+            self.seconds.pop(test, None)
+
     def _asking(self, contexts: set[str]) -> set[str]:
         """Return the tests among contexts, and those that asked for what is shared among them."""
         seen, waiting = set(contexts), list(contexts)
@@ -71,7 +75,7 @@ class CoverageMap:
 
 
 def recorded(folder: Path, paths: Sequence[str], root: Path, tests: str, *, anew: bool) -> CoverageMap:
-    """Return the map in a folder; run the suite and record it where there is none of this source.
+    """Return the map in a folder; run the suite and record it where there is none of these files.
 
     tests : which, as pytest's command line says it; anew : whatever there is
     """
@@ -89,6 +93,9 @@ def recorded(folder: Path, paths: Sequence[str], root: Path, tests: str, *, anew
 
 
 def _digest(root: Path, paths: Sequence[str], tests: str) -> str:
-    """Return what tells one source, recorded by one choice of tests, from another."""
+    """Return what tells one source, recorded by tests of some names, from another."""
     files = sorted(file for path in paths for file in (root / path).rglob("*.py"))
-    return sha256(b"\0".join([tests.encode(), *(file.read_bytes() for file in files)])).hexdigest()
+    tested = [*root.glob("tests/**/test_*.py"), *root.glob("plugins/**/test_*.py")]
+    names = sorted(file.relative_to(root).as_posix() for file in tested)
+    parts = [tests.encode(), "\n".join(names).encode(), *(file.read_bytes() for file in files)]
+    return sha256(b"\0".join(parts)).hexdigest()

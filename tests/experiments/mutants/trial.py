@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests.experiments.mutants.changes import Mutant
-from tests.experiments.mutants.choice import CHOSEN
+from tests.experiments.mutants.choice import CHOSEN, FAILED
 from tests.experiments.mutants.coverage_map import CoverageMap
 
 FIRST_TESTS, FIRST_SECONDS = 40, 5.0
@@ -21,8 +21,11 @@ FIRST_TESTS, FIRST_SECONDS = 40, 5.0
 START_SECONDS, LONGER = 30.0, 4.0
 """CPU that a round may take: its imports, and so many times what its tests took without the fault."""
 
-FAILED, NOTHING_RUN = 1, 5
-"""Exit statuses of pytest."""
+
+ENDS = {0: "survived", 1: "killed", 2: "killed"}
+"""What exit statuses of pytest mean; 2 is that a module cannot be imported."""
+
+FAILED_FILE = "failed-tests.txt"
 
 
 @dataclass(frozen=True)
@@ -88,31 +91,17 @@ def _rounds(tests: Sequence[str], covered: CoverageMap) -> Iterator[Sequence[str
 
 
 def run(tests: Sequence[str], copy: Path, seconds: float) -> str:
-    """Run tests in a copy: killed, timeout or survived.
+    """Run tests in a copy until one fails: killed, timeout or survived.
 
     The limit is one of CPU time, so that a loaded machine kills no mutant; a wall-clock limit, ten times as
     long, ends what waits for ever.
     """
-    chosen = copy / "chosen-tests.txt"
-    chosen.write_text("\n".join(tests), encoding="utf-8")
-    files = sorted({test.partition("::")[0] for test in tests})
-    paths = [copy, *(p for p in sorted(copy.glob("plugins/*")) if p.is_dir())]
-    environment = dict(os.environ) | {
-        CHOSEN: str(chosen),
-        "PYTHONPATH": os.pathsep.join(map(str, paths)),
-        "PYTHONDONTWRITEBYTECODE": "1",
-        "OMP_NUM_THREADS": "1",
-    }
-    command = [
-        *(sys.executable, "-m", "pytest", "-x", "-q", "-m", "", "-p", "no:cacheprovider", "-p", "no:xdist"),
-        *("-p", "tests.experiments.mutants.choice", *files),
-    ]
     limit = int(seconds) + 1
     try:
         done = subprocess.run(
-            command,
+            pytest(tests, "-x"),
             cwd=copy,
-            env=environment,
+            env=environment(tests, copy),
             capture_output=True,
             check=False,
             timeout=10 * limit,
@@ -120,8 +109,39 @@ def run(tests: Sequence[str], copy: Path, seconds: float) -> str:
         )
     except subprocess.TimeoutExpired:
         return "timeout"
-    if done.returncode == NOTHING_RUN:
-        raise RuntimeError(done.stdout.decode())
     if done.returncode < 0:
         return "timeout"
-    return "killed" if done.returncode else "survived"
+    if done.returncode not in ENDS:
+        raise RuntimeError(done.stdout.decode() + done.stderr.decode())
+    return ENDS[done.returncode]
+
+
+def failing(tests: Sequence[str], copy: Path, jobs: int) -> set[str]:
+    """Return the tests that fail in a copy without any fault: they tell nothing of one."""
+    command = pytest(tests, "-n", str(jobs))
+    done = subprocess.run(command, cwd=copy, env=environment(tests, copy), capture_output=True, check=False)
+    if done.returncode not in (0, 1):
+        raise RuntimeError(done.stdout.decode() + done.stderr.decode())
+    failed = copy / FAILED_FILE
+    return set(failed.read_text(encoding="utf-8").split("\n")) if failed.is_file() else set()
+
+
+def pytest(tests: Sequence[str], *options: str) -> list[str]:
+    """Return the command that runs tests, whatever their marks."""
+    files = sorted({test.partition("::")[0] for test in tests})
+    plain = ("-q", "-m", "", "-p", "no:cacheprovider", "-p", "tests.experiments.mutants.choice")
+    return [sys.executable, "-m", "pytest", *plain, *options, *files]
+
+
+def environment(tests: Sequence[str], copy: Path) -> dict[str, str]:
+    """Write the tests down, and return the environment in which a copy runs them with its own modules."""
+    chosen = copy / "chosen-tests.txt"
+    chosen.write_text("\n".join(tests), encoding="utf-8")
+    paths = [copy, *(p for p in sorted(copy.glob("plugins/*")) if p.is_dir())]
+    return dict(os.environ) | {
+        CHOSEN: str(chosen),
+        FAILED: str(copy / FAILED_FILE),
+        "PYTHONPATH": os.pathsep.join(map(str, paths)),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "OMP_NUM_THREADS": "1",
+    }

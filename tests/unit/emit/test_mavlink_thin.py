@@ -6,7 +6,7 @@ from math import acos, ceil, inf, pi, radians
 import numpy as np
 import pytest
 
-from shotc.emit.mavlink.clearance import obstacles_of, shortfall
+from shotc.emit.mavlink.clearance import keep_outs, shortfall
 from shotc.emit.mavlink.style import Style, follow, region_of, style_of
 from shotc.emit.mavlink.thin import Leg, Thinner, Tolerance, thinner_of
 from shotc.emit.mavlink.track import track_of
@@ -25,7 +25,7 @@ def thinner(source: VerifiedIR, style: Style | None = None) -> Thinner:
     mission = source.trajectory.keyframes.mission
     track = track_of(mission, source.trajectory.drones[0])
     style = style or style_of(mission, source.trajectory.drones[0], track)
-    return thinner_of(track, mission.drones[0], style, obstacles_of(mission, mission.drones[0]))
+    return thinner_of(track, mission.drones[0], style, keep_outs(mission, mission.drones[0]))
 
 
 def filmed(legs: list[Leg]) -> list[Leg]:
@@ -96,7 +96,11 @@ def test_legs_do_not_cut_a_clearance_that_the_curve_keeps() -> None:
             for leg in filmed(legs)
             for s in np.linspace(0, 1, 50)
         ]
-        return max(float(shortfall(o, np.array(line)).max()) for o in work.obstacles if o.name == "zone tank")
+        return max(
+            float(shortfall(o, np.array(line)).max())
+            for o in work.obstacles
+            if o.owner.words == "zone `tank`"
+        )
 
     free = replace(work, obstacles=(), planned_shortfall=())
     assert deepest(free.legs(loose)) > 0.5
