@@ -53,6 +53,13 @@ def test_links_and_tasks_of_a_page_are_there(page: Path) -> None:
         assert task in TARGETS, task
 
 
+def test_the_files_that_the_examples_change_are_there() -> None:
+    named = set(re.findall(r"`((?:shotc|tests|plugins)/[\w/.-]+\.\w+)`", CONTRIBUTING))
+    new = {"sway", "thin_keyframes", "cue_sheet", "test_sway", "test_cue_sheet", "test_aim"}
+    assert {path for path in named if Path(path).stem not in new and not (ROOT / path).exists()} == set()
+    assert not any((ROOT / path).exists() for path in named if Path(path).stem in new)
+
+
 def test_the_version_of_python_is_told_once() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     versions = [c.rpartition(" ")[2] for c in project["classifiers"] if re.search(r":: 3\.\d+$", c)]
