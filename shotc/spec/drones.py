@@ -10,19 +10,20 @@ from pydantic_core import InitErrorDetails
 from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,
+    AngleRange,
     AngularAcceleration,
     AngularRate,
     Aspect,
     Duration,
     FieldOfView,
     Jerk,
+    PitchRange,
     Position,
     PositiveLength,
     Priority,
     Speed,
 )
 from shotc.spec.fieldtypes import FieldType, Hinted, NamedOr
-from shotc.spec.gimbal import GimbalSpec
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.presets import DEFAULT_MODEL, PRESETS
 from shotc.spec.quantities import Quantity, Tuple
@@ -131,6 +132,15 @@ class CameraSpec(Model):
             beside="sensor",
         )
         raise together([InitErrorDetails(type=clash, loc=("aspect",), input=None)])
+
+
+class GimbalSpec(Model):
+    """What a gimbal reaches; what is not given is the preset's."""
+
+    pitch: PitchRange | None = Field(default=None, description="[lowest, highest] against the horizon")
+    yaw: AngleRange | None = Field(default=None, description="[lowest, highest] against the body")
+    rate: AngularRate | None = Field(default=None, description="turning rate of each axis")
+    acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
 
 
 class DroneSpec(Model):

@@ -5,8 +5,10 @@ from __future__ import annotations
 from math import pi, radians
 from typing import Annotated
 
+from pydantic import StrictBool
+
 from shotc.ir.limits import Vec2, Vec3
-from shotc.spec.fieldtypes import Flag, Integer, NamedOr, Text
+from shotc.spec.fieldtypes import Integer, NamedOr, Text
 from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position, Relative, Station
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
@@ -109,7 +111,7 @@ Point2 = Annotated[Vec2, Tuple("Point2", (_LENGTH, _LENGTH), "[x, y]")]
 Size3 = Annotated[Vec3, Tuple("Size3", (_POSITIVE_LENGTH,) * 3, "[width, depth, height]")]
 Velocity = Annotated[Vec3, Tuple("Velocity", (_VELOCITY,) * 3, "[east, north, up]")]
 
-Switch = Annotated[bool, Flag()]
+Switch = StrictBool
 Count = Annotated[int, Integer("Count", 1, 5_000)]
 Priority = Annotated[int, Integer("Priority", 1, 1_000)]
 

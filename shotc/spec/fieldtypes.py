@@ -105,22 +105,6 @@ class Text(FieldType):
         return {"type": "string", "pattern": self.pattern, "description": self.rule}
 
 
-class Flag(FieldType):
-    """True or false."""
-
-    label = "Flag"
-
-    def read(self, value: Any) -> bool:
-        """Return the truth value."""
-        if not isinstance(value, bool):
-            raise fault("wrong-type", f"expected true or false, got {describe(value)}")
-        return value
-
-    def schema(self) -> JsonSchemaValue:
-        """Return a boolean schema."""
-        return {"type": "boolean"}
-
-
 class Hinted(FieldType):
     """Another field type that has a help of its own for a text which people write there by mistake.
 

@@ -12,8 +12,7 @@ from shotc.spec.fleets import FleetSpec
 from shotc.spec.model import Model, section
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase
-from shotc.spec.targets import TargetSpec
-from shotc.spec.world import WorldSpec
+from shotc.spec.world import TargetSpec, WorldSpec
 from shotc.units import describe
 
 VERSION = 1

@@ -5,7 +5,6 @@ compile every annotation again.
 """
 
 from collections.abc import Mapping
-from types import NoneType
 from typing import Any, ClassVar, NamedTuple, Self, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, ValidationError, model_validator
@@ -107,18 +106,6 @@ class Model(BaseModel):
         model_title_generator=lambda model: model.__name__.removesuffix("Spec"),
     )
     exclusive: ClassVar[tuple[OneOf, ...]] = ()
-
-    @classmethod
-    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
-        """Read an optional field as what it holds: a key without a value is a fault before it gets there.
-
-        Pydantic takes as long for the union with null as for all the rest of a field.
-        """
-        for field in cls.__pydantic_fields__.values():
-            holds, *null = get_args(field.annotation) or (None,)
-            marks = getattr(holds, "__metadata__", ())
-            if null == [NoneType] and marks:
-                field.annotation, field.metadata = get_args(holds)[0], list(marks)
 
     @model_validator(mode="wrap")
     @classmethod

@@ -1,5 +1,7 @@
 """Mission-wide rules and what is written out; silence means the defaults of ``presets``."""
 
+from typing import Annotated, Literal
+
 from pydantic import Field
 
 from shotc.spec import presets
@@ -7,8 +9,34 @@ from shotc.spec.allow import Allowed
 from shotc.spec.compositions import COMPOSITIONS
 from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace
 from shotc.spec.model import Model
-from shotc.spec.transits import TransitClearanceSpec
-from shotc.spec.visibility import MutualVisibilitySpec
+from shotc.spec.quantities import Quantity
+from shotc.units import SMALLEST
+
+_HALF_ANGLE = Quantity("HalfAngle", "angle", SMALLEST["angle"], 1.5707963267948966)
+
+
+class MutualVisibilitySpec(Model):
+    """Whether the drones keep out of each other's pictures."""
+
+    half_angle: Annotated[float, _HALF_ANGLE] | None = Field(
+        default=None, description="half the opening of the cone to keep free; the frame itself if silent"
+    )
+    strength: Literal["require", "prefer", "off"] = Field(default="require", description="how strictly")
+
+
+class TransitClearanceSpec(Model):
+    """How far drones stay away from things on transits, returns and waits."""
+
+    filmed: NonNegativeLength | None = Field(
+        default=None,
+        description="least distance from a drone's body to a target that the mission films; "
+        f"{presets.TRANSIT_FILMED:g} m where there is room, if silent",
+    )
+    other: NonNegativeLength | None = Field(
+        default=None,
+        description="least distance from a drone's body to any other target and to keep-out zones; "
+        f"{presets.TRANSIT_OTHER:g} m where there is room, if silent",
+    )
 
 
 class RulesSpec(Model):

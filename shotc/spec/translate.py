@@ -84,6 +84,10 @@ def _long(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
     return ("wrong-length", f"expected at most {ctx.get('max_length')} items, got more", "")
 
 
+def _flag(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+    return ("wrong-type", f"expected true or false, got {describe(value)}", "")
+
+
 def _text(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
     return ("wrong-type", f"expected text, got {describe(value)}", "")
 
@@ -96,4 +100,5 @@ _WORDS: dict[str, Callable[[Mapping[str, Any], Any], tuple[str, str, str]]] = {
     "too_short": _short,
     "too_long": _long,
     "string_type": _text,
+    "bool_type": _flag,
 }

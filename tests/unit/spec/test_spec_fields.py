@@ -13,9 +13,9 @@ from shotc.spec import fields
 from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
 from shotc.spec.drones import CameraSpec
 from shotc.spec.places import Geodetic
-from shotc.spec.shot import KeyframeSpec
-from shotc.spec.shot_terms import RequireSpec, TimingSpec
+from shotc.spec.shot import KeyframeSpec, RequireSpec, TimingSpec
 from shotc.spec.sizes import SIZES
+from shotc.spec.translate import findings
 
 
 def read(annotation, value):
@@ -25,7 +25,7 @@ def read(annotation, value):
 def slugs(annotation, value):
     with pytest.raises(ValidationError) as caught:
         read(annotation, value)
-    return [(error["type"], error["loc"]) for error in caught.value.errors()]
+    return [(found.slug, found.path) for found in findings(caught.value)]
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from shotc.spec.shot import ShotBase
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Display
-    from shotc.spec.shot_terms import RequireSpec
+    from shotc.spec.shot import RequireSpec
 
 
 class Cast(NamedTuple):

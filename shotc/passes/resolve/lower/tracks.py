@@ -17,7 +17,7 @@ from shotc.passes.resolve.lower.track_jumps import Course, check_gap, check_jump
 from shotc.passes.resolve.lower.world import Put
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import TOP_SPEED
-from shotc.spec.tracks import TrackSpec
+from shotc.spec.world import TrackSpec
 
 SAME = 1e-6  # metres within which two points are one
 FEW = 12  # times that are written out in a help
