@@ -1,19 +1,19 @@
 """PathIR: the geometry of every leg as q(s), before time.
 
 s is path length in metres (turns on the spot count as length too); it is never a time. A shot on its
-own clock is a ``TimedLeg``, the one kind of leg that is a curve over mission time already.
+own clock is a ``ClockLeg``, the one kind of leg that is a curve over mission time already. A camera that
+stands still has a ``HoldLeg`` and no curve.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.limits import Vec2
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 
@@ -21,6 +21,9 @@ PhaseName = Literal["takeoff", "transit", "shot", "return", "land"]
 
 UPRIGHT: tuple[PhaseName, PhaseName] = ("takeoff", "land")
 """Phases straight over a pad: no clearances apply there, nor the floors of keep-in zones."""
+
+Pose = tuple[float, ...]
+"""The channels of a camera at one moment, as CHANNELS."""
 
 CHANNELS = ("x", "y", "z", "cam_yaw", "cam_pitch", "body_yaw", "hfov")
 X, Y, Z, CAM_YAW, CAM_PITCH, BODY_YAW, HFOV = range(7)
@@ -65,11 +68,10 @@ class FramingSpan:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Leg:
-    """One stretch of flight from rest to rest.
+class MovingLeg:
+    """One stretch of flight from rest to rest along a path.
 
-    curve : q(s), channels CHANNELS, piecewise quintic, at least C2; None for a pure hold at ``pose``
-    pose  : channels at the start of the leg, shape (7,) as a tuple
+    curve : q(s), channels CHANNELS, piecewise quintic, at least C2
     stops : where it rests, in order of s; the first is at curve.start, the last at curve.end
     marks : keyframes (shots only)
     pace  : share of the limits, where the duration is free
@@ -79,8 +81,7 @@ class Leg:
 
     phase: PhaseName
     shot: str | None
-    curve: Piecewise | None
-    pose: tuple[float, ...]
+    curve: Piecewise
     stops: tuple[Stop, ...]
     marks: tuple[Mark, ...]
     framing: tuple[FramingSpan, ...]
@@ -89,9 +90,45 @@ class Leg:
     start: float | None
     path: KeyPath
 
+    @property
+    def pose(self) -> Pose:
+        """Channels at the start of the leg, at rest."""
+        return tuple(map(float, self.curve.ctrl[0, 0]))
+
+    @property
+    def end_pose(self) -> Pose:
+        """Channels at its end, at rest."""
+        return tuple(map(float, self.curve.ctrl[-1, -1]))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class TimedLeg:
+class HoldLeg:
+    """A shot of a camera that stands still.
+
+    pose : channels CHANNELS, all through the leg
+    hold : seconds that its keyframes are held, where ``duration`` is None
+    marks, framing : as in MovingLeg, at s = 0; duration, start : as there
+    """
+
+    phase: ClassVar[PhaseName] = "shot"
+
+    shot: str
+    pose: Pose
+    hold: float
+    marks: tuple[Mark, ...]
+    framing: tuple[FramingSpan, ...]
+    duration: float | None
+    start: float | None
+    path: KeyPath
+
+    @property
+    def end_pose(self) -> Pose:
+        """Channels at its end."""
+        return self.pose
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ClockLeg:
     """A shot on its own clock, with the way into its motion and out of it, from rest to rest.
 
     curve : channels CHANNELS over mission time, piecewise quintic, at least C2
@@ -108,9 +145,19 @@ class TimedLeg:
     marks: tuple[Mark, ...] = ()
 
     @property
-    def pose(self) -> tuple[float, ...]:
+    def pose(self) -> Pose:
         """Channels at the start of the leg, at rest."""
         return tuple(map(float, self.curve.ctrl[0, 0]))
+
+    @property
+    def end_pose(self) -> Pose:
+        """Channels at its end, at rest."""
+        return tuple(map(float, self.curve.ctrl[-1, -1]))
+
+
+PathLeg = MovingLeg | HoldLeg
+"""A leg that no clock binds."""
+Leg = PathLeg | ClockLeg
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,7 +165,7 @@ class DronePath:
     """All legs of one drone, in the order they are flown; each starts where the last one ended."""
 
     drone: str
-    legs: tuple[Leg, ...]
+    legs: tuple[PathLeg, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,7 +173,7 @@ class TimedPath:
     """All legs of one drone that films something on its own clock, joined as in DronePath."""
 
     drone: str
-    legs: tuple[Leg | TimedLeg, ...]
+    legs: tuple[Leg, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,30 +219,28 @@ class PathIR:
         """Raise ValueError unless legs join and stops lie on their curves."""
         every: tuple[DronePath | TimedPath, ...] = (*self.drones, *self.timed)
         for drone in every:
-            end: Vec2 | tuple[float, ...] | None = None
+            end: Pose | None = None
             for leg in drone.legs:
-                name = leg.phase if isinstance(leg, Leg) else f"shot {leg.shot}"
+                name = leg.phase if isinstance(leg, MovingLeg) else f"shot {leg.shot}"
                 if end is not None and max(abs(a - b) for a, b in zip(end, leg.pose, strict=True)) > 1e-6:
                     raise ValueError(f"{drone.drone}: {name} does not start where the last leg ended")
-                end = leg.pose if leg.curve is None else tuple(map(float, leg.curve(leg.curve.end)))
-                if isinstance(leg, TimedLeg):
-                    continue
-                if leg.curve is not None and (
+                end = leg.end_pose
+                if isinstance(leg, MovingLeg) and (
                     abs(leg.stops[0].s - leg.curve.start) > 1e-9
                     or abs(leg.stops[-1].s - leg.curve.end) > 1e-9
                 ):
                     raise ValueError(f"{drone.drone}: {name} does not begin and end at rest")
 
 
-def leg_of(path: PathIR, shot: str) -> Leg:
-    """Return the leg that films a shot on a path; KeyError if there is none."""
+def leg_of(path: PathIR, shot: str) -> MovingLeg:
+    """Return the leg on which a camera that moves along a path films a shot; KeyError if there is none."""
     leg = filmed(path, shot)
-    if not isinstance(leg, Leg):
+    if not isinstance(leg, MovingLeg):
         raise KeyError(shot)
     return leg
 
 
-def filmed(path: PathIR, shot: str) -> Leg | TimedLeg:
+def filmed(path: PathIR, shot: str) -> Leg:
     """Return the leg that films a shot, whatever it is a curve over; KeyError if there is none."""
     every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
     for drone in every:

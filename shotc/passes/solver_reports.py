@@ -12,7 +12,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.measures import measure
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import Leg, PathIR, TimedLeg, filmed
+from shotc.ir.path import ClockLeg, HoldLeg, Leg, PathIR, PathLeg, filmed
 
 UNREFINED = "R014"
 EVERYTHING = "all constraints"
@@ -110,15 +110,17 @@ def unrefined(path: PathIR, shot: str, why: str) -> Diagnostic:
     )
 
 
-def nearest_keyframe(leg: Leg, s: float) -> int | None:
+def nearest_keyframe(leg: PathLeg, s: float) -> int | None:
     """Return the index of the keyframe nearest to a path parameter, None where the leg has none."""
     return min(leg.marks, key=lambda mark: abs(mark.s - s)).index if leg.marks else None
 
 
-def place(leg: Leg | TimedLeg, s: float) -> str:
+def place(leg: Leg, s: float) -> str:
     """Write where on a leg something is."""
-    if isinstance(leg, TimedLeg):
+    if isinstance(leg, ClockLeg):
         return f"at t = {s:.2f} s of the mission"
+    if isinstance(leg, HoldLeg):
+        return "where its camera stands"
     near = nearest_keyframe(leg, s)
     keyframe = "" if near is None else f", nearest keyframe {near + 1}"
     return f"{s - leg.stops[0].s:.1f} m along the {leg.phase}{keyframe}"
@@ -128,7 +130,7 @@ def _help(path: PathIR, state: SolverState, keyframes: str) -> str:
     """Return what to change, if that is known; keyframes : of a shot that has any."""
     if state.stage is None:
         return ""
-    clocked = isinstance(filmed(path, state.shot), TimedLeg)
+    clocked = isinstance(filmed(path, state.shot), ClockLeg)
     loosen = [] if state.inner or state.excess <= 0.0 else [f"loosen {state.constraint}"]
     return ", or ".join([*loosen, *([] if clocked else [keyframes])])
 

@@ -34,7 +34,17 @@ if TYPE_CHECKING:
         Target,
     )
     from shotc.ir.passes import Outcome, PassContext, Refiner
-    from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV, Deviation, DronePath, Leg, PathIR
+    from shotc.ir.path import (
+        BODY_YAW,
+        CAM_PITCH,
+        CAM_YAW,
+        CHANNELS,
+        HFOV,
+        Deviation,
+        DronePath,
+        MovingLeg,
+        PathIR,
+    )
     from shotc.ir.phases import Phase
     from shotc.ir.trajectory import Claim, DroneTrajectory, KeyframeTime, Reference, TrajectoryIR, VerifiedIR
     from shotc.kinds.base import Expansion, Kind, Scene
@@ -117,7 +127,7 @@ _HOMES = {
     "KeyframeTime": "shotc.ir.trajectory",
     "Kind": "shotc.kinds.base",
     "Label": "shotc.diag.model",
-    "Leg": "shotc.ir.path",
+    "MovingLeg": "shotc.ir.path",
     "Length": "shotc.spec.fields",
     "LengthSpan": "shotc.spec.fields",
     "LookAt": "shotc.spec.fields",
@@ -212,12 +222,12 @@ __all__ = [
     "KeyframeTime",
     "Kind",
     "Label",
-    "Leg",
     "Length",
     "LengthSpan",
     "LookAt",
     "MissionIR",
     "Model",
+    "MovingLeg",
     "Name",
     "NonNegativeDuration",
     "NonNegativeLength",

@@ -20,7 +20,19 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.needs import with_need
 from shotc.ir.occlusion import others_of
-from shotc.ir.path import BODY_YAW, CALM, CAM_PITCH, CAM_YAW, HFOV, Deviation, TimedLeg, TimedPath, leg_of
+from shotc.ir.path import (
+    BODY_YAW,
+    CALM,
+    CAM_PITCH,
+    CAM_YAW,
+    HFOV,
+    ClockLeg,
+    Deviation,
+    HoldLeg,
+    MovingLeg,
+    TimedPath,
+    leg_of,
+)
 from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
@@ -57,16 +69,19 @@ __all__ = [
     "Array",
     "Bound",
     "Clock",
+    "ClockLeg",
     "Cylinder",
     "Deviation",
     "Drone",
     "DroneTrajectory",
     "Fit",
     "FlownShot",
+    "HoldLeg",
     "IntArray",
     "Keyed",
     "Looker",
     "Mask",
+    "MovingLeg",
     "NoTransit",
     "PlacedKeyframe",
     "PlacedShot",
@@ -76,7 +91,6 @@ __all__ = [
     "Solid",
     "Status",
     "Surroundings",
-    "TimedLeg",
     "TimedPath",
     "View",
     "Watch",

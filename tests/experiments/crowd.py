@@ -13,7 +13,7 @@ import numpy as np
 from shotc_casadi.clock import rounds, weights
 
 from shotc.api import PlanOptions, compile_source
-from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
+from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg, PathIR
 
 SCENES = range(12)
 WALKERS = 3
@@ -98,7 +98,7 @@ def fly(text: str) -> Flown | None:
     if done.plan is None:
         return None
     path: PathIR = next(report.output for report in done.reports if report.name == "refine-path")
-    leg = next(one for one in path.timed[0].legs if isinstance(one, TimedLeg))
+    leg = next(one for one in path.timed[0].legs if isinstance(one, ClockLeg))
     t = np.linspace(leg.start, leg.end, 600)
     eyes = leg.curve(t)[:, :3]
     claims = {c.constraint: c.worst for c in done.plan.certificate if c.shot in (None, "s")}

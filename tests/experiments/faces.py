@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.api import PlanOptions, compile_source
-from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
+from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg, PathIR
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
 
@@ -65,7 +65,7 @@ class Looks(NamedTuple):
 
 def looks(path: PathIR) -> Looks:
     """Return how the subjects of the one shot of a path appear."""
-    leg = next(one for one in path.timed[0].legs if isinstance(one, TimedLeg))
+    leg = next(one for one in path.timed[0].legs if isinstance(one, ClockLeg))
     (placed,), mission = path.keyframes.shots, path.keyframes.mission
     t = np.linspace(leg.start, leg.end, 200)
     flight = DroneTrajectory("cam", leg.curve, (), (), ())

@@ -10,7 +10,7 @@ import numpy as np
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import Leg, PathIR
+from shotc.ir.path import MovingLeg, PathIR
 from shotc.passes.refine_path import RefinePath, Seat
 
 MISSION = """\
@@ -73,7 +73,7 @@ def refine(act, *optional: str, path_of=path):
     return RefinePath(Seat(Odd(act), "odd-maker")).run(path_of(*optional), PassContext())
 
 
-def leg(ir: PathIR, shot: str) -> Leg:
+def leg(ir: PathIR, shot: str) -> MovingLeg:
     return next(leg for leg in ir.drones[0].legs if leg.shot == shot)
 
 

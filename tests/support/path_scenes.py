@@ -12,7 +12,7 @@ from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Target, Zone
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Leg, PathIR
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, MovingLeg, PathIR, PathLeg
 from shotc.passes.solve_path_qp import SolvePathQp
 from tests.support.film_plans import orbit_mission
 from tests.support.records import replace
@@ -83,19 +83,18 @@ def planned(made: MissionIR, *shots: PlacedShot) -> PathIR:
     assert outcome.value is not None, [d.message for d in outcome.diagnostics]
     outcome.value.check()
     for leg in outcome.value.drones[0].legs:
-        if leg.curve is not None:
+        if isinstance(leg, MovingLeg):
             assert_sound(made, made.drones[0], leg)
     return outcome.value
 
 
-def legs(path: PathIR, phase: str) -> list[Leg]:
+def legs(path: PathIR, phase: str) -> list[PathLeg]:
     return [leg for leg in path.drones[0].legs if leg.phase == phase]
 
 
-def assert_sound(made: MissionIR, drone: Drone, leg: Leg) -> None:
+def assert_sound(made: MissionIR, drone: Drone, leg: MovingLeg) -> None:
     """Clearances, gimbal ranges and continuity, densely sampled."""
     curve = leg.curve
-    assert curve is not None
     q = curve(np.linspace(curve.start, curve.end, 700))
     gimbal_yaw = q[:, CAM_YAW] - q[:, BODY_YAW]
     assert gimbal_yaw.min() >= drone.gimbal.yaw[0] - 1e-7
@@ -108,10 +107,9 @@ def assert_sound(made: MissionIR, drone: Drone, leg: Leg) -> None:
     assert_continuous(leg)
 
 
-def assert_continuous(leg: Leg) -> None:
+def assert_continuous(leg: MovingLeg) -> None:
     """C2 at every break that is no stop, C0 at the others."""
     curve = leg.curve
-    assert curve is not None
     stops = np.array([s.s for s in leg.stops])
     moving = np.abs(curve.breaks[1:-1, None] - stops).min(axis=1) > 1e-9
     for order, where in ((0, np.ones_like(moving)), (1, moving), (2, moving)):

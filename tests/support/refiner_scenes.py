@@ -21,7 +21,7 @@ from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.solids import Cylinder
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR, Target
-from shotc.ir.path import Leg, PathIR
+from shotc.ir.path import MovingLeg, PathIR
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.path_scenes import TOWER, block, circle, mission, out, planned, shot
 
@@ -100,7 +100,7 @@ def path_of(done: Compilation, step: str = "refine-path") -> PathIR:
     return next(report.output for report in done.reports if report.name == step)
 
 
-def leg_named(path: PathIR, shot: str = "s") -> Leg:
+def leg_named(path: PathIR, shot: str = "s") -> MovingLeg:
     """The leg that films a shot."""
     return next(leg for drone in path.drones for leg in drone.legs if leg.shot == shot)
 

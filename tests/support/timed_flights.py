@@ -8,7 +8,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import registry
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
-from shotc.ir.path import Leg, PathIR
+from shotc.ir.path import MovingLeg, PathIR, PathLeg
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.parameterize_time import ParameterizeTime
 from tests.support.timing_paths import (
@@ -26,8 +26,8 @@ TO = (40.0, 0.0, 10.0, 0.0, 0.0, 0.0, HFOV)
 FORTY = s_curve_time(40.0, 8.0, 3.0, 8.0)
 
 
-def straight(**changes: object) -> Leg:
-    return shot_leg(line(FROM, TO), FROM, **changes)
+def straight(**changes: object) -> MovingLeg:
+    return shot_leg(line(FROM, TO), **changes)
 
 
 def timed(path: PathIR) -> TrajectoryIR:
@@ -44,7 +44,7 @@ def faults(path: PathIR) -> tuple[Diagnostic, ...]:
     return outcome.diagnostics
 
 
-def shot_time(leg: Leg, of: MissionIR | None = None) -> float:
+def shot_time(leg: PathLeg, of: MissionIR | None = None) -> float:
     start, end = shot_phase(timed(flight(of or mission(), leg)))
     return end - start
 

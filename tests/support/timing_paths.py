@@ -10,7 +10,7 @@ from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import OriginMap
-from shotc.ir.path import DronePath, Leg, Mark, PathIR, PhaseName, Stop
+from shotc.ir.path import DronePath, HoldLeg, Mark, MovingLeg, PathIR, PhaseName, Stop
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.planning.timing.limits import Ceiling
 from shotc.source.file import Span
@@ -109,18 +109,18 @@ def mission(**changes: object) -> MissionIR:
     )
 
 
-def shot_leg(curve: Piecewise | None, pose: tuple[float, ...], **changes: object) -> Leg:
+MARKS = (("shots", 0, "keyframes", 0), ("shots", 0, "keyframes", 1))
+
+
+def shot_leg(curve: Piecewise, **changes: object) -> MovingLeg:
     """The leg of the sample's shot: two stops without holds and a mark at each end, full pace."""
-    end = curve.end if curve is not None else 0.0
-    leg = Leg(
+    leg = MovingLeg(
         phase="shot",
         shot="half",
         curve=curve,
-        pose=pose,
-        stops=(Stop(0.0, 0.0), Stop(end, 0.0)),
-        marks=(
-            Mark(0.0, None, 0, ("shots", 0, "keyframes", 0)),
-            Mark(end, None, 1, ("shots", 0, "keyframes", 1)),
+        stops=(Stop(0.0, 0.0), Stop(curve.end, 0.0)),
+        marks=tuple(
+            Mark(s, None, i, path) for i, (s, path) in enumerate(zip((0.0, curve.end), MARKS, strict=True))
         ),
         framing=(),
         pace=1.0,
@@ -131,11 +131,18 @@ def shot_leg(curve: Piecewise | None, pose: tuple[float, ...], **changes: object
     return replace(leg, **changes)
 
 
-def flight(of: MissionIR, leg: Leg) -> PathIR:
+def held_leg(pose: tuple[float, ...], hold: float = 0.0, **changes: object) -> HoldLeg:
+    """The same of a camera that stands."""
+    marks = tuple(Mark(0.0, None, i, path) for i, path in enumerate(MARKS))
+    leg = HoldLeg("half", pose, hold, marks, (), None, None, ("shots", 0))
+    return replace(leg, **changes)
+
+
+def flight(of: MissionIR, leg: MovingLeg | HoldLeg) -> PathIR:
     """Take-off and a transit to a shot's start, the shot, and down again."""
     pad = (*of.drones[0].home, *leg.pose[3:])
     above = (*pad[:2], pad[2] + 6.0, *pad[3:])
-    end = leg.pose if leg.curve is None else tuple(map(float, leg.curve.ctrl[-1, -1]))
+    end = leg.end_pose
     under = (*end[:2], 0.0, *end[3:])
     legs = (
         _plain("takeoff", line(pad, above)),
@@ -146,11 +153,9 @@ def flight(of: MissionIR, leg: Leg) -> PathIR:
     return PathIR(KeyframeIR(of, ()), (DronePath("cam1", legs),), (), ())
 
 
-def _plain(phase: PhaseName, curve: Piecewise) -> Leg:
+def _plain(phase: PhaseName, curve: Piecewise) -> MovingLeg:
     stops = (Stop(curve.start, 0.0), Stop(curve.end, 0.0))
-    return Leg(
-        phase, None, curve, tuple(curve.ctrl[0, 0]), stops, (), (), 1.0, None, None, ("drones", "cam1")
-    )
+    return MovingLeg(phase, None, curve, stops, (), (), 1.0, None, None, ("drones", "cam1"))
 
 
 def shot_phase(ir: TrajectoryIR) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api import Leg, Piecewise
+from shotc.plugin_api import MovingLeg, Piecewise
 from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
@@ -45,7 +45,7 @@ class Given(NamedTuple):
     slopes: Array = np.zeros((0, 5))
 
 
-def camera(drone: Drone, leg: Leg, stages: Stages, states: Array, given: Given) -> Piecewise:
+def camera(drone: Drone, leg: MovingLeg, stages: Stages, states: Array, given: Given) -> Piecewise:
     """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline through the changes.
 
     states : shape (N + 1, 16) as in symbols

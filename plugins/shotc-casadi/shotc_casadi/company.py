@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from shotc.plugin_api import Diagnostic, Leg, Outcome, PassContext, PathIR, Piecewise, unrefined
+from shotc.plugin_api import Diagnostic, MovingLeg, Outcome, PassContext, PathIR, Piecewise, unrefined
 from shotc.plugin_api.refiner import (
     MOST_MOVED,
     Array,
     FlownShot,
+    HoldLeg,
     Looker,
     NoTransit,
     PlacedSubject,
@@ -51,12 +52,14 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
     Shots on their own clock have no keyframes to interpolate; the conditions that do leave them alone.
     """
     told: list[Diagnostic] = []
-    filmed = [(flown.drone, leg) for flown in path.timed for leg in flown.legs if leg.curve is not None]
+    filmed = [
+        (flown.drone, leg) for flown in path.timed for leg in flown.legs if not isinstance(leg, HoldLeg)
+    ]
     for drone, leg in filmed:
         if leg.shot is None:
             continue
         ctx.progress(f"refine shot {leg.shot}")
-        if isinstance(leg, Leg):
+        if isinstance(leg, MovingLeg):
             path, said = _refined(path, subject_of(path, drone, leg), condition)
         elif condition.aims == "framing":
             path, said = refine_one(path, leg.shot, condition.name)
@@ -111,7 +114,7 @@ def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:
     return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED * away).all())
 
 
-def _in_its_time(subject: Subject) -> Leg:
+def _in_its_time(subject: Subject) -> MovingLeg:
     """Return the leg with the time that it takes as the time that it is to take."""
     return replace(subject.leg, duration=leg_time(subject.drone, subject.leg))
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api import Leg
+from shotc.plugin_api import MovingLeg
 from shotc.plugin_api.refiner import Array, flying_times
 
 
@@ -36,13 +36,13 @@ class Due(NamedTuple):
         return np.where(t <= known[-1], np.interp(t, known, self.t), after)
 
 
-def due(leg: Leg) -> Due:
+def due(leg: MovingLeg) -> Due:
     """Return the places of a moving leg that have a time."""
     s, t = np.array(flying_times(leg)).T
     return Due(s, t)
 
 
-def unhurried(leg: Leg) -> Leg:
+def unhurried(leg: MovingLeg) -> MovingLeg:
     """Return a leg without its times, to be flown as fast as the limits allow."""
     marks = tuple(replace(mark, time=None) for mark in leg.marks)
     return replace(leg, duration=None, pace=1.0, marks=marks)

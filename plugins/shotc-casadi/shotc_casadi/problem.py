@@ -110,7 +110,6 @@ def _parameters(
     subject: Subject, stages: Stages, wanted: References, walls: Array, margins: Margins, guess: Array
 ) -> Array:
     n, total, drone = len(stages.s) - 1, float(stages.t[-1]), subject.drone
-    assert subject.leg.curve is not None
     wide, tall = fields_of_view(subject, stages.s)
     rate = subject.leg.curve.derivative()(stages.s)[:, :3]
     spacing = np.maximum(np.gradient(stages.s), 1e-6)
@@ -169,7 +168,6 @@ def _pinned(
     subject: Subject, stages: Stages, wanted: References, margins: Margins, guess: Array
 ) -> tuple[Array, Array]:
     """Return wanted states and their weights: positions near the path, keyframes, rest, ends, times."""
-    assert subject.leg.curve is not None
     value = guess.copy()
     value[:, POSITION] = subject.leg.curve(stages.s)[:, :3]
     distance = _distance(wanted, value[:, POSITION], stages)

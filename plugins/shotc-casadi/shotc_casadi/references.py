@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api import Leg, MissionIR, PathIR
+from shotc.plugin_api import MissionIR, MovingLeg, PathIR
 from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
@@ -69,11 +69,11 @@ class Subject(NamedTuple):
     drone: Drone
     room: Room
     placed: PlacedShot
-    leg: Leg
+    leg: MovingLeg
     beside: Beside | None = None
 
 
-def subject_of(path: PathIR, drone: str, leg: Leg) -> Subject:
+def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> Subject:
     """Return what the shot of a leg is about; drone : who flies it."""
     mission = path.keyframes.mission
     flown_by = mission.drone(drone)
@@ -87,7 +87,6 @@ def references(subject: Subject, condition: Condition, s: Array) -> References:
         return _framed(subject, s)
     keys = _keys(subject)
     at = np.array([key_s for key_s, _ in keys])
-    assert subject.leg.curve is not None
     angles = _unwrapped([own_angles(subject, k) for _, k in keys], subject.leg.curve(at)[:, CAM_YAW])
     turn = np.column_stack([steady(at, angles[:, i])(s)[:, 0] for i in (0, 1)])
     own = _unframed(subject, s)
@@ -187,12 +186,10 @@ def _towards(d: Array, near: Array) -> Array:
 
 
 def _position(subject: Subject, s: Array) -> Array:
-    assert subject.leg.curve is not None
     return np.asarray(subject.leg.curve(s)[:, :3])
 
 
 def fields_of_view(subject: Subject, s: Array) -> tuple[Array, Array]:
     """Return tan of half the horizontal and vertical fields of view at s."""
-    assert subject.leg.curve is not None
     half = np.tan(subject.leg.curve(s)[:, HFOV] / 2)
     return half, half / subject.drone.aspect

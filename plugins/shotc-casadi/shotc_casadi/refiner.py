@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from shotc.plugin_api import Diagnostic, Outcome, PassContext, PathIR, Piecewise, impossible
-from shotc.plugin_api.refiner import NoTransit, rejoined
+from shotc.plugin_api.refiner import MovingLeg, NoTransit, rejoined
 from shotc_casadi import conditions
 from shotc_casadi.company import refine_in_company
 from shotc_casadi.conditions import Condition
@@ -86,7 +86,7 @@ def subjects(path: PathIR) -> list[Subject]:
         subject_of(path, flown.drone, leg)
         for flown in path.drones
         for leg in flown.legs
-        if leg.shot is not None and leg.curve is not None
+        if isinstance(leg, MovingLeg) and leg.shot is not None
     ]
 
 

@@ -61,7 +61,6 @@ def deviation(path: PathIR, refined: Refined) -> list[Deviation]:
     """Return where a refined shot is farthest from its convex path, if that is worth telling."""
     assert refined.camera is not None
     leg = leg_of(path, refined.shot)
-    assert leg.curve is not None
     away = np.linalg.norm(
         (refined.camera(refined.nodes.s) - leg.curve(refined.nodes.s)[:, :5])[:, :3], axis=1
     )

@@ -84,7 +84,6 @@ def _refine(
     subject: Subject, condition: Condition, count: int | None, solvers: tuple[Solver, ...]
 ) -> tuple[Refined, Check]:
     leg = subject.leg
-    assert leg.curve is not None
     assert leg.shot is not None
     nodes = stages(leg, subject.placed, subject.drone, count)
     wanted = asked_at_first(subject, nodes, references(subject, condition, nodes.s))
@@ -112,7 +111,6 @@ def _refine(
 
 def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
     """Return the half-spaces that the nodes are kept in."""
-    assert subject.leg.curve is not None
     others = None if subject.beside is None else subject.beside(nodes.s)
     return half_spaces(subject.room, subject.leg.curve, nodes, margins, others)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from shotc.plugin_api import Leg
+from shotc.plugin_api import MovingLeg
 from shotc.plugin_api.refiner import Array, Drone, PlacedShot, rough_times
 from shotc_casadi.due import due
 
@@ -30,7 +30,7 @@ class Stages:
     pins: np.ndarray
 
 
-def stages(leg: Leg, placed: PlacedShot, drone: Drone, count: int | None) -> Stages:
+def stages(leg: MovingLeg, placed: PlacedShot, drone: Drone, count: int | None) -> Stages:
     """Return nodes evenly in time under a simple speed profile, with one at every place that binds.
 
     count : how many stages, or None for as many as those places need
@@ -55,8 +55,7 @@ def stages(leg: Leg, placed: PlacedShot, drone: Drone, count: int | None) -> Sta
     return Stages(s, at, index)
 
 
-def _pins(leg: Leg, placed: PlacedShot) -> Array:
-    assert leg.curve is not None
+def _pins(leg: MovingLeg, placed: PlacedShot) -> Array:
     put = {m.s for m in leg.marks if placed.keyframes[m.index].placed}
     every = sorted(put | {stop.s for stop in leg.stops} | {leg.curve.start, leg.curve.end})
     apart = APART * (every[-1] - every[0])

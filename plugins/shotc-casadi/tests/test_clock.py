@@ -23,7 +23,7 @@ from shotc_casadi.timeout import TimedOut
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.passes import PassContext
-from shotc.ir.path import CAM_PITCH, CAM_YAW, TimedLeg
+from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg
 from shotc.plugin_api.refiner import ideal_places, restrict, surroundings
 
 pytestmark = pytest.mark.slow
@@ -62,7 +62,7 @@ def subject(done: Compilation, step: str = "solve-path-qp") -> ClockSubject:
     return subject_of(path, "s")
 
 
-def peaks(leg: TimedLeg) -> np.ndarray:
+def peaks(leg: ClockLeg) -> np.ndarray:
     """The most that the camera's yaw and pitch accelerate and jerk in the film; shape (4,)."""
     t = np.linspace(leg.start, leg.end, 4001)
     rows = [np.abs(leg.curve.derivative(k)(t)[:, c]).max() for c in (CAM_YAW, CAM_PITCH) for k in (2, 3)]

@@ -8,7 +8,7 @@ from shotc_casadi.clock.refiner import GUIDE_BETTER, KEPT
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.diag.registry import has_errors
-from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
+from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg, PathIR
 
 pytestmark = pytest.mark.slow
 
@@ -132,7 +132,7 @@ def test_whatever_is_drawn_is_refined_where_its_guide_can_be_flown(seeds: range,
         assert turned(new) <= 1.05 * turned(old) + 1e-3, text
 
 
-def turned(leg: TimedLeg) -> float:
+def turned(leg: ClockLeg) -> float:
     """The mean square of the camera's angular acceleration in the film, rad^2/s^4."""
     t = np.linspace(leg.start, leg.end, 2000)
     return sum(float((leg.curve.derivative(2)(t)[:, c] ** 2).mean()) for c in (CAM_YAW, CAM_PITCH))

@@ -21,7 +21,7 @@ from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom import viewpoint
 from shotc.ir.framed import lens_of
 from shotc.ir.passes import PassContext
-from shotc.ir.path import CAM_PITCH, CAM_YAW, PathIR, TimedLeg
+from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg, PathIR
 from shotc.plugin_api.refiner import restrict, surroundings
 from tests.experiments.faces import MISSION, drawn
 
@@ -79,7 +79,7 @@ def task(of: ClockSubject) -> ClockProblem:
     return problem(of, breaks, wanted, planes, Use(NEARLY), guess(guide, breaks, of.leg.curve))
 
 
-def turning(leg: TimedLeg) -> float:
+def turning(leg: ClockLeg) -> float:
     """The mean square of the camera's angular acceleration in the film, rad^2/s^4."""
     rates = leg.curve.derivative(2)(np.linspace(leg.start, leg.end, 2000))
     return float((rates[:, [CAM_YAW, CAM_PITCH]] ** 2).sum(axis=1).mean())
@@ -228,7 +228,7 @@ def test_what_is_flown_never_costs_more_than_its_guide(seed: int) -> None:
         assert flown_cost(made, flown.curve.breaks, flown) < flown_cost(made, flown.curve.breaks, guide)
 
 
-def shown_hidden(of: ClockSubject, leg: TimedLeg) -> float:
+def shown_hidden(of: ClockSubject, leg: ClockLeg) -> float:
     return sum(shown(of, leg, which).hidden for which in range(len(of.framed)))
 
 
@@ -247,7 +247,7 @@ def test_a_motion_that_crops_a_subject_is_not_taken(monkeypatch: pytest.MonkeyPa
     of = subject(CORNER)
     true = shown
 
-    def cropped(one: ClockSubject, leg: TimedLeg, which: int = 0) -> object:
+    def cropped(one: ClockSubject, leg: ClockLeg, which: int = 0) -> object:
         found = true(one, leg, which)
         return found if leg is of.leg or which == 0 else found._replace(cropped=0.1)
 

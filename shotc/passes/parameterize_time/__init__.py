@@ -17,7 +17,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import concatenate, lift_off
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import DronePath, Leg, PathIR, TimedLeg, TimedPath
+from shotc.ir.path import ClockLeg, DronePath, HoldLeg, Leg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.parameterize_time.explain.binding import binding
 from shotc.passes.parameterize_time.explain.times import (
@@ -90,7 +90,7 @@ class _Pilot:
             waits = self._waits(leg)
             if waits is not None and waits not in ends:
                 break
-            if isinstance(leg, TimedLeg):
+            if isinstance(leg, ClockLeg):
                 self._film(leg, ends.get(waits or "", 0.0))
                 ends[leg.shot] = leg.end
             else:
@@ -102,7 +102,7 @@ class _Pilot:
                 self._check_endurance()
         return self.done > before
 
-    def _film(self, leg: TimedLeg, ready: float) -> None:
+    def _film(self, leg: ClockLeg, ready: float) -> None:
         """Fly a shot on its own clock, if the drone is there in time."""
         begins = float(leg.curve.start)
         earliest = max(self.flight.clock, ready - (leg.start - begins))
@@ -113,10 +113,10 @@ class _Pilot:
         self.flight.wait(begins, leg.pose)
         self.flight.film(leg)
 
-    def _waits(self, leg: Leg | TimedLeg) -> str | None:
+    def _waits(self, leg: Leg) -> str | None:
         return next((s.timing.after for s in self.mission.shots if s.id == leg.shot), None)
 
-    def _fly(self, leg: Leg, ready: float) -> None:
+    def _fly(self, leg: PathLeg, ready: float) -> None:
         name = f"shot {leg.shot}" if leg.shot else f"{self.path.drone} {leg.phase} {self.done}"
         self.ctx.progress(f"timing {name}")
         timing = time_leg(leg, ceiling_of(self.drone))
@@ -145,11 +145,11 @@ class _Pilot:
             self.faults.append(endurance_exceeded(self.mission, self.drone, phases))
 
 
-def _fault(mission: MissionIR, drone: Drone, leg: Leg, timing: LegTiming) -> Diagnostic | None:
+def _fault(mission: MissionIR, drone: Drone, leg: PathLeg, timing: LegTiming) -> Diagnostic | None:
     """Return what is wrong with the times that a leg asks for."""
     if timing.motion is None and leg.shot is not None:
         return without_length(mission, leg)
-    if timing.too_fast is None:
+    if timing.too_fast is None or isinstance(leg, HoldLeg):
         return None
     remedies = Remedies(binding(leg, timing.fast, ceiling_of(drone)), partial(can_be_timed, leg))
     return too_fast(mission, drone, leg, timing.too_fast, remedies)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.path import PathIR, filmed
+from shotc.ir.path import HoldLeg, PathIR, filmed
 from shotc.ir.trajectory import VerifiedIR
 from shotc.passes.refine_path.seat import KeepPath, Seat
 from shotc.passes.refine_path.settle import same
@@ -48,8 +48,9 @@ def account(seat: Seat, paths: tuple[PathIR, PathIR], said: Iterable[Diagnostic]
     missing: list[Diagnostic] = []
     for shot in mission.shots:
         was, now = filmed(before, shot.id), filmed(after, shot.id)
-        why = STANDS if was.curve is None else DONE
-        if was.curve is not None and same(was, now):
+        still = isinstance(was, HoldLeg)
+        why = STANDS if still else DONE
+        if not still and same(was, now):
             told = _reason(mission, shot, said)
             why = told or f"{seat.named} left it as it was"
             missing += [] if told else [unrefined(before, shot.id, why)]

@@ -11,7 +11,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Drone
-from shotc.ir.path import UPRIGHT, FramingSpan, Leg, PathIR, TimedLeg, TimedPath
+from shotc.ir.path import UPRIGHT, ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.tolerances import AT_REST
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.form import SAME, broken, changed_shot, jumps
@@ -34,21 +34,21 @@ def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
         for was, now in zip(old.legs, new.legs, strict=True):
             if was is now:
                 continue
-            if isinstance(was, TimedLeg) and isinstance(now, TimedLeg):
+            if isinstance(was, ClockLeg) and isinstance(now, ClockLeg):
                 yield from _shot(was, now)
-            elif isinstance(was, Leg) and isinstance(now, Leg) and not _alike(was, now):
+            elif isinstance(was, PathLeg) and isinstance(now, PathLeg) and not _alike(was, now):
                 yield from _on_path(drone, was, now)
         yield from _joints(new)
 
 
-def _on_path(drone: Drone, was: Leg, now: Leg) -> Iterator[Finding]:
+def _on_path(drone: Drone, was: PathLeg, now: PathLeg) -> Iterator[Finding]:
     """Find what is wrong with a leg that is a curve over its path; it may turn anew, and a shot may move."""
     changed = list(_as_told(was, now))
     if changed:
         what = f"the {was.phase}" if was.shot is None else f"what shot `{was.shot}` is to do"
         yield Finding("R005", f"changed {what}", (*changed, f"of `{drone.name}`"), was.shot)
         return
-    if now.curve is not None:
+    if isinstance(now, MovingLeg):
         yield from jumps(now, now.curve)
     took, takes = (leg_time(drone, leg) for leg in (was, now))
     if abs(took - takes) > IN_TIME:
@@ -56,11 +56,11 @@ def _on_path(drone: Drone, was: Leg, now: Leg) -> Iterator[Finding]:
         yield Finding("R005", f"changed how long `{drone.name}` flies", (note, f"its {was.phase}"), was.shot)
 
 
-def _as_told(was: Leg, now: Leg) -> Iterator[str]:
+def _as_told(was: PathLeg, now: PathLeg) -> Iterator[str]:
     """Say what of a leg is another; one whose time was free may state the time that it takes."""
     if was.duration is None:
         now = replace(now, duration=None)
-    if now.phase == "shot":
+    if isinstance(was, HoldLeg) or isinstance(now, HoldLeg) or now.phase == "shot":
         yield from changed_shot(was, now)
         return
     told = [(leg.phase, leg.pace, leg.duration, leg.start, leg.path) for leg in (was, now)]
@@ -72,10 +72,8 @@ def _as_told(was: Leg, now: Leg) -> Iterator[str]:
         yield f"it flies {_moved(was, now):.3g} m from where it was"
 
 
-def _moved(was: Leg, now: Leg) -> float:
+def _moved(was: MovingLeg, now: MovingLeg) -> float:
     """Return how far an unfilmed leg is from the places where it was, at dense samples, metres."""
-    if was.curve is None or now.curve is None:
-        return 0.0 if was.curve is now.curve else inf
     if abs(was.curve.start - now.curve.start) + abs(was.curve.end - now.curve.end) > SAME:
         return inf
     s = np.linspace(was.curve.start, was.curve.end, _DENSE)
@@ -84,16 +82,15 @@ def _moved(was: Leg, now: Leg) -> float:
 
 def _joints(flown: TimedPath) -> Iterator[Finding]:
     for a, b in pairwise(flown.legs):
-        end = np.array(a.pose) if a.curve is None else a.curve.ctrl[-1, -1]
-        gap = float(np.abs(end - np.array(b.pose)).max())
+        gap = float(np.abs(np.array(a.end_pose) - np.array(b.pose)).max())
         if gap > SAME:
-            name = b.shot or (b.phase if isinstance(b, Leg) else "")
+            name = b.shot or (b.phase if isinstance(b, PathLeg) else "")
             yield broken(
                 f"{flown.drone}: `{name}` begins {gap:.3g} from where the leg before ends (m or rad)"
             )
 
 
-def _shot(was: TimedLeg, now: TimedLeg) -> Iterator[Finding]:
+def _shot(was: ClockLeg, now: ClockLeg) -> Iterator[Finding]:
     for fault in _changed(was, now):
         yield Finding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
     for note in _ends(was.curve, now.curve):
@@ -101,7 +98,7 @@ def _shot(was: TimedLeg, now: TimedLeg) -> Iterator[Finding]:
     yield from jumps(now, now.curve)
 
 
-def _changed(was: TimedLeg, now: TimedLeg) -> Iterator[str]:
+def _changed(was: ClockLeg, now: ClockLeg) -> Iterator[str]:
     """Say what of a shot is not as it was."""
     if max(abs(was.start - now.start), abs(was.end - now.end)) > EQUAL or was.path != now.path:
         yield "its first or its last frame is at another time"
@@ -134,19 +131,16 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
         yield f"it does not begin and end at rest: {moving:.3g} (m/s, rad/s, m/s^2 or rad/s^2)"
 
 
-def _alike(a: Leg, b: Leg) -> bool:
+def _alike(a: PathLeg, b: PathLeg) -> bool:
     """Tell whether two legs of the same kind are flown the same."""
-    same = (a.pose, a.stops, a.marks, a.pace, a.duration, a.start, a.path) == (
-        b.pose,
-        b.stops,
-        b.marks,
-        b.pace,
-        b.duration,
-        b.start,
-        b.path,
-    )
-    framed = len(a.framing) == len(b.framing) and all(map(_same_span, a.framing, b.framing))
-    return same and framed and a.phase == b.phase and _same_curve(a.curve, b.curve)
+    told = (a.phase, a.pose, a.marks, a.duration, a.start, a.path)
+    if told != (b.phase, b.pose, b.marks, b.duration, b.start, b.path):
+        return False
+    if len(a.framing) != len(b.framing) or not all(map(_same_span, a.framing, b.framing)):
+        return False
+    if isinstance(a, HoldLeg) or isinstance(b, HoldLeg):
+        return isinstance(a, HoldLeg) and isinstance(b, HoldLeg) and a.hold == b.hold
+    return (a.stops, a.pace) == (b.stops, b.pace) and _same_curve(a.curve, b.curve)
 
 
 def _same_curve(a: Piecewise | None, b: Piecewise | None) -> bool:

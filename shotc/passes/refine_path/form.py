@@ -8,8 +8,22 @@ from math import isfinite
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
-from shotc.ir.path import CHANNELS, UPRIGHT, DronePath, FramingSpan, Leg, PathIR, TimedLeg
+from shotc.geom.bernstein import Piecewise
+from shotc.ir.origin import KeyPath
+from shotc.ir.path import (
+    CHANNELS,
+    UPRIGHT,
+    ClockLeg,
+    DronePath,
+    FramingSpan,
+    HoldLeg,
+    Leg,
+    MovingLeg,
+    PathIR,
+    PathLeg,
+    Pose,
+    TimedPath,
+)
 from shotc.ir.tolerances import OFF_LINE
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.joints import ORDERS, largest_jump
@@ -31,6 +45,11 @@ def structure(before: PathIR, after: object) -> Iterator[Finding]:
     if not isinstance(after, PathIR):
         yield broken(f"it is a {type(after).__name__}, not a PathIR")
         return
+    tracks: tuple[DronePath | TimedPath, ...] = (*after.drones, *after.timed)
+    every = [leg for track in tracks for leg in track.legs]
+    if not all(_has_form(leg) for leg in every):
+        yield broken("one of its legs is none, or has no curve")
+        return
     if after.keyframes is not before.keyframes and after.keyframes != before.keyframes:
         yield Finding(
             "R005", "changed the mission", ("the keyframes it returned are not those it was given",)
@@ -49,7 +68,7 @@ def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
         yield from _joints(new)
         yield from _pads(old, new)
         for leg in new.legs:
-            if leg.curve is not None:
+            if isinstance(leg, MovingLeg):
                 yield from jumps(leg, leg.curve)
         for was, now in zip(_shots(old), _shots(new), strict=True):
             for fault in changed_shot(was, now):
@@ -64,7 +83,7 @@ def _shapes(path: PathIR) -> Iterator[Finding]:
                 yield broken(f"the {leg.phase} {fault}", leg.shot)
     for clocked in path.timed:
         for filmed in clocked.legs:
-            fault = _misshapen(filmed.curve) if isinstance(filmed, TimedLeg) else _shapeless(filmed)
+            fault = _misshapen(filmed.curve) if isinstance(filmed, ClockLeg) else _shapeless(filmed)
             if fault:
                 yield broken(f"the {'shot' if filmed.shot else 'way'} {fault}", filmed.shot)
 
@@ -83,8 +102,8 @@ def _skeleton(path: PathIR) -> list[tuple[str, list[tuple[str, str | None]]]]:
     return kept
 
 
-def _kind(leg: Leg | TimedLeg) -> str:
-    return leg.phase if isinstance(leg, Leg) else type(leg).__name__
+def _kind(leg: Leg) -> str:
+    return leg.phase if isinstance(leg, PathLeg) else type(leg).__name__
 
 
 def _doubled(drone: DronePath) -> bool:
@@ -96,24 +115,32 @@ def _is_told(value: object) -> bool:
     return isinstance(value, str) or (isinstance(value, float | int) and isfinite(value))
 
 
-def _shapeless(leg: Leg) -> str:
+def _shapeless(leg: PathLeg) -> str:
     """Say what is wrong with the numbers of a leg alone, or return an empty string."""
-    if len(leg.pose) != len(CHANNELS) or not all(map(isfinite, leg.pose)):
-        return f"starts where there are not {len(CHANNELS)} finite numbers"
-    numbers = [n for stop in leg.stops for n in (stop.s, stop.hold)] + [mark.s for mark in leg.marks]
-    numbers += [n for span in leg.framing for n in (span.start, span.end)]
-    if not leg.stops or not all(map(isfinite, numbers)):
-        return "has stops, keyframes or framings that are nowhere"
-    if leg.curve is None:
-        return ""
-    fault = _misshapen(leg.curve)
+    fault = "" if isinstance(leg, HoldLeg) else _misshapen(leg.curve)
     if fault:
         return fault
+    if len(leg.pose) != len(CHANNELS) or not all(map(isfinite, leg.pose)):
+        return f"starts where there are not {len(CHANNELS)} finite numbers"
+    rests = [leg.hold] if isinstance(leg, HoldLeg) else [n for p in leg.stops for n in (p.s, p.hold)]
+    numbers = rests + [mark.s for mark in leg.marks]
+    numbers += [n for span in leg.framing for n in (span.start, span.end)]
+    if not rests or not all(map(isfinite, numbers)):
+        return "has stops, keyframes or framings that are nowhere"
+    if isinstance(leg, HoldLeg):
+        return ""
     low, high = leg.curve.start - SAME, leg.curve.end + SAME
     places = [stop.s for stop in leg.stops], [mark.s for mark in leg.marks]
     if any(a > b for run in places for a, b in pairwise([low, *run, high])):
         return "has stops or keyframes that are out of order, or off its curve"
     return ""
+
+
+def _has_form(leg: object) -> bool:
+    """Tell whether a leg is one of the three kinds, and has a curve if it moves."""
+    return isinstance(leg, HoldLeg) or (
+        isinstance(leg, MovingLeg | ClockLeg) and isinstance(leg.curve, Piecewise)
+    )
 
 
 def _misshapen(curve: Piecewise) -> str:
@@ -126,43 +153,40 @@ def _misshapen(curve: Piecewise) -> str:
 
 def _joints(drone: DronePath) -> Iterator[Finding]:
     for a, b in pairwise(drone.legs):
-        gap = float(np.abs(_end(a) - np.array(b.pose)).max())
+        gap = float(np.abs(np.array(a.end_pose) - np.array(b.pose)).max())
         if gap > SAME:
             note = f"the {b.phase} begins {gap:.3g} from where the {a.phase} ends"
             yield broken(f"{drone.drone}: {note} (m or rad)")
     for leg in drone.legs:
-        if leg.curve is None:
+        if isinstance(leg, HoldLeg):
             continue
-        off = float(np.abs(leg.curve.ctrl[0, 0] - np.array(leg.pose)).max())
         ends = (leg.stops[0].s - leg.curve.start, leg.curve.end - leg.stops[-1].s)
-        if off > SAME or max(map(abs, ends)) > 1e-9:
+        if max(map(abs, ends)) > 1e-9:
             yield broken(
                 f"{drone.drone}: the {leg.phase} does not begin and end at rest at its ends", leg.shot
             )
 
 
-def _end(leg: Leg) -> Array:
-    return np.array(leg.pose) if leg.curve is None else leg.curve.ctrl[-1, -1]
-
-
 def _pads(old: DronePath, new: DronePath) -> Iterator[Finding]:
     """Find take-offs and landings that are not where they were."""
     for was, now in zip(_lifts(old), _lifts(new), strict=True):
-        moved = max(float(np.abs(f(was)[:3] - f(now)[:3]).max()) for f in (_start, _end))
-        aside = 0.0 if now.curve is None else float(np.ptp(now.curve.ctrl[:, :, :2], axis=(0, 1)).max())
+        ends = ((was.pose, now.pose), (was.end_pose, now.end_pose))
+        moved = max(_apart(old_end, new_end) for old_end, new_end in ends)
+        aside = float(np.ptp(now.curve.ctrl[:, :, :2], axis=(0, 1)).max())
         if moved > SAME or aside > SAME:
             yield Finding(
                 "R005", f"moved the {now.phase} of `{new.drone}`", (f"by {max(moved, aside):.3f} m",)
             )
 
 
-def _start(leg: Leg) -> Array:
-    return np.array(leg.pose)
+def _apart(a: Pose, b: Pose) -> float:
+    """Return by how much two places differ on an axis at most, metres."""
+    return float(np.abs(np.array(a[:3]) - np.array(b[:3])).max())
 
 
-def jumps(leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
+def jumps(leg: Leg, curve: Piecewise) -> Iterator[Finding]:
     """Find where a leg is not smooth, the lowest order only; at its stops the motion ends, so it may turn."""
-    stops = () if isinstance(leg, TimedLeg) else leg.stops
+    stops = leg.stops if isinstance(leg, MovingLeg) else ()
     rests = np.searchsorted(curve.breaks, [stop.s - SAME for stop in stops])
     cuts = sorted({0, len(curve.ctrl), *map(int, rests)})
     whole = [(0, len(curve.ctrl))]
@@ -176,25 +200,25 @@ def jumps(leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
                 return
 
 
-def _shots(drone: DronePath) -> list[Leg]:
+def _shots(drone: DronePath) -> list[PathLeg]:
     return [leg for leg in drone.legs if leg.phase == "shot"]
 
 
-def _lifts(drone: DronePath) -> list[Leg]:
-    return [leg for leg in drone.legs if leg.phase in UPRIGHT]
+def _lifts(drone: DronePath) -> list[MovingLeg]:
+    return [leg for leg in drone.legs if isinstance(leg, MovingLeg) and leg.phase in UPRIGHT]
 
 
-def changed_shot(was: Leg, now: Leg) -> Iterator[str]:
+def changed_shot(was: PathLeg, now: PathLeg) -> Iterator[str]:
     """Say what of a shot is not as it was."""
-    if (was.pace, was.duration, was.start, was.path) != (now.pace, now.duration, now.start, now.path):
+    if _timing(was) != _timing(now):
         yield "its timing is another"
-    if [stop.hold for stop in was.stops] != [stop.hold for stop in now.stops]:
+    if _holds(was) != _holds(now):
         yield "its stops are others"
     if [(m.index, m.time, m.path) for m in was.marks] != [(m.index, m.time, m.path) for m in now.marks]:
         yield "its keyframes are others"
-    if (was.curve is None) != (now.curve is None):
+    if isinstance(was, HoldLeg) != isinstance(now, HoldLeg):
         yield "a still camera moves now, or a moving one stands still"
-    elif was.curve is None and np.abs(_start(was)[:3] - _start(now)[:3]).max() > SAME:
+    elif isinstance(was, HoldLeg) and _apart(was.pose, now.pose) > SAME:
         yield "its still camera is elsewhere"
     if [(f.target, f.reference is None) for f in was.framing] != [
         (f.target, f.reference is None) for f in now.framing
@@ -205,6 +229,14 @@ def changed_shot(was: Leg, now: Leg) -> Iterator[str]:
         off = _off(old, new)
         if off > OFF_LINE:
             yield f"the wanted place of `{old.target}` on screen is {off:.3f} of half a frame off"
+
+
+def _timing(leg: PathLeg) -> tuple[float, float | None, float | None, KeyPath]:
+    return 1.0 if isinstance(leg, HoldLeg) else leg.pace, leg.duration, leg.start, leg.path
+
+
+def _holds(leg: PathLeg) -> list[float]:
+    return [leg.hold] if isinstance(leg, HoldLeg) else [stop.hold for stop in leg.stops]
 
 
 def _off(old: FramingSpan, new: FramingSpan) -> float:

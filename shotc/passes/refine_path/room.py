@@ -21,12 +21,14 @@ from shotc.ir.path import (
     CAM_PITCH,
     CAM_YAW,
     UPRIGHT,
+    ClockLeg,
     DronePath,
+    HoldLeg,
     Leg,
     PathIR,
-    TimedLeg,
+    PathLeg,
     TimedPath,
-    leg_of,
+    filmed,
 )
 from shotc.ir.tolerances import ON_PLACE
 from shotc.passes.refine_path.finding import Finding
@@ -58,8 +60,8 @@ def limits(path: PathIR) -> Iterator[Finding]:
         drone = mission.drone(track.drone)
         room = flight_room(mission, drone)
         for leg in track.legs:
-            if leg.curve is not None:
-                if isinstance(leg, TimedLeg) or leg.phase not in UPRIGHT:
+            if not isinstance(leg, HoldLeg):
+                if isinstance(leg, ClockLeg) or leg.phase not in UPRIGHT:
                     yield from _clearance(mission, room, leg, leg.curve)
                 yield from _gimbal(mission, drone, leg, leg.curve)
     yield from _keyframes(path)
@@ -88,7 +90,7 @@ def _worst_of(room: Room, bag: Pieces) -> Near:
     return Near(float(at[k]), points[k], float(lack[k]))
 
 
-def _clearance(mission: MissionIR, room: Room, leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
+def _clearance(mission: MissionIR, room: Room, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
     near = nearest(room, curve.channels(0, 1, 2))
     if near is None:
         return
@@ -110,7 +112,7 @@ def _clearance(mission: MissionIR, room: Room, leg: Leg | TimedLeg, curve: Piece
     )
 
 
-def _gimbal(mission: MissionIR, drone: Drone, leg: Leg | TimedLeg, curve: Piecewise) -> Iterator[Finding]:
+def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
     """Find camera angles that the gimbal does not reach; its yaw counts from the body, whole turns apart."""
     whole = pieces(curve)
     low, high = drone.gimbal.yaw
@@ -142,12 +144,12 @@ def _fine(_worst: float) -> float:
 
 def _keyframes(path: PathIR) -> Iterator[Finding]:
     on_paths = {leg.shot for drone in path.drones for leg in drone.legs}
-    on_paths |= {leg.shot for drone in path.timed for leg in drone.legs if isinstance(leg, Leg)}
+    on_paths |= {leg.shot for drone in path.timed for leg in drone.legs if isinstance(leg, PathLeg)}
     for placed in (p for p in path.keyframes.shots if p.shot.id in on_paths):
-        leg = leg_of(path, placed.shot.id)
+        leg = filmed(path, placed.shot.id)
         for mark in leg.marks:
             keyframe = placed.keyframes[mark.index]
-            at = np.array(leg.pose) if leg.curve is None else leg.curve(mark.s)
+            at = np.array(leg.pose) if isinstance(leg, HoldLeg) else leg.curve(mark.s)
             away = float(np.linalg.norm(at[:3] - np.array(keyframe.at)))
             if keyframe.placed and away > ON_PLACE:
                 yield Finding(
@@ -159,7 +161,7 @@ def _keyframes(path: PathIR) -> Iterator[Finding]:
                 )
 
 
-def _which(leg: Leg | TimedLeg) -> str:
-    if isinstance(leg, TimedLeg):
+def _which(leg: Leg) -> str:
+    if isinstance(leg, ClockLeg):
         return f"shot `{leg.shot}`"
     return f"shot `{leg.shot}`" if leg.shot is not None else f"the {leg.phase}"

@@ -11,7 +11,20 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.diag.plugin_faults import one_line
 from shotc.ir.passes import Outcome
-from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedLeg, TimedPath, X, Y, Z, filmed
+from shotc.ir.path import (
+    CAM_PITCH,
+    CAM_YAW,
+    ClockLeg,
+    HoldLeg,
+    Leg,
+    MovingLeg,
+    PathIR,
+    TimedPath,
+    X,
+    Y,
+    Z,
+    filmed,
+)
 from shotc.passes.refine_path.ask import Answer
 from shotc.passes.refine_path.clocked import on_clock
 from shotc.passes.refine_path.finding import Fault, Finding, tell
@@ -80,12 +93,15 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
         leg.shot: leg.curve.channels(*CAMERA)
         for drone in path.drones
         for leg in drone.legs
-        if leg.shot is not None and leg.curve is not None and leg.shot not in convex
+        if isinstance(leg, MovingLeg) and leg.shot is not None and leg.shot not in convex
     }
     refined |= {
         now.shot: now.curve.channels(*CAMERA)
         for was, now in _on_paths(before, path)
-        if now.shot is not None and now.shot not in convex and now.curve is not None and not same(was, now)
+        if isinstance(now, MovingLeg)
+        and now.shot is not None
+        and now.shot not in convex
+        and not same(was, now)
     }
     try:
         joined = rejoined(before, refined)
@@ -97,11 +113,11 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
     return replace(joined, deviations=tuple(bent), stats=path.stats, timed=timed)
 
 
-def _on_paths(before: PathIR, after: PathIR) -> Iterator[tuple[Leg, Leg]]:
+def _on_paths(before: PathIR, after: PathIR) -> Iterator[tuple[MovingLeg, MovingLeg]]:
     """Yield the filmed legs on a path of drones on the mission's clock, as they were and as they are."""
     for old, new in zip(before.timed, after.timed, strict=True):
         for was, now in zip(old.legs, new.legs, strict=True):
-            if isinstance(was, Leg) and isinstance(now, Leg) and now.phase == "shot":
+            if isinstance(was, MovingLeg) and isinstance(now, MovingLeg) and now.phase == "shot":
                 yield was, now
 
 
@@ -113,16 +129,16 @@ def _guided(old: TimedPath, new: TimedPath, convex: set[str]) -> TimedPath:
     legs = zip(old.legs, new.legs, strict=True)
     return TimedPath(
         old.drone,
-        tuple(now if isinstance(now, TimedLeg) and now.shot not in convex else was for was, now in legs),
+        tuple(now if isinstance(now, ClockLeg) and now.shot not in convex else was for was, now in legs),
     )
 
 
-def same(a: Leg | TimedLeg, b: Leg | TimedLeg) -> bool:
+def same(a: Leg, b: Leg) -> bool:
     """Tell whether two legs fly the same."""
     if a is b:
         return True
-    if a.curve is None or b.curve is None:
-        return a.pose == b.pose
+    if isinstance(a, HoldLeg) or isinstance(b, HoldLeg):
+        return isinstance(a, HoldLeg) and isinstance(b, HoldLeg) and a.pose == b.pose
     return np.array_equal(a.curve.breaks, b.curve.breaks) and np.array_equal(a.curve.ctrl, b.curve.ctrl)
 
 

@@ -9,7 +9,7 @@ keyframes that the user placed are passed exactly.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import ClassVar, NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -18,7 +18,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import Deviation, DronePath, Leg, PathIR, TimedLeg, TimedPath
+from shotc.ir.path import ClockLeg, Deviation, DronePath, Leg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.place_keyframes.keyed import misplaced
 from shotc.passes.solve_path_qp.explain.on_clock import left_places, stopped_on_clock
@@ -40,9 +40,9 @@ from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate, Trouble
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import Room
 from shotc.planning.obstacles import pad_room, rooms_of
-from shotc.planning.path.legs import Flight, drone_legs
+from shotc.planning.path.legs import Blocked, Flight, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
-from shotc.planning.path.shots import ShotCurve, shot_curve
+from shotc.planning.path.shots import PlannedShot, shot_curve
 from shotc.solvers.headings import DEFAULT
 
 
@@ -50,7 +50,7 @@ from shotc.solvers.headings import DEFAULT
 class _Planned:
     """One drone's share of the result; ``legs`` is empty where an error stopped it."""
 
-    legs: tuple[Leg | TimedLeg, ...]
+    legs: tuple[Leg, ...]
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
     diagnostics: tuple[Diagnostic, ...]
@@ -92,7 +92,7 @@ class SolvePathQp:
             if planned.legs and on_clock(ir):
                 timed.append(TimedPath(drone.name, planned.legs))
             elif planned.legs:
-                legs = tuple(leg for leg in planned.legs if isinstance(leg, Leg))
+                legs = tuple(leg for leg in planned.legs if isinstance(leg, PathLeg))
                 paths.append(DronePath(drone.name, legs))
         diagnostics += _placed_late(ir, timed)
         if has_errors(diagnostics):
@@ -104,7 +104,7 @@ class SolvePathQp:
 def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]:
     """Return what is wrong with keyframes whose picture was not known before their shot's start was."""
     placed, found = {p.shot.id: p for p in ir.shots if is_keyed(p.shot)}, list[Diagnostic]()
-    for leg in (leg for path in timed for leg in path.legs if isinstance(leg, TimedLeg)):
+    for leg in (leg for path in timed for leg in path.legs if isinstance(leg, ClockLeg)):
         if leg.shot in placed:
             shot = placed_at(ir.mission, placed[leg.shot], leg.start)
             found += misplaced(ir.mission, shot, leg.start)
@@ -150,7 +150,7 @@ def _plan(
     rooms = rooms_of(mission, drone)
     top = transit_point(rooms.flight, pad_room(mission, drone), drone)
     shots, faults = _curves(mission, drone, rooms.flight, mine, ctx)
-    shots = [replace(s, duration=known.durations.get(s.shot.shot.id)) for s in shots]
+    shots = [s.lasting(known.durations.get(s.shot.shot.id)) for s in shots]
     if isinstance(top, PadBlocked):
         return _stopped(pad_blocked(mission, drone, top), *faults)
     if faults:
@@ -171,23 +171,23 @@ def _plan(
 
 def _curves(
     mission: MissionIR, drone: Drone, room: Room, mine: Sequence[PlacedShot], ctx: PassContext
-) -> tuple[list[ShotCurve], list[Diagnostic]]:
+) -> tuple[list[PlannedShot], list[Diagnostic]]:
     """Return the shots of a drone that are flown on a path, and why others cannot be."""
-    shots: list[ShotCurve] = []
+    shots: list[PlannedShot] = []
     faults: list[Diagnostic] = []
     for placed in mine:
         if placed.shot.ideal is not None:
             continue
         ctx.progress(f"path of shot {placed.shot.id}")
         result = shot_curve(mission, drone, room, placed, ctx.headings or DEFAULT)
-        if isinstance(result, ShotCurve):
+        if isinstance(result, PlannedShot):
             shots.append(result)
         else:
             faults.append(failure(mission, drone, room, placed, result))
     return shots, faults
 
 
-def _warnings(mission: MissionIR, drone: Drone, shots: Sequence[ShotCurve]) -> tuple[Diagnostic, ...]:
+def _warnings(mission: MissionIR, drone: Drone, shots: Sequence[PlannedShot]) -> tuple[Diagnostic, ...]:
     return (
         *(moved(mission, s.shot, d) for s in shots for d in s.deviations),
         *(cut_framing(mission, drone, s.shot, s.cuts) for s in shots if s.cuts),
@@ -196,28 +196,27 @@ def _warnings(mission: MissionIR, drone: Drone, shots: Sequence[ShotCurve]) -> t
 
 
 def _in_a_row(
-    mission: MissionIR, flight: Flight, shots: list[ShotCurve], warnings: tuple[Diagnostic, ...]
+    mission: MissionIR, flight: Flight, shots: list[PlannedShot], warnings: tuple[Diagnostic, ...]
 ) -> _Planned:
     """Plan the legs of a drone that nobody waits for: its shots one after another."""
     joined = drone_legs(flight, shots)
-    if not isinstance(joined[0], Leg):
-        what, before = joined
-        shot = before.shot if before else None
-        return _stopped(*warnings, failure(mission, flight.drone, flight.room, shot, what))
+    if isinstance(joined, Blocked):
+        shot = joined.shot.shot if joined.shot else None
+        return _stopped(*warnings, failure(mission, flight.drone, flight.room, shot, joined.failure))
     deviations = tuple(d for s in shots for d in s.deviations)
     return _Planned(joined, deviations, tuple(x for s in shots for x in s.stats), warnings)
 
 
 def _on_clock(
     itinerary: Itinerary,
-    shots: list[ShotCurve | PlacedShot],
+    shots: list[PlannedShot | PlacedShot],
     warnings: tuple[Diagnostic, ...],
     ctx: PassContext,
 ) -> _Planned:
     """Plan the legs of a drone in a mission where something is filmed on its own clock."""
     mission, flight = itinerary.mission, itinerary.flight
     for shot in shots:
-        placed = shot.shot if isinstance(shot, ShotCurve) else shot
+        placed = shot.shot if isinstance(shot, PlannedShot) else shot
         ctx.progress(f"way to and through shot {placed.shot.id}")
         trouble = itinerary.film(shot)
         if trouble is not None:
@@ -225,7 +224,7 @@ def _on_clock(
     trouble = itinerary.home()
     if trouble is not None:
         return _stopped(*warnings, _told(mission, flight, None, trouble))
-    curved = [s for s in shots if isinstance(s, ShotCurve)]
+    curved = [s for s in shots if isinstance(s, PlannedShot)]
     on_paths = {s.shot.shot.id for s in curved}
     left = left_places(mission, (d for d in itinerary.deviations if d.shot not in on_paths))
     deviations = (*(d for s in curved for d in s.deviations), *itinerary.deviations)

@@ -23,7 +23,7 @@ from shotc.geom.pieces import Mask
 from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import Owner
-from shotc.ir.path import Leg, PhaseName
+from shotc.ir.path import MovingLeg, PathLeg, PhaseName
 from shotc.ir.preference import LONGEST_WAIT
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.shot import Traffic
@@ -69,7 +69,7 @@ class Way:
         those that the mission writes down
     """
 
-    legs: tuple[Leg, ...]
+    legs: tuple[MovingLeg, ...]
     end: float
     room: float = inf
     unseen: float = inf
@@ -87,7 +87,7 @@ class Way:
 class Then:
     """A leg that is flown after a way, from mission time ``ready`` on at the earliest."""
 
-    leg: Leg
+    leg: PathLeg
     ready: float
 
 
@@ -108,7 +108,7 @@ def choose(
     mission: MissionIR,
     drone: Drone,
     traffic: Traffic,
-    ways: Iterable[list[Leg]],
+    ways: Iterable[list[MovingLeg]],
     when: When,
     then: Then | None = None,
 ) -> Way | None:
@@ -171,7 +171,7 @@ def _tries(
     mission: MissionIR,
     drone: Drone,
     traffic: Traffic,
-    legs: list[Leg],
+    legs: list[MovingLeg],
     when: When,
     then: Then | None,
 ) -> Iterator[Way]:
@@ -212,7 +212,7 @@ class _Course:
     film : places of the shot that it flies from mission time ``until`` on, if there is one on a path
     """
 
-    legs: list[Leg]
+    legs: list[MovingLeg]
     curves: Sequence[Piecewise]
     leaves: float
     film: Piecewise | None

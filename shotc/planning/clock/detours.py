@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import Leg
+from shotc.ir.path import MovingLeg, Pose
 from shotc.planning.clock.shot import Traffic
 from shotc.planning.clock.sweeps import with_sweeps
-from shotc.planning.path.legs import Flight, Pose, end_of, raised, take_off, way_home, way_to
+from shotc.planning.path.legs import Flight, end_of, raised, take_off, way_home, way_to
 
 LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
 
@@ -39,7 +39,9 @@ class Transit:
     path: KeyPath
 
 
-def ways_home(flight: Flight, pose: Pose, direct: list[Leg], meanwhile: Meanwhile) -> Iterator[list[Leg]]:
+def ways_home(
+    flight: Flight, pose: Pose, direct: list[MovingLeg], meanwhile: Meanwhile
+) -> Iterator[list[MovingLeg]]:
     """Return the direct way home, the one round everything, and those first straight up."""
     yield direct
     around = way_home(meanwhile.beside(flight), pose)
@@ -54,8 +56,8 @@ def ways_home(flight: Flight, pose: Pose, direct: list[Leg], meanwhile: Meanwhil
 
 
 def ways_to(
-    wanted: Transit, start: tuple[list[Leg], Pose], direct: list[Leg], meanwhile: Meanwhile
-) -> Iterator[list[Leg]]:
+    wanted: Transit, start: tuple[list[MovingLeg], Pose], direct: list[MovingLeg], meanwhile: Meanwhile
+) -> Iterator[list[MovingLeg]]:
     """Return the direct way, the one round everything, and those over what is met.
 
     start : the take-off where the drone is on its pad, and the shot's first pose, which that turns to
@@ -77,7 +79,7 @@ def ways_to(
         yield from _lifted(wanted, first)
 
 
-def _lifted(wanted: Transit, first: Pose) -> Iterator[list[Leg]]:
+def _lifted(wanted: Transit, first: Pose) -> Iterator[list[MovingLeg]]:
     """Return ways from the pad that rise higher straight up, where there is room for it."""
     for metres in LIFTS:
         higher = raised(wanted.mission, wanted.flight, metres)
@@ -89,9 +91,9 @@ def _lifted(wanted: Transit, first: Pose) -> Iterator[list[Leg]]:
             yield [lift, *rest]
 
 
-def _through(flight: Flight, stops: list[Pose], path: KeyPath) -> list[Leg] | None:
+def _through(flight: Flight, stops: list[Pose], path: KeyPath) -> list[MovingLeg] | None:
     """Return the legs from each of some poses to the next."""
-    legs: list[Leg] = []
+    legs: list[MovingLeg] = []
     for a, b in pairwise(stops):
         way = way_to(flight, a, b, path)
         if not isinstance(way, list):

@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.mission import MissionIR
-from shotc.ir.path import Leg, PathIR, TimedLeg, TimedPath
+from shotc.ir.path import ClockLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.timing.estimate import leg_motion
 from shotc.planning.timing.flight import Flight
@@ -47,7 +47,7 @@ class FlownShot:
 def flown_shot(path: PathIR, shot: str) -> FlownShot:
     """Return a shot on a path of a drone on the mission's clock, timed; KeyError where there is none."""
     for flown in path.timed:
-        leg = next((leg for leg in flown.legs if leg.shot == shot and isinstance(leg, Leg)), None)
+        leg = next((leg for leg in flown.legs if leg.shot == shot and isinstance(leg, PathLeg)), None)
         if leg is not None:
             mission = path.keyframes.mission
             motion = leg_motion(mission.drone(flown.drone), leg)
@@ -66,7 +66,7 @@ def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> Dron
     drone, made = mission.drone(flown.drone), Flight(flown.drone)
     after = {shot.id: shot.timing.after for shot in mission.shots}
     for leg in flown.legs:
-        if isinstance(leg, TimedLeg):
+        if isinstance(leg, ClockLeg):
             if made.clock > leg.curve.start + LATE:
                 break
             made.wait(float(leg.curve.start), leg.pose)

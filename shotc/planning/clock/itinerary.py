@@ -17,7 +17,7 @@ import numpy as np
 from shotc.ir.keyed import carriers
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Deviation, Leg, TimedLeg, TimedPath
+from shotc.ir.path import Deviation, Leg, MovingLeg, Pose, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import Looker
 from shotc.planning.clock.departure import Then, Way, When, choose
@@ -46,17 +46,15 @@ from shotc.planning.clock.starts import (
 )
 from shotc.planning.path.legs import (
     Flight,
-    Pose,
     end_of,
     nearest,
-    shot_leg,
     take_off,
     turned,
     turned_leg,
     way_home,
     way_to,
 )
-from shotc.planning.path.shots import Failure, ShotCurve
+from shotc.planning.path.shots import Failure, PlannedShot
 from shotc.planning.timing.estimate import leg_time
 from shotc.rounding import up
 
@@ -70,7 +68,7 @@ AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits f
 class _State(NamedTuple):
     """How far a drone's legs are planned: what an itinerary holds, by the same names."""
 
-    legs: tuple[Leg | TimedLeg, ...]
+    legs: tuple[Leg, ...]
     clock: float
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
@@ -102,7 +100,7 @@ class Itinerary:
     flight: Flight
     traffic: Traffic
     ends: dict[str, float]
-    legs: list[Leg | TimedLeg] = field(default_factory=list)
+    legs: list[Leg] = field(default_factory=list)
     clock: float = 0.0
     deviations: list[Deviation] = field(default_factory=list)
     stats: list[tuple[str, float | str]] = field(default_factory=list)
@@ -115,9 +113,9 @@ class Itinerary:
         """Who flies."""
         return self.flight.drone
 
-    def film(self, shot: ShotCurve | PlacedShot) -> Trouble | None:
+    def film(self, shot: PlannedShot | PlacedShot) -> Trouble | None:
         """Add a shot and the way to it."""
-        add = partial(self._path, shot) if isinstance(shot, ShotCurve) else partial(self._timed, shot)
+        add = partial(self._path, shot) if isinstance(shot, PlannedShot) else partial(self._timed, shot)
         return self._leaving(add)
 
     def home(self) -> Trouble | None:
@@ -194,7 +192,7 @@ class Itinerary:
         """Return the drone's flight as far as it is planned, as the time pass will fly it."""
         return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
-    def _meanwhile(self, direct: list[Leg], due: float | None) -> Meanwhile:
+    def _meanwhile(self, direct: list[MovingLeg], due: float | None) -> Meanwhile:
         """Return what goes on while a drone is on its way.
 
         direct : legs that take about as long; due : when the drone has to be there, if it has to
@@ -204,10 +202,10 @@ class Itinerary:
             until = self.clock + AMPLE * sum(leg_time(self.drone, leg) for leg in direct)
         return Meanwhile(self.traffic, (self.clock, max(self.clock, until)))
 
-    def _path(self, shot: ShotCurve) -> Trouble | None:
+    def _path(self, shot: PlannedShot) -> Trouble | None:
         timing = shot.shot.shot.timing
         ready = max(timing.start or 0.0, self.ends.get(timing.after or "", 0.0))
-        way = self._way(shot.pose, shot, timing.start, ready)
+        way = self._way(shot.leg.pose, shot, timing.start, ready)
         if not isinstance(way, Way):
             return way
         if way.met is not None:
@@ -216,7 +214,7 @@ class Itinerary:
         pose = end_of(way.legs) if way.legs else end_of(self.legs)
         placed = turned(self.drone, shot, pose)
         self._take(way)
-        leg = shot_leg(placed)
+        leg = placed.leg
         self.clock = max(self.clock, ready)
         self.legs.append(leg)
         self.clock += leg_time(self.drone, leg)
@@ -225,7 +223,7 @@ class Itinerary:
         return None
 
     def _way(
-        self, goal: Pose, shot: ShotCurve | PlacedShot, due: float | None, ready: float = 0.0
+        self, goal: Pose, shot: PlannedShot | PlacedShot, due: float | None, ready: float = 0.0
     ) -> Way | Failure:
         """Return the unfilmed legs from here, or from the pad, to a shot's first pose.
 
@@ -233,11 +231,11 @@ class Itinerary:
         """
         lift = [] if self.legs else [take_off(self.flight, goal)]
         pose = end_of(lift or self.legs)
-        path = (shot.shot.shot if isinstance(shot, ShotCurve) else shot.shot).path
+        path = (shot.shot.shot if isinstance(shot, PlannedShot) else shot.shot).path
         near, then = nearest(goal, pose), None
-        if isinstance(shot, ShotCurve):
+        if isinstance(shot, PlannedShot):
             placed = turned(self.drone, shot, pose)
-            near, then = placed.pose, Then(shot_leg(placed), ready)
+            near, then = placed.leg.pose, Then(placed.leg, ready)
         direct = way_to(self.flight, pose, near, path)
         if not isinstance(direct, list):
             return direct

@@ -14,7 +14,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot
 from shotc.ir.owners import Owner
-from shotc.ir.path import LIMITS, Deviation, FramingSpan, TimedLeg
+from shotc.ir.path import LIMITS, ClockLeg, Deviation, FramingSpan
 from shotc.ir.preference import noted
 from shotc.planning.clock.aims import Looker, looker_of
 from shotc.planning.clock.between import lacking_each
@@ -91,7 +91,7 @@ class TimedShot:
     lacks : metres by which the ways into the film and out of it lack the clearances of ways between shots
     """
 
-    leg: TimedLeg
+    leg: ClockLeg
     deviations: tuple[Deviation, ...]
     stats: tuple[tuple[str, float | str], ...]
     off: float
@@ -162,7 +162,7 @@ def timed_shot(
     curve = Piecewise(clock.breaks, np.concatenate([flown.curve.ctrl, turned.curve.ctrl, lens], axis=2))
     keyed, marks = looker.keyed, marks_of(placed, start)
     framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.spans()
-    leg = TimedLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, marks)
+    leg = ClockLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, marks)
     stats: tuple[tuple[str, float | str], ...] = (
         (f"{shot.id}.pieces", float(len(curve.ctrl))),
         (f"{shot.id}.qp_objective", flown.objective),

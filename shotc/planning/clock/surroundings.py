@@ -13,7 +13,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray, restrict
 from shotc.ir.mission import Drone
-from shotc.ir.path import PathIR, TimedLeg
+from shotc.ir.path import ClockLeg, PathIR
 from shotc.planning.clock.aims import Looker
 from shotc.planning.clock.between import widened
 from shotc.planning.clock.flights import flights
@@ -143,7 +143,7 @@ def _led(path: PathIR, drone: Drone, motions: tuple[Even, ...], breaks: Array) -
     The others are no reason for a refiner to fail: it begins from a guide that keeps them.
     """
     legs = [leg for flown in path.timed if flown.drone == drone.name for leg in flown.legs]
-    guide = next((leg for leg in legs if isinstance(leg, TimedLeg) and _spans(leg, breaks)), None)
+    guide = next((leg for leg in legs if isinstance(leg, ClockLeg) and _spans(leg, breaks)), None)
     if guide is None:
         return motions
     span, course = (guide.start, guide.end), restrict(guide.curve.channels(0, 1, 2), breaks)
@@ -151,6 +151,6 @@ def _led(path: PathIR, drone: Drone, motions: tuple[Even, ...], breaks: Array) -
     return tuple(w if m.what.required else m for m, w in zip(motions, wide, strict=True))
 
 
-def _spans(leg: TimedLeg, breaks: Array) -> bool:
+def _spans(leg: ClockLeg, breaks: Array) -> bool:
     """Tell whether times are those of a leg, cut."""
     return bool(leg.curve.start == breaks[0] and leg.curve.end == breaks[-1])

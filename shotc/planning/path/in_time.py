@@ -15,13 +15,13 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Leg, TimedLeg, TimedPath
-from shotc.planning.path.legs import Pose, end_of, turned_way
+from shotc.ir.path import Leg, MovingLeg, Pose, TimedPath
+from shotc.planning.path.legs import end_of, turned_way
 from shotc.planning.path.shots import AngleFailure
 from shotc.planning.path.with_camera import SAME_END, NoTransit, with_camera
 from shotc.planning.timing.estimate import lateness, leg_time
 
-AnyLeg = Leg | TimedLeg
+AnyLeg = Leg
 
 
 def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewise]) -> TimedPath:
@@ -29,14 +29,14 @@ def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewis
 
     cameras : as in ``rejoined``. NoTransit where a leg cannot be flown in its time, or does not join.
     """
-    if not any(isinstance(leg, Leg) and leg.shot in cameras for leg in flown.legs):
+    if not any(isinstance(leg, MovingLeg) and leg.shot in cameras for leg in flown.legs):
         return flown
     drone, legs = mission.drone(flown.drone), list(flown.legs)
     for k, leg in enumerate(legs):
-        if isinstance(leg, Leg) and leg.shot in cameras:
+        if isinstance(leg, MovingLeg) and leg.shot in cameras:
             legs[k] = lasting(drone, leg, with_camera(drone, leg, cameras[leg.shot or ""]))
     for k, leg in enumerate(legs):
-        if isinstance(leg, Leg) and leg.phase in {"transit", "return"}:
+        if isinstance(leg, MovingLeg) and leg.phase in {"transit", "return"}:
             start = end_of(legs[: k or 1])
             goal = legs[k + 1].pose
             legs[k] = _led(drone, leg, start, goal)
@@ -46,7 +46,7 @@ def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewis
     return replace(flown, legs=tuple(legs))
 
 
-def lasting(drone: Drone, old: Leg, new: Leg) -> Leg:
+def lasting(drone: Drone, old: MovingLeg, new: MovingLeg) -> MovingLeg:
     """Return a new leg at the length that an old one has; NoTransit where it takes longer at full limits."""
     asked = leg_time(drone, old)
     made = replace(new, duration=asked if old.duration is None else old.duration)
@@ -58,7 +58,7 @@ def lasting(drone: Drone, old: Leg, new: Leg) -> Leg:
     return made
 
 
-def _led(drone: Drone, leg: Leg, start: Pose, goal: Pose) -> Leg:
+def _led(drone: Drone, leg: MovingLeg, start: Pose, goal: Pose) -> MovingLeg:
     """Return an unfilmed leg between two poses, of which only the angles may be new."""
     if _same(leg.pose, start) and _same(end_of([leg]), goal):
         return leg

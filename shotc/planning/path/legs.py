@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import atan2, hypot, pi
+from typing import TypeVar
 
 import numpy as np
 
@@ -13,12 +14,25 @@ from shotc.geom.bspline import restrict, subdivide
 from shotc.geom.convex import segment_distances
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Leg, PhaseName, Stop, TimedLeg
+from shotc.ir.path import (
+    BODY_YAW,
+    CAM_PITCH,
+    CAM_YAW,
+    HFOV,
+    ClockLeg,
+    HoldLeg,
+    Leg,
+    MovingLeg,
+    PathLeg,
+    PhaseName,
+    Pose,
+    Stop,
+)
 from shotc.planning.free_space import Room, bounds_slack, breaches
 from shotc.planning.obstacles import Rooms, pad_room
 from shotc.planning.path.body import BodyTask, allowed_body, body_line
 from shotc.planning.path.lines import SAME_PLACE, TURN_LENGTH
-from shotc.planning.path.shots import AngleFailure, Failure, ShotCurve, stack
+from shotc.planning.path.shots import AngleFailure, Failure, PlannedShot, stack
 from shotc.planning.path.transit import transit_curve
 from shotc.solvers.conic import Status
 
@@ -26,7 +40,7 @@ SAME_ANGLE = 1e-6
 ROUNDING = 1e-9  # metres
 PIECES = 4
 
-Pose = tuple[float, ...]
+CurveLeg = TypeVar("CurveLeg", MovingLeg, ClockLeg)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,26 +60,30 @@ class Flight:
         return self.rooms.flight
 
 
-def drone_legs(flight: Flight, shots: list[ShotCurve]) -> tuple[Leg, ...] | tuple[Failure, ShotCurve | None]:
-    """Join the shots of one drone with take-off, transits, return and landing.
+@dataclass(frozen=True, slots=True, eq=False)
+class Blocked:
+    """What stands in a way, and the shot that the way leads to; None is home."""
 
-    Returns the legs, or what stands in the way together with the shot that it leads to (None: home).
-    """
-    legs = [take_off(flight, shots[0].pose)]
+    failure: Failure
+    shot: PlannedShot | None
+
+
+def drone_legs(flight: Flight, shots: list[PlannedShot]) -> tuple[PathLeg, ...] | Blocked:
+    """Join the shots of one drone with take-off, transits, return and landing."""
+    legs: list[PathLeg] = [take_off(flight, shots[0].leg.pose)]
     for shot in shots:
         placed = turned(flight.drone, shot, end_of(legs))
-        way = way_to(flight, end_of(legs), placed.pose, shot.shot.shot.path)
+        way = way_to(flight, end_of(legs), placed.leg.pose, shot.shot.shot.path)
         if isinstance(way, Failure):
-            return way, shot
-        legs += [*way, shot_leg(placed)]
+            return Blocked(way, shot)
+        legs += [*way, placed.leg]
     back = way_home(flight, end_of(legs))
-    return (back, None) if isinstance(back, Failure) else (*legs, *back)
+    return Blocked(back, None) if isinstance(back, Failure) else (*legs, *back)
 
 
-def take_off(flight: Flight, goal: Pose) -> Leg:
+def take_off(flight: Flight, goal: Pose) -> MovingLeg:
     """Return the leg up from the pad, on the way to a shot that begins at ``goal``."""
     lift = _lift(flight, _at_pad(flight, goal), "takeoff")
-    assert lift.curve is not None
     ctrl = lift.curve.ctrl.copy()
     ctrl[-1, -1, :3] = flight.top
     return replace(lift, curve=Piecewise(lift.curve.breaks, ctrl))
@@ -80,7 +98,7 @@ def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
     return replace(flight, top=top) if free and min(above, default=0.0) >= -ROUNDING else None
 
 
-def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[Leg] | Failure:
+def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[MovingLeg] | Failure:
     """Return the unfilmed leg from a pose to a shot's first one, none where they are the same.
 
     path : of the shot
@@ -88,7 +106,7 @@ def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[Leg] |
     return _transit(flight, pose, goal, "transit", path)
 
 
-def way_home(flight: Flight, pose: Pose) -> list[Leg] | Failure:
+def way_home(flight: Flight, pose: Pose) -> list[MovingLeg] | Failure:
     """Return the legs from the end of the last shot to the pad."""
     drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
@@ -124,51 +142,28 @@ def nearest(goal: Pose, pose: Pose) -> Pose:
     return tuple(near)
 
 
-def turned(drone: Drone, shot: ShotCurve, pose: Pose) -> ShotCurve:
+def turned(drone: Drone, shot: PlannedShot, pose: Pose) -> PlannedShot:
     """Shift a shot's yaws by whole turns, so that its start is nearest to where the last leg ended."""
-    turns = turns_to(shot.pose, pose)
-    start = list(nearest(shot.pose, pose))
-    if shot.curve is None:
+    leg = shot.leg
+    if isinstance(leg, HoldLeg):
+        start = list(nearest(leg.pose, pose))
         if drone.body != "follow-camera":
             wanted = pose[BODY_YAW]
             if drone.body == "forward" and hypot(start[0] - pose[0], start[1] - pose[1]) > 1.0:
                 wanted = atan2(start[1] - pose[1], start[0] - pose[0])
             start[BODY_YAW] = allowed_body(drone, start[CAM_YAW], wanted)
-        return replace(shot, pose=tuple(start))
-    if not turns:
-        return shot
-    ctrl = shot.curve.ctrl.copy()
-    ctrl[:, :, CAM_YAW] += turns
-    ctrl[:, :, BODY_YAW] += turns
-    return replace(shot, pose=tuple(start), curve=Piecewise(shot.curve.breaks, ctrl))
+        return replace(shot, leg=replace(leg, pose=tuple(start)))
+    return replace(shot, leg=turned_leg(leg, pose)) if turns_to(leg.pose, pose) else shot
 
 
-def turned_leg(leg: TimedLeg, pose: Pose) -> TimedLeg:
-    """Shift the yaws of a leg on its own clock by whole turns, so that its start is nearest to a pose."""
+def turned_leg(leg: CurveLeg, pose: Pose) -> CurveLeg:
+    """Shift the yaws of a leg by whole turns, so that its start is nearest to a pose."""
     ctrl = leg.curve.ctrl.copy()
     ctrl[:, :, (CAM_YAW, BODY_YAW)] += turns_to(leg.pose, pose)
     return replace(leg, curve=Piecewise(leg.curve.breaks, ctrl))
 
 
-def shot_leg(shot: ShotCurve) -> Leg:
-    """Return the leg of a shot whose curve is planned."""
-    timing = shot.shot.shot.timing
-    return Leg(
-        phase="shot",
-        shot=shot.shot.shot.id,
-        curve=shot.curve,
-        pose=shot.pose,
-        stops=shot.stops,
-        marks=shot.marks,
-        framing=shot.framing,
-        pace=shot.shot.shot.pace,
-        duration=shot.duration if timing.duration is None else timing.duration,
-        start=timing.start,
-        path=shot.shot.shot.path,
-    )
-
-
-def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> Leg:
+def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> MovingLeg:
     home, top = np.array(flight.drone.home), flight.top
     ends = (home, top) if phase == "takeoff" else (top, home)
     x = np.linspace(0.0, 1.0, 6)[:, None]
@@ -177,7 +172,9 @@ def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> Leg:
     return _plain(phase, Piecewise(breaks, ctrl[None]), flight.drone.path)
 
 
-def _transit(flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: KeyPath) -> list[Leg] | Failure:
+def _transit(
+    flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: KeyPath
+) -> list[MovingLeg] | Failure:
     """Return the leg from one pose to another; none where they are the same."""
     a, b = np.array(start[:3]), np.array(goal[:3])
     turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
@@ -206,14 +203,13 @@ def _with_angles(
     return _stacked(drone, restrict(position, breaks), start, goal, free_end=free_end)
 
 
-def turned_way(drone: Drone, leg: Leg, start: Pose, goal: Pose) -> Leg | AngleFailure:
+def turned_way(drone: Drone, leg: MovingLeg, start: Pose, goal: Pose) -> MovingLeg | AngleFailure:
     """Return an unfilmed leg through the same places, from other angles to others."""
-    assert leg.curve is not None
     position = leg.curve.channels(0, 1, 2)
     if len(position.breaks) == 2:
         position = restrict(position, subdivide(position.breaks, PIECES))
     curve = _stacked(drone, position, start, goal, free_end=False)
-    return curve if isinstance(curve, AngleFailure) else replace(leg, curve=curve, pose=start)
+    return curve if isinstance(curve, AngleFailure) else replace(leg, curve=curve)
 
 
 def _stacked(
@@ -243,13 +239,11 @@ def _even(position: Piecewise, start: Pose, goal: Pose) -> Piecewise:
     return Piecewise(np.array([position.start, position.end]), np.stack(ctrl, axis=1)[None])
 
 
-def _plain(phase: PhaseName, curve: Piecewise, path: KeyPath) -> Leg:
+def _plain(phase: PhaseName, curve: Piecewise, path: KeyPath) -> MovingLeg:
     stops = (Stop(curve.start, 0.0), Stop(curve.end, 0.0))
-    pose = tuple(map(float, curve.ctrl[0, 0]))
-    return Leg(phase, None, curve, pose, stops, (), (), 1.0, None, None, path)
+    return MovingLeg(phase, None, curve, stops, (), (), 1.0, None, None, path)
 
 
-def end_of(legs: Sequence[Leg | TimedLeg]) -> Pose:
+def end_of(legs: Sequence[Leg]) -> Pose:
     """Return the pose at the end of the last of some legs."""
-    leg = legs[-1]
-    return leg.pose if leg.curve is None else tuple(map(float, leg.curve.ctrl[-1, -1]))
+    return legs[-1].end_pose

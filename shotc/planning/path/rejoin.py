@@ -11,12 +11,12 @@ from dataclasses import replace
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Drone
-from shotc.ir.path import DronePath, Leg, PathIR
+from shotc.ir.path import DronePath, HoldLeg, PathIR, PathLeg
 from shotc.planning.obstacles import pad_room, rooms_of
 from shotc.planning.path.in_time import in_time
-from shotc.planning.path.legs import Flight, drone_legs
+from shotc.planning.path.legs import Blocked, Flight, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
-from shotc.planning.path.shots import ShotCurve
+from shotc.planning.path.shots import PlannedShot
 from shotc.planning.path.with_camera import NoTransit, same, with_camera
 
 
@@ -49,26 +49,26 @@ def _drone(path: PathIR, flown: DronePath, cameras: Mapping[str, Piecewise]) -> 
     return replace(flown, legs=_led_anew(path, drone, legs))
 
 
-def _led_anew(path: PathIR, drone: Drone, legs: list[Leg]) -> tuple[Leg, ...]:
+def _led_anew(path: PathIR, drone: Drone, legs: list[PathLeg]) -> tuple[PathLeg, ...]:
     mission = path.keyframes.mission
     rooms = rooms_of(mission, drone)
     top = transit_point(rooms.flight, pad_room(mission, drone), drone)
     assert not isinstance(top, PadBlocked), "it was free when the path was first planned"
     placed = {p.shot.id: p for p in path.keyframes.shots}
     shots = [
-        ShotCurve(placed[leg.shot], leg.curve, leg.pose, leg.stops, leg.marks, leg.framing, (), (), None, ())
+        PlannedShot(placed[leg.shot], leg, (), (), None, ()).lasting(None)
         for leg in legs
         if leg.shot is not None
     ]
     joined = drone_legs(Flight(drone, rooms, top), shots)
-    if isinstance(joined[0], Leg):
+    if not isinstance(joined, Blocked):
         return joined
-    before = joined[1]
+    before = joined.shot
     raise NoTransit("a way home" if before is None else f"a way to shot `{before.shot.shot.id}`")
 
 
-def _same_ends(old: Leg, new: Leg) -> bool:
-    if old.curve is None or new.curve is None:
+def _same_ends(old: PathLeg, new: PathLeg) -> bool:
+    if isinstance(old, HoldLeg) or isinstance(new, HoldLeg):
         return old is new
     return old is new or (
         same(old.curve.ctrl[0, 0], new.curve.ctrl[0, 0])

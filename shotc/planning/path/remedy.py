@@ -10,7 +10,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, zone_owner
 from shotc.planning.free_space import Room
 from shotc.planning.path.lines import Line, straight_line
-from shotc.planning.path.shots import ShotCurve, Stuck, shot_curve
+from shotc.planning.path.shots import PlannedShot, Stuck, shot_curve
 from shotc.planning.path.transit import smooth
 from shotc.rounding import up
 
@@ -90,6 +90,6 @@ def _giving(mission: MissionIR, room: Room, gives: Gives) -> Room | None:
 
 def _fits(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Stuck) -> bool:
     if shot is not None and what.keyframes:
-        return isinstance(shot_curve(mission, drone, room, shot), ShotCurve)
+        return isinstance(shot_curve(mission, drone, room, shot), PlannedShot)
     line = straight_line(room, what.corners[0], what.corners[-1])
     return isinstance(line, Line) and not isinstance(smooth(room, drone, line), Stuck)

@@ -11,7 +11,7 @@ from shotc.geom.bspline import restrict
 from shotc.geom.sampling import worst_of_runs
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Deviation, FramingSpan, Mark, Stop
+from shotc.ir.path import Deviation, FramingSpan, HoldLeg, Mark, MovingLeg, PathLeg, Stop
 from shotc.planning.free_space import Room, breaches
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
@@ -26,24 +26,20 @@ LEFT = 0.02  # metres off that belong to a stretch worth telling
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ShotCurve:
-    """A shot's geometry on its own s from 0; ``curve`` is None for a still camera at ``pose``.
-
-    pose : channels as in ir.path at the start
-    duration : seconds that it is to take, where the mission leaves its time free and something else does not
-    """
+class PlannedShot:
+    """A shot's leg on its own s from 0, and what there is to say of it."""
 
     shot: PlacedShot
-    curve: Piecewise | None
-    pose: tuple[float, ...]
-    stops: tuple[Stop, ...]
-    marks: tuple[Mark, ...]
-    framing: tuple[FramingSpan, ...]
+    leg: PathLeg
     deviations: tuple[Deviation, ...]
     cuts: tuple[Cut, ...]
     swing: Swing | None
     stats: tuple[tuple[str, float | str], ...]
-    duration: float | None = None
+
+    def lasting(self, seconds: float | None) -> PlannedShot:
+        """Return the same with a duration, seconds, where the mission leaves its time free."""
+        asked = self.shot.shot.timing.duration
+        return replace(self, leg=replace(self.leg, duration=seconds if asked is None else asked))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +64,7 @@ Failure = NoWay | TooNear | Stuck | AngleFailure
 
 def shot_curve(
     mission: MissionIR, drone: Drone, room: Room, placed: PlacedShot, headings: str = DEFAULT
-) -> ShotCurve | Failure:
+) -> PlannedShot | Failure:
     """Return a shot's geometry, or what stands in its way; ``headings`` is how turns are chosen."""
     line = shot_line(room, placed.keyframes)
     if not isinstance(line, Line):
@@ -90,13 +86,22 @@ def shot_curve(
     if body_status not in {Status.SOLVED, Status.INACCURATE}:
         return AngleFailure("body", body_status)
     whole = stack(refined, camera.angles.channels(0, 1), body, camera.angles.channels(2))
-    return ShotCurve(
-        shot=placed,
+    shot = placed.shot
+    leg = MovingLeg(
+        phase="shot",
+        shot=shot.id,
         curve=whole,
-        pose=tuple(map(float, whole.ctrl[0, 0])),
         stops=_stops(placed.keyframes, keyed, line),
         marks=_marks(placed, keyed),
         framing=framing_spans(keyed),
+        pace=shot.pace,
+        duration=shot.timing.duration,
+        start=shot.timing.start,
+        path=shot.path,
+    )
+    return PlannedShot(
+        shot=placed,
+        leg=leg,
         deviations=_deviations(room, placed, keyed),
         cuts=camera.cuts,
         swing=worst_swing(mission, keyed, camera),
@@ -109,7 +114,7 @@ def stack(*curves: Piecewise) -> Piecewise:
     return Piecewise(curves[0].breaks, np.concatenate([c.ctrl for c in curves], axis=2))
 
 
-def _still(placed: PlacedShot, line: Line) -> ShotCurve:
+def _still(placed: PlacedShot, line: Line) -> PlannedShot:
     first = placed.keyframes[0]
     asked = placed.shot.timing.duration
     times = _standing(placed.keyframes, asked)
@@ -124,7 +129,9 @@ def _still(placed: PlacedShot, line: Line) -> ShotCurve:
     marks = tuple(
         Mark(0.0, t, i, k.path) for i, (t, k) in enumerate(zip(times, placed.keyframes, strict=True))
     )
-    return ShotCurve(placed, None, pose, (Stop(0.0, hold),), marks, spans, (), (), None, ())
+    shot = placed.shot
+    leg = HoldLeg(shot.id, pose, hold, marks, spans, asked, shot.timing.start, shot.path)
+    return PlannedShot(placed, leg, (), (), None, ())
 
 
 def _standing(keyframes: tuple[PlacedKeyframe, ...], duration: float | None) -> list[float]:

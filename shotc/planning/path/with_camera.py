@@ -10,7 +10,7 @@ import numpy as np
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import restrict
 from shotc.ir.mission import Drone
-from shotc.ir.path import BODY_YAW, HFOV, Leg
+from shotc.ir.path import BODY_YAW, HFOV, HoldLeg, MovingLeg, PathLeg
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.shots import stack
 from shotc.solvers.conic import Status
@@ -30,14 +30,16 @@ class NoTransit(Exception):
 
 
 @lru_cache(maxsize=64)
-def with_camera(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
+def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise) -> MovingLeg:
     """Return a shot's leg with another camera (see ``rejoined``), and the body that goes with it.
 
     The same leg for the same camera: a refiner looks at it before it is put back, and what was found of it
     then (its times above all) holds for it afterwards.
     """
+    if isinstance(leg, HoldLeg):
+        raise ValueError(f"the camera of shot {leg.shot} does not cover its leg: it stands still")
     old = leg.curve
-    if old is None or abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
+    if abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
     kept = same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1])
     body = _body(drone, leg, camera, old) if kept else None
@@ -51,10 +53,10 @@ def with_camera(drone: Drone, leg: Leg, camera: Piecewise) -> Leg:
         ctrl = curve.ctrl.copy()
         ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]
         curve = Piecewise(curve.breaks, ctrl)
-    return replace(leg, curve=curve, pose=tuple(map(float, curve.ctrl[0, 0])))
+    return replace(leg, curve=curve)
 
 
-def _body(drone: Drone, leg: Leg, camera: Piecewise, ends: Piecewise | None) -> Piecewise | None:
+def _body(drone: Drone, leg: MovingLeg, camera: Piecewise, ends: Piecewise | None) -> Piecewise | None:
     """Return the body's yaw, with the ends of an earlier curve if there is one; None without a solution."""
     start, end = (None, None) if ends is None else ends.ctrl[[0, -1], [0, -1], BODY_YAW].tolist()
     task = BodyTask(camera.channels(0, 1, 2), camera.channels(3), start, end, leg.pace * drone.limits.speed)

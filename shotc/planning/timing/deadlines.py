@@ -12,7 +12,7 @@ from itertools import accumulate, pairwise
 
 import numpy as np
 
-from shotc.ir.path import Leg, Mark
+from shotc.ir.path import Mark, PathLeg
 from shotc.planning.timing.leg import Plan, plan_of
 from shotc.planning.timing.limits import Ceiling
 from shotc.planning.timing.move import Move
@@ -90,7 +90,7 @@ class DueLeg:
     fast : its moves at full limits, which are ``ceiling``; paced : at its pace, for what has no time
     """
 
-    leg: Leg
+    leg: PathLeg
     plan: Plan
     fast: tuple[Move, ...]
     paced: tuple[Move, ...]
@@ -126,12 +126,12 @@ class DueLeg:
         return TooFast(late.mark, asked, None)
 
 
-def has_times(leg: Leg) -> bool:
+def has_times(leg: PathLeg) -> bool:
     """Tell whether a keyframe's time or the leg's length is given."""
     return leg.duration is not None or any(mark.time is not None for mark in leg.marks)
 
 
-def flying_times(leg: Leg) -> tuple[tuple[float, float], ...]:
+def flying_times(leg: PathLeg) -> tuple[tuple[float, float], ...]:
     """Return the places of a leg that have a time, its start first, each with the seconds of flight to it."""
     plan = plan_of(leg)
     anchors = _anchors(leg, plan)
@@ -139,7 +139,7 @@ def flying_times(leg: Leg) -> tuple[tuple[float, float], ...]:
     return tuple((anchor.s, t) for anchor, t in zip(anchors, flown, strict=True))
 
 
-def _anchors(leg: Leg, plan: Plan) -> list[_Anchor]:
+def _anchors(leg: PathLeg, plan: Plan) -> list[_Anchor]:
     """Return the fixed times in order of s, the start first, one for each place."""
     first = plan.stops[0]
     anchors = [_Anchor(first.s, 0.0, first.hold)]

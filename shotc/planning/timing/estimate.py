@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import Drone
-from shotc.ir.path import Leg
+from shotc.ir.path import HoldLeg, MovingLeg, PathLeg
 from shotc.planning.timing.deadlines import DueLeg, TooFast, has_times
 from shotc.planning.timing.grid import evened, rough_profile
 from shotc.planning.timing.leg import LegMotion, Plan, assemble, fastest_moves, plan_of
@@ -18,12 +18,11 @@ from shotc.planning.timing.move import Move, axes_of
 LEAST_SPEED = 1e-3  # m/s along the path, at rest
 
 
-def rough_times(drone: Drone, leg: Leg, pace: float) -> tuple[Array, Array]:
+def rough_times(drone: Drone, leg: MovingLeg, pace: float) -> tuple[Array, Array]:
     """Return parameters s and the seconds t at which a leg without its holds passes them; shapes (M,).
 
     pace : share of the limits used. No jerk limit but at the ends: the flown time is a little longer.
     """
-    assert leg.curve is not None
     ceiling = ceiling_of(drone).scaled(pace)
     places, times = [np.array([leg.curve.start])], [np.zeros(1)]
     for start, end in plan_of(leg).spans:
@@ -48,10 +47,12 @@ class LegTiming(NamedTuple):
     too_fast: TooFast | None
 
 
-def time_leg(leg: Leg, ceiling: Ceiling) -> LegTiming:
+def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
     """Time one leg by the length, the keyframe times and the pace that it asks for."""
     plan = plan_of(leg)
-    if leg.curve is None or not has_times(leg):
+    if isinstance(leg, HoldLeg):
+        return LegTiming(assemble(leg, plan, (), leg.duration), (), None)
+    if not has_times(leg):
         moves = fastest_moves(leg, plan, ceiling.scaled(leg.pace) if leg.phase == "shot" else ceiling)
         return LegTiming(assemble(leg, plan, moves, leg.duration), moves, None)
     fast = fastest_moves(leg, plan, ceiling)
@@ -61,18 +62,18 @@ def time_leg(leg: Leg, ceiling: Ceiling) -> LegTiming:
     return LegTiming(assemble(leg, timed.plan, timed.moves, leg.duration), fast, None)
 
 
-def can_be_timed(leg: Leg, ceiling: Ceiling) -> bool:
+def can_be_timed(leg: MovingLeg, ceiling: Ceiling) -> bool:
     """Tell whether a leg can have the times that it asks for below a ceiling."""
     plan = plan_of(leg)
     return _due(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
 
 
-def _due(leg: Leg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> DueLeg:
+def _due(leg: MovingLeg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> DueLeg:
     paced = fast if leg.duration is not None else fastest_moves(leg, plan, ceiling.scaled(leg.pace))
     return DueLeg(leg, plan, fast, paced, ceiling)
 
 
-def leg_motion(drone: Drone, leg: Leg) -> LegMotion | None:
+def leg_motion(drone: Drone, leg: PathLeg) -> LegMotion | None:
     """Return a leg as the time pass will fly it, from time 0; what that refuses as fast as it may be.
 
     None where it takes no time.
@@ -80,13 +81,13 @@ def leg_motion(drone: Drone, leg: Leg) -> LegMotion | None:
     return time_leg(leg, ceiling_of(drone)).motion
 
 
-def leg_time(drone: Drone, leg: Leg) -> float:
+def leg_time(drone: Drone, leg: PathLeg) -> float:
     """Return the seconds of ``leg_motion``."""
     motion = leg_motion(drone, leg)
     return 0.0 if motion is None else motion.duration
 
 
-def lateness(drone: Drone, leg: Leg) -> float:
+def lateness(drone: Drone, leg: PathLeg) -> float:
     """Return by which share of a time asked for the fastest flight of a leg misses it, 0 if by none."""
     ceiling, plan = ceiling_of(drone), plan_of(leg)
     fast = fastest_moves(leg, plan, ceiling)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
-from shotc.ir.path import FramingSpan, Leg, TimedLeg
+from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, PathLeg
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Reference
 from shotc.planning.timing.leg import TINY, LegMotion, rest
@@ -45,7 +45,7 @@ class Flight:
             self.phases.append(Phase("transit", None, self.clock, until))
         self.clock = until
 
-    def fly(self, leg: Leg, motion: LegMotion) -> None:
+    def fly(self, leg: PathLeg, motion: LegMotion) -> None:
         """Add a leg, from now on."""
         start, end = self.clock, self.clock + motion.duration
         t = start + motion.profile.t
@@ -65,7 +65,7 @@ class Flight:
         for span in leg.framing:
             self.framing.append(_reference(leg.shot, span, leg, motion, start))
 
-    def film(self, leg: TimedLeg) -> None:
+    def film(self, leg: ClockLeg) -> None:
         """Add a shot on its own clock, which begins now; the ways into and out of its motion are transits."""
         self.curves.append(leg.curve)
         if self.phases and self.phases[-1].name == "transit":
@@ -89,9 +89,9 @@ class Flight:
         )
 
 
-def _reference(shot: str, span: FramingSpan, leg: Leg, motion: LegMotion, clock: float) -> Reference:
+def _reference(shot: str, span: FramingSpan, leg: PathLeg, motion: LegMotion, clock: float) -> Reference:
     """Return a framing span over mission time; a hold at a joint of two spans belongs to the earlier."""
-    if leg.curve is None:
+    if isinstance(leg, HoldLeg):
         start, end = 0.0, motion.duration
     else:
         first = span.start <= leg.curve.start

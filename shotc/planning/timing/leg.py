@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, concatenate
-from shotc.ir.path import Leg, Stop
+from shotc.ir.path import HoldLeg, PathLeg, Stop
 from shotc.planning.timing.limits import Ceiling
 from shotc.planning.timing.move import Move, time_move
 from shotc.planning.timing.profile import SAME, Profile
@@ -70,11 +70,10 @@ class Plan:
         return Plan(stops)
 
 
-def plan_of(leg: Leg) -> Plan:
+def plan_of(leg: PathLeg) -> Plan:
     """Return the leg's stops, those at the same place made one; a still leg lasts as long as asked."""
-    if leg.curve is None:
-        held = leg.duration if leg.duration is not None else sum(stop.hold for stop in leg.stops)
-        return Plan((Stop(0.0, held),))
+    if isinstance(leg, HoldLeg):
+        return Plan((Stop(0.0, leg.hold if leg.duration is None else leg.duration),))
     merged: list[Stop] = []
     for stop in leg.stops:
         if merged and stop.s - merged[-1].s < SAME:
@@ -84,9 +83,9 @@ def plan_of(leg: Leg) -> Plan:
     return Plan(tuple(merged))
 
 
-def fastest_moves(leg: Leg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...]:
+def fastest_moves(leg: PathLeg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...]:
     """Return every move of the leg as fast as the ceiling allows."""
-    if leg.curve is None:
+    if isinstance(leg, HoldLeg):
         return ()
     keyframes = tuple(mark.s for mark in leg.marks)
     return tuple(_timed(leg.curve, span, ceiling, keyframes) for span in plan.spans)
@@ -97,7 +96,7 @@ def fastest_moves(leg: Leg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...]:
 _timed = lru_cache(maxsize=256)(time_move)
 
 
-def assemble(leg: Leg, plan: Plan, moves: tuple[Move, ...], duration: float | None) -> LegMotion | None:
+def assemble(leg: PathLeg, plan: Plan, moves: tuple[Move, ...], duration: float | None) -> LegMotion | None:
     """Return the leg over time, or None where nothing moves and nothing is held.
 
     duration : its exact length, to take rounding off the last knot; None to keep the sum

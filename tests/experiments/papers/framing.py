@@ -12,7 +12,7 @@ import numpy as np
 from shotc import plugins
 from shotc.diag.registry import has_errors
 from shotc.ir.passes import PassContext
-from shotc.ir.path import Leg, PathIR
+from shotc.ir.path import MovingLeg, PathIR
 from shotc.ir.trajectory import VerifiedIR
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.refine_path import RefinePath, Seat
@@ -86,7 +86,7 @@ def one(mission: str, condition: str, path: PathIR) -> Result:
         return Result(mission, condition, None, None, faults)
     refined, trajectory = done.reports[0].output, done.value.trajectory
     paths = (*refined.drones, *refined.timed)
-    (leg,) = (leg for path in paths for leg in path.legs if isinstance(leg, Leg) and leg.shot == FILMED)
+    (leg,) = (leg for path in paths for leg in path.legs if isinstance(leg, MovingLeg) and leg.shot == FILMED)
     (placed,) = (placed for placed in trajectory.keyframes.shots if placed.shot.id == FILMED)
     (flight,) = (flight for flight in trajectory.drones if flight.drone == placed.shot.drone)
     seen = shown(trajectory.keyframes.mission, placed.keyframes, leg, flight)

@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc import plugins
 from shotc.ir.passes import PassContext
-from shotc.ir.path import Leg, PathIR
+from shotc.ir.path import MovingLeg, PathIR
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.pipeline import run
 from shotc.planning.timing.grid import lay_grid, rough_profile, sample, split_cells
@@ -74,19 +74,17 @@ def _full_size(drafts: Sequence[Draft]) -> Iterator[PathIR]:
             yield path
 
 
-def _filmed(path: PathIR) -> Leg:
+def _filmed(path: PathIR) -> MovingLeg:
     (leg,) = (leg for leg in path.drones[0].legs if leg.shot is not None)
     return leg
 
 
-def _length(leg: Leg) -> float:
-    assert leg.curve is not None
+def _length(leg: MovingLeg) -> float:
     return leg.curve.end - leg.curve.start
 
 
-def topp_time(leg: Leg, ceiling: Ceiling) -> float:
+def topp_time(leg: MovingLeg, ceiling: Ceiling) -> float:
     """Return TOPP-RA's seconds for a shot that rests at its ends only."""
-    assert leg.curve is not None
     span = (leg.curve.start, leg.curve.end)
     limits = axes_of(leg.curve, span, ceiling)
     grid = lay_grid(leg.curve, *rough_profile(leg.curve, *span, limits), np.empty(0))
@@ -110,7 +108,6 @@ def _row(refiner: str, paths: Sequence[PathIR], jerk: float, say: Callable[[str]
     losses, lengths, fast, scales, seconds = [], [], [], [], []
     for path in paths:
         leg = _filmed(path)
-        assert leg.curve is not None
         ceiling = replace(ceiling_of(path.keyframes.mission.drones[0]), jerk=jerk)
         quickest = topp_time(leg, ceiling)
         began = time.perf_counter()

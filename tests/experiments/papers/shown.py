@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from shotc.geom.bernstein import Piecewise
     from shotc.ir.keyframes import PlacedKeyframe
     from shotc.ir.mission import MissionIR
-    from shotc.ir.path import Leg
+    from shotc.ir.path import MovingLeg
     from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ def percentile(values: Array, share: float) -> float:
 
 
 def shown(
-    mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...], leg: Leg, flown: DroneTrajectory
+    mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...], leg: MovingLeg, flown: DroneTrajectory
 ) -> Shown:
     """Measure one shot that moves; leg : the path that was timed, flown : what came of it."""
     (phase,) = (p for p in flown.phases if p.shot == leg.shot)
@@ -154,7 +154,7 @@ def _rms_jerk(motion: BPoly, start: float, end: float) -> float:
 
 
 def wanted(
-    mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...], leg: Leg, s: Array
+    mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...], leg: MovingLeg, s: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Return the cylinder's centre (M, 3), radius and height (M,), and its place (M, 2), at path places s."""
     at = np.array([mark.s for mark in leg.marks])
@@ -172,9 +172,8 @@ def wanted(
     return table[:, :3], table[:, 3], table[:, 4], table[:, 5:]
 
 
-def _places(leg: Leg, motion: BPoly, t: Array) -> Array:
+def _places(leg: MovingLeg, motion: BPoly, t: Array) -> Array:
     """Return the path parameters at times of a shot: both have the same way behind them there."""
-    assert leg.curve is not None
     s, fine = np.linspace(leg.curve.start, leg.curve.end, FINE), np.linspace(t[0], t[-1], FINE)
     over_path, over_time = _way(polynomial(leg.curve)(s)), _way(motion(fine))
     share = np.interp(t, fine, over_time / over_time[-1])

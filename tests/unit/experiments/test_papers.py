@@ -13,7 +13,7 @@ from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import View, frustum_margins, point_margins
-from shotc.ir.path import Leg, Mark
+from shotc.ir.path import Mark, MovingLeg
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
 from tests.experiments.papers import lenses, page
@@ -66,7 +66,7 @@ def still_leg(curve: Piecewise, target_places: list[tuple[float, float]]) -> tup
         k._replace(reference=place) for k, place in zip((first, second), target_places, strict=True)
     )
     marks = tuple(Mark(float(s), None, i, ()) for i, s in enumerate((curve.start, curve.end)))
-    leg = Leg("shot", "film", curve, tuple(curve.ctrl[0, 0]), (), marks, (), 1.0, None, None, ())
+    leg = MovingLeg("shot", "film", curve, (), marks, (), 1.0, None, None, ())
     return ir.mission, keyframes, leg
 
 

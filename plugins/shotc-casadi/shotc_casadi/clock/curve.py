@@ -14,7 +14,7 @@ from shotc.plugin_api.refiner import (
     HFOV,
     Array,
     Clock,
-    TimedLeg,
+    ClockLeg,
     Watch,
     quintic_hermite,
     restrict,
@@ -47,7 +47,7 @@ def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecew
     return quintic_hermite(breaks, states[:, :3], states[:, 3:6], states[:, 6:])
 
 
-def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None = None) -> TimedLeg | None:
+def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None = None) -> ClockLeg | None:
     """Return the leg with a new position and the camera that follows from it, or None without one.
 
     camera : yaw and pitch over mission time, where they are found already; the body's yaw follows

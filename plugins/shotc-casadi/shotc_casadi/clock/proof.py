@@ -10,10 +10,10 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
+    ClockLeg,
     Drone,
     Looker,
     Surroundings,
-    TimedLeg,
     aim_at,
     aims_at,
     wrapped,
@@ -60,7 +60,7 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
     return worst
 
 
-def astray(subject: ClockSubject, leg: TimedLeg) -> float:
+def astray(subject: ClockSubject, leg: ClockLeg) -> float:
     """Return the most by which a camera misses the aim that its subject asks for, in the film, rad."""
     watched, drone, looker = subject.watched, subject.drone, subject.looker
     if looker.keyed is not None:
@@ -79,7 +79,7 @@ def astray(subject: ClockSubject, leg: TimedLeg) -> float:
     return worst
 
 
-def _off(looker: Looker, leg: TimedLeg) -> float:
+def _off(looker: Looker, leg: ClockLeg) -> float:
     """Return the most by which a camera misses what keyframes tell it, in the film, rad."""
     times = np.linspace(leg.start, leg.end, AIMS)
     pose = leg.curve(times)

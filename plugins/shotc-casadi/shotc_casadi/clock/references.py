@@ -14,13 +14,13 @@ from shotc.plugin_api.refiner import (
     UNWATCHED,
     Array,
     Bound,
+    ClockLeg,
     Drone,
     Keyed,
     Looker,
     Mask,
     PlacedShot,
     PlacedSubject,
-    TimedLeg,
     bounds_of,
     ideal_places,
     looker_of,
@@ -52,7 +52,7 @@ class ClockSubject:
     path: PathIR
     drone: Drone
     placed: PlacedShot
-    leg: TimedLeg
+    leg: ClockLeg
     held_whole: bool = False
 
     @property

@@ -17,8 +17,8 @@ from shotc.plugin_api import (
 )
 from shotc.plugin_api.refiner import (
     CALM,
+    ClockLeg,
     Deviation,
-    TimedLeg,
     TimedPath,
     given_up,
     ideal_places,
@@ -52,7 +52,7 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
     name : of the refiner. A shot that cannot be refined keeps its guide, with an error that says why.
     """
     told: list[Diagnostic] = []
-    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
+    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, ClockLeg)]
     for shot in [leg.shot for leg in legs]:
         ctx.progress(f"refine shot {shot}")
         path, said = refine_one(path, shot, name)
@@ -120,13 +120,13 @@ def subject_of(path: PathIR, shot: str) -> ClockSubject:
     """Return a shot of a path that is on its own clock."""
     mission = path.keyframes.mission
     (placed,) = (p for p in path.keyframes.shots if p.shot.id == shot)
-    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, TimedLeg)]
+    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, ClockLeg)]
     (leg,) = (leg for leg in legs if leg.shot == shot)
     begun = placed_at(mission, placed, leg.start)
     return ClockSubject(path, mission.drone(placed.shot.drone), begun, leg)
 
 
-def with_leg(path: PathIR, leg: TimedLeg, why: str) -> PathIR:
+def with_leg(path: PathIR, leg: ClockLeg, why: str) -> PathIR:
     """Return the path with another leg for a shot, which leaves its ideal as far as it then does.
 
     why : it does so where nothing moved the guide
@@ -134,7 +134,7 @@ def with_leg(path: PathIR, leg: TimedLeg, why: str) -> PathIR:
     timed = tuple(
         TimedPath(
             flown.drone,
-            tuple(leg if isinstance(old, TimedLeg) and old.shot == leg.shot else old for old in flown.legs),
+            tuple(leg if isinstance(old, ClockLeg) and old.shot == leg.shot else old for old in flown.legs),
         )
         for flown in path.timed
     )

@@ -12,10 +12,10 @@ from typing import NamedTuple
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import (
     Array,
+    ClockLeg,
     Mask,
     Planes,
     Surroundings,
-    TimedLeg,
     restrict,
     surroundings,
 )
@@ -53,7 +53,7 @@ class ClockRefined:
     """
 
     shot: str
-    leg: TimedLeg | None
+    leg: ClockLeg | None
     breaks: Array
     rounds: int
     solution: Solution
@@ -223,7 +223,7 @@ def _refined(shot: _Shot, now: _Round) -> ClockRefined:
 
 def _weighed(
     subject: ClockSubject, best: _Best
-) -> tuple[TimedLeg | None, tuple[float, float] | None, Gap | None]:
+) -> tuple[ClockLeg | None, tuple[float, float] | None, Gap | None]:
     """Return the leg of the best round where it is no worse than the guide, the costs, and what is amiss."""
     leg, whole = subject.leg, _filmed(subject, best.position, best.solution)
     if whole is None:
@@ -236,11 +236,11 @@ def _weighed(
     return None if costs[0] > costs[1] else whole, costs, None
 
 
-def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> TimedLeg | None:
+def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> ClockLeg | None:
     camera = turned(position.breaks, solution.states) if subject.together else None
     return filmed(subject, position, camera)
 
 
-def flown_cost(task: ClockProblem, breaks: Array, leg: TimedLeg) -> float:
+def flown_cost(task: ClockProblem, breaks: Array, leg: ClockLeg) -> float:
     """Return what a leg costs by a programme of several subjects, with the camera that it has."""
     return cost(task, *guess(leg.curve, breaks, leg.curve))

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api.refiner import DroneTrajectory, TimedLeg, flights, others_of, seen
+from shotc.plugin_api.refiner import ClockLeg, DroneTrajectory, flights, others_of, seen
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.screens import screens_of
@@ -77,12 +77,12 @@ def _cropped_on_purpose(subject: ClockSubject) -> bool:
     return size is not None and size > 1.0
 
 
-def no_less(subject: ClockSubject, before: TimedLeg, after: TimedLeg) -> bool:
+def no_less(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     """Tell whether a leg shows as much of all subjects as another, and breaks no promise that that keeps."""
     return _hidden(subject, after) <= _hidden(subject, before) + GAIN and as_whole(subject, before, after)
 
 
-def as_whole(subject: ClockSubject, before: TimedLeg, after: TimedLeg) -> bool:
+def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     """Tell whether no subject is cropped in more frames than it was, and promises are kept as they were."""
     for which in range(len(subject.framed)):
         old, new = shown(subject, before, which), shown(subject, after, which)
@@ -91,12 +91,12 @@ def as_whole(subject: ClockSubject, before: TimedLeg, after: TimedLeg) -> bool:
     return True
 
 
-def _hidden(subject: ClockSubject, leg: TimedLeg) -> float:
+def _hidden(subject: ClockSubject, leg: ClockLeg) -> float:
     """Return the share of the frames in which a subject is hidden, added up over all of them."""
     return sum(shown(subject, leg, which).hidden for which in range(len(subject.framed)))
 
 
-def shown(subject: ClockSubject, leg: TimedLeg, which: int = 0) -> Shown:
+def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     """Return what a leg shows of one of the subjects of its shot in the film."""
     one = subject.framed[which]
     t = np.linspace(leg.start, leg.end, max(2, int(RATE * (leg.end - leg.start))))

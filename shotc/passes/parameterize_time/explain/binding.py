@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.diag.model import Label
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Leg, Mark
+from shotc.ir.path import Mark, PathLeg
 from shotc.planning.timing.flown import usages
 from shotc.planning.timing.limits import Ceiling, ceiling_of
 from shotc.planning.timing.move import Move, axes_of
@@ -73,7 +73,7 @@ class Holdup:
     names: tuple[str, ...]
 
 
-def binding(leg: Leg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
+def binding(leg: PathLeg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
     """Return what holds the moves of a leg back."""
     pieces = [_held(move, ceiling) for move in moves]
     marks = sorted(leg.marks, key=lambda m: (m.s, m.index))

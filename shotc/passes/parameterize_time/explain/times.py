@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Leg, TimedLeg
+from shotc.ir.path import Leg, PathLeg
 from shotc.ir.phases import Phase
 from shotc.passes.labels import phases_in_words, timing_value
 from shotc.passes.parameterize_time.explain.binding import (
@@ -33,7 +33,9 @@ class Remedies:
     enough: Callable[[Ceiling], bool]
 
 
-def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedies: Remedies) -> Diagnostic:
+def too_fast(
+    mission: MissionIR, drone: Drone, leg: PathLeg, fault: TooFast, remedies: Remedies
+) -> Diagnostic:
     """Return T001 for a duration or T002 for a keyframe's time that is too short."""
     labels = binding_labels(mission, drone, remedies.holdup)
     notes = binding_notes(mission, drone, remedies.holdup)
@@ -67,7 +69,7 @@ def too_fast(mission: MissionIR, drone: Drone, leg: Leg, fault: TooFast, remedie
 
 
 def start_too_early(
-    mission: MissionIR, leg: Leg | TimedLeg, asked: float, earliest: float, phases: tuple[Phase, ...]
+    mission: MissionIR, leg: Leg, asked: float, earliest: float, phases: tuple[Phase, ...]
 ) -> Diagnostic:
     """Return T003: the drone is not yet there at the shot's start.
 
@@ -101,7 +103,7 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
     )
 
 
-def without_length(mission: MissionIR, leg: Leg) -> Diagnostic:
+def without_length(mission: MissionIR, leg: PathLeg) -> Diagnostic:
     """Return T005: nothing moves, nothing is held, no duration is given."""
     return Diagnostic(
         "T005",
@@ -112,7 +114,7 @@ def without_length(mission: MissionIR, leg: Leg) -> Diagnostic:
     )
 
 
-def roughly_timed(mission: MissionIR, drone: Drone, leg: Leg, held: str) -> Diagnostic:
+def roughly_timed(mission: MissionIR, drone: Drone, leg: PathLeg, held: str) -> Diagnostic:
     """Return T006: the solver gave no profile, so a rough one is flown, held back by one limit."""
     what = f"shot `{leg.shot}`" if leg.shot else f"{leg.phase} of `{drone.name}`"
     return Diagnostic(

@@ -53,7 +53,7 @@ class TestFlight:
         assert ends[-1] == drone.curve.end
 
     def test_the_whole_curve_is_c2_and_within_limits_and_ends_at_rest(self) -> None:
-        leg = shot_leg(smooth(3), tuple(smooth(3)(0.0)), pace=0.75)
+        leg = shot_leg(smooth(3), pace=0.75)
         drone = timed(flight(mission(), leg)).drones[0]
         value, rate, acceleration = jumps(drone.curve)
         assert value < 1e-9
@@ -64,7 +64,7 @@ class TestFlight:
         assert np.diff(drone.curve.breaks).min() > 1e-6
 
     def test_the_shot_flies_its_path_from_end_to_end(self) -> None:
-        ir = timed(flight(mission(), shot_leg(circle(20, pi), tuple(circle(20, pi)(0.0)))))
+        ir = timed(flight(mission(), shot_leg(circle(20, pi))))
         start, end = shot_phase(ir)
         t = np.linspace(start, end, 300)
         p = ir.drones[0].curve(t)
@@ -121,7 +121,7 @@ class TestAngles:
             np.concatenate([go.breaks, 40.0 + turn.breaks[1:]]), np.concatenate([go.ctrl, turn.ctrl])
         )
         stops = (Stop(0.0, 0.0), Stop(40.0, 0.0), Stop(both.end, 0.0))
-        ir = timed(flight(mission(), shot_leg(both, FROM, stops=stops)))
+        ir = timed(flight(mission(), shot_leg(both, stops=stops)))
         assert "shot half move 1 time" in dict(ir.stats)
         assert max(uses(ir.drones[0].curve, CEILING).values()) <= 1.0
         assert ir.drones[0].curve(shot_phase(ir)[1])[3] == pytest.approx(radians(90))
@@ -130,7 +130,7 @@ class TestAngles:
         away = (*TO[:4], radians(-60), 0.0, HFOV)
         gimbal = replace(mission().drones[0].gimbal, rate=radians(5))
         slow = mission(gimbal=gimbal)
-        leg = shot_leg(line(FROM, away), FROM, duration=8.5)
+        leg = shot_leg(line(FROM, away), duration=8.5)
         (fault,) = faults(flight(slow, leg))
         assert "gimbal rate 5.00 deg/s" in fault.notes[1]
         assert number_before(fault.message, " s is the shortest") > 12.0

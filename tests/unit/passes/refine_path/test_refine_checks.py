@@ -11,7 +11,7 @@ import pytest
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import subdivide
 from shotc.geom.solids import Cylinder
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Z
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HoldLeg, Z
 from shotc.passes.refine_path.room import nearest
 from shotc.planning.free_space import Disc, Obstacle, Room, Wall
 from tests.support.bad_refiners import (
@@ -107,14 +107,7 @@ def test_whole_turns_of_camera_and_body_together_are_none_of_the_gimbal_s():
     def turned(ir):
         turn = 2 * np.pi * np.eye(7)[[CAM_YAW, BODY_YAW]].sum(axis=0)
         legs = ir.drones[0].legs
-        moved = tuple(
-            replace(
-                one,
-                curve=Piecewise(one.curve.breaks, one.curve.ctrl + turn),
-                pose=tuple(np.array(one.pose) + turn),
-            )
-            for one in legs
-        )
+        moved = tuple(replace(one, curve=Piecewise(one.curve.breaks, one.curve.ctrl + turn)) for one in legs)
         return replace(ir, drones=(replace(ir.drones[0], legs=moved),))
 
     assert refine(returns(turned)).value is not None
@@ -130,6 +123,16 @@ def test_a_jump_of_a_derivative_is_found(order):
 
 def changes(shot, **fields):
     return lambda ir: with_leg(ir, shot, **{k: f(getattr(leg(ir, shot), k)) for k, f in fields.items()})
+
+
+def standing(ir, shot, channels=7):
+    """The shot's camera stands still where it begins."""
+    was = leg(ir, shot)
+    hold = HoldLeg(
+        was.shot, was.pose[:channels], 0.0, was.marks, was.framing, was.duration, was.start, was.path
+    )
+    legs = tuple(hold if one is was else one for one in ir.drones[0].legs)
+    return replace(ir, drones=(replace(ir.drones[0], legs=legs),))
 
 
 def marked(**fields):
@@ -165,7 +168,7 @@ CHANGED = {
     "no reference": (changes(PASS, framing=lambda spans: (replace(spans[0], reference=None),)), "targets"),
     "reference": (changes(PASS, framing=moved_reference(0.2)), "0.283 of half a frame"),
     "bent reference": (changes(PASS, framing=bent_reference), "of half a frame"),
-    "still": (changes(PASS, curve=lambda _: None), "stands still"),
+    "still": (lambda ir: standing(ir, PASS), "stands still"),
 }  # fmt: skip
 
 
@@ -191,7 +194,8 @@ FORMS = {
         ir, drones=(replace(ir.drones[0], legs=(ir.drones[0].legs[0], *ir.drones[0].legs[:])),)
     ),
     "no drone": lambda ir: replace(ir, drones=()),
-    "a short pose": changes(PASS, pose=lambda pose: pose[:5]),
+    "a short pose": lambda ir: standing(ir, PASS, channels=5),
+    "no curve": changes(PASS, curve=lambda _: None),
     "no stops": changes(PASS, stops=lambda _: ()),
     "stops off the curve": changes(PASS, stops=lambda s: (s[0], replace(s[-1], s=1e3))),
     "keyframes out of order": changes(PASS, marks=lambda marks: marks[::-1]),
@@ -223,7 +227,7 @@ def test_a_moved_take_off_is_found():
     def moved(ir):
         first = ir.drones[0].legs[0]
         ctrl = first.curve.ctrl + np.eye(7)[0]
-        return with_leg(ir, 0, curve=Piecewise(first.curve.breaks, ctrl), pose=tuple(ctrl[0, 0]))
+        return with_leg(ir, 0, curve=Piecewise(first.curve.breaks, ctrl))
 
     found = refine(returns(moved)).diagnostics
     assert any(d.code == "R005" and "moved the takeoff" in d.message for d in found)

@@ -10,7 +10,7 @@ import pytest
 from shotc import api, plugins
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.passes import Outcome
-from shotc.ir.path import BODY_YAW, CAM_PITCH, PathIR, TimedLeg, TimedPath, X, Y, Z
+from shotc.ir.path import BODY_YAW, CAM_PITCH, ClockLeg, PathIR, TimedPath, X, Y, Z
 from tests.support.bad_refiners import Odd, along, refine, returns
 from tests.support.records import replace
 
@@ -42,11 +42,11 @@ def guide(optional: bool = False) -> PathIR:
     return api.compile_source(text(optional=optional).encode(), "run.yaml", None, options).reports[-1].output
 
 
-def leg(ir: PathIR, shot: str = BY) -> TimedLeg:
+def leg(ir: PathIR, shot: str = BY) -> ClockLeg:
     return next(one for one in ir.timed[0].legs if one.shot == shot)
 
 
-def with_leg(ir: PathIR, changed: TimedLeg) -> PathIR:
+def with_leg(ir: PathIR, changed: ClockLeg) -> PathIR:
     legs = tuple(changed if one.shot == changed.shot else one for one in ir.timed[0].legs)
     return replace(ir, timed=(TimedPath(ir.timed[0].drone, legs),))
 
@@ -83,7 +83,7 @@ def later(ir: PathIR) -> PathIR:
 
 def transit_moved(ir: PathIR) -> PathIR:
     legs = list(ir.timed[0].legs)
-    k = next(i for i, one in enumerate(legs) if not isinstance(one, TimedLeg) and one.phase == "transit")
+    k = next(i for i, one in enumerate(legs) if not isinstance(one, ClockLeg) and one.phase == "transit")
     legs[k] = replace(legs[k], pace=0.5)
     return replace(ir, timed=(TimedPath("cam", tuple(legs)),))
 

@@ -11,7 +11,7 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import CAM_PITCH, CAM_YAW, Leg, PathIR, TimedPath, X, Y, Z, filmed
+from shotc.ir.path import CAM_PITCH, CAM_YAW, MovingLeg, PathIR, TimedPath, X, Y, Z, filmed
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.passes.refine_path.account import Account, account
 from shotc.passes.refine_path.settle import same
@@ -62,16 +62,15 @@ def refine(act, *optional: str):
     return RefinePath(SEAT._replace(refiner=Odd(act))).run(path(*optional), PassContext())
 
 
-def leg(ir: PathIR, shot: str) -> Leg:
+def leg(ir: PathIR, shot: str) -> MovingLeg:
     found = filmed(ir, shot)
-    assert isinstance(found, Leg)
+    assert isinstance(found, MovingLeg)
     return found
 
 
 def camera(shot: str, ends: float = 0.0) -> Piecewise:
     """A shot's camera with another pitch throughout, rad."""
     curve = leg(path(), shot).curve
-    assert curve is not None
     ctrl = curve.ctrl[:, :, list(CAMERA)].copy()
     ctrl[:, :, 4] += ends
     return Piecewise(curve.breaks, ctrl)
@@ -161,16 +160,11 @@ def test_a_way_that_is_flown_elsewhere_is_a_fault():
 
 def test_a_refined_leg_that_misses_its_keyframe_is_a_fault():
     curve = leg(path(), "pass").curve
-    assert curve is not None
     up = curve.ctrl.copy()
     up[:, :, 2] += 1.0
 
     def raised(one):
-        return (
-            replace(one, curve=Piecewise(curve.breaks, up), pose=tuple(up[0, 0]))
-            if one.shot == "pass"
-            else one
-        )
+        return replace(one, curve=Piecewise(curve.breaks, up)) if one.shot == "pass" else one
 
     codes = {d.code for d in refine(lambda ir: Outcome(with_legs(ir, "cam1", raised))).diagnostics}
     assert {"R002", "R007"} <= codes

@@ -12,7 +12,7 @@ from shotc.checking import check_source
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.limits import Timing
-from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HoldLeg
 from tests.support.path_scenes import (
     FIELD,
     TOWER,
@@ -67,8 +67,8 @@ def test_a_still_camera_is_a_hold_leg():
         shot([framed(0, (0, -40, 12), TOWER, hold=3.0)], name="s1"),
     )  # fmt: skip
     first, second = legs(path, "shot")
-    assert first.curve is None
-    assert [s.hold for s in first.stops + second.stops] == [7.0, 3.0]
+    assert isinstance(first, HoldLeg)
+    assert (first.duration, second.duration, second.hold) == (7.0, None, 3.0)
     assert len(legs(path, "transit")) == 1  # the second shot starts where the first one stands
 
 

@@ -11,7 +11,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import restrict, subdivide
 from shotc.ir.passes import PassContext
-from shotc.ir.path import PathIR, TimedLeg
+from shotc.ir.path import ClockLeg, PathIR
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.planning.clock.aims import Looker
 from shotc.planning.clock.flights import flights
@@ -53,9 +53,9 @@ def path() -> PathIR:
     return done.reports[-1].output
 
 
-def leg(shot: str) -> TimedLeg:
+def leg(shot: str) -> ClockLeg:
     (found,) = (one for flown in path().timed for one in flown.legs if one.shot == shot)
-    assert isinstance(found, TimedLeg)
+    assert isinstance(found, ClockLeg)
     return found
 
 

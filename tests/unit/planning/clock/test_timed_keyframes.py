@@ -20,9 +20,9 @@ from tests.support.timed_flights import (
 from tests.support.timing_paths import (
     CEILING,
     flight,
+    held_leg,
     mission,
     s_curve_time,
-    shot_leg,
     shot_phase,
     uses,
 )
@@ -142,7 +142,7 @@ class TestFraming:
         span = FramingSpan(
             "tower", 0.0, 0.0, Piecewise(np.array([0.0, 1.0]), np.tile([0.1, -0.2], (1, 6, 1)))
         )
-        ir = timed(flight(mission(), shot_leg(None, FROM, duration=4.0, framing=(span,))))
+        ir = timed(flight(mission(), held_leg(FROM, duration=4.0, framing=(span,))))
         (found,) = ir.drones[0].framing
         assert (found.start, found.end) == shot_phase(ir)
         assert found.reference is not None

@@ -24,6 +24,7 @@ from tests.support.timed_flights import (
 from tests.support.timing_paths import (
     CEILING,
     flight,
+    held_leg,
     mission,
     s_curve_time,
     shot_leg,
@@ -106,7 +107,7 @@ class TestDuration:
     @given(seed=st.integers(0, 1000), share=st.floats(1.0, 5.0))
     def test_any_duration_from_the_shortest_up_can_be_flown(self, seed: int, share: float) -> None:
         path = smooth(seed, size=8.0)
-        leg = shot_leg(path, tuple(path(0.0)))
+        leg = shot_leg(path)
         (fault,) = faults(flight(mission(), replace(leg, duration=0.5)))
         shortest = number_before(fault.message, " s is the shortest")
         ir = timed(flight(mission(), replace(leg, duration=share * shortest)))
@@ -117,16 +118,16 @@ class TestDuration:
 
 class TestStill:
     def test_a_still_shot_lasts_its_duration(self) -> None:
-        ir = timed(flight(mission(), shot_leg(None, FROM, duration=7.25, stops=(Stop(0.0, 3.0),))))
+        ir = timed(flight(mission(), held_leg(FROM, 3.0, duration=7.25)))
         start, end = shot_phase(ir)
         assert end - start == pytest.approx(7.25, abs=1e-12)
         assert still(ir, start, end)
 
     def test_or_its_hold(self) -> None:
-        assert shot_time(shot_leg(None, FROM, stops=(Stop(0.0, 3.0),))) == pytest.approx(3.0, abs=1e-12)
+        assert shot_time(held_leg(FROM, 3.0)) == pytest.approx(3.0, abs=1e-12)
 
     def test_a_shot_that_takes_no_time_is_a_fault(self) -> None:
-        (fault,) = faults(flight(mission(), shot_leg(None, FROM, stops=(Stop(0.0, 0.0),))))
+        (fault,) = faults(flight(mission(), held_leg(FROM)))
         assert fault.code == "T005"
 
 
@@ -163,7 +164,7 @@ class TestWaiting:
         shots = (replace(shot, timing=Timing(after="late")), replace(shot, id="late", drone="cam2"))
         of = replace(base, drones=(*base.drones, other), shots=shots)
         first = flight(of, straight()).drones[0]
-        held = shot_leg(None, FROM, shot="late", duration=20.0)
+        held = held_leg(FROM, shot="late", duration=20.0)
         second = flight(of, held).drones[0]
         return replace(flight(of, straight()), drones=(first, replace(second, drone="cam2")))
 
@@ -177,9 +178,7 @@ class TestWaiting:
     def test_a_wait_right_after_a_shot_is_a_transit(self) -> None:
         path = flight(mission(), straight())
         takeoff, transit, shot, land = path.drones[0].legs
-        again = replace(
-            shot, shot="again", curve=None, pose=TO, stops=(Stop(0.0, 2.0),), marks=(), start=40.0
-        )
+        again = held_leg(TO, 2.0, shot="again", marks=(), start=40.0)
         legs = (takeoff, transit, shot, again, land)
         drone = timed(replace(path, drones=(replace(path.drones[0], legs=legs),))).drones[0]
         assert [p.name for p in drone.phases] == ["takeoff", "transit", "shot", "transit", "shot", "land"]

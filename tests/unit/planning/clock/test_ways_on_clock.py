@@ -18,7 +18,7 @@ from shotc.geom.solids import Cylinder, point
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
-from shotc.ir.path import Leg
+from shotc.ir.path import MovingLeg
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.verify.advice import Rule, advice
@@ -286,7 +286,7 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
         (x, 0.0, z, 0.0, 0.0, 0.0, 1.2) for x, z in ((0.0, 5.0), (0.0, 12.0), (40.0, 12.0), (40.0, 5.0))
     )
 
-    def legs(*poses: Pose) -> list[Leg]:
+    def legs(*poses: Pose) -> list[MovingLeg]:
         ways = [way_to(flight, a, b, ("shots", 0)) for a, b in pairwise(poses)]
         return [leg for way in ways if isinstance(way, list) for leg in way]
 
