@@ -58,11 +58,18 @@ def tried(mutant: Mutant, covered: CoverageMap, copy: Path, longest: float) -> T
         return Trial(mutant, "uncovered", 0)
     path = copy / mutant.path
     text = path.read_text(encoding="utf-8")
-    path.write_text(mutant.applied(text), encoding="utf-8")
+    _write(path, mutant.applied(text))
     try:
         return Trial(mutant, _verdict(tests, covered, copy), len(tests))
     finally:
-        path.write_text(text, encoding="utf-8")
+        _write(path, text)
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a module, and forget its bytecode: two versions in one second have the same time stamp."""
+    path.write_text(text, encoding="utf-8")
+    for compiled in path.parent.glob(f"__pycache__/{path.stem}.*.pyc"):
+        compiled.unlink()
 
 
 def _verdict(tests: Sequence[str], covered: CoverageMap, copy: Path) -> str:
@@ -138,10 +145,10 @@ def environment(tests: Sequence[str], copy: Path) -> dict[str, str]:
     chosen = copy / "chosen-tests.txt"
     chosen.write_text("\n".join(tests), encoding="utf-8")
     paths = [copy, *(p for p in sorted(copy.glob("plugins/*")) if p.is_dir())]
-    return dict(os.environ) | {
+    inherited = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return inherited | {
         CHOSEN: str(chosen),
         FAILED: str(copy / FAILED_FILE),
         "PYTHONPATH": os.pathsep.join(map(str, paths)),
-        "PYTHONDONTWRITEBYTECODE": "1",
         "OMP_NUM_THREADS": "1",
     }
