@@ -79,3 +79,14 @@ def test_many_faces_in_parts_are_the_same_as_at_once(monkeypatch: pytest.MonkeyP
     whole = inside_of(sphere_mesh(3.0))[1]
     monkeypatch.setattr("shotc.show.geom.columns.CHUNK", 500)
     assert np.array_equal(inside_of(sphere_mesh(3.0))[1].high, whole.high)
+
+
+@pytest.mark.parametrize(
+    ("size", "count", "counts"),
+    [((10.0, 10.0), 100, (10, 10)), ((10.0, 0.001), 10, (10, 1)), ((4.0,), 7, (7,)), ((0.0, 3.0), 5, (1, 5))],
+)
+def test_cells_are_about_square_and_a_thin_side_has_one(size, count: int, counts: tuple[int, ...]) -> None:
+    found = columns_below(np.zeros(len(size)), np.array(size), count, np.random.default_rng(0))
+    assert found.counts == counts
+    assert found.cell * found.counts == pytest.approx(np.maximum(size, 1e-9 * max(1.0, *size, 1.0)))
+    assert len(found.places) == np.prod(counts)

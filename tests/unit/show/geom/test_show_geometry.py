@@ -175,3 +175,17 @@ def test_a_lattice_on_the_faces_of_a_cube_never_beats_the_bound(n: int) -> None:
     side = (n - 1) * spacing(apart)
     on_faces = sum(1 for p in product(range(n), repeat=3) if {0, n - 1} & set(p))
     assert on_faces <= most_drones(picture(Box(CENTRE, (side, side, side), 0.3), "surface"), apart)
+
+
+@given(st.floats(3, 20), st.floats(0.5, 3), angles, angles)
+def test_balls_of_a_ring_go_round_its_axis(radius: float, tube: float, heading: float, tilt: float) -> None:
+    axis = (sin(tilt) * sin(heading), sin(tilt) * cos(heading), cos(tilt))
+    away = [
+        tuple(a - b for a, b in zip(ball.centre, CENTRE, strict=True))
+        for ball in balls(Torus(CENTRE, radius, tube, heading, tilt))
+    ]
+    for d in away:
+        assert hypot(*d) == pytest.approx(radius)
+        assert sum(a * b for a, b in zip(d, axis, strict=True)) == pytest.approx(0.0, abs=1e-9 * radius)
+    steps = [dist(a, b) for a, b in zip(away, [*away[1:], away[0]], strict=True)]
+    assert steps == pytest.approx([steps[0]] * len(steps))
