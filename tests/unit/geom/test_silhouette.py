@@ -172,3 +172,10 @@ def test_edges_in_the_world_and_on_screen(solid: Solid, strips: int) -> None:
     cut = solid_edges(view(0.5, 0, 1.2, ASPECT), (0.0, 0.0, 2.0), solid)
     assert cut
     assert all(np.isfinite(strip).all() for strip in cut)
+
+
+def test_an_edge_that_is_cut_is_one_line_in_front() -> None:
+    """The eye stands inside: half of each rim is behind it, and either end of the other half is cut."""
+    around = Cylinder((0.0, 0.0), 5.0, -1.0, 1.0)
+    found = solid_edges(view(0.0, 0.0, 1.0, 1.0), (0.0, 0.0, 0.0), around)
+    assert [len(line) for line in found] == [13, 13, 13, 13]
