@@ -141,3 +141,10 @@ def test_the_upper_edge_may_turn_faster_than_the_lens_opens(aspect: float, hfov:
     rate = abs(margins[1] - margins[0]) / step
     assert rate > 1.2 * 20.0 * 0.5
     assert rate <= margin_rate(20.0, 0.0, 0.0, 1.0, aspect) + 1e-3
+
+
+@pytest.mark.parametrize(("aspect", "wider"), [(16 / 9, 16 / 9), (9 / 16, 16 / 9), (1.0, 1.0)])
+def test_a_margin_changes_with_the_camera_its_turn_and_its_zoom(aspect: float, wider: float) -> None:
+    assert margin_rate(20.0, 3.0, 0.0, 0.0, aspect) == 3.0
+    assert margin_rate(20.0, 0.0, 0.5, 0.0, aspect) == 10.0
+    assert margin_rate(20.0, 0.0, 0.0, 0.1, aspect) == pytest.approx(20.0 * 0.05 * wider)

@@ -179,3 +179,12 @@ def test_an_edge_that_is_cut_is_one_line_in_front() -> None:
     around = Cylinder((0.0, 0.0), 5.0, -1.0, 1.0)
     found = solid_edges(view(0.0, 0.0, 1.0, 1.0), (0.0, 0.0, 0.0), around)
     assert [len(line) for line in found] == [13, 13, 13, 13]
+
+
+def test_the_edges_of_a_cylinder_are_its_rims() -> None:
+    bottom, top = edge_strips(Cylinder((3.0, -2.0), 5.0, -1.0, 7.0))
+    for strip, height in ((bottom, -1.0), (top, 7.0)):
+        assert np.hypot(strip[:, 0] - 3.0, strip[:, 1] + 2.0) == pytest.approx(np.full(len(strip), 5.0))
+        assert (strip[:, 2] == height).all()
+        assert strip[0] == pytest.approx(strip[-1])
+        assert np.ptp(strip[:, 0]) == pytest.approx(np.ptp(strip[:, 1]), rel=0.01)

@@ -1,0 +1,37 @@
+"""Whether a cubic keeps its limits, against dense samples of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.solvers.headings.bounded_cubic import within_limits
+from shotc.solvers.headings.energy import cubic
+from shotc.solvers.headings.task import HeadingTask
+
+AT = np.array([0.0, 1.0, 3.0])
+FREE = 100.0
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_largest_rate_and_acceleration_decide_wherever_they_are(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    angles, slope = rng.uniform(-3, 3, 3), rng.uniform(-1, 1, 3) * (seed % 3)
+    curve = cubic(AT, angles, slope)
+    t = np.linspace(0.0, 3.0, 6001)
+    rate, acceleration = (float(np.abs(curve.derivative(k)(t)).max()) for k in (1, 2))
+
+    def kept(rate: float, acceleration: float) -> bool:
+        task = HeadingTask(AT, angles, rate=rate, acceleration=acceleration)
+        return within_limits(task, angles, slope)
+
+    assert kept(1.001 * rate, 1.01 * acceleration)
+    assert not kept(0.999 * rate, FREE)
+    assert not kept(FREE, 0.99 * acceleration)
+
+
+def test_a_turn_at_one_rate_has_that_rate() -> None:
+    angles, slope = np.array([0.0, 1.0, 3.0]), np.ones(3)
+    task = HeadingTask(AT, angles, rate=1.0, acceleration=1e-9)
+    assert within_limits(task, angles, slope)
+    assert not within_limits(HeadingTask(AT, angles, rate=0.999), angles, slope)
