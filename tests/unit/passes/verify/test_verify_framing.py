@@ -77,6 +77,7 @@ def test_without_promises_losses_are_warnings() -> None:
     soft = [c for c in outcome.value.certificate if not c.hard]
     assert {c.constraint for c in soft if not c.holds} == {"tower in frame"}
     assert "worst at t = " in outcome.diagnostics[0].notes[0]
+    assert outcome.diagnostics[0].message.startswith("tower is not whole in frame in ")
 
 
 def test_a_hidden_target_is_a_warning() -> None:
@@ -88,6 +89,7 @@ def test_a_hidden_target_is_a_warning() -> None:
     assert share.time is not None
     assert PLAN.drones[0].curve(share.time)[0] > 39  # it hides it from the east only
     (told,) = Verify().run(ir, CONTEXT).diagnostics
+    assert told.message.startswith("tower is hidden in ")
     assert told.notes[-1].startswith("zone `screen` hides it in ")
     assert float(told.notes[-1].split()[-2]) == pytest.approx(100 * (1 - share.worst), abs=0.2)
 
