@@ -9,18 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
-
-PhaseName = Literal["takeoff", "transit", "shot", "return", "land"]
-
-UPRIGHT: tuple[PhaseName, PhaseName] = ("takeoff", "land")
-"""Phases straight over a pad: no clearances apply there, nor the floors of keep-in zones."""
+from shotc.ir.phases import KeyframeTime, PhaseName, Reference
 
 Pose = tuple[float, ...]
 """The channels of a camera at one moment, as CHANNELS."""
@@ -41,7 +37,7 @@ class Stop:
 class Mark:
     """A keyframe on the path.
 
-    s : its path parameter, of a shot on its own clock mission time
+    s : its path parameter
     time : seconds from the shot's start, if the mission fixes it
     index : among the shot's keyframes
     """
@@ -133,16 +129,16 @@ class ClockLeg:
 
     curve : channels CHANNELS over mission time, piecewise quintic, at least C2
     start, end : mission time of the first and the last filmed frame, seconds
-    framing : as in Leg, but over mission time; marks : its keyframes, s is mission time
+    framing, keyframes : what is framed, and when keyframes are reached
     """
 
     shot: str
     curve: Piecewise
     start: float
     end: float
-    framing: tuple[FramingSpan, ...]
+    framing: tuple[Reference, ...]
     path: KeyPath
-    marks: tuple[Mark, ...] = ()
+    keyframes: tuple[KeyframeTime, ...] = ()
 
     @property
     def pose(self) -> Pose:

@@ -10,32 +10,9 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import Deviation
-from shotc.ir.phases import Phase
+from shotc.ir.phases import KeyframeTime, Phase, Reference
 
 Method = Literal["exact", "bounded", "sampled"]
-
-
-@dataclass(frozen=True, slots=True)
-class KeyframeTime:
-    """When a shot's keyframe is reached (the start of its hold), seconds of mission time."""
-
-    shot: str
-    index: int
-    time: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Reference:
-    """A stretch of a shot on which one target is framed.
-
-    reference : (u, v) wanted of the target's centre, curve over t, or None
-    """
-
-    shot: str
-    target: str
-    start: float
-    end: float
-    reference: Piecewise | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

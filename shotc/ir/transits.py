@@ -12,8 +12,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from shotc.ir.mission import MissionIR
-from shotc.ir.path import UPRIGHT
-from shotc.ir.phases import Phase
+from shotc.ir.phases import UPRIGHT, Phase
 
 
 class Apart(NamedTuple):

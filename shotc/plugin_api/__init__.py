@@ -45,8 +45,8 @@ if TYPE_CHECKING:
         MovingLeg,
         PathIR,
     )
-    from shotc.ir.phases import Phase
-    from shotc.ir.trajectory import Claim, DroneTrajectory, KeyframeTime, Reference, TrajectoryIR, VerifiedIR
+    from shotc.ir.phases import KeyframeTime, Phase, Reference
+    from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR, VerifiedIR
     from shotc.kinds.base import Expansion, Kind, Scene
     from shotc.kinds.moving import along, evenly, on_clock, timed
     from shotc.kinds.rounds import axis_of, bearing, filmed, line, ring
@@ -124,7 +124,7 @@ _HOMES = {
     "Ideal": "shotc.ir.mission",
     "Keyframe": "shotc.ir.mission",
     "KeyframeIR": "shotc.ir.keyframes",
-    "KeyframeTime": "shotc.ir.trajectory",
+    "KeyframeTime": "shotc.ir.phases",
     "Kind": "shotc.kinds.base",
     "Label": "shotc.diag.model",
     "MovingLeg": "shotc.ir.path",
@@ -150,7 +150,7 @@ _HOMES = {
     "PositiveShare": "shotc.spec.fields",
     "Prepares": "shotc.emit.base",
     "Quantity": "shotc.spec.quantities",
-    "Reference": "shotc.ir.trajectory",
+    "Reference": "shotc.ir.phases",
     "Refiner": "shotc.ir.passes",
     "Relative": "shotc.spec.fields",
     "RelativePath": "shotc.spec.fields",

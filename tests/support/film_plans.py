@@ -27,9 +27,9 @@ from shotc.ir.mission import (
     Zone,
 )
 from shotc.ir.origin import OriginMap
-from shotc.ir.phases import Phase
+from shotc.ir.phases import KeyframeTime, Phase, Reference
 from shotc.ir.source import MissionSource
-from shotc.ir.trajectory import Claim, DroneTrajectory, KeyframeTime, Reference, TrajectoryIR, VerifiedIR
+from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR, VerifiedIR
 from tests.support.records import replace
 
 CENTER = Composition("center", points=((0.0, 0.0),))

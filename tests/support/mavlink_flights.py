@@ -6,8 +6,8 @@ import numpy as np
 
 from shotc.geom.bernstein import concatenate, quintic_hermite
 from shotc.ir.mission import MissionIR
-from shotc.ir.phases import Phase
-from shotc.ir.trajectory import DroneTrajectory, Reference, VerifiedIR
+from shotc.ir.phases import Phase, Reference
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from tests.support.film_plans import orbit_mission, orbit_plan
 from tests.support.records import replace
 

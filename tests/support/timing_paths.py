@@ -10,7 +10,8 @@ from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import OriginMap
-from shotc.ir.path import DronePath, HoldLeg, Mark, MovingLeg, PathIR, PhaseName, Stop
+from shotc.ir.path import DronePath, HoldLeg, Mark, MovingLeg, PathIR, Stop
+from shotc.ir.phases import PhaseName
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.planning.timing.limits import Ceiling
 from shotc.source.file import Span

@@ -8,7 +8,8 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Ideal, Subject
-from shotc.ir.trajectory import Claim, Reference, VerifiedIR
+from shotc.ir.phases import Reference
+from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.spec.compositions import FRAMES
 from tests.support.film_plans import SPEED, TOWER, orbit_plan
 from tests.support.records import replace

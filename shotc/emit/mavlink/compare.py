@@ -13,7 +13,7 @@ from shotc.emit.mavlink.refly import STAY_PACE, Flown
 from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import UPRIGHT
+from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clearances import Clearance
 

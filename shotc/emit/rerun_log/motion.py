@@ -19,9 +19,9 @@ from shotc.geom.silhouette import cylinder_contour, project_loops
 from shotc.ir.bodies import moved
 from shotc.ir.mission import Composition, Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.phases import Phase
+from shotc.ir.phases import Phase, Reference
 from shotc.ir.sampling import framed, seen
-from shotc.ir.trajectory import DroneTrajectory, Reference, VerifiedIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 WIDTH = 1280
 """Pixels across the camera's view."""

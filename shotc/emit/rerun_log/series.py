@@ -11,7 +11,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solids_array import signed_distance
 from shotc.ir.bodies import moved
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import BODY_YAW, CAM_PITCH, UPRIGHT, X, Y, Z
+from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z
+from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 
 RATE, MOST = 25.0, 6000

@@ -16,7 +16,8 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Drone, MissionIR, Shot, Target
 from shotc.ir.path import from_what_was_asked
-from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, VerifiedIR
+from shotc.ir.phases import KeyframeTime
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.rounding import at_least
 
 MOST_PLACED, MOST_GENERATED = 12, 6

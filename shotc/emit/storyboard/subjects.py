@@ -12,8 +12,9 @@ from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, Shot
 from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
+from shotc.ir.phases import KeyframeTime, Reference
 from shotc.ir.sampling import SAME_TIME, references, seen
-from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Reference, VerifiedIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 MOVED = 0.02
 """From how far on it is told where the user's own framing had a subject, (u, v) units."""

@@ -11,7 +11,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Drone
-from shotc.ir.path import UPRIGHT, ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, PathLeg, TimedPath
+from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, PathLeg, TimedPath
+from shotc.ir.phases import UPRIGHT, Reference
 from shotc.ir.tolerances import AT_REST
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.form import SAME, broken, changed_shot, jumps
@@ -102,13 +103,13 @@ def _changed(was: ClockLeg, now: ClockLeg) -> Iterator[str]:
     """Say what of a shot is not as it was."""
     if max(abs(was.start - now.start), abs(was.end - now.end)) > EQUAL or was.path != now.path:
         yield "its first or its last frame is at another time"
-    if was.marks != now.marks:
+    if was.keyframes != now.keyframes:
         yield "its keyframes are others, or at other times"
     if len(was.framing) != len(now.framing) or not all(map(_same_span, was.framing, now.framing)):
         yield "it frames other targets, or at other places on screen"
 
 
-def _same_span(a: FramingSpan, b: FramingSpan) -> bool:
+def _same_span(a: FramingSpan | Reference, b: FramingSpan | Reference) -> bool:
     if a is b:
         return True
     times = abs(a.start - b.start) <= EQUAL and abs(a.end - b.end) <= EQUAL

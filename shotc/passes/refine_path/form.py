@@ -12,7 +12,6 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import (
     CHANNELS,
-    UPRIGHT,
     ClockLeg,
     DronePath,
     FramingSpan,
@@ -24,6 +23,7 @@ from shotc.ir.path import (
     Pose,
     TimedPath,
 )
+from shotc.ir.phases import UPRIGHT
 from shotc.ir.tolerances import OFF_LINE
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.refine_path.joints import ORDERS, largest_jump

@@ -20,7 +20,6 @@ from shotc.ir.path import (
     BODY_YAW,
     CAM_PITCH,
     CAM_YAW,
-    UPRIGHT,
     ClockLeg,
     DronePath,
     HoldLeg,
@@ -30,6 +29,7 @@ from shotc.ir.path import (
     TimedPath,
     filmed,
 )
+from shotc.ir.phases import UPRIGHT
 from shotc.ir.tolerances import ON_PLACE
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.solver_reports import place
@@ -147,6 +147,8 @@ def _keyframes(path: PathIR) -> Iterator[Finding]:
     on_paths |= {leg.shot for drone in path.timed for leg in drone.legs if isinstance(leg, PathLeg)}
     for placed in (p for p in path.keyframes.shots if p.shot.id in on_paths):
         leg = filmed(path, placed.shot.id)
+        if isinstance(leg, ClockLeg):
+            continue
         for mark in leg.marks:
             keyframe = placed.keyframes[mark.index]
             at = np.array(leg.pose) if isinstance(leg, HoldLeg) else leg.curve(mark.s)

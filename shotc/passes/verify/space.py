@@ -15,7 +15,7 @@ from shotc.geom.pieces import Pieces, cut, join
 from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solids import Solid, distance
 from shotc.ir.mission import Target, Zone
-from shotc.ir.path import UPRIGHT
+from shotc.ir.phases import UPRIGHT
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap

@@ -23,7 +23,8 @@ from shotc.geom.pieces import Mask
 from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import Owner
-from shotc.ir.path import MovingLeg, PathLeg, PhaseName
+from shotc.ir.path import MovingLeg, PathLeg
+from shotc.ir.phases import PhaseName
 from shotc.ir.preference import LONGEST_WAIT
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.shot import Traffic

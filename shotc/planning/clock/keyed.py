@@ -21,7 +21,7 @@ from shotc.geom.vec import wrapped
 from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import FramingSpan, Mark
+from shotc.ir.phases import KeyframeTime, Reference
 
 STEEP = 0.1  # of a line of sight that is level, below which it has no bearing to turn to
 CALM = 1e-4  # half frames squared that a turn of 1 rad off the keyframes' own angles costs there
@@ -85,9 +85,9 @@ class Keyed:
             found[here] = self._aims(self.stretches[k], share[here], times[here], places[here])
         return found
 
-    def spans(self) -> tuple[FramingSpan, ...]:
+    def framing(self, shot: str) -> tuple[Reference, ...]:
         """Return what is framed when; a hand-over from one target to another is cut in its middle."""
-        return tuple(_joined([span for stretch in self.stretches for span in _spans(stretch)]))
+        return tuple(_joined([span for stretch in self.stretches for span in _spans(shot, stretch)]))
 
     def _shares(self, times: Array) -> tuple[Array, IntArray]:
         starts = np.array([s.start for s in self.stretches[1:]])
@@ -149,12 +149,11 @@ def keyed_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float)
     return Keyed(mission, drone, tuple(_stretches(placed, start)))
 
 
-def marks_of(placed: PlacedShot, start: float) -> tuple[Mark, ...]:
-    """Return the keyframes of a shot on its own clock as marks over mission time."""
+def keyframe_times(placed: PlacedShot, start: float) -> tuple[KeyframeTime, ...]:
+    """Return when the keyframes of a shot on its own clock are reached."""
     if not is_keyed(placed.shot):
         return ()
-    pairs = zip(arrivals(placed.shot), placed.keyframes, strict=True)
-    return tuple(Mark(start + t, k.time, i, k.path) for i, (t, k) in enumerate(pairs))
+    return tuple(KeyframeTime(placed.shot.id, i, start + t) for i, t in enumerate(arrivals(placed.shot)))
 
 
 def _stretches(placed: PlacedShot, start: float) -> Iterator[Stretch]:
@@ -173,26 +172,26 @@ def _stretches(placed: PlacedShot, start: float) -> Iterator[Stretch]:
         begin = end
 
 
-def _spans(stretch: Stretch) -> Iterator[FramingSpan]:
+def _spans(shot: str, stretch: Stretch) -> Iterator[Reference]:
     a, b = stretch.a, stretch.b
     if stretch.follows:
         ctrl = np.array([[a.reference] * 3 + [b.reference] * 3], dtype=np.float64)
         wanted = Piecewise(np.array([stretch.start, stretch.end]), ctrl)
-        yield FramingSpan(str(a.target), stretch.start, stretch.end, wanted)
+        yield Reference(shot, str(a.target), stretch.start, stretch.end, wanted)
         return
     if a.target is not None and a.target == b.target:
-        yield FramingSpan(a.target, stretch.start, stretch.end, None)
+        yield Reference(shot, a.target, stretch.start, stretch.end, None)
         return
     middle = 0.5 * (stretch.start + stretch.end)
     if a.target is not None:
-        yield FramingSpan(a.target, stretch.start, middle, None)
+        yield Reference(shot, a.target, stretch.start, middle, None)
     if b.target is not None:
-        yield FramingSpan(b.target, middle, stretch.end, None)
+        yield Reference(shot, b.target, middle, stretch.end, None)
 
 
-def _joined(spans: Sequence[FramingSpan]) -> Iterator[FramingSpan]:
+def _joined(spans: Sequence[Reference]) -> Iterator[Reference]:
     """Yield spans of one target that follow one another as one."""
-    last: FramingSpan | None = None
+    last: Reference | None = None
     for span in spans:
         if last is not None and last.target == span.target and last.end == span.start:
             a, b = last.reference, span.reference
@@ -200,7 +199,7 @@ def _joined(spans: Sequence[FramingSpan]) -> Iterator[FramingSpan]:
                 joined = None
                 if a is not None and b is not None:
                     joined = Piecewise(np.append(a.breaks, b.breaks[1:]), np.concatenate([a.ctrl, b.ctrl]))
-                last = FramingSpan(last.target, last.start, span.end, joined)
+                last = Reference(last.shot, last.target, last.start, span.end, joined)
                 continue
         if last is not None:
             yield last

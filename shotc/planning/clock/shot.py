@@ -14,7 +14,8 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot
 from shotc.ir.owners import Owner
-from shotc.ir.path import LIMITS, ClockLeg, Deviation, FramingSpan
+from shotc.ir.path import LIMITS, ClockLeg, Deviation
+from shotc.ir.phases import Reference
 from shotc.ir.preference import noted
 from shotc.planning.clock.aims import Looker, looker_of
 from shotc.planning.clock.between import lacking_each
@@ -22,7 +23,7 @@ from shotc.planning.clock.bounds import bounds_of
 from shotc.planning.clock.camera import Watch, turn
 from shotc.planning.clock.clock import Clock, clock_of
 from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.keyed import marks_of
+from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, evened, standing
 from shotc.planning.clock.position import Flown, Task, fly, held_where_it_rests, standing_by
 from shotc.planning.clock.resting import LONG, aside_of_what_passes
@@ -160,9 +161,9 @@ def timed_shot(
         return NoMotion(turned.status, (), "camera")
     lens = _lens(looker, clock)
     curve = Piecewise(clock.breaks, np.concatenate([flown.curve.ctrl, turned.curve.ctrl, lens], axis=2))
-    keyed, marks = looker.keyed, marks_of(placed, start)
-    framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.spans()
-    leg = ClockLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, marks)
+    keyed, keyframes = looker.keyed, keyframe_times(placed, start)
+    framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.framing(shot.id)
+    leg = ClockLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, keyframes)
     stats: tuple[tuple[str, float | str], ...] = (
         (f"{shot.id}.pieces", float(len(curve.ctrl))),
         (f"{shot.id}.qp_objective", flown.objective),
@@ -272,13 +273,13 @@ def _lacks(task: Task, flown: Flown) -> tuple[tuple[Owner, float], ...]:
     return tuple((owner, float(lack)) for owner, lack in found if lack > 1e-3)
 
 
-def _framing(placed: PlacedShot, start: float, end: float) -> tuple[FramingSpan, ...]:
+def _framing(placed: PlacedShot, start: float, end: float) -> tuple[Reference, ...]:
     spans = []
     for subject in placed.subjects:
         wanted = None
         if subject.reference is not None:
             wanted = Piecewise(np.array([start, end]), np.tile(np.array(subject.reference), (1, 6, 1)))
-        spans.append(FramingSpan(subject.target, start, end, wanted))
+        spans.append(Reference(placed.shot.id, subject.target, start, end, wanted))
     return tuple(spans)
 
 

@@ -24,10 +24,10 @@ from shotc.ir.path import (
     Leg,
     MovingLeg,
     PathLeg,
-    PhaseName,
     Pose,
     Stop,
 )
+from shotc.ir.phases import PhaseName
 from shotc.planning.free_space import Room, bounds_slack, breaches
 from shotc.planning.obstacles import Rooms, pad_room
 from shotc.planning.path.body import BodyTask, allowed_body, body_line

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, PathLeg
-from shotc.ir.phases import Phase
-from shotc.ir.trajectory import DroneTrajectory, KeyframeTime, Reference
+from shotc.ir.phases import KeyframeTime, Phase, Reference
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.timing.leg import TINY, LegMotion, rest
 from shotc.planning.timing.profile import Profile
 
@@ -74,8 +74,8 @@ class Flight:
             self.phases.append(Phase("transit", None, self.clock, leg.start))
         self.phases.append(Phase("shot", leg.shot, leg.start, leg.end))
         self.phases.append(Phase("transit", None, leg.end, leg.curve.end))
-        self.keyframes += [KeyframeTime(leg.shot, mark.index, mark.s) for mark in leg.marks]
-        self.framing += [Reference(leg.shot, s.target, s.start, s.end, s.reference) for s in leg.framing]
+        self.keyframes += leg.keyframes
+        self.framing += leg.framing
         self.clock = float(leg.curve.end)
 
     def trajectory(self) -> DroneTrajectory:

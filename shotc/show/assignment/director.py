@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
-from shotc.ir.path import PhaseName
+from shotc.ir.phases import PhaseName
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
 from shotc.show.assignment.lights import lights

@@ -13,8 +13,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetTrajectory, Lights, Shown
-from shotc.ir.path import PhaseName
-from shotc.ir.phases import Phase
+from shotc.ir.phases import Phase, PhaseName
 from shotc.show.assignment.order import DIGITS
 
 

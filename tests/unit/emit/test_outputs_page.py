@@ -11,8 +11,9 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import PlacedKeyframe, PlacedSubject
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import Deviation
+from shotc.ir.phases import Reference
 from shotc.ir.records import field_names
-from shotc.ir.trajectory import Claim, DroneTrajectory, Reference
+from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.planfile.write import document
 from tests.support.film_plans import orbit_plan
 

@@ -15,7 +15,8 @@ from shotc.emit.storyboard.subjects import at_time
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
-from shotc.ir.trajectory import Reference, VerifiedIR
+from shotc.ir.phases import Reference
+from shotc.ir.trajectory import VerifiedIR
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
 from tests.support.film_plans import TOWER, orbit_plan
 from tests.support.records import replace

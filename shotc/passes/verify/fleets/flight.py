@@ -15,7 +15,7 @@ from shotc.geom.proof import Bound
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.path import UPRIGHT
+from shotc.ir.phases import UPRIGHT
 from shotc.ir.show import Fleet, drone_names
 from shotc.ir.trajectory import Claim, Method
 from shotc.passes.verify.claims import Limit, Worst, held

@@ -14,7 +14,8 @@ from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.trajectory import DroneTrajectory, Reference
+from shotc.ir.phases import Reference
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.close import errors_close, margins_close, rates
 from shotc.passes.verify.sight import Sight, infimum
