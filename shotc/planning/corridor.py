@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray, Rows, control_rows
 from shotc.ir.owners import Owner
-from shotc.planning.free_space import Planes, Room, corridor, kept
+from shotc.planning.free_space import FreeSpace, Planes, corridor, kept
 from shotc.solvers.spline_problem import Cones, Floors, SplineProblem
 
 
@@ -22,7 +22,7 @@ class Around:
     share : see ``geom.corridor.corridor``
     """
 
-    room: Room
+    space: FreeSpace
     breaks: Array
     hulls: Array
     reach: float
@@ -30,10 +30,10 @@ class Around:
 
 
 def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
-    """Return the problem with every piece kept clear of all that is near; owners index room.owners."""
-    index = {name: i for i, name in enumerate(around.room.owners)}
-    planes = corridor(around.room, around.hulls, around.reach, around.share)
-    owner = np.array([index[o.owner] for o in around.room.obstacles], dtype=np.intp)
+    """Return the problem with every piece kept clear of all that is near; owners index space.owners."""
+    index = {name: i for i, name in enumerate(around.space.owners)}
+    planes = corridor(around.space, around.hulls, around.reach, around.share)
+    owner = np.array([index[o.owner] for o in around.space.obstacles], dtype=np.intp)
     floors = [_floors(around, planes, owner[planes.obstacle])] if len(planes.obstacle) else []
     floors += _wall_floors(around, index)
     return replace(base, floors=tuple(floors), cones=base.cones + _disc_cones(around, index))
@@ -53,7 +53,7 @@ def points_of(breaks: Array, pieces: IntArray) -> Rows:
 
 def _wall_floors(around: Around, index: dict[Owner, int]) -> list[Floors]:
     floors = []
-    for wall in around.room.walls:
+    for wall in around.space.walls:
         n = np.array(wall.normal)
         slack = (around.hulls @ n).min(axis=1) - wall.offset
         near = np.flatnonzero(slack < around.reach)
@@ -67,7 +67,7 @@ def _wall_floors(around: Around, index: dict[Owner, int]) -> list[Floors]:
 
 def _disc_cones(around: Around, index: dict[Owner, int]) -> tuple[Cones, ...]:
     cones = []
-    for disc in around.room.discs:
+    for disc in around.space.discs:
         centre = np.array(disc.centre)
         slack = disc.radius - np.linalg.norm(around.hulls[:, :, :2] - centre, axis=2).max(axis=1)
         near = np.flatnonzero(slack < around.reach)

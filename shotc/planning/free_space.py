@@ -1,6 +1,6 @@
 """Where one drone's centre may be, and convex corridors through it.
 
-A ``Room`` is the intersection of half-spaces, upright discs and the outside of convex obstacles, each
+A ``FreeSpace`` is the intersection of half-spaces, upright discs and the outside of convex obstacles, each
 with the clearance the drone's centre must keep. A corridor piece keeps one half-space an obstacle: if
 all Bernstein points of a piece lie beyond it, the whole piece does.
 """
@@ -60,7 +60,7 @@ class Disc:
 
 
 @dataclass(frozen=True, slots=True)
-class Room:
+class FreeSpace:
     """All of it, for one drone.
 
     ends : places, metres, from which the clearances of obstacles that are nearer taper (``geom.taper``)
@@ -77,25 +77,25 @@ class Room:
         names = [o.owner for o in self.obstacles] + [w.owner for w in self.walls]
         return tuple(dict.fromkeys(names + [d.owner for d in self.discs]))
 
-    def without(self, owner: Owner) -> Room:
-        """Return the room with everything of one owner taken away."""
-        return Room(
+    def without(self, owner: Owner) -> FreeSpace:
+        """Return the free space with everything of one owner taken away."""
+        return FreeSpace(
             tuple(o for o in self.obstacles if o.owner != owner),
             tuple(w for w in self.walls if w.owner != owner),
             tuple(d for d in self.discs if d.owner != owner),
         )
 
-    def lent(self, metres: float) -> Room:
-        """Return the room with every clearance that much smaller (never below zero for obstacles)."""
+    def lent(self, metres: float) -> FreeSpace:
+        """Return the free space with every clearance that much smaller (never below zero for obstacles)."""
         return self.giving(dict.fromkeys(self.owners, metres))
 
-    def giving(self, metres: Mapping[Owner, float]) -> Room:
-        """Return the room with the clearances of some owners that much smaller, as in ``lent``."""
+    def giving(self, metres: Mapping[Owner, float]) -> FreeSpace:
+        """Return the free space with the clearances of some owners that much smaller, as in ``lent``."""
 
         def of(part: Obstacle | Wall | Disc) -> float:
             return metres.get(part.owner, 0.0)
 
-        return Room(
+        return FreeSpace(
             tuple(Obstacle(o.owner, o.part, max(0.0, o.clearance - of(o))) for o in self.obstacles),
             tuple(Wall(w.owner, w.normal, w.offset - of(w), w.clearance - of(w)) for w in self.walls),
             tuple(Disc(d.owner, d.centre, d.radius + of(d)) for d in self.discs),
@@ -111,24 +111,24 @@ class Breach:
     clearance: float
 
 
-def bounds_slack(room: Room, p: Array) -> Array:
+def bounds_slack(space: FreeSpace, p: Array) -> Array:
     """Return how far points (N, 3) are inside the nearest wall or disc, metres; shape (N,)."""
     slack = np.full(len(p), np.inf)
-    for wall in room.walls:
+    for wall in space.walls:
         slack = np.minimum(slack, p @ np.array(wall.normal) - wall.offset)
-    for disc in room.discs:
+    for disc in space.discs:
         slack = np.minimum(slack, disc.radius - np.linalg.norm(p[:, :2] - np.array(disc.centre), axis=1))
     return slack
 
 
-def breaches(room: Room, p: Array, tolerance: float = 2e-6) -> list[Breach]:
+def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach]:
     """Return what one point (3,) is too near to, the worst first."""
     found = []
-    for o in room.obstacles:
+    for o in space.obstacles:
         lack = o.clearance - float(distances(o.part, p))
         found.append(Breach(o.owner, lack, o.clearance))
-    found += [Breach(w.owner, w.offset - float(p @ np.array(w.normal)), 0.0) for w in room.walls]
-    for d in room.discs:
+    found += [Breach(w.owner, w.offset - float(p @ np.array(w.normal)), 0.0) for w in space.walls]
+    for d in space.discs:
         lack = float(np.linalg.norm(p[:2] - np.array(d.centre))) - d.radius
         found.append(Breach(d.owner, lack, 0.0))
     return sorted((b for b in found if b.lack > tolerance), key=lambda b: -b.lack)
@@ -140,15 +140,15 @@ def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
     A keyframe may lie anywhere beyond the clearance; where it leaves less room than the margin, half
     of what there is must do.
     """
-    room = distances(obstacle.part, p) - obstacle.clearance
-    return np.asarray(obstacle.clearance + np.minimum(margin, 0.5 * np.maximum(room, 0.0)))
+    space = distances(obstacle.part, p) - obstacle.clearance
+    return np.asarray(obstacle.clearance + np.minimum(margin, 0.5 * np.maximum(space, 0.0)))
 
 
-def blocked(room: Room, a: Array, b: Array, margin: float = MARGIN) -> BoolArray:
+def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN) -> BoolArray:
     """Tell for segments a-b, shapes (N, 3), and obstacles whether they come too near; (N, obstacles)."""
-    out = np.zeros((len(a), len(room.obstacles)), dtype=bool)
+    out = np.zeros((len(a), len(space.obstacles)), dtype=bool)
     low, high = np.minimum(a, b), np.maximum(a, b)
-    for j, o in enumerate(room.obstacles):
+    for j, o in enumerate(space.obstacles):
         reach = o.clearance + margin
         box_low, box_high = _box(o.part)
         near = ((low <= box_high + reach) & (high >= box_low - reach)).all(axis=1)
@@ -174,7 +174,7 @@ class Planes:
     eased: Array
 
 
-def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Planes:
+def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -> Planes:
     """Separate every piece from every obstacle within ``reach`` metres beyond its clearance.
 
     hulls : shape (P, m, 3), points whose hull holds each piece
@@ -183,7 +183,7 @@ def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Plan
     """
     pieces, obstacles, normals, offsets, eased = [], [], [], [], []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
-    for j, o in enumerate(room.obstacles):
+    for j, o in enumerate(space.obstacles):
         near = np.flatnonzero(distances(o.part, middle) < o.clearance + reach + size)
         if not len(near):
             continue
@@ -192,9 +192,9 @@ def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Plan
         near, n, gap = near[keep], n[keep], gap[keep]
         border = np.einsum("nmd,nd->nm", hulls[near], n).min(axis=1) - gap
         less, slack = np.zeros((len(near), 6)), gap - o.clearance
-        if room.ends:
+        if space.ends:
             points = six(hulls[near])
-            less = o.clearance - taper(room, o).needs(points)
+            less = o.clearance - taper(space, o).needs(points)
             along = np.einsum("nmd,nd->nm", points, n) - border[:, None]
             slack = (along - o.clearance + less).min(axis=1)
         pieces.append(near)
@@ -208,9 +208,9 @@ def corridor(room: Room, hulls: Array, reach: float, share: float = 0.5) -> Plan
     return Planes(*map(np.concatenate, (pieces, obstacles, normals, offsets, eased)))
 
 
-def taper(room: Room, obstacle: Obstacle) -> Taper:
-    """Return what is needed of the distance from an obstacle in a room whose clearances taper."""
-    ends = np.array(room.ends, dtype=np.float64).reshape(-1, 3)
+def taper(space: FreeSpace, obstacle: Obstacle) -> Taper:
+    """Return what is needed of the distance from an obstacle in a free space whose clearances taper."""
+    ends = np.array(space.ends, dtype=np.float64).reshape(-1, 3)
     return Taper(obstacle.clearance, STEEPER * SLOPE, ends, distances(obstacle.part, ends))
 
 
@@ -227,15 +227,15 @@ def kept(slack: Array, share: float) -> Array:
     return np.minimum(COMFORT, share * np.maximum(slack, 0.0))
 
 
-def shortfall(room: Room, hulls: Array) -> Array:
+def shortfall(space: FreeSpace, hulls: Array) -> Array:
     """Return by how much each piece fails to prove its clearances; shape (P,), metres, <= 0 is proved.
 
     A piece whose ball about its middle keeps clear needs no plane; its number is that of the ball.
     """
-    worst = -bounds_slack(room, hulls.reshape(-1, 3)).reshape(hulls.shape[:2]).min(axis=1)
+    worst = -bounds_slack(space, hulls.reshape(-1, 3)).reshape(hulls.shape[:2]).min(axis=1)
     middle = hulls.mean(axis=1)
     size = np.linalg.norm(hulls - middle[:, None], axis=2).max(axis=1)
-    for o in room.obstacles:
+    for o in space.obstacles:
         gap = distances(o.part, middle) - size
         near = np.flatnonzero(gap < o.clearance)
         if len(near):

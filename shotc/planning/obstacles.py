@@ -1,4 +1,4 @@
-"""From a mission's zones, targets and rules to the room of one drone's centre."""
+"""From a mission's zones, targets and rules to the free space of one drone's centre."""
 
 from __future__ import annotations
 
@@ -13,33 +13,33 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
 from shotc.planning.clearances import Clearance, clearances_of, from_parked, lowest
-from shotc.planning.free_space import MARGIN, Disc, Obstacle, Room, Wall
+from shotc.planning.free_space import MARGIN, Disc, FreeSpace, Obstacle, Wall
 
 
-class Rooms(NamedTuple):
+class FreeSpaces(NamedTuple):
     """Where a drone may be: with the clearances of all phases, and with those of ways between shots.
 
     required : owners whose clearances on ways the mission writes down
     """
 
-    flight: Room
-    transit: Room
+    flight: FreeSpace
+    transit: FreeSpace
     required: frozenset[Owner] = frozenset()
 
 
-def flight_room(mission: MissionIR, drone: Drone) -> Room:
-    """Return the room of every phase but take-off and landing, as far as it stands.
+def flight_space(mission: MissionIR, drone: Drone) -> FreeSpace:
+    """Return the free space of every phase but take-off and landing, as far as it stands.
 
-    A drone that films nothing stands on its pad; those that fly are no part of a room.
+    A drone that films nothing stands on its pad; those that fly are no part of a free space.
     """
     over_ground = lowest(mission, drone)
     walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
-    return _room((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
+    return _space((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
 
 
-def rooms_of(mission: MissionIR, drone: Drone) -> Rooms:
-    """Return the room of flight, and the same with the clearances that are kept on ways between shots."""
-    room, wide = flight_room(mission, drone), _kept_on_ways(mission)
+def free_spaces_of(mission: MissionIR, drone: Drone) -> FreeSpaces:
+    """Return the free space of flight, and that with the clearances that are kept on ways between shots."""
+    space, wide = flight_space(mission, drone), _kept_on_ways(mission)
 
     def widened(obstacle: Obstacle) -> Obstacle:
         apart = wide.get(obstacle.owner)
@@ -48,7 +48,7 @@ def rooms_of(mission: MissionIR, drone: Drone) -> Rooms:
         )
 
     required = frozenset(owner for owner, apart in wide.items() if apart is not None and apart.required)
-    return Rooms(room, replace(room, obstacles=tuple(map(widened, room.obstacles))), required)
+    return FreeSpaces(space, replace(space, obstacles=tuple(map(widened, space.obstacles))), required)
 
 
 def _kept_on_ways(mission: MissionIR) -> dict[Owner, Apart | None]:
@@ -57,17 +57,17 @@ def _kept_on_ways(mission: MissionIR) -> dict[Owner, Apart | None]:
     return kept | {target_owner(t): from_target(mission, t.name) for t in mission.targets}
 
 
-def pad_room(mission: MissionIR, drone: Drone) -> Room:
-    """Return the room of take-off and landing: no clearances, no ground, no keep-in floors.
+def pad_space(mission: MissionIR, drone: Drone) -> FreeSpace:
+    """Return the free space of take-off and landing: no clearances, no ground, no keep-in floors.
 
     Zones and the targets' own bodies still bind, and so does the separation from parked drones.
     """
     around = (*clearances_of(mission, drone, at_pad=True), *from_parked(mission, drone))
-    return _room(around, [], floors=False)
+    return _space(around, [], floors=False)
 
 
-def _room(around: Iterable[Clearance], walls: list[Wall], *, floors: bool) -> Room:
-    """Return clearances as a room.
+def _space(around: Iterable[Clearance], walls: list[Wall], *, floors: bool) -> FreeSpace:
+    """Return clearances as a free space.
 
     walls : half-spaces that come first; floors : whether the floors of keep-in zones bind
     """
@@ -89,7 +89,7 @@ def _room(around: Iterable[Clearance], walls: list[Wall], *, floors: bool) -> Ro
         hull, pockets = hull_and_pockets(c.solid)
         walls += _sides(c.owner, hull, c.metres)
         obstacles += [Obstacle(c.owner, bounded(pocket), c.metres) for pocket in pockets]
-    return Room(tuple(obstacles), tuple(walls), tuple(discs))
+    return FreeSpace(tuple(obstacles), tuple(walls), tuple(discs))
 
 
 def _lids(zone: Clearance, *, floors: bool) -> list[Wall]:

@@ -1,4 +1,4 @@
-"""What a refiner may use of shotc besides ``plugin_api``: the room, curves, timing, and the way back.
+"""What a refiner may use of shotc besides ``plugin_api``: the free space, curves, timing, and the way back.
 
 Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it at once.
 """
@@ -36,9 +36,9 @@ from shotc.ir.path import (
 from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
 from shotc.ir.sampling import seen
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.clock.aims import Looker, aims_at, looker_of
+from shotc.planning.clock.aims import CameraTask, aims_at, camera_task_of
 from shotc.planning.clock.bounds import Bound, bounds_of
-from shotc.planning.clock.camera import Watch, turn
+from shotc.planning.clock.camera import AngleTask, turn
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.flights import FlownShot, flights, flown_shot
 from shotc.planning.clock.ideals import ideal_places
@@ -46,8 +46,8 @@ from shotc.planning.clock.keyed import Keyed
 from shotc.planning.clock.pictures import least_out
 from shotc.planning.clock.surroundings import Planes, Surroundings, surroundings
 from shotc.planning.framing.moments import placed_at
-from shotc.planning.free_space import Room, corridor, kept, shortfall
-from shotc.planning.obstacles import flight_room
+from shotc.planning.free_space import FreeSpace, corridor, kept, shortfall
+from shotc.planning.obstacles import flight_space
 from shotc.planning.path.angles import smoother
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.turns import steady
@@ -66,8 +66,10 @@ __all__ = [
     "MOST_MOVED",
     "ROUNDING",
     "UNWATCHED",
+    "AngleTask",
     "Array",
     "Bound",
+    "CameraTask",
     "Clock",
     "ClockLeg",
     "Cylinder",
@@ -76,10 +78,10 @@ __all__ = [
     "DroneTrajectory",
     "Fit",
     "FlownShot",
+    "FreeSpace",
     "HoldLeg",
     "IntArray",
     "Keyed",
-    "Looker",
     "Mask",
     "MovingLeg",
     "NoTransit",
@@ -87,22 +89,21 @@ __all__ = [
     "PlacedShot",
     "PlacedSubject",
     "Planes",
-    "Room",
     "Solid",
     "Status",
     "Surroundings",
     "TimedPath",
     "View",
-    "Watch",
     "aim_at",
     "aims_at",
     "bounded",
     "bounds_of",
+    "camera_task_of",
     "convex_parts",
     "corridor",
     "distances",
     "fit",
-    "flight_room",
+    "flight_space",
     "flights",
     "flown_shot",
     "flying",
@@ -115,7 +116,6 @@ __all__ = [
     "least_out",
     "leg_of",
     "leg_time",
-    "looker_of",
     "moved",
     "others_of",
     "parts_of_one",

@@ -18,7 +18,7 @@ from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.space import space
 from shotc.planning.clearances import clearances_of, lowest
 from shotc.planning.free_space import bounds_slack
-from shotc.planning.obstacles import flight_room, pad_room
+from shotc.planning.obstacles import flight_space, pad_space
 from tests.support.front_passes import resolved
 
 MISSION = """\
@@ -87,10 +87,10 @@ def test_the_planners_rule_is_the_judges(rules: tuple[float, float, float, float
 def test_a_room_is_what_its_clearances_leave(rules: tuple[float, float, float, float], place: Vec3) -> None:
     mission = mission_of(*rules)
     drone, p = mission.drones[0], np.array([place])
-    room = flight_room(mission, drone)
+    space = flight_space(mission, drone)
     slack = min(
-        float(bounds_slack(room, p)[0]),
-        *(float(distances(o.part, p[0])) - o.clearance for o in room.obstacles),
+        float(bounds_slack(space, p)[0]),
+        *(float(distances(o.part, p[0])) - o.clearance for o in space.obstacles),
     )
     kept = min(place[2] - lowest(mission, drone), *(-c.lack(place) for c in clearances_of(mission, drone)))
     # A room measures to the planes of a hull, clearances to its edges: both agree on who is inside.
@@ -101,7 +101,7 @@ def test_a_room_is_what_its_clearances_leave(rules: tuple[float, float, float, f
 def test_at_its_pad_a_drone_keeps_clear_of_bodies_alone() -> None:
     mission = mission_of(2.0, 10.0, 3.0, 2.5)
     drone = mission.drones[0]
-    flight, pad = (flight_room(mission, drone), pad_room(mission, drone))
+    flight, pad = (flight_space(mission, drone), pad_space(mission, drone))
     assert {o.owner.name: o.clearance for o in flight.obstacles}["statue"] == drone.radius + 2.5
     assert {o.owner.name: o.clearance for o in pad.obstacles}["statue"] == drone.radius
     assert {str(w.owner) for w in flight.walls} - {str(w.owner) for w in pad.walls} == {"ground"}

@@ -120,18 +120,18 @@ def assert_continuous(leg: MovingLeg) -> None:
 
 def least_room(made: MissionIR, drone: Drone, p: tuple[float, float, float]) -> float:
     """Metres that a point has beyond the nearest clearance."""
-    room = [p[2] - made.rules.ground_clearance - drone.radius]
+    space = [p[2] - made.rules.ground_clearance - drone.radius]
     for zone in made.zones:
         if zone.keep == "out":
-            room.append(distance(zone.solid, p) - drone.radius)
+            space.append(distance(zone.solid, p) - drone.radius)
         elif isinstance(zone.solid, Prism):
-            room += [p[2] - zone.solid.bottom - drone.radius, zone.solid.top - p[2] - drone.radius]
-            room += [beyond(zone.solid, p) - drone.radius]
+            space += [p[2] - zone.solid.bottom - drone.radius, zone.solid.top - p[2] - drone.radius]
+            space += [beyond(zone.solid, p) - drone.radius]
     for t in made.targets:
         x, y, z = t.centre
         solid = Cylinder((x, y), t.radius, z - t.height / 2, z + t.height / 2)
-        room.append(distance(solid, p) - drone.radius - made.rules.target_clearance)
-    return min(room)
+        space.append(distance(solid, p) - drone.radius - made.rules.target_clearance)
+    return min(space)
 
 
 def beyond(prism: Prism, p: tuple[float, float, float]) -> float:

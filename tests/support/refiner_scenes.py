@@ -60,7 +60,7 @@ def task(
 ) -> Problem:
     """The optimal-control problem of a shot on few stages."""
     nodes = nodes_of(of, count)
-    walls = half_spaces(of.room, of.leg.curve, nodes, margins)
+    walls = half_spaces(of.space, of.leg.curve, nodes, margins)
     return problem(of, condition, nodes, references(of, condition, nodes.s), walls, margins)
 
 

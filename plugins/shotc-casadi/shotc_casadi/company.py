@@ -16,9 +16,9 @@ from shotc.plugin_api import Diagnostic, MovingLeg, Outcome, PassContext, PathIR
 from shotc.plugin_api.refiner import (
     MOST_MOVED,
     Array,
+    CameraTask,
     FlownShot,
     HoldLeg,
-    Looker,
     NoTransit,
     PlacedSubject,
     flown_shot,
@@ -171,8 +171,8 @@ class _Passing:
         course = self._course(t)
         drone = self.subject.drone
         around = surroundings(self.path, drone, t, standing_too=False)
-        looker = Looker(self.subject.mission, drone, tuple(self._subjects()))
-        free = around.free(looker, (self.flown.start, self.flown.curve.end), course)
+        camera_task = CameraTask(self.subject.mission, drone, tuple(self._subjects()))
+        free = around.free(camera_task, (self.flown.start, self.flown.curve.end), course)
         planes = around.half_spaces(course.ctrl, REACH, SHARE).and_also(free)
         ends = (planes.piece, planes.piece + 1)
         rows = [np.column_stack([planes.normal, planes.border[:, side]]) for side in (0, 1)]

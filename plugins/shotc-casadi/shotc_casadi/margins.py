@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 REACH, FAR = 8.0, 200.0  # metres beyond its clearance within which an obstacle counts, at first and then
 SLIGHT = 0.2  # metres lacking that are a bend between the nodes, no obstacle that the problem did not know
-ROOM_STEP = 0.02  # metres added to what was missing
+CLEARANCE_STEP = 0.02  # metres added to what was missing
 LIMIT_STEP = 1.2  # times what was missing
 LITTLE = 0.02  # share of the room beyond the clearances that is kept where the picture needs the rest
 GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
@@ -40,14 +40,14 @@ class Check(NamedTuple):
 class Margins:
     """What is kept from the limits.
 
-    room : metres kept from obstacles beyond what the convex path kept
+    clearance : metres kept from obstacles beyond what the convex path kept
     reach : metres beyond its clearance within which an obstacle counts
     limits : share of the drone's and the gimbal's limits that may be used
     comfort : share kept of the room that the convex path has beyond its clearances
     hold : factor on the price of leaving the convex path
     """
 
-    room: float = 0.0
+    clearance: float = 0.0
     reach: float = REACH
     limits: float = 1.0
     comfort: float = 0.5
@@ -59,7 +59,7 @@ def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
     lacks = check.lack > 0
     known = margins.reach == FAR or check.lack < SLIGHT
     return Margins(
-        room=margins.room + (check.lack + ROOM_STEP if lacks and known else 0.0),
+        clearance=margins.clearance + (check.lack + CLEARANCE_STEP if lacks and known else 0.0),
         reach=FAR if lacks else margins.reach,
         limits=margins.limits / (1.0 + LIMIT_STEP * check.late),
         comfort=LITTLE if check.cropped > 0 else margins.comfort,

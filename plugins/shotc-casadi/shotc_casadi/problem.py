@@ -160,7 +160,7 @@ def _distance(wanted: References, reference: Array, stages: Stages) -> Array:
 def _planes(walls: Array, margins: Margins) -> Array:
     """Return half-spaces as parameters, with the room that is kept from them."""
     planes = walls.copy()
-    planes[:, :, 3] += margins.room * np.linalg.norm(walls[:, :, :3], axis=2)
+    planes[:, :, 3] += margins.clearance * np.linalg.norm(walls[:, :, :3], axis=2)
     return planes.reshape(len(walls), -1)
 
 

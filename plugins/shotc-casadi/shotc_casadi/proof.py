@@ -22,7 +22,7 @@ AMPLE = 0.8  # share of what is asked that a rough profile may take for it to be
 
 def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
     """Prove a camera's clearances, time it, and look at its frame between the nodes."""
-    lack = float(shortfall(subject.room, camera.ctrl[:, :, :3]).max())
+    lack = float(shortfall(subject.space, camera.ctrl[:, :, :3]).max())
     out = cropped(subject, camera) if condition.visibility == "silhouette" else 0.0
     return Check(max(lack, 0.0), _late(subject, camera), out)
 

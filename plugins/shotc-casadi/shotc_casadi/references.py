@@ -21,11 +21,11 @@ from shotc.plugin_api.refiner import (
     HFOV,
     Array,
     Drone,
+    FreeSpace,
     PlacedKeyframe,
     PlacedShot,
-    Room,
     aim_at,
-    flight_room,
+    flight_space,
     smoother,
     steady,
 )
@@ -67,7 +67,7 @@ class Subject(NamedTuple):
 
     mission: MissionIR
     drone: Drone
-    room: Room
+    space: FreeSpace
     placed: PlacedShot
     leg: MovingLeg
     beside: Beside | None = None
@@ -78,7 +78,7 @@ def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> Subject:
     mission = path.keyframes.mission
     flown_by = mission.drone(drone)
     (placed,) = (p for p in path.keyframes.shots if p.shot.id == leg.shot)
-    return Subject(mission, flown_by, flight_room(mission, flown_by), placed, leg)
+    return Subject(mission, flown_by, flight_space(mission, flown_by), placed, leg)
 
 
 def references(subject: Subject, condition: Condition, s: Array) -> References:
@@ -94,7 +94,7 @@ def references(subject: Subject, condition: Condition, s: Array) -> References:
         return replace(own, aim=turn)
     points = np.array(
         [
-            sight_point(subject.mission, subject.room, k, tuple(a))
+            sight_point(subject.mission, subject.space, k, tuple(a))
             for (_, k), a in zip(keys, angles, strict=True)
         ]
     )

@@ -112,7 +112,7 @@ def _refine(
 def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
     """Return the half-spaces that the nodes are kept in."""
     others = None if subject.beside is None else subject.beside(nodes.s)
-    return half_spaces(subject.room, subject.leg.curve, nodes, margins, others)
+    return half_spaces(subject.space, subject.leg.curve, nodes, margins, others)
 
 
 def _given(nodes: Stages, wanted: References, task: Problem) -> Given:
@@ -178,6 +178,6 @@ def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -
 
 
 def _widest(subject: Subject, found: Piecewise) -> Gap:
-    lack = shortfall(subject.room, found.ctrl[:, :, :3])
+    lack = shortfall(subject.space, found.ctrl[:, :, :3])
     k = int(lack.argmax())
     return Gap(float(found.breaks[k]), float(lack[k]))

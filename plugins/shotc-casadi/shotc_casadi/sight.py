@@ -5,14 +5,16 @@ from math import cos, sin
 import numpy as np
 
 from shotc.plugin_api import MissionIR
-from shotc.plugin_api.refiner import Array, PlacedKeyframe, Room, distances
+from shotc.plugin_api.refiner import Array, FreeSpace, PlacedKeyframe, distances
 
 STEPS = 2000
 HORIZON = 1000.0  # metres: how far a ray is followed
 NEAR = 1e-3
 
 
-def sight_point(mission: MissionIR, room: Room, keyframe: PlacedKeyframe, angles: tuple[float, ...]) -> Array:
+def sight_point(
+    mission: MissionIR, space: FreeSpace, keyframe: PlacedKeyframe, angles: tuple[float, ...]
+) -> Array:
     """Return the first point of the ground, a target or a keep-out zone on a keyframe's centre ray.
 
     Where the ray meets nothing, the point on it as far away as the keyframe's target.
@@ -20,7 +22,7 @@ def sight_point(mission: MissionIR, room: Room, keyframe: PlacedKeyframe, angles
     yaw, pitch = angles[0], angles[1]
     eye = np.array(keyframe.at)
     ray = np.array([cos(yaw) * cos(pitch), sin(yaw) * cos(pitch), sin(pitch)])
-    hits = [_march(o.part, eye, ray) for o in room.obstacles]
+    hits = [_march(o.part, eye, ray) for o in space.obstacles]
     if ray[2] < 0:
         hits.append(float(-eye[2] / ray[2]))
     met = [h for h in hits if h is not None and 0.0 < h <= HORIZON]

@@ -1,4 +1,4 @@
-"""The room around a shot's path as half-spaces, one set a node."""
+"""The free space around a shot's path as half-spaces, one set a node."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.plugin_api.refiner import Array, IntArray, Room, corridor, kept
+from shotc.plugin_api.refiner import Array, FreeSpace, IntArray, corridor, kept
 from shotc_casadi.margins import Margins
 from shotc_casadi.stages import Stages
 
@@ -24,7 +24,7 @@ class NodePlanes(NamedTuple):
 
 
 def half_spaces(
-    room: Room, reference: Piecewise, stages: Stages, margins: Margins, others: NodePlanes | None = None
+    space: FreeSpace, reference: Piecewise, stages: Stages, margins: Margins, others: NodePlanes | None = None
 ) -> Array:
     """Return half-spaces n.p >= b that hold near every node, shape (N + 1, M, 4): normal and b.
 
@@ -37,13 +37,15 @@ def half_spaces(
     high = np.concatenate([s[1:], s[-1:]])
     hulls = reference(low[:, None] + np.linspace(0.0, 1.0, POINTS) * (high - low)[:, None])[:, :, :3]
     nodes: list[list[tuple[float, Array]]] = [[] for _ in s]
-    planes = corridor(room, hulls, margins.reach, share)
+    planes = corridor(space, hulls, margins.reach, share)
     rows = np.column_stack([planes.normal, planes.offset])
     for k, row in zip(planes.piece, rows, strict=True):
         nodes[int(k)].append((_slack(hulls[k], row), row))
     for k, hull in enumerate(hulls):
         nodes[k] += [
-            (slack, row) for row in _bounds(room, hull, share) if (slack := _slack(hull, row)) < margins.reach
+            (slack, row)
+            for row in _bounds(space, hull, share)
+            if (slack := _slack(hull, row)) < margins.reach
         ]
     for k, row in zip(*((), ()) if others is None else others, strict=True):
         nodes[int(k)].append((_slack(hulls[k], row), row))
@@ -58,14 +60,14 @@ def half_spaces(
     return out
 
 
-def _bounds(room: Room, hull: Array, share: float) -> list[Array]:
+def _bounds(space: FreeSpace, hull: Array, share: float) -> list[Array]:
     """Return walls, and discs by their tangent planes, as rows."""
     rows = []
-    for wall in room.walls:
+    for wall in space.walls:
         n = np.array(wall.normal)
         slack = float((hull @ n).min()) - wall.offset
         rows.append(np.append(n, wall.offset + kept(np.array(slack), share)))
-    for disc in room.discs:
+    for disc in space.discs:
         away = hull[:, :2].mean(axis=0) - np.array(disc.centre)
         distance = float(np.linalg.norm(away))
         if distance < 1e-6:

@@ -199,11 +199,11 @@ def test_two_solvers_find_the_same_motion() -> None:
 
 
 @pytest.mark.parametrize("room", [5.0, 0.0])
-def test_a_problem_is_solved_alike_whatever_was_solved_before_it(room: float) -> None:
+def test_a_problem_is_solved_alike_whatever_was_solved_before_it(space: float) -> None:
     made = task(subject(compiled(FLYBY)))
     lower, upper = (bound.copy() for bound in made.state_bounds)
     node = len(lower) // 2
-    lower[node], upper[node] = made.states[node] - room, made.states[node] + room
+    lower[node], upper[node] = made.states[node] - space, made.states[node] + space
     solving.built.cache_clear()
     first = program.solve(made, "fatrop")
     program.solve(replace(made, state_bounds=(lower, upper)), "fatrop")

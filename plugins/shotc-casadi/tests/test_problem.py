@@ -25,7 +25,7 @@ def test_the_first_guess_is_at_rest_at_its_ends_and_on_the_path():
 
 
 def test_margins_narrow_the_limits_and_the_room():
-    plain, tight = task(walled()), task(walled(), margins=Margins(room=0.2, limits=0.8, hold=5.0))
+    plain, tight = task(walled()), task(walled(), margins=Margins(clearance=0.2, limits=0.8, hold=5.0))
     assert tight.held[1][:2] == pytest.approx(plain.held[1][:2] * 0.8**2)
     assert tight.driven[1] == pytest.approx(plain.driven[1] * 0.8**2)
     assert tight.state_bounds[1][:, 5] == pytest.approx(plain.state_bounds[1][:, 5] * 0.8)

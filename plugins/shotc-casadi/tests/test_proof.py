@@ -36,7 +36,7 @@ def test_a_camera_through_a_wall_lacks_what_it_is_inside():
     ctrl[:, :, :3] = [31.0, -44.0, 20.0]
     check = checked(of, OURS, Piecewise(of.leg.curve.breaks, ctrl))
     # Three metres deep, and the body's radius.
-    assert check.lack == pytest.approx(3.0 + of.room.obstacles[0].clearance, abs=1e-6)
+    assert check.lack == pytest.approx(3.0 + of.space.obstacles[0].clearance, abs=1e-6)
 
 
 def test_a_target_that_sticks_out_between_nodes_is_found():
@@ -74,13 +74,13 @@ def test_a_duration_that_the_fastest_flight_misses_is_late():
 
 def test_margins_make_up_for_what_was_open():
     margins = tighter(Margins(), Check(0.1, 0.05, 0.01), hold=True)
-    assert margins.room > 0.1
+    assert margins.space > 0.1
     assert margins.limits < 1 / 1.05
     assert margins.hold > 1.0
     # What lacks a metre has met an obstacle that the nodes did not know: it counts before more room is kept.
     unseen = tighter(Margins(), Check(1.0, 0.0, 0.0), hold=False)
-    assert (unseen.reach, unseen.room) == (FAR, 0.0)
-    assert tighter(unseen, Check(1.0, 0.0, 0.0), hold=False).room > 1.0
+    assert (unseen.reach, unseen.space) == (FAR, 0.0)
+    assert tighter(unseen, Check(1.0, 0.0, 0.0), hold=False).space > 1.0
     assert tighter(Margins(), Check(0.0, 0.0, 0.0), hold=True) == Margins()
     assert Check(0, 0, 0).holds
     assert not Check(0, 1e-9, 0).holds

@@ -15,7 +15,7 @@ from tests.support.refiner_scenes import arc, subject, walled
 
 def seen(of, at, yaw, pitch, target=None):
     key = changed(free(0, at, yaw=yaw, pitch=pitch), target=target)
-    return sight_point(of.mission, of.room, key, (yaw, pitch))
+    return sight_point(of.mission, of.space, key, (yaw, pitch))
 
 
 def test_a_ray_that_falls_meets_the_ground():

@@ -29,7 +29,7 @@ from shotc.passes.refine_path.ask import Answer
 from shotc.passes.refine_path.clocked import on_clock
 from shotc.passes.refine_path.finding import Fault, Finding, tell
 from shotc.passes.refine_path.form import form, structure
-from shotc.passes.refine_path.room import limits
+from shotc.passes.refine_path.limits import limits
 from shotc.passes.refine_path.seat import Seat
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.with_camera import NoTransit

@@ -34,12 +34,12 @@ from shotc.passes.solve_path_qp.explain.schedule import outside_track, too_late,
 from shotc.planning.clock.itinerary import Itinerary
 from shotc.planning.clock.moving import moving_targets
 from shotc.planning.clock.others import other_drones
-from shotc.planning.clock.shot import NoMotion, Traffic
-from shotc.planning.clock.sights import sights_of
-from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate, Trouble
+from shotc.planning.clock.shot import NoMotion, OtherVehicles
+from shotc.planning.clock.starts import ClockFailure, Meets, OutsideTrack, TooLate
+from shotc.planning.clock.visibility import visibility_of
 from shotc.planning.framing.moments import placed_at
-from shotc.planning.free_space import Room
-from shotc.planning.obstacles import pad_room, rooms_of
+from shotc.planning.free_space import FreeSpace
+from shotc.planning.obstacles import free_spaces_of, pad_space
 from shotc.planning.path.legs import Blocked, Flight, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
 from shotc.planning.path.shots import PlannedShot, shot_curve
@@ -147,21 +147,21 @@ def _plan(
         return _Planned((), (), (), ())
     if drone.body == "follow-camera" and not drone.gimbal.yaw[0] <= 0.0 <= drone.gimbal.yaw[1]:
         return _stopped(follow_camera_impossible(mission, drone))
-    rooms = rooms_of(mission, drone)
-    top = transit_point(rooms.flight, pad_room(mission, drone), drone)
-    shots, faults = _curves(mission, drone, rooms.flight, mine, ctx)
+    spaces = free_spaces_of(mission, drone)
+    top = transit_point(spaces.flight, pad_space(mission, drone), drone)
+    shots, faults = _curves(mission, drone, spaces.flight, mine, ctx)
     shots = [s.lasting(known.durations.get(s.shot.shot.id)) for s in shots]
     if isinstance(top, PadBlocked):
         return _stopped(pad_blocked(mission, drone, top), *faults)
     if faults:
         return _stopped(*faults)
     ctx.progress(f"way of {drone.name}")
-    flight, warnings = Flight(drone, rooms, top), _warnings(mission, drone, shots)
+    flight, warnings = Flight(drone, spaces, top), _warnings(mission, drone, shots)
     if not on_clock(ir):
         return _in_a_row(mission, flight, shots, warnings)
     moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, known.flights))
-    traffic = Traffic(moving, sights_of(mission, drone, known.flights))
-    itinerary = Itinerary(mission, flight, traffic, known.ends)
+    others = OtherVehicles(moving, visibility_of(mission, drone, known.flights))
+    itinerary = Itinerary(mission, flight, others, known.ends)
     curves = {s.shot.shot.id: s for s in shots}
     planned = _on_clock(itinerary, [curves.get(p.shot.id, p) for p in mine], warnings, ctx)
     if planned.legs:
@@ -170,7 +170,7 @@ def _plan(
 
 
 def _curves(
-    mission: MissionIR, drone: Drone, room: Room, mine: Sequence[PlacedShot], ctx: PassContext
+    mission: MissionIR, drone: Drone, space: FreeSpace, mine: Sequence[PlacedShot], ctx: PassContext
 ) -> tuple[list[PlannedShot], list[Diagnostic]]:
     """Return the shots of a drone that are flown on a path, and why others cannot be."""
     shots: list[PlannedShot] = []
@@ -179,11 +179,11 @@ def _curves(
         if placed.shot.ideal is not None:
             continue
         ctx.progress(f"path of shot {placed.shot.id}")
-        result = shot_curve(mission, drone, room, placed, ctx.headings or DEFAULT)
+        result = shot_curve(mission, drone, space, placed, ctx.headings or DEFAULT)
         if isinstance(result, PlannedShot):
             shots.append(result)
         else:
-            faults.append(failure(mission, drone, room, placed, result))
+            faults.append(failure(mission, drone, space, placed, result))
     return shots, faults
 
 
@@ -202,7 +202,7 @@ def _in_a_row(
     joined = drone_legs(flight, shots)
     if isinstance(joined, Blocked):
         shot = joined.shot.shot if joined.shot else None
-        return _stopped(*warnings, failure(mission, flight.drone, flight.room, shot, joined.failure))
+        return _stopped(*warnings, failure(mission, flight.drone, flight.space, shot, joined.failure))
     deviations = tuple(d for s in shots for d in s.deviations)
     return _Planned(joined, deviations, tuple(x for s in shots for x in s.stats), warnings)
 
@@ -232,7 +232,7 @@ def _on_clock(
     return _Planned(tuple(itinerary.legs), deviations, stats, (*warnings, *left))
 
 
-def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble: Trouble) -> Diagnostic:
+def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble: ClockFailure) -> Diagnostic:
     """Return the error for what stands in the way of a shot on the clock, or of the way home."""
     if isinstance(trouble, Meets):
         return way_met(mission, flight.drone, None if placed is None else placed.shot, trouble)
@@ -244,7 +244,7 @@ def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble
         if isinstance(trouble, NoMotion):
             return stopped_on_clock(mission, placed.shot, trouble)
     assert not isinstance(trouble, NoMotion | OutsideTrack | TooLate)
-    return failure(mission, flight.drone, flight.room, placed, trouble)
+    return failure(mission, flight.drone, flight.space, placed, trouble)
 
 
 def _stopped(*diagnostics: Diagnostic) -> _Planned:

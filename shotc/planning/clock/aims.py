@@ -16,7 +16,7 @@ from shotc.planning.clock.keyed import Keyed, keyed_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Looker:
+class CameraTask:
     """A drone that frames subjects, the first one foremost; none where it looks where it goes.
 
     keyed : what its camera does instead, where keyframes tell it
@@ -37,9 +37,9 @@ class Looker:
         return np.full(len(times), self.drone.hfov) if self.keyed is None else self.keyed.hfov(times)
 
 
-def looker_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> Looker:
+def camera_task_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> CameraTask:
     """Return who films a shot that is placed for its start, seconds."""
-    return Looker(mission, drone, placed.subjects, keyed_of(mission, drone, placed, start))
+    return CameraTask(mission, drone, placed.subjects, keyed_of(mission, drone, placed, start))
 
 
 ROUNDS = 12  # of Gauss and Newton, from a good first guess
@@ -48,16 +48,16 @@ VERTICAL = 1e-9  # share of a distance that is over ground: with less a ray has 
 MOST = 0.2  # rad of a step
 
 
-def aims_at(looker: Looker, times: Array, places: Array) -> Array:
+def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
     """Return the yaw and the pitch that put subjects in their places, from places (M, 3) at times (M,).
 
     Where keyframes tell the shot they say it. Of several subjects with a place the squares of their distances
     from it on screen are least, each counting alike.
     Shape (M, 2), rad, not unwrapped.
     """
-    if looker.keyed is not None:
-        return looker.keyed.aims(times, places)
-    mission, drone, subjects = looker.mission, looker.drone, looker.subjects
+    if camera_task.keyed is not None:
+        return camera_task.keyed.aims(times, places)
+    mission, drone, subjects = camera_task.mission, camera_task.drone, camera_task.subjects
     placed = [s for s in subjects if s.reference is not None] or list(subjects[:1])
     each = np.stack([_aim(mission, drone, s, times, places) for s in placed])
     if len(placed) == 1:

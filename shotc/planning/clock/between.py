@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
 from shotc.geom.taper import SLOPE, Taper
-from shotc.planning.clock.moving import Even, Moving, Sides, evened, relative_to, sides
+from shotc.planning.clock.moving import LinearMotion, Moving, Sides, linearised, relative_to, sides
 from shotc.planning.free_space import STEEPER
 
 STEP = 0.05  # seconds between the places that are compared
@@ -25,7 +25,7 @@ Span = tuple[float, float]
 class Standing(NamedTuple):
     """What passes a drone that stands, even meanwhile, and where it stands, shape (1, 6, 3)."""
 
-    motions: tuple[Even, ...]
+    motions: tuple[LinearMotion, ...]
     stands: Array
 
 
@@ -36,13 +36,13 @@ class Lack(NamedTuple):
     any: float
 
 
-def lacking(motions: Sequence[Even], course: Piecewise, span: Span) -> Lack:
+def lacking(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> Lack:
     """Return by how much the ways into and out of a film lack the clearances of ways between shots."""
     into, out = lacking_each(motions, course, span)
     return Lack(max(into.required, out.required), max(into.any, out.any))
 
 
-def lacking_each(motions: Sequence[Even], course: Piecewise, span: Span) -> tuple[Lack, Lack]:
+def lacking_each(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> tuple[Lack, Lack]:
     """Return the same of the way into a film, and of that out of it."""
     into, out = (
         _lack(motions, course, film, times) for film, times in zip(span, _times(course, span), strict=True)
@@ -50,7 +50,7 @@ def lacking_each(motions: Sequence[Even], course: Piecewise, span: Span) -> tupl
     return into, out
 
 
-def _lack(motions: Sequence[Even], course: Piecewise, film: float, times: Array) -> Lack:
+def _lack(motions: Sequence[LinearMotion], course: Piecewise, film: float, times: Array) -> Lack:
     places, worst = course(np.clip(times, course.start, course.end))[:, :3], Lack(0.0, 0.0)
     for motion in motions:
         taper = _taper(motion.what, course, film, SLOPE)
@@ -62,21 +62,23 @@ def _lack(motions: Sequence[Even], course: Piecewise, film: float, times: Array)
     return worst
 
 
-def sides_apart(motions: Sequence[Even], course: Piecewise, span: Span) -> Sides:
+def sides_apart(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> Sides:
     """Put planes between the pieces before and after a film and what is near, at the clearances there."""
     found = sides(widened(motions, course, span), course.ctrl[:, :, :3])
     unfilmed = ~_filmed(course, span)[found.piece]
     return Sides(found.piece[unfilmed], found.normal[unfilmed], found.offset[unfilmed], found.owner[unfilmed])
 
 
-def widened(motions: Sequence[Even], course: Piecewise, span: Span) -> tuple[Even, ...]:
+def widened(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> tuple[LinearMotion, ...]:
     """Return motions with the clearances that are kept on the pieces of a course before and after a film."""
     filmed = _filmed(course, span)
     before = course.breaks[:-1] < span[0]
     return tuple(_widened(motion, course, (span, filmed, before)) for motion in motions)
 
 
-def standing_apart(motions: Sequence[Even], course: Piecewise, span: Span) -> tuple[Standing, Standing]:
+def standing_apart(
+    motions: Sequence[LinearMotion], course: Piecewise, span: Span
+) -> tuple[Standing, Standing]:
     """Return what passes while the drone stands where such ways begin and end, and the clearances from it."""
     begin, end = float(course.start), float(course.end)
     found = []
@@ -85,19 +87,21 @@ def standing_apart(motions: Sequence[Even], course: Piecewise, span: Span) -> tu
         (span[1], (end, end + STAND), course.ctrl[-1, -1, :3]),
     ):
         stands = np.tile(place, (1, 6, 1))
-        evens = (evened(motion.what, np.array(window)) for motion in motions)
-        found.append(Standing(tuple(_standing(even, course, film, stands) for even in evens), stands))
+        linear_motions = (linearised(motion.what, np.array(window)) for motion in motions)
+        found.append(
+            Standing(tuple(_standing(linear, course, film, stands) for linear in linear_motions), stands)
+        )
     return found[0], found[1]
 
 
-def _standing(motion: Even, course: Piecewise, film: float, stands: Array) -> Even:
+def _standing(motion: LinearMotion, course: Piecewise, film: float, stands: Array) -> LinearMotion:
     taper = _taper(motion.what, course, film, STEEPER * SLOPE)
     if taper is None:
         return motion
     return replace(motion, wide=np.maximum(taper.needs(relative_to(motion, stands)), motion.what.clearance))
 
 
-def _widened(motion: Even, course: Piecewise, parts: tuple[Span, Mask, Mask]) -> Even:
+def _widened(motion: LinearMotion, course: Piecewise, parts: tuple[Span, Mask, Mask]) -> LinearMotion:
     span, filmed, before = parts
     what, points = motion.what, course.ctrl[:, :, :3]
     relative, wide = relative_to(motion, points), np.full(points.shape[:2], what.clearance)

@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, hull_rows, spline, value_rows
 from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone
-from shotc.planning.clock.aims import Looker, aims_at
+from shotc.planning.clock.aims import CameraTask, aims_at
 from shotc.planning.clock.bounds import NEARLY, at_rest
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.position import UNSEEN
@@ -37,36 +37,36 @@ class Turned:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Watch:
+class AngleTask:
     """Whose camera turns, and how.
 
-    kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the looker's subjects
+    kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the subjects
     course : (yaw, pitch) that it is to have at times (M,), shape (M, 2), unwrapped, where somebody has found
         them already
     ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
     """
 
-    looker: Looker
+    camera_task: CameraTask
     kept: Vec2 | None = None
     ends: Array | None = None
     course: Callable[[Array], Array] | None = None
 
 
-def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
+def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> Turned:
     """Return the camera's angles along a position curve."""
-    drone = watch.looker.drone
+    drone = angle_task.camera_task.drone
     breaks = clock.breaks
     inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
     rows = value_rows(breaks, times)
-    aims = _aims(watch, times, position)
+    aims = _aims(angle_task, times, position)
     step = np.diff(breaks)[rows.piece] / SAMPLES
     filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT) * step
     across = np.maximum(np.cos(aims[:, 1]), 0.03)
     wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
     goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(clock)
-    problem = SplineProblem(count(breaks), goals, _ends(watch, breaks), _bounds(drone, breaks), ())
+    problem = SplineProblem(count(breaks), goals, _ends(angle_task, breaks), _bounds(drone, breaks), ())
     solved = minimise(problem, UNIT)
     if solved.coef is None:
         return Turned(None, solved.status)
@@ -76,39 +76,39 @@ def turn(watch: Watch, clock: Clock, position: Piecewise) -> Turned:
     return Turned(spline(breaks, coef), solved.status)
 
 
-def _ends(watch: Watch, breaks: Array) -> Equalities:
+def _ends(angle_task: AngleTask, breaks: Array) -> Equalities:
     """Return the rest at both ends, and the angles there where they are given."""
     rest = at_rest(breaks)
     still = np.zeros((len(rest.piece), 3))
-    if watch.ends is None:
+    if angle_task.ends is None:
         return Equalities(rest, still)
     values = control_rows(breaks)
     rows = Rows(
         np.concatenate([rest.piece, values.piece[[0, -1]]]),
         np.concatenate([rest.weight, values.weight[[0, -1]]]),
     )
-    return Equalities(rows, np.concatenate([still, watch.ends]))
+    return Equalities(rows, np.concatenate([still, angle_task.ends]))
 
 
-def _aims(watch: Watch, times: Array, position: Piecewise) -> Array:
+def _aims(angle_task: AngleTask, times: Array, position: Piecewise) -> Array:
     """Return the yaw and the pitch that put the subjects in their places, unwrapped; shape (M, 2)."""
-    if watch.kept is not None:
-        return np.tile(np.array(watch.kept), (len(times), 1))
-    if watch.course is not None:
-        return watch.course(times)
-    if not watch.looker.watches:
+    if angle_task.kept is not None:
+        return np.tile(np.array(angle_task.kept), (len(times), 1))
+    if angle_task.course is not None:
+        return angle_task.course(times)
+    if not angle_task.camera_task.watches:
         yaw = _motion(position.derivative()(times)[:, :2])
-        return np.column_stack([_wound(watch, yaw), np.zeros(len(times))])
-    found = aims_at(watch.looker, times, position(times)[:, :3])
-    low, high = watch.looker.drone.gimbal.pitch
-    return np.column_stack([_wound(watch, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
+        return np.column_stack([_wound(angle_task, yaw), np.zeros(len(times))])
+    found = aims_at(angle_task.camera_task, times, position(times)[:, :3])
+    low, high = angle_task.camera_task.drone.gimbal.pitch
+    return np.column_stack([_wound(angle_task, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
 
 
-def _wound(watch: Watch, yaw: Array) -> Array:
+def _wound(angle_task: AngleTask, yaw: Array) -> Array:
     """Return a yaw by whole turns on the winding of the angle that it begins in, if one is given."""
-    if watch.ends is None:
+    if angle_task.ends is None:
         return yaw
-    return np.asarray(yaw + 2 * np.pi * np.round((watch.ends[0, YAW] - yaw[0]) / (2 * np.pi)))
+    return np.asarray(yaw + 2 * np.pi * np.round((angle_task.ends[0, YAW] - yaw[0]) / (2 * np.pi)))
 
 
 def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Array:

@@ -27,8 +27,8 @@ from shotc.ir.path import MovingLeg, PathLeg
 from shotc.ir.phases import PhaseName
 from shotc.ir.preference import LONGEST_WAIT
 from shotc.planning.clock.moving import Moving
-from shotc.planning.clock.shot import Traffic
-from shotc.planning.clock.sights import seen_on
+from shotc.planning.clock.shot import OtherVehicles
+from shotc.planning.clock.visibility import seen_on
 from shotc.planning.timing.estimate import leg_motion
 
 STEP = 0.05  # seconds between the places that are compared
@@ -60,11 +60,11 @@ class Meeting:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Way:
+class Transfer:
     """Unfilmed legs, the first of which waits for its time.
 
     end : mission time at which the last one ends
-    room : least distance on it beyond a clearance, metres; unseen : least distance out of a picture
+    slack : least distance on it beyond a clearance, metres; unseen : least distance out of a picture
     met : the target that it comes too near to, if there is one
     kept : least distance on it beyond the clearances of ways between shots, metres; required : the same of
         those that the mission writes down
@@ -72,7 +72,7 @@ class Way:
 
     legs: tuple[MovingLeg, ...]
     end: float
-    room: float = inf
+    slack: float = inf
     unseen: float = inf
     met: Meeting | None = None
     kept: float = inf
@@ -81,11 +81,11 @@ class Way:
     @property
     def clear(self) -> bool:
         """Whether nothing is met on it."""
-        return self.room >= COMFORT and self.required >= -PROVED
+        return self.slack >= COMFORT and self.required >= -PROVED
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Then:
+class NextLeg:
     """A leg that is flown after a way, from mission time ``ready`` on at the earliest."""
 
     leg: PathLeg
@@ -108,49 +108,49 @@ class When:
 def choose(
     mission: MissionIR,
     drone: Drone,
-    traffic: Traffic,
+    others: OtherVehicles,
     ways: Iterable[list[MovingLeg]],
     when: When,
-    then: Then | None = None,
-) -> Way | None:
+    then: NextLeg | None = None,
+) -> Transfer | None:
     """Return the first way in time on which nothing is met, else the best; None where there is none.
 
     The best meets no target, then no drone, is the least late, keeps the clearances of ways between shots,
-    and has the most room, in this order: what is met is refused by the proof, and a shot that is late can be
+    and has the most slack, in this order: what is met is refused by the proof, and a shot that is late can be
     put off, or is told when it could begin.
 
     ways : legs that lead there, those to be preferred first
     then : what it flies next, which is not to meet anything either
     """
-    tried: list[Way] = []
+    tried: list[Transfer] = []
 
-    def waits(way: Way) -> float:
+    def waits(way: Transfer) -> float:
         """Return for how many seconds what follows waits for a way, beside the first."""
         ready = 0.0 if then is None else then.ready
         return 0.0 if when.due is not None else max(way.end, ready) - max(tried[0].end, ready)
 
     for legs in ways:
-        for way in _tries(mission, drone, traffic, legs, when, then):
+        for way in _tries(mission, drone, others, legs, when, then):
             in_time = when.due is None or way.end <= when.due
             tried.append(way)
-            fine = _unseen(traffic, way, waits(way)) >= 0.0 and _kept(way, waits(way)) >= -PROVED
+            fine = _unseen(others, way, waits(way)) >= 0.0 and _kept(way, waits(way)) >= -PROVED
             if way.clear and fine and (in_time or len(tried) == 1):
                 return way
-        if not traffic.moving:
+        if not others.moving:
             break
     due = inf if when.due is None else when.due
 
-    def worth(way: Way) -> tuple[bool, bool, float, float, float, float, float]:
+    def worth(way: Transfer) -> tuple[bool, bool, float, float, float, float, float]:
         late = max(0.0, way.end - due)
         kept = min(_kept(way, waits(way)), 0.0)
-        unseen = _unseen(traffic, way, waits(way))
+        unseen = _unseen(others, way, waits(way))
         required = min(way.required, 0.0)
-        return way.met is None, way.room >= 0.0, required, -late, kept, min(way.room, COMFORT), unseen
+        return way.met is None, way.slack >= 0.0, required, -late, kept, min(way.slack, COMFORT), unseen
 
     return max(tried, key=worth, default=None)
 
 
-def _kept(way: Way, waits: float) -> float:
+def _kept(way: Transfer, waits: float) -> float:
     """Return how far a way keeps the clearances of ways between shots, metres.
 
     It is worth little where what follows would wait longer for it than a preference may cost.
@@ -158,12 +158,12 @@ def _kept(way: Way, waits: float) -> float:
     return way.kept if waits <= LONGEST_WAIT else min(way.kept, 0.0) - WAITED
 
 
-def _unseen(traffic: Traffic, way: Way, waits: float) -> float:
+def _unseen(others: OtherVehicles, way: Transfer, waits: float) -> float:
     """Return how far a way is out of pictures, metres, where that counts; waits : as in ``_kept``.
 
     A preference that is not met counts for nothing, nor one that is for which what follows waits too long.
     """
-    if not traffic.sights.preferred:
+    if not others.visibility.preferred:
         return way.unseen
     return 0.0 if way.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
 
@@ -171,11 +171,11 @@ def _unseen(traffic: Traffic, way: Way, waits: float) -> float:
 def _tries(
     mission: MissionIR,
     drone: Drone,
-    traffic: Traffic,
+    others: OtherVehicles,
     legs: list[MovingLeg],
     when: When,
-    then: Then | None,
-) -> Iterator[Way]:
+    then: NextLeg | None,
+) -> Iterator[Transfer]:
     begin, due = when.ready, when.due
     curves = [motion.curve for leg in legs if (motion := leg_motion(drone, leg)) is not None]
     lasts = sum(float(curve.end) for curve in curves)
@@ -187,22 +187,22 @@ def _tries(
     for delay in delays:
         leaves = begin + delay
         started = [replace(leg, start=leaves) if i == 0 else leg for i, leg in enumerate(legs)]
-        if not traffic.moving:
-            yield Way(tuple(started), leaves + lasts)
+        if not others.moving:
+            yield Transfer(tuple(started), leaves + lasts)
             return
         until = max(leaves + lasts, when.stays, due or 0.0, 0.0 if then is None else then.ready)
         course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, until)
         times = np.arange(begin, until + (0.0 if film is None else float(film.end) + LEAVES) + STEP, STEP)
         places, upright = course.at(times), course.upright(times)
-        room = min(_room(what, drone.radius, times, places, upright) for what in traffic.moving)
-        unseen = seen_on(drone, traffic.sights, times, places)
+        slack = min(_slack(what, drone.radius, times, places, upright) for what in others.moving)
+        unseen = seen_on(drone, others.visibility, times, places)
         until_then = times <= until
-        met = _met(traffic.moving, drone.radius, course, times[until_then])
+        met = _met(others.moving, drone.radius, course, times[until_then])
         between = until_then & ~upright
-        apart = [(what, _apart(what, times[between], places[between])) for what in traffic.moving]
+        apart = [(what, _apart(what, times[between], places[between])) for what in others.moving]
         kept = min((lack for _, lack in apart), default=inf)
         required = min((lack for what, lack in apart if what.required), default=inf)
-        yield Way(tuple(started), leaves + lasts, room, unseen, met, kept, required)
+        yield Transfer(tuple(started), leaves + lasts, slack, unseen, met, kept, required)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -257,7 +257,7 @@ def _from(places: Array, times: Array, begin: float, curve: Piecewise) -> None:
     places[inside] = curve(np.minimum(times[inside] - begin, float(curve.end)))
 
 
-def _room(what: Moving, radius: float, times: Array, places: Array, upright: Mask) -> float:
+def _slack(what: Moving, radius: float, times: Array, places: Array, upright: Mask) -> float:
     """Return the least distance from something that moves beyond the clearance from it, metres.
 
     radius : of the body, which is all that counts at the pad

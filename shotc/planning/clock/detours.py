@@ -10,7 +10,7 @@ from typing import NamedTuple
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import MovingLeg, Pose
-from shotc.planning.clock.shot import Traffic
+from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.sweeps import with_sweeps
 from shotc.planning.path.legs import Flight, end_of, raised, take_off, way_home, way_to
 
@@ -20,12 +20,12 @@ LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
 class Meanwhile(NamedTuple):
     """What goes on while a drone is on its way; span : from when to when that is, mission time, seconds."""
 
-    traffic: Traffic
+    others: OtherVehicles
     span: tuple[float, float]
 
     def beside(self, flight: Flight) -> Flight:
-        """Return the flight in a room where the targets stand all along the ways that they go meanwhile."""
-        return replace(flight, rooms=with_sweeps(flight.rooms, self.traffic.moving, self.span))
+        """Return the flight in the free space that targets leave wherever they go meanwhile."""
+        return replace(flight, spaces=with_sweeps(flight.spaces, self.others.moving, self.span))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -19,8 +19,8 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, Leg, MovingLeg, Pose, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.clock.aims import Looker
-from shotc.planning.clock.departure import Then, Way, When, choose
+from shotc.planning.clock.aims import CameraTask
+from shotc.planning.clock.departure import NextLeg, Transfer, When, choose
 from shotc.planning.clock.detours import Meanwhile, Transit, ways_home, ways_to
 from shotc.planning.clock.flights import flight
 from shotc.planning.clock.run_up import lead_in, way_time
@@ -30,16 +30,16 @@ from shotc.planning.clock.shot import (
     LESS,
     Ask,
     NoMotion,
-    Traffic,
+    OtherVehicles,
     aside,
     timed_shot,
 )
 from shotc.planning.clock.starts import (
+    ClockFailure,
     Meets,
     OutsideTrack,
     Reached,
     TooLate,
-    Trouble,
     inside,
     outside,
     put_off,
@@ -74,7 +74,7 @@ class _State(NamedTuple):
     stats: tuple[tuple[str, float | str], ...]
     ends: dict[str, float]
     last: _Last | None
-    room: float
+    slack: float
     late: float
 
 
@@ -92,20 +92,20 @@ class Itinerary:
     """The legs of one drone while they grow, and the clock at their end.
 
     ends : of the shots of drones planned before, by id; this drone's are added
-    last : its last shot; room : least distance beyond a clearance on the last way, metres
+    last : its last shot; slack : least distance beyond a clearance on the last way, metres
     late : seconds by which the last way ends after the start that is written for its shot
     """
 
     mission: MissionIR
     flight: Flight
-    traffic: Traffic
+    others: OtherVehicles
     ends: dict[str, float]
     legs: list[Leg] = field(default_factory=list)
     clock: float = 0.0
     deviations: list[Deviation] = field(default_factory=list)
     stats: list[tuple[str, float | str]] = field(default_factory=list)
     last: _Last | None = None
-    room: float = inf
+    slack: float = inf
     late: float = 0.0
 
     @property
@@ -113,16 +113,16 @@ class Itinerary:
         """Who flies."""
         return self.flight.drone
 
-    def film(self, shot: PlannedShot | PlacedShot) -> Trouble | None:
+    def film(self, shot: PlannedShot | PlacedShot) -> ClockFailure | None:
         """Add a shot and the way to it."""
         add = partial(self._path, shot) if isinstance(shot, PlannedShot) else partial(self._timed, shot)
         return self._leaving(add)
 
-    def home(self) -> Trouble | None:
+    def home(self) -> ClockFailure | None:
         """Add the way home."""
         return self._leaving(self._home)
 
-    def _leaving(self, add: Callable[[], Trouble | None]) -> Trouble | None:
+    def _leaving(self, add: Callable[[], ClockFailure | None]) -> ClockFailure | None:
         """Add what follows the last shot, which ends elsewhere where that helps.
 
         It ends aside where something is met otherwise, and straight on where leading aside takes too long.
@@ -131,16 +131,16 @@ class Itinerary:
         before = self._state()
         found = add()
         if isinstance(found, TooLate) or self.late > LATE:
-            others = ((False, False), (True, False)) if before.last and before.last.aside[1] else ()
-        elif isinstance(found, Meets) or self.room < 0.0:
-            others = (False, True), (True, True)
+            tries = ((False, False), (True, False)) if before.last and before.last.aside[1] else ()
+        elif isinstance(found, Meets) or self.slack < 0.0:
+            tries = (False, True), (True, True)
         else:
             return found
         planned = self._state()
         self._restore(before)
-        if self._ended(others):
+        if self._ended(tries):
             again = add()
-            if again is None and self.room >= 0.0 and self.late <= LATE:
+            if again is None and self.slack >= 0.0 and self.late <= LATE:
                 return None
             if isinstance(found, TooLate) and isinstance(again, TooLate) and again.late < found.late:
                 found = again
@@ -165,23 +165,23 @@ class Itinerary:
 
     def _state(self) -> _State:
         lists = tuple(self.legs), self.clock, tuple(self.deviations), tuple(self.stats)
-        return _State(*lists, dict(self.ends), self.last, self.room, self.late)
+        return _State(*lists, dict(self.ends), self.last, self.slack, self.late)
 
     def _restore(self, state: _State) -> None:
         self.legs, self.clock = list(state.legs), state.clock
         self.deviations, self.stats = list(state.deviations), list(state.stats)
-        self.last, self.room, self.late = state.last, state.room, state.late
+        self.last, self.slack, self.late = state.last, state.slack, state.late
         self.ends.clear()
         self.ends.update(state.ends)
 
-    def _home(self) -> Trouble | None:
+    def _home(self) -> ClockFailure | None:
         pose = end_of(self.legs)
         back = way_home(self.flight, pose)
         if not isinstance(back, list):
             return back
         ways = ways_home(self.flight, pose, back, self._meanwhile(back, None))
         stays = max(self.ends.values(), default=0.0)
-        way = choose(self.mission, self.drone, self.traffic, ways, When(self.clock, stays=stays))
+        way = choose(self.mission, self.drone, self.others, ways, When(self.clock, stays=stays))
         assert way is not None
         if way.met is not None:
             return Meets(way.met)
@@ -200,13 +200,13 @@ class Itinerary:
         until = due
         if until is None:
             until = self.clock + AMPLE * sum(leg_time(self.drone, leg) for leg in direct)
-        return Meanwhile(self.traffic, (self.clock, max(self.clock, until)))
+        return Meanwhile(self.others, (self.clock, max(self.clock, until)))
 
-    def _path(self, shot: PlannedShot) -> Trouble | None:
+    def _path(self, shot: PlannedShot) -> ClockFailure | None:
         timing = shot.shot.shot.timing
         ready = max(timing.start or 0.0, self.ends.get(timing.after or "", 0.0))
         way = self._way(shot.leg.pose, shot, timing.start, ready)
-        if not isinstance(way, Way):
+        if not isinstance(way, Transfer):
             return way
         if way.met is not None:
             return Meets(way.met)
@@ -224,7 +224,7 @@ class Itinerary:
 
     def _way(
         self, goal: Pose, shot: PlannedShot | PlacedShot, due: float | None, ready: float = 0.0
-    ) -> Way | Failure:
+    ) -> Transfer | Failure:
         """Return the unfilmed legs from here, or from the pad, to a shot's first pose.
 
         due : when the drone has to be there, if it has to; ready : when a shot on a path may begin
@@ -235,30 +235,30 @@ class Itinerary:
         near, then = nearest(goal, pose), None
         if isinstance(shot, PlannedShot):
             placed = turned(self.drone, shot, pose)
-            near, then = placed.leg.pose, Then(placed.leg, ready)
+            near, then = placed.leg.pose, NextLeg(placed.leg, ready)
         direct = way_to(self.flight, pose, near, path)
         if not isinstance(direct, list):
             return direct
 
         wanted = Transit(self.mission, self.flight, pose, near, path)
         ways = ways_to(wanted, (lift, goal), direct, self._meanwhile([*lift, *direct], due))
-        found = choose(self.mission, self.drone, self.traffic, ways, When(self.clock, due), then)
+        found = choose(self.mission, self.drone, self.others, ways, When(self.clock, due), then)
         assert found is not None
         return found
 
-    def _timed(self, placed: PlacedShot) -> Trouble | None:
+    def _timed(self, placed: PlacedShot) -> ClockFailure | None:
         shot = placed.shot
         fixed = shot.timing.start
         if fixed is None:
             ready = self.ends.get(shot.timing.after or "", 0.0)
             before = lead_in(self.mission, self.drone, shot, self.clock).seconds
             start = inside(
-                self.mission, self.flight.room, placed, max(ready, self.clock + before, self._since(placed))
+                self.mission, self.flight.space, placed, max(ready, self.clock + before, self._since(placed))
             )
             reached = self._put_off(placed, start)
             if isinstance(reached, Reached):
                 begins = reached.shot.leg.start
-                later = inside(self.mission, self.flight.room, placed, begins)
+                later = inside(self.mission, self.flight.space, placed, begins)
                 reached = self._put_off(placed, later) if later > begins else reached
             elif isinstance(reached, NoMotion):
                 reached = self._later(placed, start) or reached
@@ -289,7 +289,7 @@ class Itinerary:
         self.deviations += reached.shot.deviations
         self.stats += reached.shot.stats
 
-    def _late(self, placed: PlacedShot, reached: Reached) -> Trouble | None:
+    def _late(self, placed: PlacedShot, reached: Reached) -> ClockFailure | None:
         """Return what is wrong with when a shot is reached, or with how long it can last then."""
         start, fixed = reached.shot.leg.start, placed.shot.timing.start
         if reached.late <= LATE:
@@ -325,7 +325,7 @@ class Itinerary:
                 return reached
         return None
 
-    def _reached(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+    def _reached(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for a start, and the way to it.
 
         Where every way to where it begins comes too near to a target, it begins aside or farther off, if that
@@ -346,19 +346,19 @@ class Itinerary:
                 return far
         return near
 
-    def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | Trouble:
+    def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | ClockFailure:
         """Plan the same with what is asked of where the shot begins and ends."""
-        looker = Looker(self.mission, self.drone, placed.subjects)
-        made = timed_shot(looker, (self.flight.rooms, self.traffic), placed, start, asked)
+        camera_task = CameraTask(self.mission, self.drone, placed.subjects)
+        made = timed_shot(camera_task, (self.flight.spaces, self.others), placed, start, asked)
         if isinstance(made, NoMotion):
             return made
         begins = float(made.leg.curve.start)
         way = self._way(made.leg.pose, placed, begins)
-        if not isinstance(way, Way):
+        if not isinstance(way, Transfer):
             return way
         return Reached(made, way, way.end - begins, asked[0].aside)
 
-    def _put_off(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+    def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for the first start, from one on, at which the drone is there."""
         return put_off(self.mission, self._reached, placed, start, self._about(placed))
 
@@ -379,8 +379,8 @@ class Itinerary:
         tracks = (self.mission.target(name).track for name in carriers(placed.shot))
         return max((track.since for track in tracks if track is not None), default=0.0)
 
-    def _take(self, way: Way) -> None:
-        self.room = way.room
+    def _take(self, way: Transfer) -> None:
+        self.slack = way.slack
         self.legs += way.legs
         self.clock = way.end
 

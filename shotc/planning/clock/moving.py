@@ -1,7 +1,7 @@
 """What a shot is flown clear of: targets and drones that move, and everything that stands.
 
-On each piece of a spline its motion is taken as even; by how much it leaves that is added to the
-clearance, so that a plane beside the even motion keeps clear of the true one.
+On each piece of a spline its motion is taken as linear; by how much it leaves that is added to the
+clearance, so that a plane beside the linear motion keeps clear of the true one.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from shotc.ir.owners import Owner, target_owner
 from shotc.ir.transits import from_target
 from shotc.planning.corridor import points_of
 from shotc.planning.free_space import MARGIN, six
-from shotc.planning.obstacles import Rooms
+from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.spline_problem import Floors
 
-SAMPLES = 8  # a piece, at which motion is compared with even motion
+SAMPLES = 8  # a piece, at which motion is compared with linear motion
 REACH = 4.0  # metres beyond its clearance within which something that moves counts
 TOUCH = 1e-3  # metres by which a proved piece may seem too near
 COMFORT = 0.3  # metres kept beyond a clearance where there is room
@@ -50,11 +50,11 @@ class Moving:
     required: bool = False
 
 
-def standing(rooms: Rooms) -> tuple[Moving, ...]:
-    """Return the obstacles of rooms, as motions that stay where they are."""
+def standing(spaces: FreeSpaces) -> tuple[Moving, ...]:
+    """Return the obstacles of free spaces, as motions that stay where they are."""
     return tuple(
-        Moving(o.owner, o.part, o.clearance, _nowhere, apart=w.clearance, required=o.owner in rooms.required)
-        for o, w in zip(rooms.flight.obstacles, rooms.transit.obstacles, strict=True)
+        Moving(o.owner, o.part, o.clearance, _nowhere, apart=w.clearance, required=o.owner in spaces.required)
+        for o, w in zip(spaces.flight.obstacles, spaces.transit.obstacles, strict=True)
     )
 
 
@@ -63,22 +63,24 @@ def _nowhere(times: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Even:
-    """A motion made even on each piece: its ends (P, 2, 3), and how far the true one strays (P,).
+class LinearMotion:
+    """A motion linearised on each piece: its ends (P, 2, 3), and how far at most the true one leaves it (P,).
 
     wide : the clearance at each control point of the pieces, (P, 6), where it is not that of all phases
     """
 
     what: Moving
     ends: Array
-    stray: Array
+    deviation_bound: Array
     wide: Array | None = None
 
     @property
     def needs(self) -> Array:
         """What is needed of the distance at the control points of the pieces, shape (P, 6), metres."""
-        clearance = np.full((len(self.stray), 6), self.what.clearance) if self.wide is None else self.wide
-        return np.asarray(clearance + self.stray[:, None])
+        clearance = (
+            np.full((len(self.deviation_bound), 6), self.what.clearance) if self.wide is None else self.wide
+        )
+        return np.asarray(clearance + self.deviation_bound[:, None])
 
 
 def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
@@ -97,21 +99,21 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     return tuple(found)
 
 
-def evened(what: Moving, breaks: Array) -> Even:
-    """Make a motion even on the pieces between breaks."""
+def linearised(what: Moving, breaks: Array) -> LinearMotion:
+    """Linearise a motion on the pieces between breaks."""
     share = np.linspace(0.0, 1.0, SAMPLES + 1)
     times = breaks[:-1, None] + np.diff(breaks)[:, None] * share
     at = what.at(times.ravel()).reshape(*times.shape, 3)
     ends = at[:, [0, -1]]
-    even = ends[:, :1] + share[:, None] * (ends[:, 1:] - ends[:, :1])
+    linear = ends[:, :1] + share[:, None] * (ends[:, 1:] - ends[:, :1])
     # A track may have a corner between two samples: at most its neighbours' distance from the line.
-    stray = np.linalg.norm(at - even, axis=2).max(axis=1)
-    return Even(what, ends, 1.2 * stray)
+    deviation_bound = np.linalg.norm(at - linear, axis=2).max(axis=1)
+    return LinearMotion(what, ends, 1.2 * deviation_bound)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sides:
-    """Half-spaces for the control points of pieces, relative to a motion: n . (p - even) >= offset.
+    """Half-spaces for the control points of pieces, relative to a motion: n . (p - linear) >= offset.
 
     piece : shape (R,); normal : (R, 3); offset : (R, 6), for each of a piece's six points, in W
     owner : shape (R,), index of the motion
@@ -123,7 +125,7 @@ class Sides:
     owner: IntArray
 
 
-def sides(motions: Sequence[Even], hulls: Array) -> Sides:
+def sides(motions: Sequence[LinearMotion], hulls: Array) -> Sides:
     """Put a plane between every piece and everything that comes near it.
 
     hulls : shape (P, m, 3), points whose hull holds each piece, evenly in time from its start to its end
@@ -145,8 +147,8 @@ def sides(motions: Sequence[Even], hulls: Array) -> Sides:
         points = np.einsum("nmd,nd->nm", relative[near], normal[near]).min(axis=1)
         keep = need[near] + np.minimum(COMFORT, 0.5 * np.maximum(slack[near], 0.0))[:, None]
         border = (points - gap[near])[:, None] + keep
-        even = np.linspace(0.0, 1.0, 6)[None, :, None]
-        carried = motion.ends[near][:, :1] + even * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
+        linear = np.linspace(0.0, 1.0, 6)[None, :, None]
+        carried = motion.ends[near][:, :1] + linear * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
         offset = border + np.einsum("nmd,nd->nm", carried, normal[near])
         rows.append((near, normal[near], offset, np.full(len(near), index)))
     if not rows:
@@ -162,7 +164,7 @@ def floors_of(breaks: Array, beside: Sides, first: int) -> Floors:
     return Floors(points_of(breaks, beside.piece), normal, beside.offset.ravel(), owner)
 
 
-def _slack(motion: Even, relative: Array, normal: Array, gap: Array) -> Array:
+def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> Array:
     """Return by how much pieces are farther away than is needed, as planes with these normals tell, (P,)."""
     if motion.wide is None:
         return np.asarray(gap - motion.needs[:, 0])
@@ -172,16 +174,16 @@ def _slack(motion: Even, relative: Array, normal: Array, gap: Array) -> Array:
     return np.asarray((points - border[:, None] - motion.needs).min(axis=1))
 
 
-def shortfalls(motions: Sequence[Even], hulls: Array) -> Array:
+def shortfalls(motions: Sequence[LinearMotion], hulls: Array) -> Array:
     """Return by how much each piece fails to prove its clearances, metres; shape (P,), <= 0 is proved."""
     worst = np.full(len(hulls), -np.inf)
     for motion in motions:
         _, gap = separate(motion.what.part, relative_to(motion, hulls))
-        worst = np.maximum(worst, motion.what.clearance + motion.stray - gap)
+        worst = np.maximum(worst, motion.what.clearance + motion.deviation_bound - gap)
     return worst
 
 
-def relative_to(motion: Even, hulls: Array) -> Array:
+def relative_to(motion: LinearMotion, hulls: Array) -> Array:
     """Return hulls (P, m, 3), evenly in time over their pieces, as a motion sees them."""
     share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
     return np.asarray(hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1])))

@@ -18,7 +18,7 @@ POINT = point((0.0, 0.0, 0.0))
 
 
 def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTrajectory]) -> tuple[Moving, ...]:
-    """Return every drone but one that films something; those that do not are part of the room.
+    """Return every drone but one that films something; those that do not are part of the free space.
 
     flights : by drone, of those that are planned; the others count as standing on their pads
     """

@@ -1,4 +1,4 @@
-"""Where the camera is: the spline over time nearest to the ideal that the limits and the room allow."""
+"""Where the camera is: the spline over time nearest to the ideal that the limits and the free space allow."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, s
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.owners import Owner
 from shotc.ir.preference import Price, prefers_free_pictures
-from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.between import lacking, sides_apart, standing_apart
 from shotc.planning.clock.bounds import Bound, at_rest, limits_of
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.moving import Even, Moving, Sides, evened, floors_of, shortfalls, sides
+from shotc.planning.clock.moving import LinearMotion, Moving, Sides, floors_of, linearised, shortfalls, sides
 from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.run_up import RunUp
-from shotc.planning.clock.sights import Kept, Sights, keep_free
+from shotc.planning.clock.visibility import Kept, Visibility, keep_free
 from shotc.planning.corridor import Around, with_corridor
-from shotc.planning.free_space import Room, shortfall
+from shotc.planning.free_space import FreeSpace, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
@@ -51,23 +51,23 @@ HOPE = 0.8  # what is left of the lack by which a picture is not free, from roun
 class Task:
     """One shot to be flown.
 
-    looker : who flies, and whom it films
+    camera_task : who flies, and whom it films
     ways : into the film and out of it
     passing : what passes while it stands where the motion begins, and where it ends
-    room : what stands; motions : its obstacles and what moves, even on the clock's pieces
-    sights : whose pictures count
+    space : what stands; motions : its obstacles and what moves, even on the clock's pieces
+    visibility : whose pictures count
     bound : where it has to be when; free : whether that does not count
     apart : half-spaces in which the ways into the film and out of it keep the clearances of such ways
     """
 
-    looker: Looker
+    camera_task: CameraTask
     shot: Shot
     clock: Clock
     ways: tuple[RunUp, RunUp]
-    room: Room
-    motions: tuple[Even, ...]
-    passing: tuple[tuple[Even, ...], tuple[Even, ...]]
-    sights: Sights
+    space: FreeSpace
+    motions: tuple[LinearMotion, ...]
+    passing: tuple[tuple[LinearMotion, ...], tuple[LinearMotion, ...]]
+    visibility: Visibility
     bound: tuple[Bound, ...] = ()
     free: bool = False
     apart: tuple[Floors, ...] = ()
@@ -75,12 +75,12 @@ class Task:
     @property
     def mission(self) -> MissionIR:
         """The mission."""
-        return self.looker.mission
+        return self.camera_task.mission
 
     @property
     def drone(self) -> Drone:
         """Who flies."""
-        return self.looker.drone
+        return self.camera_task.drone
 
     @property
     def owners(self) -> tuple[Owner, ...]:
@@ -88,9 +88,9 @@ class Task:
         return (*self.walls.owners, *(m.what.owner for m in self.motions))
 
     @property
-    def walls(self) -> Room:
-        """The room without its obstacles."""
-        return Room((), self.room.walls, self.room.discs)
+    def walls(self) -> FreeSpace:
+        """The free space without its obstacles."""
+        return FreeSpace((), self.space.walls, self.space.discs)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -133,7 +133,7 @@ def fly(task: Task) -> Flown:
     if not prefers_free_pictures(task.mission) or best.curve is None:
         return best
     span, free = (task.clock.start, task.clock.end), kept.worst >= 0.0
-    price = cost(task.looker, span, plain.curve, best.curve)
+    price = cost(task.camera_task, span, plain.curve, best.curve)
     if free and price.little:
         return best
     return replace(plain, rounds=best.rounds, given_up=Price(price.moved, price.share, free))
@@ -155,7 +155,7 @@ def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
         made = _fly(wider, ())
         if made.curve is None:
             break
-        price = cost(task.looker, span, plain.curve, made.curve)
+        price = cost(task.camera_task, span, plain.curve, made.curve)
         if lack.required <= 0.0 and (price.share > SAME or price.crops):
             break
         later = lacking(task.motions, made.curve, span)
@@ -176,7 +176,7 @@ def _apart_floors(task: Task, course: Piecewise) -> tuple[Floors, ...]:
 
 def _kept(task: Task, course: Piecewise) -> Kept:
     span = (task.clock.start, task.clock.end)
-    return keep_free(task.looker, task.sights, span, task.clock.breaks, course)
+    return keep_free(task.camera_task, task.visibility, span, task.clock.breaks, course)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -337,11 +337,11 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
 
 def standing_by(
     motions: Sequence[Moving], breaks: Array, seconds: float
-) -> tuple[tuple[Even, ...], tuple[Even, ...]]:
+) -> tuple[tuple[LinearMotion, ...], tuple[LinearMotion, ...]]:
     """Return what passes while the drone stands so long where a motion begins, and where it ends."""
     begin, end = breaks[0], breaks[-1]
     windows = np.array([[begin - seconds, begin], [end, end + seconds]])
-    before, after = (tuple(evened(m, window) for m in motions) for window in windows)
+    before, after = (tuple(linearised(m, window) for m in motions) for window in windows)
     return before, after
 
 
@@ -353,7 +353,7 @@ def held_where_it_rests(task: Task, curve: Piecewise) -> bool:
     )
 
 
-def _stands(task: Task, hulls: Array) -> tuple[tuple[tuple[Even, ...], Array, int], ...]:
+def _stands(task: Task, hulls: Array) -> tuple[tuple[tuple[LinearMotion, ...], Array, int], ...]:
     """Return, for both ends, what passes while the drone stands there, where that is, and its control row.
 
     The place is a piece's hull, shape (1, 2, 3).

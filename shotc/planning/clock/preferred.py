@@ -16,7 +16,7 @@ from shotc.geom.pieces import Mask
 from shotc.geom.track_array import places as track_places
 from shotc.ir.mission import Target
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
-from shotc.planning.clock.aims import Looker, aims_at
+from shotc.planning.clock.aims import CameraTask, aims_at
 
 STEP = 0.1  # seconds between the moments that are looked at
 
@@ -39,28 +39,30 @@ class Cost:
         return self.share <= MOST_MOVED and not self.crops
 
 
-def cost(looker: Looker, span: tuple[float, float], plain: Piecewise, freer: Piecewise) -> Cost:
+def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, freer: Piecewise) -> Cost:
     """Return what a course that keeps pictures free costs against the plain one.
 
     span : of the film, seconds
     """
     times = np.linspace(*span, max(2, round((span[1] - span[0]) / STEP)) + 1)
     before, after = plain(times)[:, :3], freer(times)[:, :3]
-    targets = [looker.mission.target(s.target) for s in looker.subjects]
+    targets = [camera_task.mission.target(s.target) for s in camera_task.subjects]
     far = [np.linalg.norm(_places(target, times) - before, axis=1) for target in targets]
     away = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
     moved = np.linalg.norm(after - before, axis=1)
     share = moved / np.maximum(away, STEP)
     k = int(share.argmax())
-    crops = any((_whole(looker, t, times, before) & ~_whole(looker, t, times, after)).any() for t in targets)
+    crops = any(
+        (_whole(camera_task, t, times, before) & ~_whole(camera_task, t, times, after)).any() for t in targets
+    )
     return Cost(float(moved[k]), float(share[k]), bool(crops))
 
 
-def _whole(looker: Looker, target: Target, times: Array, places: Array) -> Mask:
+def _whole(camera_task: CameraTask, target: Target, times: Array, places: Array) -> Mask:
     """Tell when a target is whole in the frame of a camera that looks where it has to, (M,)."""
-    aims = aims_at(looker, times, places)
+    aims = aims_at(camera_task, times, places)
     still = places - _places(target, times) + np.array(target.centre)
-    cameras = Cameras(still, aims[:, 0], aims[:, 1], looker.hfov(times), looker.drone.aspect)
+    cameras = Cameras(still, aims[:, 0], aims[:, 1], camera_task.hfov(times), camera_task.drone.aspect)
     return np.asarray(frames(cameras, target.solid).in_frame)
 
 

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.convex import distances
 from shotc.geom.sampling import directions
 from shotc.planning.clock.moving import COMFORT, Moving
-from shotc.planning.free_space import MARGIN, Room, bounds_slack
+from shotc.planning.free_space import MARGIN, FreeSpace, bounds_slack
 
 LONG = 20.0  # seconds before a film, or after it, for which nothing comes near
 STEP = 0.1  # seconds between the moments that are looked at
@@ -24,10 +24,12 @@ TURNS = 16  # places on a ring
 RISES = (0.0, 0.5, 1.0)  # rad by which they lie over the place, besides straight up
 
 
-def aside_of_what_passes(near: Sequence[Moving], room: Room, rest: Array, span: tuple[float, float]) -> Array:
+def aside_of_what_passes(
+    near: Sequence[Moving], space: FreeSpace, rest: Array, span: tuple[float, float]
+) -> Array:
     """Return the shortest of some shifts of a place to one where nothing passes; none where there is none.
 
-    near : what stands and what moves; room : what the drone is held to
+    near : what stands and what moves; space : what the drone is held to
     rest : W, shape (3,), metres; span : from when to when, mission time, seconds
     """
     times = np.arange(span[0], span[1] + STEP, STEP)
@@ -35,7 +37,7 @@ def aside_of_what_passes(near: Sequence[Moving], room: Room, rest: Array, span: 
     for ring in np.arange(0.0, FARTHEST + RING, RING):
         shifts = ring * directions(TURNS, RISES) if ring else np.zeros((1, 3))
         places = rest + shifts
-        fine = bounds_slack(room, places) >= MARGIN
+        fine = bounds_slack(space, places) >= MARGIN
         for what, at in tracks:
             needs = max(what.apart, what.clearance) + COMFORT
             away = distances(what.part, (places[:, None] - at[None]).reshape(-1, 3))

@@ -17,21 +17,21 @@ from shotc.ir.owners import Owner
 from shotc.ir.path import LIMITS, ClockLeg, Deviation
 from shotc.ir.phases import Reference
 from shotc.ir.preference import noted
-from shotc.planning.clock.aims import Looker, looker_of
+from shotc.planning.clock.aims import CameraTask, camera_task_of
 from shotc.planning.clock.between import lacking_each
 from shotc.planning.clock.bounds import bounds_of
-from shotc.planning.clock.camera import Watch, turn
+from shotc.planning.clock.camera import AngleTask, turn
 from shotc.planning.clock.clock import Clock, clock_of
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
-from shotc.planning.clock.moving import Moving, evened, standing
+from shotc.planning.clock.moving import Moving, linearised, standing
 from shotc.planning.clock.position import Flown, Task, fly, held_where_it_rests, standing_by
 from shotc.planning.clock.resting import LONG, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp, run_ups
-from shotc.planning.clock.sights import Sights
+from shotc.planning.clock.visibility import Visibility
 from shotc.planning.framing.moments import placed_at, slowed
-from shotc.planning.free_space import Room, breaches
-from shotc.planning.obstacles import Rooms
+from shotc.planning.free_space import FreeSpace, breaches
+from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.conic import Status
 
 LESS = 0.8  # of what a motion leaves its place, with which another is better
@@ -73,14 +73,14 @@ def aside(before: bool, after: bool) -> tuple[Ask, ...]:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Traffic:
+class OtherVehicles:
     """What goes on around a shot: what moves, and whose pictures count."""
 
     moving: tuple[Moving, ...]
-    sights: Sights
+    visibility: Visibility
 
 
-Around = tuple[Rooms, Traffic]
+Around = tuple[FreeSpaces, OtherVehicles]
 """What stands around a shot, and what moves."""
 
 
@@ -139,7 +139,7 @@ class NoMotion:
 
 
 def timed_shot(
-    looker: Looker, around: Around, placed: PlacedShot, start: float, asked: tuple[Ask, ...] = ASKED
+    camera_task: CameraTask, around: Around, placed: PlacedShot, start: float, asked: tuple[Ask, ...] = ASKED
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``.
 
@@ -148,20 +148,22 @@ def timed_shot(
     Where it begins and ends nothing passes for some seconds before and after, if that can be, so that a drone
     that comes or leaves has time to. The ways to and from there are held to what passes by themselves.
     """
-    mission, drone = looker.mission, looker.drone
+    mission, drone = camera_task.mission, camera_task.drone
     placed = placed_at(mission, placed, start)
-    task, flown, away = _flown(looker_of(mission, drone, placed, start), around, placed.shot, start, asked)
-    shot, looker, clock = task.shot, task.looker, task.clock
+    task, flown, away = _flown(
+        camera_task_of(mission, drone, placed, start), around, placed.shot, start, asked
+    )
+    shot, camera_task, clock = task.shot, task.camera_task, task.clock
     if flown.curve is None:
         missed = _missed(task, around, placed, start) if task.bound else None
         return NoMotion(flown.status, _lacks(task, flown), missed=missed)
     kept = None if shot.ideal is None else shot.ideal.aim
-    turned = turn(Watch(looker, kept), clock, flown.curve)
+    turned = turn(AngleTask(camera_task, kept), clock, flown.curve)
     if turned.curve is None:
         return NoMotion(turned.status, (), "camera")
-    lens = _lens(looker, clock)
+    lens = _lens(camera_task, clock)
     curve = Piecewise(clock.breaks, np.concatenate([flown.curve.ctrl, turned.curve.ctrl, lens], axis=2))
-    keyed, keyframes = looker.keyed, keyframe_times(placed, start)
+    keyed, keyframes = camera_task.keyed, keyframe_times(placed, start)
     framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.framing(shot.id)
     leg = ClockLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, keyframes)
     stats: tuple[tuple[str, float | str], ...] = (
@@ -177,7 +179,7 @@ def timed_shot(
 
 
 def _flown(
-    looker: Looker, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
+    camera_task: CameraTask, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
 ) -> tuple[Task, Flown, Array]:
     """Return the first motion of some for which ever less is asked, or the last one that was not found.
 
@@ -188,7 +190,7 @@ def _flown(
     """
     best: tuple[Task, Flown, Array] | None = None
     for ask in asked:
-        task = _task(looker, around, shot, start, ask)
+        task = _task(camera_task, around, shot, start, ask)
         flown = fly(task)
         if flown.curve is None:
             continue
@@ -201,33 +203,35 @@ def _flown(
     return best or (task, flown, np.zeros(0))
 
 
-def _task(looker: Looker, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
+def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
     """Return what is to be flown, from where to where so much is asked."""
-    rooms, traffic = around
-    near = (*standing(rooms), *traffic.moving)
-    ways = _ways(looker, shot, start, ask, (near, rooms.flight))
+    spaces, others = around
+    near = (*standing(spaces), *others.moving)
+    ways = _ways(camera_task, shot, start, ask, (near, spaces.flight))
     clock = clock_of(shot, start, ways)
-    motions = tuple(evened(m, clock.breaks) for m in near)
+    motions = tuple(linearised(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, ask.stand)
-    bound = bounds_of(looker.mission, shot, start)
-    return Task(looker, shot, clock, ways, rooms.flight, motions, passing, traffic.sights, bound)
+    bound = bounds_of(camera_task.mission, shot, start)
+    return Task(camera_task, shot, clock, ways, spaces.flight, motions, passing, others.visibility, bound)
 
 
 def _ways(
-    looker: Looker, shot: Shot, start: float, ask: Ask, around: tuple[tuple[Moving, ...], Room]
+    camera_task: CameraTask, shot: Shot, start: float, ask: Ask, around: tuple[tuple[Moving, ...], FreeSpace]
 ) -> tuple[RunUp, RunUp]:
-    """Return the ways into a film and out of it; around : what stands and moves, and the room."""
+    """Return the ways into a film and out of it; around : what stands and moves, and the free space."""
     end = start + (shot.timing.duration or 0.0)
-    before, after = (way.lasting(ask.longer) for way in run_ups(looker.mission, looker.drone, shot, start))
+    before, after = (
+        way.lasting(ask.longer) for way in run_ups(camera_task.mission, camera_task.drone, shot, start)
+    )
     if ask.aside[0]:
-        before = _led(before, -1.0, start, around, looker.drone)
+        before = _led(before, -1.0, start, around, camera_task.drone)
     if ask.aside[1]:
-        after = _led(after, 1.0, end, around, looker.drone)
+        after = _led(after, 1.0, end, around, camera_task.drone)
     return before, after
 
 
 def _led(
-    way: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], Room], drone: Drone
+    way: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], FreeSpace], drone: Drone
 ) -> RunUp:
     """Return a way before a film, sign -1, or after it, 1, that leads aside of what passes where it rests."""
     led = way
@@ -253,17 +257,17 @@ def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Mis
     far = tuple(sorted((a for a in away if a.distance > ON_PLACE), key=lambda a: -a.distance))
     for longer in LONGER:
         slower = slowed(task.mission, placed, start, longer)
-        looker = looker_of(task.mission, task.drone, slower, start)
-        if fly(_task(looker, around, slower.shot, start, ASKED[-1])).curve is not None:
+        camera_task = camera_task_of(task.mission, task.drone, slower, start)
+        if fly(_task(camera_task, around, slower.shot, start, ASKED[-1])).curve is not None:
             return Missed(far, longer)
     return Missed(far, None)
 
 
-def _lens(looker: Looker, clock: Clock) -> Array:
+def _lens(camera_task: CameraTask, clock: Clock) -> Array:
     """Return the control points of the field of view on the pieces of a clock, shape (P, 6, 1)."""
-    if looker.keyed is not None:
-        return looker.keyed.lens(clock.breaks).ctrl
-    return np.full((len(clock.breaks) - 1, 6, 1), looker.drone.hfov)
+    if camera_task.keyed is not None:
+        return camera_task.keyed.lens(clock.breaks).ctrl
+    return np.full((len(clock.breaks) - 1, 6, 1), camera_task.drone.hfov)
 
 
 def _lacks(task: Task, flown: Flown) -> tuple[tuple[Owner, float], ...]:
@@ -313,7 +317,7 @@ def _cause(task: Task, flown: Flown, t: float) -> str:
 
 def _in_the_way(task: Task, place: Array, t: float) -> tuple[Owner, float] | None:
     """Return the owner of what a place, shape (3,), is too near to at a time, and by how much, metres."""
-    near = breaches(task.room, place)
+    near = breaches(task.space, place)
     if near:
         return near[0].owner, near[0].lack
     for motion in task.motions:

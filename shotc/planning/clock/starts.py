@@ -17,11 +17,11 @@ from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
-from shotc.planning.clock.departure import Meeting, Way
+from shotc.planning.clock.departure import Meeting, Transfer
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.shot import NoMotion, TimedShot
 from shotc.planning.framing.moments import placed_at
-from shotc.planning.free_space import Room, bounds_slack
+from shotc.planning.free_space import FreeSpace, bounds_slack
 from shotc.planning.path.shots import Failure
 from shotc.rounding import down, up
 
@@ -86,15 +86,15 @@ class Reached:
     """
 
     shot: TimedShot
-    way: Way
+    way: Transfer
     late: float
     aside: tuple[bool, bool]
 
 
-Trouble = Failure | NoMotion | OutsideTrack | Meets | TooLate
+ClockFailure = Failure | NoMotion | OutsideTrack | Meets | TooLate
 Lateness = Callable[[float], float]
 """By how many seconds a drone is late for a start."""
-Reach = Callable[[PlacedShot, float], Reached | Trouble]
+Reach = Callable[[PlacedShot, float], Reached | ClockFailure]
 """Plans a shot for a start, and the way to it."""
 
 
@@ -108,7 +108,7 @@ def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrac
     return None
 
 
-def inside(mission: MissionIR, room: Room, placed: PlacedShot, start: float) -> float:
+def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: float) -> float:
     """Return the first start, from one on, at which no fence keeps the camera from its place.
 
     Its target may still be where no drone may go. The start that is given, where there is none soon.
@@ -120,14 +120,14 @@ def inside(mission: MissionIR, room: Room, placed: PlacedShot, start: float) -> 
             break
         there = placed_at(mission, placed, first).shot
         times = first + np.append(np.arange(0.0, lasts, WHOLE), lasts)
-        if bounds_slack(room, ideal_places(mission, there, first, times)).min() >= 0.0:
+        if bounds_slack(space, ideal_places(mission, there, first, times)).min() >= 0.0:
             return first
     return start
 
 
 def put_off(
     mission: MissionIR, reach: Reach, placed: PlacedShot, start: float, about: Lateness
-) -> Reached | Trouble:
+) -> Reached | ClockFailure:
     """Return a shot planned for the first start, from ``start`` on, at which its drone is there.
 
     about : by how many seconds it is late for a start, roughly
@@ -140,7 +140,7 @@ def put_off(
         tuple[float, float]
     ] = []  # starts that were tried, and by how much later they are than estimated
     now: float | None = start
-    reached: Reached | Trouble
+    reached: Reached | ClockFailure
     for _ in range(TRIES):
         assert now is not None
         reached = _as_long(mission, reach, placed, now)
@@ -183,7 +183,7 @@ def _soonest(
     return None
 
 
-def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float) -> Reached | Trouble:
+def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float) -> Reached | ClockFailure:
     """Plan a shot for a start, as long as it is to be or as the track lasts."""
     short = outside(mission, placed, start)
     if short is None:

@@ -14,14 +14,22 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray, restrict
 from shotc.ir.mission import Drone
 from shotc.ir.path import ClockLeg, PathIR
-from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.between import widened
 from shotc.planning.clock.flights import flights
-from shotc.planning.clock.moving import Even, Moving, evened, moving_targets, shortfalls, sides, standing
+from shotc.planning.clock.moving import (
+    LinearMotion,
+    Moving,
+    linearised,
+    moving_targets,
+    shortfalls,
+    sides,
+    standing,
+)
 from shotc.planning.clock.others import other_drones
-from shotc.planning.clock.sights import Sights, keep_free, sights_of
-from shotc.planning.free_space import Room, kept, shortfall
-from shotc.planning.obstacles import rooms_of
+from shotc.planning.clock.visibility import Visibility, keep_free, visibility_of
+from shotc.planning.free_space import FreeSpace, kept, shortfall
+from shotc.planning.obstacles import free_spaces_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,22 +37,23 @@ class Surroundings:
     """What is near a motion over mission time.
 
     breaks : of the motion's pieces, shape (P + 1,), seconds
-    walls : the room without its obstacles; motions : its obstacles and what moves, even on those pieces
+    walls : the free space without its obstacles
+    motions : its obstacles and what moves, linearised on those pieces
     pictures : of the other drones' flights, those that count
     """
 
     breaks: Array
-    walls: Room
-    motions: tuple[Even, ...]
-    pictures: Sights
+    walls: FreeSpace
+    motions: tuple[LinearMotion, ...]
+    pictures: Visibility
 
-    def free(self, looker: Looker, span: tuple[float, float], course: Piecewise) -> Planes:
+    def free(self, camera_task: CameraTask, span: tuple[float, float], course: Piecewise) -> Planes:
         """Put half-spaces beside pictures, linearised about a course on these pieces.
 
         span : of the film. On each piece the one that the course is nearest to counts, as far as the course
         itself keeps it.
         """
-        floors = keep_free(looker, self.pictures, span, self.breaks, course).floors
+        floors = keep_free(camera_task, self.pictures, span, self.breaks, course).floors
         if not floors:
             return Planes(np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros((0, 2)))
         piece = np.concatenate([each.rows.piece for each in floors])
@@ -123,21 +132,23 @@ def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: boo
         stands whatever its time
     """
     mission = path.keyframes.mission
-    room, stands = Room((), (), ()), tuple[Moving, ...]()
+    space, stands = FreeSpace((), (), ()), tuple[Moving, ...]()
     if standing_too:
-        rooms = rooms_of(mission, drone)
-        room, stands = rooms.flight, standing(rooms)
+        spaces = free_spaces_of(mission, drone)
+        space, stands = spaces.flight, standing(spaces)
     flown = flights(path)
     moving = (*stands, *moving_targets(mission, drone), *other_drones(mission, drone.name, flown))
     return Surroundings(
         breaks,
-        Room((), room.walls, room.discs),
-        _led(path, drone, tuple(evened(what, breaks) for what in moving), breaks),
-        sights_of(mission, drone, flown),
+        FreeSpace((), space.walls, space.discs),
+        _led(path, drone, tuple(linearised(what, breaks) for what in moving), breaks),
+        visibility_of(mission, drone, flown),
     )
 
 
-def _led(path: PathIR, drone: Drone, motions: tuple[Even, ...], breaks: Array) -> tuple[Even, ...]:
+def _led(
+    path: PathIR, drone: Drone, motions: tuple[LinearMotion, ...], breaks: Array
+) -> tuple[LinearMotion, ...]:
     """Return motions with the clearances that the mission writes down, before the guide's film and after it.
 
     The others are no reason for a refiner to fail: it begins from a guide that keeps them.

@@ -14,24 +14,24 @@ import numpy as np
 
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_hull
 from shotc.planning.clock.moving import Moving
-from shotc.planning.free_space import Obstacle, Room
-from shotc.planning.obstacles import Rooms
+from shotc.planning.free_space import FreeSpace, Obstacle
+from shotc.planning.obstacles import FreeSpaces
 
 STEP = 0.5  # seconds between the places that a hull is drawn about
 STILL = 1e-3  # metres: less is standing
 CORNERS = 8  # of the prism about a cylinder
 
 
-def with_sweeps(rooms: Rooms, moving: Sequence[Moving], span: tuple[float, float]) -> Rooms:
-    """Return rooms in which all targets are where they are between two mission times, seconds."""
+def with_sweeps(spaces: FreeSpaces, moving: Sequence[Moving], span: tuple[float, float]) -> FreeSpaces:
+    """Return free spaces in which all targets are where they are between two mission times, seconds."""
     swept = [(m, _swept(m, span)) for m in moving if not m.always]
     flight = (Obstacle(m.owner, part, m.clearance) for m, part in swept)
     transit = (Obstacle(m.owner, part, m.apart) for m, part in swept)
-    return rooms._replace(flight=_with(rooms.flight, flight), transit=_with(rooms.transit, transit))
+    return spaces._replace(flight=_with(spaces.flight, flight), transit=_with(spaces.transit, transit))
 
 
-def _with(room: Room, more: Iterable[Obstacle]) -> Room:
-    return replace(room, obstacles=(*room.obstacles, *more))
+def _with(space: FreeSpace, more: Iterable[Obstacle]) -> FreeSpace:
+    return replace(space, obstacles=(*space.obstacles, *more))
 
 
 def _swept(what: Moving, span: tuple[float, float]) -> Solid:

@@ -11,8 +11,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.convex import closest_points, support
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner
-from shotc.planning.free_space import MARGIN, Obstacle, Room, Wall
-from shotc.planning.obstacles import flight_room
+from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, Wall
+from shotc.planning.obstacles import flight_space
 from shotc.planning.path.route import find_route
 from shotc.rounding import down
 
@@ -28,10 +28,10 @@ class Gap:
     help: str
 
 
-def opening(room: Room, start: Array, end: Array) -> tuple[Owner, ...]:
+def opening(space: FreeSpace, start: Array, end: Array) -> tuple[Owner, ...]:
     """Return the owners each of which, taken away alone, leaves a way; the ground cannot be taken away."""
-    names = (name for name in room.owners if name != GROUND)
-    return tuple(name for name in names if find_route(room.without(name), start, end) is not None)
+    names = (name for name in space.owners if name != GROUND)
+    return tuple(name for name in names if find_route(space.without(name), start, end) is not None)
 
 
 def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) -> float | None:
@@ -39,7 +39,7 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
 
     def opens(clearance: float) -> bool:
         rules = mission.rules._replace(ground_clearance=clearance)
-        return find_route(flight_room(mission._replace(rules=rules), drone), start, end) is not None
+        return find_route(flight_space(mission._replace(rules=rules), drone), start, end) is not None
 
     low, high = 0.0, mission.rules.ground_clearance
     if high <= 0.0 or not opens(low):
@@ -50,12 +50,12 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
     return down(low)
 
 
-def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[Owner, ...]) -> Gap | None:
+def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner, ...]) -> Gap | None:
     """Return the narrowest place that closes the way and what would have to change; None if nothing fits."""
-    lent = _least_loan(room, start, end)
+    lent = _least_loan(space, start, end)
     if lent is None:
         return None
-    pair = _closing_pair(room, openers, lent)
+    pair = _closing_pair(space, openers, lent)
     if pair is None:
         return Gap(
             f"with {lent:.2f} m less clearance to everything there would be a way",
@@ -68,15 +68,15 @@ def narrow_gap(room: Room, start: Array, end: Array, openers: tuple[Owner, ...])
     )
 
 
-def _least_loan(room: Room, start: Array, end: Array) -> float | None:
+def _least_loan(space: FreeSpace, start: Array, end: Array) -> float | None:
     """Return the least clearance to give up everywhere so that a way opens, by bisection."""
-    most = MOST * min((o.clearance for o in room.obstacles), default=0.0)
-    if most <= 0.0 or find_route(room.lent(most), start, end) is None:
+    most = MOST * min((o.clearance for o in space.obstacles), default=0.0)
+    if most <= 0.0 or find_route(space.lent(most), start, end) is None:
         return None
     low, high = 0.0, most
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        if find_route(room.lent(middle), start, end) is None:
+        if find_route(space.lent(middle), start, end) is None:
             low = middle
         else:
             high = middle
@@ -84,17 +84,17 @@ def _least_loan(room: Room, start: Array, end: Array) -> float | None:
 
 
 def _closing_pair(
-    room: Room, openers: tuple[Owner, ...], lent: float
+    space: FreeSpace, openers: tuple[Owner, ...], lent: float
 ) -> tuple[tuple[Owner, Owner], float, float] | None:
     """Return two owners whose gap is what the loan opens, the gap and what it should be, metres."""
     best: tuple[float, tuple[Owner, Owner], float, float] | None = None
-    for a, b in combinations(room.obstacles, 2):
+    for a, b in combinations(space.obstacles, 2):
         if a.owner == b.owner or (openers and not {a.owner, b.owner} & set(openers)):
             continue
         gap = _between(a, b)
         best = _closer(best, lent, (a.owner, b.owner), gap, a.clearance + b.clearance)
-    for o in room.obstacles:
-        for w in room.walls:
+    for o in space.obstacles:
+        for w in space.walls:
             gap = _to_wall(o, w)
             if o.owner != w.owner and (not openers or {o.owner, w.owner} & set(openers)):
                 best = _closer(best, lent, (o.owner, w.owner), gap, o.clearance + w.clearance)

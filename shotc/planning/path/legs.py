@@ -28,8 +28,8 @@ from shotc.ir.path import (
     Stop,
 )
 from shotc.ir.phases import PhaseName
-from shotc.planning.free_space import Room, bounds_slack, breaches
-from shotc.planning.obstacles import Rooms, pad_room
+from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
+from shotc.planning.obstacles import FreeSpaces, pad_space
 from shotc.planning.path.body import BodyTask, allowed_body, body_line
 from shotc.planning.path.lines import SAME_PLACE, TURN_LENGTH
 from shotc.planning.path.shots import AngleFailure, Failure, PlannedShot, stack
@@ -51,13 +51,13 @@ class Flight:
     """
 
     drone: Drone
-    rooms: Rooms
+    spaces: FreeSpaces
     top: Array
 
     @property
-    def room(self) -> Room:
-        """The room of all phases."""
-        return self.rooms.flight
+    def space(self) -> FreeSpace:
+        """The free space of all phases."""
+        return self.spaces.flight
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,8 +92,8 @@ def take_off(flight: Flight, goal: Pose) -> MovingLeg:
 def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
     """Return the flight with its transit point so much higher; None where that cannot be."""
     top = flight.top + np.array([0.0, 0.0, metres])
-    home, pad = np.array(flight.drone.home), pad_room(mission, flight.drone)
-    free = bounds_slack(pad, top[None])[0] >= 0.0 and not breaches(flight.room, top)
+    home, pad = np.array(flight.drone.home), pad_space(mission, flight.drone)
+    free = bounds_slack(pad, top[None])[0] >= 0.0 and not breaches(flight.space, top)
     above = (segment_distances(o.part, home[None], top[None])[0] - o.clearance for o in pad.obstacles)
     return replace(flight, top=top) if free and min(above, default=0.0) >= -ROUNDING else None
 
@@ -184,7 +184,7 @@ def _transit(
         breaks = np.array([0.0, TURN_LENGTH * max(turn, SAME_ANGLE)])
         position = Piecewise(breaks, np.linspace(a, b, 6)[None])
     else:
-        found = transit_curve(flight.rooms, flight.drone, a, b)
+        found = transit_curve(flight.spaces, flight.drone, a, b)
         if not isinstance(found, Piecewise):
             return found
         position = found

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.convex import FAR, support
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
-from shotc.planning.free_space import MARGIN, Breach, Room, blocked, bounds_slack, breaches
+from shotc.planning.free_space import MARGIN, Breach, FreeSpace, blocked, bounds_slack, breaches
 from shotc.planning.path.route import NODE_MARGIN, find_route
 
 TURN_LENGTH = 2.0  # metres of path parameter for each radian turned on the spot
@@ -59,13 +59,13 @@ class TooNear:
     breach: Breach
 
 
-def straight_line(room: Room, start: Array, end: Array) -> Line | NoWay | TooNear:
+def straight_line(space: FreeSpace, start: Array, end: Array) -> Line | NoWay | TooNear:
     """Return the way between two points that are not filmed."""
     for p in (start, end):
-        near = breaches(room, p)
+        near = breaches(space, p)
         if near:
             return TooNear(p, -1, near[0])
-    route = find_route(room, start, end)
+    route = find_route(space, start, end)
     if route is None:
         return NoWay(start, end)
     steps = np.linalg.norm(np.diff(route, axis=0), axis=1)
@@ -73,37 +73,37 @@ def straight_line(room: Room, start: Array, end: Array) -> Line | NoWay | TooNea
     return Line(route, s, tuple([-1] * len(route)))
 
 
-def shot_line(room: Room, keyframes: tuple[PlacedKeyframe, ...]) -> Line | NoWay | TooNear:
+def shot_line(space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...]) -> Line | NoWay | TooNear:
     """Return the polyline through a shot's keyframes."""
     points = np.array([k.at for k in keyframes], dtype=np.float64)
     kept: list[int] = []
     last = len(keyframes) - 1
     moved = [False, False]
     for i, keyframe in enumerate(keyframes):
-        near = breaches(room, points[i])
+        near = breaches(space, points[i])
         if near and keyframe.placed:
             return TooNear(points[i], i, near[0])
         if near and i in {0, last}:
-            free = _nearest_free(room, points[i])
+            free = _nearest_free(space, points[i])
             if free is None:
                 return TooNear(points[i], i, near[0])
             points[i], moved[i == last] = free, True
             near = []
         if not near:
             kept.append(i)
-    ways = _ways(room, points, kept)
+    ways = _ways(space, points, kept)
     if isinstance(ways, NoWay):
         return ways
     dropped = tuple(i for i in range(len(keyframes)) if i not in kept)
     return _joined(keyframes, points, (kept, dropped, (moved[0], moved[1])), ways)
 
 
-def _ways(room: Room, points: Array, kept: list[int]) -> list[Array] | NoWay:
+def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoWay:
     a, b = points[kept[:-1]], points[kept[1:]]
     ways = []
-    shut = blocked(room, a, b)
+    shut = blocked(space, a, b)
     for k in range(len(kept) - 1):
-        route = find_route(room, a[k], b[k]) if shut[k].any() else np.stack([a[k], b[k]])
+        route = find_route(space, a[k], b[k]) if shut[k].any() else np.stack([a[k], b[k]])
         if route is None:
             return NoWay(a[k], b[k], (kept[k], kept[k + 1]))
         ways.append(route)
@@ -137,10 +137,10 @@ def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:
     return length if length >= SAME_PLACE else 0.0
 
 
-def _nearest_free(room: Room, p: Array) -> Array | None:
+def _nearest_free(space: FreeSpace, p: Array) -> Array | None:
     """Return a free point near one that is not: pushed sideways or up out of each obstacle it is in."""
     tries = [p]
-    for o in room.obstacles:
+    for o in space.obstacles:
         reach = o.clearance + NODE_MARGIN
         angle = np.linspace(0.0, 2 * pi, 32, endpoint=False)
         rays = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(32)])
@@ -149,14 +149,14 @@ def _nearest_free(room: Room, p: Array) -> Array | None:
         tries += list(p + rays[out > 0] * out[out > 0, None])
         if o.part.top < FAR:
             tries.append(np.array([p[0], p[1], o.part.top + reach]))
-    for wall in room.walls:
+    for wall in space.walls:
         lack = wall.offset + MARGIN - float(p @ np.array(wall.normal))
         if lack > 0:
             tries += [q + lack * np.array(wall.normal) for q in list(tries)]
     candidates = np.array(tries)
-    free = bounds_slack(room, candidates) >= 0
+    free = bounds_slack(space, candidates) >= 0
     order = np.argsort(np.linalg.norm(candidates - p, axis=1), kind="stable")
     for i in order:
-        if free[i] and not breaches(room, candidates[i]):
+        if free[i] and not breaches(space, candidates[i]):
             return np.asarray(candidates[i])
     return None

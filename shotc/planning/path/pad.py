@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.convex import FAR, segment_distances
 from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
-from shotc.planning.free_space import Room, bounds_slack, breaches
+from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 
 PAD_MARGIN = 0.1  # metres that the transit altitude keeps beyond what clearances ask
 LIFT = 1.0  # metres above the pad at least
@@ -35,13 +35,13 @@ class PadBlocked:
     has: float
 
 
-def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
+def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | PadBlocked:
     """Return the point over the pad where flight's rules hold and that is reached straight up.
 
     It is the lowest from the customary height on, or failing that the lowest of all.
     """
     home = np.array(drone.home, dtype=np.float64)
-    outside = breaches(Room((), tuple(w for w in pad.walls if w.normal[2] == 0.0), pad.discs), home)
+    outside = breaches(FreeSpace((), tuple(w for w in pad.walls if w.normal[2] == 0.0), pad.discs), home)
     if outside:
         return PadBlocked(outside[0].owner, "outside", outside[0].lack, 0.0)
     floors = [w.offset for w in flight.walls if w.normal[2] > 0.5]
@@ -64,7 +64,7 @@ def transit_point(flight: Room, pad: Room, drone: Drone) -> Array | PadBlocked:
     return PadBlocked(near.owner, "beside", near.clearance, near.clearance - near.lack)
 
 
-def _in_column(pad: Room, home: Array, top: Array) -> PadBlocked | None:
+def _in_column(pad: FreeSpace, home: Array, top: Array) -> PadBlocked | None:
     hits = []
     for o in pad.obstacles:
         has = float(segment_distances(o.part, home[None], top[None])[0])

@@ -26,7 +26,7 @@ from shotc.geom.bspline import (
 from shotc.ir.limits import Limits
 from shotc.ir.owners import Owner
 from shotc.planning.corridor import Around, with_corridor
-from shotc.planning.free_space import Room, shortfall
+from shotc.planning.free_space import FreeSpace, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
@@ -87,8 +87,10 @@ class Solved:
     owners: tuple[Owner, ...] = ()
 
 
-def solve_stretch(room: Room, stretch: Stretch, limits: Limits, wide: Room | None = None) -> Solved:
-    """Return the curve of one stretch, proved clear in a room.
+def solve_stretch(
+    space: FreeSpace, stretch: Stretch, limits: Limits, wide: FreeSpace | None = None
+) -> Solved:
+    """Return the curve of one stretch, proved clear in a free space.
 
     wide : the same with larger clearances, which the curve is to keep as the polyline does
     """
@@ -98,7 +100,7 @@ def solve_stretch(room: Room, stretch: Stretch, limits: Limits, wide: Room | Non
     status, problem = Status.FAILED, None
     for finer in FINER:
         breaks = subdivide(stretch.s, PIECES * finer)
-        problem, best, used = _iterate((room, wide or room), stretch, limits, breaks)
+        problem, best, used = _iterate((space, wide or space), stretch, limits, breaks)
         rounds += used
         if isinstance(best, SplineSolution):
             assert best.coef is not None
@@ -107,7 +109,7 @@ def solve_stretch(room: Room, stretch: Stretch, limits: Limits, wide: Room | Non
         status = best
         if status in {Status.FAILED, Status.UNBOUNDED}:
             break
-    owners = room.owners
+    owners = space.owners
     relaxation = relax(problem, len(owners)) if problem and status is Status.INFEASIBLE else None
     return Solved(None, status, float("nan"), rounds, relaxation, owners)
 
@@ -120,13 +122,13 @@ def _line(stretch: Stretch) -> Piecewise:
 
 
 def _iterate(
-    rooms: tuple[Room, Room], stretch: Stretch, limits: Limits, breaks: Array
+    spaces: tuple[FreeSpace, FreeSpace], stretch: Stretch, limits: Limits, breaks: Array
 ) -> tuple[SplineProblem, SplineSolution | Status, int]:
     """Return the last programme, its best solution or why there is none, and how many were solved.
 
-    rooms : what solutions are proved in, and what they are held to
+    spaces : what solutions are proved in, and what they are held to
     """
-    room, wide = rooms
+    space, wide = spaces
     polyline = np.column_stack([np.interp(breaks, stretch.s, stretch.corners[:, k]) for k in range(3)])
     chords = np.stack([polyline[:-1], polyline[1:]], axis=1)
     base = _base_problem(stretch, limits, breaks)
@@ -140,7 +142,7 @@ def _iterate(
         if solution.coef is None:
             return problem, best or solution.status, used
         points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
-        if shortfall(room, points).max() > 1e-6:
+        if shortfall(space, points).max() > 1e-6:
             # The curve swung into something that was out of reach of the corridor: widen it.
             reach *= 4.0
             hulls, share = chords, FIRST_SHARE

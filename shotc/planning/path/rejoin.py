@@ -12,7 +12,7 @@ from dataclasses import replace
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Drone
 from shotc.ir.path import DronePath, HoldLeg, PathIR, PathLeg
-from shotc.planning.obstacles import pad_room, rooms_of
+from shotc.planning.obstacles import free_spaces_of, pad_space
 from shotc.planning.path.in_time import in_time
 from shotc.planning.path.legs import Blocked, Flight, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
@@ -51,8 +51,8 @@ def _drone(path: PathIR, flown: DronePath, cameras: Mapping[str, Piecewise]) -> 
 
 def _led_anew(path: PathIR, drone: Drone, legs: list[PathLeg]) -> tuple[PathLeg, ...]:
     mission = path.keyframes.mission
-    rooms = rooms_of(mission, drone)
-    top = transit_point(rooms.flight, pad_room(mission, drone), drone)
+    spaces = free_spaces_of(mission, drone)
+    top = transit_point(spaces.flight, pad_space(mission, drone), drone)
     assert not isinstance(top, PadBlocked), "it was free when the path was first planned"
     placed = {p.shot.id: p for p in path.keyframes.shots}
     shots = [
@@ -60,7 +60,7 @@ def _led_anew(path: PathIR, drone: Drone, legs: list[PathLeg]) -> tuple[PathLeg,
         for leg in legs
         if leg.shot is not None
     ]
-    joined = drone_legs(Flight(drone, rooms, top), shots)
+    joined = drone_legs(Flight(drone, spaces, top), shots)
     if not isinstance(joined, Blocked):
         return joined
     before = joined.shot

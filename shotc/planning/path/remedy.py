@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, zone_owner
-from shotc.planning.free_space import Room
+from shotc.planning.free_space import FreeSpace
 from shotc.planning.path.lines import Line, straight_line
 from shotc.planning.path.shots import PlannedShot, Stuck, shot_curve
 from shotc.planning.path.transit import smooth
@@ -44,13 +44,15 @@ def conflict(what: Stuck) -> Conflict:
     return Conflict(tuple(sorted(owners, key=lambda item: -item[1])), tuple(points))
 
 
-def remedy(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Stuck) -> str | None:
+def remedy(
+    mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: Stuck
+) -> str | None:
     """Return a change with which the stretch was planned, as an imperative; None if none was found."""
     owners = conflict(what).owners
     for factor in FACTORS:
         for some in (owners[:1], owners) if len(owners) > 1 else (owners,):
             gives = {name: up(factor * lack + 0.01) for name, lack in some}
-            wider = _giving(mission, room, gives)
+            wider = _giving(mission, space, gives)
             if gives and wider is not None and _fits(mission, drone, wider, shot, what):
                 return " and ".join(_asked(mission, name, metres) for name, metres in gives.items())
     return None
@@ -75,21 +77,21 @@ def _holds_in(mission: MissionIR, owner: Owner) -> bool:
     return any(owner == zone_owner(zone) and zone.keep == "in" for zone in mission.zones)
 
 
-def _giving(mission: MissionIR, room: Room, gives: Gives) -> Room | None:
-    """Return the room with owners that give way; None where one would give more than it has.
+def _giving(mission: MissionIR, space: FreeSpace, gives: Gives) -> FreeSpace | None:
+    """Return the free space with owners that give way; None where one would give more than it has.
 
     To come nearer to a solid by less than its clearance is as good as to shrink it: a shrunk solid grown
     again by what it lost lies inside the old one.
     """
     if gives.get(GROUND, 0.0) > mission.rules.ground_clearance:
         return None
-    if any(gives.get(o.owner, 0.0) > o.clearance for o in room.obstacles):
+    if any(gives.get(o.owner, 0.0) > o.clearance for o in space.obstacles):
         return None
-    return room.giving(gives)
+    return space.giving(gives)
 
 
-def _fits(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Stuck) -> bool:
+def _fits(mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: Stuck) -> bool:
     if shot is not None and what.keyframes:
-        return isinstance(shot_curve(mission, drone, room, shot), PlannedShot)
-    line = straight_line(room, what.corners[0], what.corners[-1])
-    return isinstance(line, Line) and not isinstance(smooth(room, drone, line), Stuck)
+        return isinstance(shot_curve(mission, drone, space, shot), PlannedShot)
+    line = straight_line(space, what.corners[0], what.corners[-1])
+    return isinstance(line, Line) and not isinstance(smooth(space, drone, line), Stuck)

@@ -18,7 +18,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.convex import FAR, BoolArray, distances, segment_distances
 from shotc.geom.solids import Cylinder, Solid
-from shotc.planning.free_space import MARGIN, Obstacle, Room, blocked, bounds_slack
+from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, blocked, bounds_slack
 
 ROUTE_MARGIN = 2 * MARGIN  # the route leaves the corridor some play
 NODE_MARGIN = 2.4 * MARGIN  # nodes stand clear of the prisms that edges are tested against
@@ -41,24 +41,24 @@ class _Grown:
     clearance: float
 
 
-def find_route(room: Room, start: Array, end: Array) -> Array | None:
+def find_route(space: FreeSpace, start: Array, end: Array) -> Array | None:
     """Return the corners of the way from start to end, shape (K, 3), both included; None if there is none.
 
     Both points must themselves be free. Nodes come from the obstacles in the way; more obstacles join
     as they turn out to block, so far ones cost nothing.
     """
-    first = blocked(room, start[None], end[None], MARGIN)[0]
+    first = blocked(space, start[None], end[None], MARGIN)[0]
     if not first.any():
         return np.stack([start, end])
-    grown = [_grow(o) for o in room.obstacles]
-    near = _search(_Scene(room, grown, 1.0), first, start, end)
+    grown = [_grow(o) for o in space.obstacles]
+    near = _search(_Scene(space, grown, 1.0), first, start, end)
     if near is not None:
-        roomy = _search(_Scene(room, grown, ROOMY), first, start, end)
+        roomy = _search(_Scene(space, grown, ROOMY), first, start, end)
         if roomy is not None and length(roomy) <= DETOUR * length(near):
             near = roomy
-        return _level(room, near)
+        return _level(space, near)
     for share in NARROW:
-        narrow = _search(_Scene(room, grown, share), first, start, end)
+        narrow = _search(_Scene(space, grown, share), first, start, end)
         if narrow is not None:
             return narrow
     return None
@@ -73,7 +73,7 @@ def length(route: Array) -> float:
 class _Scene:
     """What a search runs in; ``share`` is the part of the usual margins that it keeps."""
 
-    room: Room
+    space: FreeSpace
     grown: list[_Grown]
     share: float
 
@@ -105,7 +105,7 @@ class _Graph:
         self.scene = scene
         corners = [_nodes(scene, j, active, start, end) for j in active]
         nodes = np.concatenate([np.stack([start, end]), *corners])
-        free = bounds_slack(scene.room, nodes) >= scene.share * MARGIN
+        free = bounds_slack(scene.space, nodes) >= scene.share * MARGIN
         for j, g in enumerate(scene.grown):
             free &= ~_inside(g, nodes, scene.reach(j))
         free[:2] = True
@@ -174,7 +174,7 @@ class _Graph:
         return np.asarray((others == 1) & inside[1])
 
     def _near(self, j: int, a: Array, b: Array) -> BoolArray:
-        o = self.scene.room.obstacles[j]
+        o = self.scene.space.obstacles[j]
         own = np.minimum(distances(o.part, a), distances(o.part, b)) - o.clearance
         need = o.clearance + np.minimum(self.scene.share * MARGIN, 0.5 * np.maximum(own, 0.0))
         return np.asarray(segment_distances(o.part, a, b) < need - 1e-9)
@@ -252,12 +252,12 @@ def _inside(g: _Grown, p: Array, reach: float) -> BoolArray:
 def _clip(g: _Grown, a: Array, b: Array, reach: float) -> tuple[Array, Array]:
     """Clip segments to the grown footprint (Cyrus-Beck); returns the stretch [enter, leave] of [0, 1]."""
     rate = (b[:, :2] - a[:, :2]) @ g.normals.T
-    room = g.offsets + reach - a[:, :2] @ g.normals.T
+    space = g.offsets + reach - a[:, :2] @ g.normals.T
     with np.errstate(divide="ignore", invalid="ignore"):
-        t = room / rate
+        t = space / rate
     enter = np.where(rate < -1e-12, t, -np.inf).max(axis=1)
     leave = np.where(rate > 1e-12, t, np.inf).min(axis=1)
-    outside = ((np.abs(rate) <= 1e-12) & (room < 0)).any(axis=1)
+    outside = ((np.abs(rate) <= 1e-12) & (space < 0)).any(axis=1)
     enter, leave = np.maximum(enter, 0.0), np.minimum(leave, 1.0)
     return np.where(outside, 1.0, enter), np.where(outside, 0.0, leave)
 
@@ -272,7 +272,7 @@ def _clip_heights(z: Array, rise: Array, low: float, high: float) -> tuple[Array
     return enter, leave
 
 
-def _level(room: Room, path: Array) -> Array:
+def _level(space: FreeSpace, path: Array) -> Array:
     """Let the height change evenly along the way where that is still free."""
     if len(path) < 3:
         return path
@@ -282,8 +282,8 @@ def _level(room: Room, path: Array) -> Array:
         return path
     even = path.copy()
     even[:, 2] = path[0, 2] + along / along[-1] * (path[-1, 2] - path[0, 2])
-    inside = bounds_slack(room, even[1:-1]) >= MARGIN
-    free = not blocked(room, even[:-1], even[1:], ROUTE_MARGIN).any()
+    inside = bounds_slack(space, even[1:-1]) >= MARGIN
+    free = not blocked(space, even[:-1], even[1:], ROUTE_MARGIN).any()
     return _apart(even) if inside.all() and free else path
 
 

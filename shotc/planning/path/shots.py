@@ -12,7 +12,7 @@ from shotc.geom.sampling import worst_of_runs
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Deviation, FramingSpan, HoldLeg, Mark, MovingLeg, PathLeg, Stop
-from shotc.planning.free_space import Room, breaches
+from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.lines import SAME_PLACE, Line, NoWay, TooNear, shot_line
@@ -63,15 +63,15 @@ Failure = NoWay | TooNear | Stuck | AngleFailure
 
 
 def shot_curve(
-    mission: MissionIR, drone: Drone, room: Room, placed: PlacedShot, headings: str = DEFAULT
+    mission: MissionIR, drone: Drone, space: FreeSpace, placed: PlacedShot, headings: str = DEFAULT
 ) -> PlannedShot | Failure:
     """Return a shot's geometry, or what stands in its way; ``headings`` is how turns are chosen."""
-    line = shot_line(room, placed.keyframes)
+    line = shot_line(space, placed.keyframes)
     if not isinstance(line, Line):
         return line
     if line.s[-1] <= 0.0:
         return _still(placed, line)
-    position = _position(room, drone, placed, line)
+    position = _position(space, drone, placed, line)
     if isinstance(position, Stuck):
         return position
     curve, solved = position
@@ -102,7 +102,7 @@ def shot_curve(
     return PlannedShot(
         shot=placed,
         leg=leg,
-        deviations=_deviations(room, placed, keyed),
+        deviations=_deviations(space, placed, keyed),
         cuts=camera.cuts,
         swing=worst_swing(mission, keyed, camera),
         stats=_stats(placed, solved, camera, whole),
@@ -147,7 +147,7 @@ def _standing(keyframes: tuple[PlacedKeyframe, ...], duration: float | None) -> 
 
 
 def _position(
-    room: Room, drone: Drone, placed: PlacedShot, line: Line
+    space: FreeSpace, drone: Drone, placed: PlacedShot, line: Line
 ) -> tuple[Piecewise, list[Solved]] | Stuck:
     """Solve stretch by stretch; the drone rests wherever the camera turns on the spot."""
     curves: list[Piecewise] = []
@@ -158,7 +158,7 @@ def _position(
             still = np.tile(line.corners[first], (1, 6, 1))
             curves.append(Piecewise(s, still))
             continue
-        result = solve_stretch(room, _stretch(placed, line, first, last), drone.limits)
+        result = solve_stretch(space, _stretch(placed, line, first, last), drone.limits)
         if result.curve is None:
             owners = tuple(k for k in line.of[first : last + 1] if k >= 0)
             return Stuck(result, line.corners[first : last + 1], owners)
@@ -250,18 +250,18 @@ def _marks(placed: PlacedShot, keyed: KeyedPath) -> tuple[Mark, ...]:
     )
 
 
-def _deviations(room: Room, placed: PlacedShot, keyed: KeyedPath) -> tuple[Deviation, ...]:
+def _deviations(space: FreeSpace, placed: PlacedShot, keyed: KeyedPath) -> tuple[Deviation, ...]:
     """Return, for each run of keyframes that the path leaves, the worst of it."""
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
     away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
     return tuple(
-        Deviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(room, points[i]))
+        Deviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(space, points[i]))
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
 
 
-def _cause(room: Room, point: Array) -> str:
-    near = breaches(room, point)
+def _cause(space: FreeSpace, point: Array) -> str:
+    near = breaches(space, point)
     return str(near[0].owner) if near else "what lies between its keyframes"
 
 

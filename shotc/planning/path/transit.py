@@ -22,8 +22,8 @@ from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
-from shotc.planning.free_space import MARGIN, Obstacle, Room, bounds_slack, taper
-from shotc.planning.obstacles import Rooms
+from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, bounds_slack, taper
+from shotc.planning.obstacles import FreeSpaces
 from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
 from shotc.planning.path.position import Stretch, solve_stretch
 from shotc.planning.path.route import find_route, length
@@ -39,92 +39,94 @@ PLAY = 3.0 * MARGIN  # metres beyond the clearances at which a way out of an end
 ROUNDING = 1e-6  # metres
 
 
-def transit_curve(rooms: Rooms, drone: Drone, a: Array, b: Array) -> Piecewise | NoWay | TooNear | Stuck:
+def transit_curve(
+    spaces: FreeSpaces, drone: Drone, a: Array, b: Array
+) -> Piecewise | NoWay | TooNear | Stuck:
     """Return the position curve from one place to another that are not the same."""
-    near = straight_line(rooms.flight, a, b)
+    near = straight_line(spaces.flight, a, b)
     if not isinstance(near, Line):
         return near
-    for wide in _widest(rooms, near.corners):
-        line = _line(rooms, wide, near.corners)
+    for wide in _widest(spaces, near.corners):
+        line = _line(spaces, wide, near.corners)
         if line is not None:
-            curve = smooth(rooms.flight, drone, line, replace(wide, ends=_ends(near.corners)))
+            curve = smooth(spaces.flight, drone, line, replace(wide, ends=_ends(near.corners)))
             if not isinstance(curve, Stuck):
                 return curve
-    return smooth(rooms.flight, drone, near)
+    return smooth(spaces.flight, drone, near)
 
 
-def smooth(room: Room, drone: Drone, line: Line, wide: Room | None = None) -> Piecewise | Stuck:
+def smooth(space: FreeSpace, drone: Drone, line: Line, wide: FreeSpace | None = None) -> Piecewise | Stuck:
     """Return the position curve of an unfilmed leg along a polyline; wide : as in ``solve_stretch``."""
     none = np.zeros(0)
     ends = (0, len(line.corners) - 1)
     stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
-    solved = solve_stretch(room, stretch, drone.limits, wide)
+    solved = solve_stretch(space, stretch, drone.limits, wide)
     return Stuck(solved, line.corners, ()) if solved.curve is None else solved.curve
 
 
-def _widest(rooms: Rooms, near: Array) -> Iterator[Room]:
-    """Return rooms with the widest clearances for which there may be a way: all, else few of them less.
+def _widest(spaces: FreeSpaces, near: Array) -> Iterator[FreeSpace]:
+    """Return free spaces with the widest clearances for which there may be a way: all, else few of them less.
 
     near : the way without them, shape (K, 3)
     """
-    if rooms.transit == rooms.flight:
+    if spaces.transit == spaces.flight:
         return
-    yield rooms.transit
-    every = frozenset(rooms.transit.owners)
-    for owners in dict.fromkeys((every - rooms.required, every)):
-        share = _greatest(rooms, owners, near)
+    yield spaces.transit
+    every = frozenset(spaces.transit.owners)
+    for owners in dict.fromkeys((every - spaces.required, every)):
+        share = _greatest(spaces, owners, near)
         if share is not None:
-            yield _lessened(rooms, _needed(rooms, owners, share, near), share)
+            yield _lessened(spaces, _needed(spaces, owners, share, near), share)
 
 
-def _greatest(rooms: Rooms, owners: frozenset[Owner], near: Array) -> float | None:
+def _greatest(spaces: FreeSpaces, owners: frozenset[Owner], near: Array) -> float | None:
     """Return the greatest share, for some owners, of their clearances with which there is a way."""
     low, high = 0.0, 1.0
-    if not owners or _line(rooms, _lessened(rooms, owners, low), near) is None:
+    if not owners or _line(spaces, _lessened(spaces, owners, low), near) is None:
         return None
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        found = _line(rooms, _lessened(rooms, owners, middle), near) is not None
+        found = _line(spaces, _lessened(spaces, owners, middle), near) is not None
         low, high = (middle, high) if found else (low, middle)
     return low
 
 
-def _needed(rooms: Rooms, owners: frozenset[Owner], share: float, near: Array) -> frozenset[Owner]:
+def _needed(spaces: FreeSpaces, owners: frozenset[Owner], share: float, near: Array) -> frozenset[Owner]:
     """Return those of some owners whose clearances have to be lessened for a way."""
-    found = _line(rooms, _lessened(rooms, owners, share), near)
+    found = _line(spaces, _lessened(spaces, owners, share), near)
     assert found is not None
-    less = owners & _passed_nearer(replace(rooms.transit, ends=_ends(near)), found.corners)
+    less = owners & _passed_nearer(replace(spaces.transit, ends=_ends(near)), found.corners)
     for owner in sorted(less):
-        if len(less) > 1 and _line(rooms, _lessened(rooms, less - {owner}, share), near) is not None:
+        if len(less) > 1 and _line(spaces, _lessened(spaces, less - {owner}, share), near) is not None:
             less = less - {owner}
     return less
 
 
-def _lessened(rooms: Rooms, owners: frozenset[Owner], share: float) -> Room:
-    """Return the room of transits with a share of what it asks beyond that of all phases, of some owners."""
-    pairs = zip(rooms.flight.obstacles, rooms.transit.obstacles, strict=True)
+def _lessened(spaces: FreeSpaces, owners: frozenset[Owner], share: float) -> FreeSpace:
+    """Return the free space of transits, with a share of what some owners ask beyond that of all phases."""
+    pairs = zip(spaces.flight.obstacles, spaces.transit.obstacles, strict=True)
     obstacles = tuple(
         replace(wide, clearance=own.clearance + share * (wide.clearance - own.clearance))
         if wide.owner in owners
         else wide
         for own, wide in pairs
     )
-    return replace(rooms.transit, obstacles=obstacles)
+    return replace(spaces.transit, obstacles=obstacles)
 
 
-def _passed_nearer(room: Room, corners: Array) -> frozenset[Owner]:
+def _passed_nearer(space: FreeSpace, corners: Array) -> frozenset[Owner]:
     points = _along(corners)
     return frozenset(
-        o.owner for o in room.obstacles if (distances(o.part, points) < taper(room, o).needs(points)).any()
+        o.owner for o in space.obstacles if (distances(o.part, points) < taper(space, o).needs(points)).any()
     )
 
 
-def _line(rooms: Rooms, wide: Room, near: Array) -> Line | None:
+def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Line | None:
     """Return a polyline that keeps clearances that taper towards its ends; None where none is short enough.
 
     near : the polyline that keeps those of all phases, shape (K, 3)
     """
-    a, b, flight = near[0], near[-1], rooms.flight
+    a, b, flight = near[0], near[-1], spaces.flight
     full, wide = _settled(wide, near[[0, -1]]), replace(wide, ends=_ends(near))
     if _kept(wide, near):
         return _of(near)
@@ -136,7 +138,7 @@ def _line(rooms: Rooms, wide: Room, near: Array) -> Line | None:
     if route is not None:
         found.append(_joined(a, route, b))
     best = min(found, key=length, default=None)
-    most = inf if rooms.required else TIMES_LONGER * length(near) + MORE
+    most = inf if spaces.required else TIMES_LONGER * length(near) + MORE
     return None if best is None or length(best) > most else _of(best)
 
 
@@ -146,14 +148,14 @@ def _joined(a: Array, route: Array, b: Array) -> Array:
     return np.array([a, *between, b])
 
 
-def _settled(room: Room, ends: Array) -> Room:
-    """Return the room with clearances that an end of a way all but has as large as the end has them."""
+def _settled(space: FreeSpace, ends: Array) -> FreeSpace:
+    """Return the free space with clearances that an end of a way all but has as large as the end has them."""
 
     def settled(o: Obstacle) -> Obstacle:
         gap = float(distances(o.part, ends).min())
         return replace(o, clearance=gap) if o.clearance - PLAY <= gap < o.clearance else o
 
-    return replace(room, obstacles=tuple(map(settled, room.obstacles)))
+    return replace(space, obstacles=tuple(map(settled, space.obstacles)))
 
 
 def _of(corners: Array) -> Line:
@@ -161,10 +163,10 @@ def _of(corners: Array) -> Line:
     return Line(corners, s, tuple([-1] * len(corners)))
 
 
-def _kept(room: Room, corners: Array) -> bool:
+def _kept(space: FreeSpace, corners: Array) -> bool:
     """Tell whether a polyline keeps clearances that taper."""
     points = _along(corners)
-    return bool(_keeps(room, points).all())
+    return bool(_keeps(space, points).all())
 
 
 def _along(corners: Array) -> Array:
@@ -176,15 +178,15 @@ def _along(corners: Array) -> Array:
     return np.concatenate(parts)
 
 
-def _keeps(room: Room, points: Array, more: float = -ROUNDING) -> BoolArray:
+def _keeps(space: FreeSpace, points: Array, more: float = -ROUNDING) -> BoolArray:
     """Tell which places (..., 3) are as far from everything as is needed there, and so much more."""
     fine = np.ones(points.shape[:-1], dtype=np.bool_)
-    for o in room.obstacles:
-        fine &= distances(o.part, points) >= taper(room, o).needs(points) + more
+    for o in space.obstacles:
+        fine &= distances(o.part, points) >= taper(space, o).needs(points) + more
     return fine
 
 
-def _outside(flight: Room, wide: Room, end: Array, goal: Array) -> Array | None:
+def _outside(flight: FreeSpace, wide: FreeSpace, end: Array, goal: Array) -> Array | None:
     """Return where a straight way out of an end first has the full clearances, nearest on the way to a goal.
 
     The end itself where it has them; None where no way out is clear.
@@ -202,7 +204,7 @@ def _outside(flight: Room, wide: Room, end: Array, goal: Array) -> Array | None:
     return _shortest(end, first, goal)
 
 
-def _bent(flight: Room, wide: Room, a: Array, b: Array) -> Array | None:
+def _bent(flight: FreeSpace, wide: FreeSpace, a: Array, b: Array) -> Array | None:
     """Return the shortest way over one place beside the middle that keeps clearances; None without one.
 
     Between two near ends the clearances do not grow to the full ones, so that no way has to lead out so far.

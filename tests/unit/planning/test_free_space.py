@@ -15,8 +15,8 @@ from shotc.geom.solids import Cylinder, Prism, box, convex_parts, distance
 from shotc.planning.free_space import (
     COMFORT,
     Disc,
+    FreeSpace,
     Obstacle,
-    Room,
     Wall,
     blocked,
     breaches,
@@ -96,8 +96,8 @@ def test_the_gap_of_a_segment_is_nearly_its_distance(solid, a, b):
 @given(solids, hulls(2), hulls(6), st.floats(0.1, 2))
 def test_control_points_beyond_the_plane_keep_the_curve_clear(solid, chord, ctrl, clearance):
     """The corridor's whole promise: all six points beyond the half-space, all of the curve clear."""
-    room = Room((Obstacle(owner("zone z"), solid, clearance),), (), ())
-    planes = corridor(room, chord[None], 1e3)
+    space = FreeSpace((Obstacle(owner("zone z"), solid, clearance),), (), ())
+    planes = corridor(space, chord[None], 1e3)
     assume(len(planes.piece))
     n, offset = planes.normal[0], planes.offset[0]
     assume(float(distances(solid, chord).min()) > clearance)
@@ -109,10 +109,10 @@ def test_control_points_beyond_the_plane_keep_the_curve_clear(solid, chord, ctrl
 
 def test_a_piece_keeps_half_of_what_there_is_but_no_more_than_comfort():
     solid = Cylinder((0.0, 0.0), 2.0, 0.0, 10.0)
-    room = Room((Obstacle(owner("zone z"), solid, 1.0),), (), ())
+    space = FreeSpace((Obstacle(owner("zone z"), solid, 1.0),), (), ())
     for distance_, kept in ((1.2, 1.1), (9.0, 1.0 + COMFORT)):
         chord = np.array([[[2 + distance_, -1.0, 5.0], [2 + distance_, 1.0, 5.0]]])
-        planes = corridor(room, chord, 100.0)
+        planes = corridor(space, chord, 100.0)
         assert planes.offset[0] - support(solid, planes.normal)[0] == pytest.approx(kept, abs=0.02)
 
 
@@ -124,30 +124,32 @@ def test_unbounded_pockets_have_level_planes():
 
 
 def test_breaches_name_what_is_too_near_the_worst_first():
-    room = Room(
+    space = FreeSpace(
         (Obstacle(owner("zone a"), Cylinder((0.0, 0.0), 1.0, 0.0, 5.0), 1.0),),
         (Wall(owner("ground"), (0.0, 0.0, 1.0), 2.6),),
         (Disc(owner("zone ring"), (0.0, 0.0), 30.0),),
     )
-    found = breaches(room, np.array([1.5, 0.0, 1.0]))
+    found = breaches(space, np.array([1.5, 0.0, 1.0]))
     assert [(str(b.owner), round(b.lack, 6)) for b in found] == [("ground", 1.6), ("zone a", 0.5)]
-    assert [str(b.owner) for b in breaches(room, np.array([31.0, 0.0, 5.0]))] == ["zone ring"]
-    assert tuple(map(str, room.owners)) == ("zone a", "ground", "zone ring")
-    assert tuple(map(str, room.without(owner("zone a")).owners)) == ("ground", "zone ring")
-    assert room.lent(0.4).obstacles[0].clearance == pytest.approx(0.6)
+    assert [str(b.owner) for b in breaches(space, np.array([31.0, 0.0, 5.0]))] == ["zone ring"]
+    assert tuple(map(str, space.owners)) == ("zone a", "ground", "zone ring")
+    assert tuple(map(str, space.without(owner("zone a")).owners)) == ("ground", "zone ring")
+    assert space.lent(0.4).obstacles[0].clearance == pytest.approx(0.6)
 
 
 def test_blocked_spares_ends_that_are_legal_but_close():
-    room = Room((Obstacle(owner("zone a"), Cylinder((0.0, 0.0), 1.0, 0.0, 5.0), 1.0),), (), ())
+    space = FreeSpace((Obstacle(owner("zone a"), Cylinder((0.0, 0.0), 1.0, 0.0, 5.0), 1.0),), (), ())
     a = np.array([[2.001, 0.0, 2.0], [2.001, 0.0, 2.0], [-9.0, 0.0, 2.0]])
     b = np.array([[9.0, 0.0, 2.0], [-9.0, 0.0, 2.0], [9.0, 0.0, 2.0]])
-    assert blocked(room, a, b)[:, 0].tolist() == [False, True, True]
+    assert blocked(space, a, b)[:, 0].tolist() == [False, True, True]
 
 
 def test_shortfall_is_positive_exactly_where_nothing_is_proved():
     (part,) = convex_parts(box((0, 0, 5), (2, 2, 10), 0))
-    room = Room((Obstacle(owner("zone a"), part, 0.5),), (Wall(owner("ground"), (0.0, 0.0, 1.0), 1.0),), ())
+    space = FreeSpace(
+        (Obstacle(owner("zone a"), part, 0.5),), (Wall(owner("ground"), (0.0, 0.0, 1.0), 1.0),), ()
+    )
     clear = np.tile([4.0, 0.0, 5.0], (6, 1))
     low = np.tile([4.0, 0.0, 0.8], (6, 1))
     near = np.tile([1.3, 0.0, 5.0], (6, 1))
-    assert shortfall(room, np.stack([clear, low, near])) == pytest.approx([-2.5, 0.2, 0.2])
+    assert shortfall(space, np.stack([clear, low, near])) == pytest.approx([-2.5, 0.2, 0.2])

@@ -12,10 +12,10 @@ from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
     HFOV,
+    AngleTask,
     Array,
     Clock,
     ClockLeg,
-    Watch,
     quintic_hermite,
     restrict,
     turn,
@@ -55,7 +55,7 @@ def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None 
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
     ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
     clock = Clock(leg.curve.breaks, leg.start, leg.end)
-    turned = turn(Watch(subject.looker, subject.aim, ends, camera), clock, position)
+    turned = turn(AngleTask(subject.camera_task, subject.aim, ends, camera), clock, position)
     if turned.curve is None:
         return None
     breaks = position.breaks

@@ -10,9 +10,9 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
+    CameraTask,
     ClockLeg,
     Drone,
-    Looker,
     Surroundings,
     aim_at,
     aims_at,
@@ -62,9 +62,9 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
 
 def astray(subject: ClockSubject, leg: ClockLeg) -> float:
     """Return the most by which a camera misses the aim that its subject asks for, in the film, rad."""
-    watched, drone, looker = subject.watched, subject.drone, subject.looker
-    if looker.keyed is not None:
-        return _off(looker, leg)
+    watched, drone, camera_task = subject.watched, subject.drone, subject.camera_task
+    if camera_task.keyed is not None:
+        return _off(camera_task, leg)
     if watched is None:
         return 0.0
     target, uv = subject.mission.target(watched.target), watched.reference or (0.0, 0.0)
@@ -79,10 +79,10 @@ def astray(subject: ClockSubject, leg: ClockLeg) -> float:
     return worst
 
 
-def _off(looker: Looker, leg: ClockLeg) -> float:
+def _off(camera_task: CameraTask, leg: ClockLeg) -> float:
     """Return the most by which a camera misses what keyframes tell it, in the film, rad."""
     times = np.linspace(leg.start, leg.end, AIMS)
     pose = leg.curve(times)
-    aims = aims_at(looker, times, pose[:, :3])
+    aims = aims_at(camera_task, times, pose[:, :3])
     turned = np.cos(aims[:, 1]) * wrapped(pose[:, CAM_YAW] - aims[:, 0])
     return float(np.hypot(turned, pose[:, CAM_PITCH] - aims[:, 1]).max())

@@ -14,16 +14,16 @@ from shotc.plugin_api.refiner import (
     UNWATCHED,
     Array,
     Bound,
+    CameraTask,
     ClockLeg,
     Drone,
     Keyed,
-    Looker,
     Mask,
     PlacedShot,
     PlacedSubject,
     bounds_of,
+    camera_task_of,
     ideal_places,
-    looker_of,
     places,
 )
 from shotc_casadi.clock.several import pictured, where_it_fits
@@ -61,9 +61,9 @@ class ClockSubject:
         return self.path.keyframes.mission
 
     @property
-    def looker(self) -> Looker:
+    def camera_task(self) -> CameraTask:
         """Who films, and what its camera does where keyframes tell it."""
-        return looker_of(self.mission, self.drone, self.placed, self.leg.start)
+        return camera_task_of(self.mission, self.drone, self.placed, self.leg.start)
 
     @property
     def bound(self) -> tuple[Bound, ...]:
@@ -73,14 +73,14 @@ class ClockSubject:
     @property
     def watched(self) -> PlacedSubject | None:
         """What the camera follows, None where it keeps an aim or looks where it goes."""
-        if self.looker.keyed is not None:
-            return followed(self.placed, self.looker.keyed)
+        if self.camera_task.keyed is not None:
+            return followed(self.placed, self.camera_task.keyed)
         return self.placed.subjects[0] if self.placed.subjects and self.aim is None else None
 
     @property
     def framed(self) -> tuple[PlacedSubject, ...]:
         """All that is to be seen, where the camera follows something."""
-        if self.looker.keyed is not None:
+        if self.camera_task.keyed is not None:
             return () if self.watched is None else (self.watched,)
         return self.placed.subjects if self.aim is None else ()
 
@@ -133,7 +133,7 @@ def references(subject: ClockSubject, t: Array) -> ClockReferences:
     """Return what a shot wants at mission times t, shape (N + 1,)."""
     ideal = _ideal_at(subject, t)
     watched, shot, n = subject.watched, subject.placed.shot, len(t)
-    keyed = subject.looker.keyed is not None
+    keyed = subject.camera_task.keyed is not None
     placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
     centres, reach = seen_at(subject, t), _reach(subject, t, ideal)
     shown = pictured(subject.mission, subject.framed if subject.together else (), centres)
@@ -172,7 +172,7 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
     """
     leg, promise, n = subject.leg, subject.placed.shot.promise, len(t) - 1
     promised = promise.in_frame is not None or promise.screen_error is not None
-    if promised or len(subject.framed) > 1 or subject.looker.keyed is not None:
+    if promised or len(subject.framed) > 1 or subject.camera_task.keyed is not None:
         return np.full(n + 1, np.inf)
     share = np.arange(LOOKS)[:, None] / LOOKS
     times = (t[:-1] + share * np.diff(t)).ravel()
@@ -218,7 +218,7 @@ def seen_at(subject: ClockSubject, t: Array) -> Array:
 def motion(mission: MissionIR, name: str, t: Array) -> Array:
     """Return a target's smoothed position, velocity, acceleration and jerk at times; shape (M, 12).
 
-    The track is convolved with (1 - s^2)^4, s over AROUND seconds: an even motion stays what it is.
+    The track is convolved with (1 - s^2)^4, s over AROUND seconds: an linear motion stays what it is.
     """
     target = mission.target(name)
     if target.track is None:
@@ -251,6 +251,6 @@ def steepest(subject: ClockSubject, t: Array) -> Array:
     for span in subject.leg.framing:
         if watched is not None and span.target == watched.target and span.reference is not None:
             v = span.reference(t)[:, 1]
-    up = np.arctan(v * np.tan(subject.looker.hfov(t) / 2) / drone.aspect)
+    up = np.arctan(v * np.tan(subject.camera_task.hfov(t) / 2) / drone.aspect)
     low, high = (np.tan(np.clip(limit + up, -pi / 2, pi / 2)) for limit in drone.gimbal.pitch)
     return np.asarray(np.clip(np.column_stack([low, high]), -STEEPEST, STEEPEST))

@@ -179,7 +179,7 @@ def _planes(shot: _Shot, now: _Round) -> Planes:
     planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, SHARE), now.wanted, now.over)
     if not shot.unseen:
         return planes
-    return planes.and_also(shot.around.free(subject.looker, (leg.start, leg.end), now.course))
+    return planes.and_also(shot.around.free(subject.camera_task, (leg.start, leg.end), now.course))
 
 
 def _unsolved(shot: _Shot, after: _Round) -> _Round:

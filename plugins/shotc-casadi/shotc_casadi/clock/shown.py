@@ -59,7 +59,7 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
     place gives way where the camera cannot follow, or where the subject does not fit.
     """
     ideal, failed = subject.placed.shot.ideal, plain.solution.status != "solved" or plain.gap is not None
-    follows = subject.watched is not None and subject.looker.keyed is None and not subject.together
+    follows = subject.watched is not None and subject.camera_task.keyed is None and not subject.together
     if failed or not follows or ideal is None or ideal.placed or _cropped_on_purpose(subject):
         return None
     before = plain.leg or subject.leg

@@ -182,8 +182,8 @@ def _aims_at_one(x: Any, u: Any, given: Mapping[str, Any]) -> _Aimed:
     ray = t[:3] - x[POSITION]
     turned = turning(ray, t[3:6] - x[VELOCITY], t[6:9] - x[ACCELERATION], t[9:] - u[JERK])
     low, high = given["steep"][0], given["steep"][1]
-    room = given["free"] + u[SLACK]
-    limits = (ray[2] - low * over_ground(ray) + room, high * over_ground(ray) - ray[2] + room)
+    space = given["free"] + u[SLACK]
+    limits = (ray[2] - low * over_ground(ray) + space, high * over_ground(ray) - ray[2] + space)
     return _Aimed(ca.vertcat(*turned), given["price"] * u[SLACK], limits=limits)
 
 

@@ -14,8 +14,8 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, owner_of
 from shotc.ir.path import Deviation
-from shotc.planning.free_space import Room
-from shotc.planning.obstacles import flight_room, pad_room
+from shotc.planning.free_space import FreeSpace
+from shotc.planning.obstacles import flight_space, pad_space
 from shotc.planning.path.angles import NOTICE, Cut
 from shotc.planning.path.gap import lower_clearance, narrow_gap, opening
 from shotc.planning.path.lines import NoWay, TooNear
@@ -37,16 +37,16 @@ _WAY = {"over": "down", "under": "up"}
 
 
 def failure(
-    mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Failure
+    mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: Failure
 ) -> Diagnostic:
     """Return the error for one failure; ``shot`` is the one it belongs to, None on the way home."""
     match what:
         case NoWay():
-            return _no_way(mission, drone, room, shot, what)
+            return _no_way(mission, drone, space, shot, what)
         case TooNear():
             return _too_near(mission, drone, shot, what)
         case Stuck():
-            return _stuck(mission, drone, room, shot, what)
+            return _stuck(mission, drone, space, shot, what)
         case AngleFailure():
             return _angles(mission, drone, shot, what)
         case _:
@@ -88,7 +88,7 @@ def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
     for share, k in product(FARTHER, range(ROUND)):
         way, angle = share * lack + NUDGE, 2.0 * pi * k / ROUND
         there = drone._replace(home=(round(x + way * sin(angle), 2), round(y + way * cos(angle), 2), z))
-        free = transit_point(flight_room(mission, there), pad_room(mission, there), there)
+        free = transit_point(flight_space(mission, there), pad_space(mission, there), there)
         if not isinstance(free, PadBlocked):
             return f"move home to {_point(np.array(there.home))}, {way:.2f} m away"
     return f"move home, {at_least(lack)} m at least"
@@ -174,9 +174,11 @@ def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
     return Diagnostic("Q009", message, labels[: 1 + (first.path != second.path)], tuple(notes), help_)
 
 
-def _no_way(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: NoWay) -> Diagnostic:
-    openers = opening(room, what.start, what.end)
-    gap = narrow_gap(room, what.start, what.end, openers)
+def _no_way(
+    mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: NoWay
+) -> Diagnostic:
+    openers = opening(space, what.start, what.end)
+    gap = narrow_gap(space, what.start, what.end, openers)
     lower = lower_clearance(mission, drone, what.start, what.end)
     labels = _ends(mission, drone, shot, what.keyframes)
     labels += [_owner_label(mission, name, "without it there is a way") for name in openers]
@@ -221,7 +223,9 @@ def _too_near(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: T
     )
 
 
-def _stuck(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None, what: Stuck) -> Diagnostic:
+def _stuck(
+    mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: Stuck
+) -> Diagnostic:
     ends = (what.keyframes[0], what.keyframes[-1]) if what.keyframes else (-1, -1)
     if what.solved.status is not Status.INFEASIBLE:
         return _solver_failed(mission, drone, shot, f"path ({what.solved.status})")
@@ -238,7 +242,7 @@ def _stuck(mission: MissionIR, drone: Drone, room: Room, shot: PlacedShot | None
         f"the corridor {_leading(shot, ends)} is too tight for a smooth path of `{drone.name}`",
         tuple(labels),
         tuple(notes),
-        remedy(mission, drone, room, shot, what)
+        remedy(mission, drone, space, shot, what)
         or "lead the way through wider places: move the end points, or what stands between them",
     )
 

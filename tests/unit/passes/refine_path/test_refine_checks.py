@@ -12,8 +12,8 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import subdivide
 from shotc.geom.solids import Cylinder
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HoldLeg, Z
-from shotc.passes.refine_path.room import nearest
-from shotc.planning.free_space import Disc, Obstacle, Room, Wall
+from shotc.passes.refine_path.limits import nearest
+from shotc.planning.free_space import Disc, FreeSpace, Obstacle, Wall
 from tests.support.bad_refiners import (
     MISSION,
     PASS,
@@ -241,7 +241,7 @@ def line(start, end, pieces=1):
 
 
 POLE = Obstacle(owner("zone pole"), Cylinder((0.0, 0.0), 1.0, 0.0, 20.0), 0.5)
-ROOM = Room(
+ROOM = FreeSpace(
     (POLE,),
     (Wall(owner("ground"), (0.0, 0.0, 1.0), 2.0, 2.0),),
     (Disc(owner("zone ring"), (0.0, 0.0), 50.0),),

@@ -11,7 +11,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.owners import GROUND, zone_owner
 from shotc.passes.solve_path_qp.explain.path import failure
-from shotc.planning.obstacles import flight_room
+from shotc.planning.obstacles import flight_space
 from shotc.planning.path.position import Solved, Stretch, solve_stretch
 from shotc.planning.path.shots import Stuck
 from shotc.solvers.conic import Status
@@ -30,10 +30,10 @@ def told(made, corners):
     ends = tuple(range(len(corners)))
     stretch = Stretch(corners, s, ends, np.zeros((0, 3)), np.zeros(0), 0.75)
     drone = made.drones[0]
-    room = flight_room(made, drone)
-    found = solve_stretch(room, stretch, drone.limits)
+    space = flight_space(made, drone)
+    found = solve_stretch(space, stretch, drone.limits)
     assert found.curve is None
-    return failure(made, drone, room, through(corners), Stuck(found, corners, ends))
+    return failure(made, drone, space, through(corners), Stuck(found, corners, ends))
 
 
 def through(corners):
@@ -99,14 +99,14 @@ def test_where_nothing_tried_helps_no_number_is_promised():
 def test_what_need_not_give_way_is_not_listed():
     made = scene(POLE)
     drone, placed = made.drones[0], through(PAST)
-    room = flight_room(made, drone)
+    space = flight_space(made, drone)
 
     def fault(owners, points):
         nothing = Relaxation(Status.SOLVED, None, np.array(owners), np.array(points))
         solved = Solved(
             None, Status.INFEASIBLE, float("nan"), 1, nothing, (zone_owner(made.zones[0]), GROUND)
         )
-        return failure(made, drone, room, placed, Stuck(solved, PAST, (0, 1, 2)))
+        return failure(made, drone, space, placed, Stuck(solved, PAST, (0, 1, 2)))
 
     some = fault([0.4, 0.004], [0.0, 0.003, 0.0])
     assert some.code == "Q003"

@@ -14,8 +14,8 @@ from shotc.ir.mission import Drone
 from shotc.ir.parked import bodies, parked
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify import judge
-from shotc.planning.clock.sights import sights_of
-from shotc.planning.obstacles import flight_room, pad_room
+from shotc.planning.clock.visibility import visibility_of
+from shotc.planning.obstacles import flight_space, pad_space
 from tests.support import show_plans
 from tests.support.records import replace
 from tests.support.tampered_plans import CONTEXT, MISSION, PLAN, with_mission
@@ -108,19 +108,19 @@ def test_everybody_is_who_flies_and_who_stands() -> None:
 def test_planners_keep_clear_of_it_wherever_they_look_at_what_stands() -> None:
     mission = with_spare((9.0, -60.0, 0.5), separation=7.0).keyframes.mission
     flies, stands = mission.drones
-    for room in (flight_room(mission, flies), pad_room(mission, flies)):
-        (pad,) = (o for o in room.obstacles if str(o.owner) == "drone cam2")
+    for space in (flight_space(mission, flies), pad_space(mission, flies)):
+        (pad,) = (o for o in space.obstacles if str(o.owner) == "drone cam2")
         assert pad.clearance == 7.0
         assert (pad.part.bottom, pad.part.top) == (0.5, 0.5)
-        assert "drone cam1" not in {o.owner for o in room.obstacles}
-    assert "drone cam2" not in {o.owner for o in flight_room(mission, stands).obstacles}
+        assert "drone cam1" not in {o.owner for o in space.obstacles}
+    assert "drone cam2" not in {o.owner for o in flight_space(mission, stands).obstacles}
     assert "drone cam2" in {str(o.owner) for o in keep_outs(mission, flies)}
 
 
 @pytest.mark.parametrize(("strength", "count"), [("require", 1), ("prefer", 0), ("off", 0)])
 def test_a_pad_in_a_picture_bends_a_shot_only_where_it_must_not_be(strength: str, count: int) -> None:
     mission = with_spare((9.0, -60.0, 0.5), visibility=strength).keyframes.mission
-    assert len(sights_of(mission, mission.drones[0], {}).bodies) == count
+    assert len(visibility_of(mission, mission.drones[0], {}).bodies) == count
 
 
 @pytest.mark.slow

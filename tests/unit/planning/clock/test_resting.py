@@ -18,7 +18,7 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.resting import FARTHEST, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp
-from shotc.planning.free_space import Room, Wall
+from shotc.planning.free_space import FreeSpace, Wall
 from tests.support.owners import owner
 
 pytestmark = pytest.mark.slow
@@ -26,7 +26,7 @@ pytestmark = pytest.mark.slow
 LIMITS = Limits(
     speed=8.0, climb=3.0, descent=2.0, acceleration=3.0, jerk=8.0, yaw_rate=1.0, yaw_acceleration=1.0
 )
-GROUND = Room((), (Wall(owner("ground"), (0.0, 0.0, 1.0), 1.0, 1.0),), ())
+GROUND = FreeSpace((), (Wall(owner("ground"), (0.0, 0.0, 1.0), 1.0, 1.0),), ())
 BODY = Cylinder((0.0, 0.0), 0.5, -0.9, 0.9)
 LEAD = """\
 shotc: 1
@@ -131,7 +131,7 @@ def test_a_place_where_nothing_passes_stays() -> None:
 
 
 def test_where_there_is_no_place_aside_the_drone_stays() -> None:
-    low = Room((), (*GROUND.walls, Wall(owner("ceiling"), (0.0, 0.0, -1.0), -3.0, 0.0)), ())
+    low = FreeSpace((), (*GROUND.walls, Wall(owner("ceiling"), (0.0, 0.0, -1.0), -3.0, 0.0)), ())
     crowd = [passing((0.0, y), (0.0, 0.0)) for y in np.arange(-FARTHEST, FARTHEST + 1, 3.0)]
     crowd += [passing((x, y), (0, 0)) for x in (-12, -6, 6, 12) for y in np.arange(-15, 16, 3.0)]
     assert not aside_of_what_passes(crowd, low, np.array([0.0, 0.0, 1.5]), (0.0, 20.0)).any()

@@ -13,7 +13,7 @@ from shotc.geom.bspline import restrict, subdivide
 from shotc.ir.passes import PassContext
 from shotc.ir.path import ClockLeg, PathIR
 from shotc.passes.parameterize_time import ParameterizeTime
-from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.flights import flights
 from shotc.planning.clock.surroundings import surroundings
 
@@ -121,8 +121,8 @@ def test_a_course_keeps_its_own_half_spaces_beside_pictures() -> None:
     mission, guide = path().keyframes.mission, fine("side")
     around = surroundings(path(), mission.drone("cam1"), guide.breaks)
     (placed,) = (p for p in path().keyframes.shots if p.shot.id == "side")
-    looker = Looker(mission, mission.drone("cam1"), placed.subjects)
-    planes = around.free(looker, (leg("side").start, leg("side").end), guide)
+    camera_task = CameraTask(mission, mission.drone("cam1"), placed.subjects)
+    planes = around.free(camera_task, (leg("side").start, leg("side").end), guide)
     reach = np.einsum("pmd,pd->pm", guide.ctrl[planes.piece], planes.normal).min(axis=1)
     assert (reach - planes.border[:, 0]).min(initial=0.0) > -1e-9
     assert len(set(planes.piece)) == len(planes.piece)

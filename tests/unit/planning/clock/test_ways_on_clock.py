@@ -22,16 +22,16 @@ from shotc.ir.path import MovingLeg
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.verify.advice import Rule, advice
-from shotc.planning.clock.aims import Looker
+from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import When, choose
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.run_up import least_time, rest_to_rest
-from shotc.planning.clock.shot import TimedShot, Traffic, timed_shot
-from shotc.planning.clock.sights import Sights
-from shotc.planning.clock.starts import CLOSE, SPARE, Reached, Trouble, put_off
+from shotc.planning.clock.shot import OtherVehicles, TimedShot, timed_shot
+from shotc.planning.clock.starts import CLOSE, SPARE, ClockFailure, Reached, put_off
 from shotc.planning.clock.sweeps import with_sweeps
-from shotc.planning.free_space import Room
-from shotc.planning.obstacles import Rooms, rooms_of
+from shotc.planning.clock.visibility import Visibility
+from shotc.planning.free_space import FreeSpace
+from shotc.planning.obstacles import FreeSpaces, free_spaces_of
 from shotc.planning.path.legs import Flight, Pose, way_to
 from shotc.planning.timing.estimate import leg_time
 from tests.support.front_passes import placed
@@ -39,7 +39,7 @@ from tests.support.owners import owner
 
 pytestmark = pytest.mark.slow
 
-EMPTY = Room((), (), ())
+EMPTY = FreeSpace((), (), ())
 PAIR = """\
 shotc: 1
 mission: pair
@@ -189,7 +189,7 @@ class Chaser:
         self.slope, self.offset, self.idle = slope, offset, idle
         self.starts: list[float] = []
 
-    def __call__(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+    def __call__(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         self.starts.append(start)
         made = type("Shot", (), {"leg": type("Leg", (), {"start": start})()})()
         gained = (1.0 - self.slope) * max(0.0, start - self.idle)
@@ -227,7 +227,7 @@ def test_a_way_that_costs_more_once_is_no_reason_to_give_a_drone_up() -> None:
     """From 6 s on the short way is barred, and the one over it takes 7 s more."""
 
     class Barred(Chaser):
-        def __call__(self, placed: PlacedShot, start: float) -> Reached | Trouble:
+        def __call__(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
             reached = super().__call__(placed, start)
             assert isinstance(reached, Reached)
             return replace(reached, late=reached.late + (7.0 if start > 6.0 else 0.0))
@@ -270,8 +270,10 @@ def test_a_motion_is_near_what_it_films_or_there_is_none() -> None:
 
     drone = mission.drones[1]
     beside = Moving(owner("drone cam1"), point((0.0, 0.0, 0.0)), 3.0, flown, always=True)
-    looker = Looker(mission, drone, second.subjects)
-    made = timed_shot(looker, (rooms_of(mission, drone), Traffic((beside,), Sights())), second, 8.14)
+    camera_task = CameraTask(mission, drone, second.subjects)
+    made = timed_shot(
+        camera_task, (free_spaces_of(mission, drone), OtherVehicles((beside,), Visibility())), second, 8.14
+    )
     assert isinstance(made, TimedShot)
     begin = np.array(ideal_place(mission, second.shot, 8.14, 8.14))
     assert np.linalg.norm(made.leg.curve(8.14)[:3] - begin) < 10.0
@@ -281,7 +283,7 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
     """A drone hovers half way: the straight way is in time, the one over it is not."""
     mission = pair()
     drone = mission.drones[0]
-    flight = Flight(drone, Rooms(EMPTY, EMPTY), np.array([0.0, 0.0, 5.0]))
+    flight = Flight(drone, FreeSpaces(EMPTY, EMPTY), np.array([0.0, 0.0, 5.0]))
     here, high, above, there = (
         (x, 0.0, z, 0.0, 0.0, 0.0, 1.2) for x, z in ((0.0, 5.0), (0.0, 12.0), (40.0, 12.0), (40.0, 5.0))
     )
@@ -295,7 +297,9 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
     )
     straight, over = legs(here, there), legs(here, high, above, there)
     lasts = sum(leg_time(drone, leg) for leg in straight)
-    way = choose(mission, drone, Traffic((hovers,), Sights()), [straight, over], When(0.0, lasts + 0.1))
+    way = choose(
+        mission, drone, OtherVehicles((hovers,), Visibility()), [straight, over], When(0.0, lasts + 0.1)
+    )
     assert way is not None
     assert len(way.legs) == 3
     assert way.end > lasts + 1.0
@@ -308,7 +312,7 @@ def test_a_sweep_holds_all_places_of_its_target() -> None:
         return np.column_stack([np.sin(times), 0.3 * times, 1.0 + 0.1 * times])
 
     moving = [Moving(owner("target x"), part, 1.6, at, apart=5.6)]
-    flight, transit, _ = with_sweeps(Rooms(EMPTY, EMPTY), moving, (2.0, 5.0))
+    flight, transit, _ = with_sweeps(FreeSpaces(EMPTY, EMPTY), moving, (2.0, 5.0))
     (swept,), (wide,) = flight.obstacles, transit.obstacles
     angle = np.linspace(0.0, 2 * np.pi, 24)
     rim = np.column_stack([0.89 * np.cos(angle), 0.89 * np.sin(angle), np.zeros(24)])

@@ -21,7 +21,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.preference import prefers_free_pictures
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.clock.aims import Looker, aims_at
+from shotc.planning.clock.aims import CameraTask, aims_at
 from shotc.solvers.spline_problem import Floors
 
 MARGIN = 0.3  # metres that a body is kept out of a picture by
@@ -51,7 +51,7 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sights:
+class Visibility:
     """Whose pictures a drone keeps out of, and whom it keeps out of its own.
 
     half_angle : as in ``ir.mission.Rules``; preferred : whether they are kept free only by the rule of
@@ -64,10 +64,10 @@ class Sights:
     preferred: bool = False
 
 
-def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTrajectory]) -> Sights:
-    """Return the sights that count for a drone, of the flights planned before its own."""
+def visibility_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTrajectory]) -> Visibility:
+    """Return the visibility constraints that count for a drone, of the flights planned before its own."""
     if mission.rules.visibility == "off":
-        return Sights()
+        return Visibility()
     watchers, bodies = [], []
     for name, flight in flights.items():
         if name == drone.name:
@@ -80,7 +80,7 @@ def sights_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTraje
         # No shot is bent for a pad that is only preferred not to be seen.
         bodies += [Body(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
     preferred = prefers_free_pictures(mission)
-    return Sights(tuple(watchers), tuple(bodies), mission.rules.half_angle, preferred)
+    return Visibility(tuple(watchers), tuple(bodies), mission.rules.half_angle, preferred)
 
 
 def _camera(curve: Piecewise, aspect: float, times: Array) -> Cameras:
@@ -105,7 +105,11 @@ class Kept:
 
 
 def keep_free(
-    looker: Looker, sights: Sights, span: tuple[float, float], breaks: Array, course: Callable[[Array], Array]
+    camera_task: CameraTask,
+    visibility: Visibility,
+    span: tuple[float, float],
+    breaks: Array,
+    course: Callable[[Array], Array],
 ) -> Kept:
     """Return what keeps a course out of others' pictures, and others out of its own.
 
@@ -115,26 +119,28 @@ def keep_free(
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * middle).ravel()
     asked: list[tuple[Outside, Array]] = [
         (
-            partial(_in_theirs, watcher, looker.drone.radius, sights.half_angle),
+            partial(_in_theirs, watcher, camera_task.drone.radius, visibility.half_angle),
             times[(times > watcher.start) & (times < watcher.end)],
         )
-        for watcher in sights.watchers
+        for watcher in visibility.watchers
     ]
-    if looker.watches:
+    if camera_task.watches:
         own = times[(times > span[0]) & (times < span[1])]
-        asked += [(partial(_in_own, looker, body, sights.half_angle), own) for body in sights.bodies]
+        asked += [
+            (partial(_in_own, camera_task, body, visibility.half_angle), own) for body in visibility.bodies
+        ]
     found = [_linear(outside_of, at, breaks, course) for outside_of, at in asked if len(at)]
     floors = tuple(kept for part in found for kept in part.floors)
     return Kept(floors, min((part.worst for part in found), default=np.inf))
 
 
-def seen_on(drone: Drone, sights: Sights, times: Array, places: Array) -> float:
+def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -> float:
     """Return how far a drone on its way is out of others' pictures at worst, metres; negative inside."""
     least = np.inf
-    for watcher in sights.watchers:
+    for watcher in visibility.watchers:
         films = (times > watcher.start) & (times < watcher.end)
         if films.any():
-            found = _in_theirs(watcher, drone.radius, sights.half_angle, times[films], places[films])
+            found = _in_theirs(watcher, drone.radius, visibility.half_angle, times[films], places[films])
             least = min(least, float(found.min()))
     return float(least)
 
@@ -159,7 +165,9 @@ def _in_theirs(
     return _out(watcher.camera(times), places, radius, half_angle)
 
 
-def _in_own(looker: Looker, body: Body, half_angle: float | None, times: Array, places: Array) -> Array:
-    drone, aims = looker.drone, aims_at(looker, times, places)
-    camera = Cameras(places, aims[:, 0], aims[:, 1], looker.hfov(times), drone.aspect)
+def _in_own(
+    camera_task: CameraTask, body: Body, half_angle: float | None, times: Array, places: Array
+) -> Array:
+    drone, aims = camera_task.drone, aims_at(camera_task, times, places)
+    camera = Cameras(places, aims[:, 0], aims[:, 1], camera_task.hfov(times), drone.aspect)
     return _out(camera, body.at(times), body.radius, half_angle)

@@ -33,8 +33,8 @@ from shotc.ir.phases import UPRIGHT
 from shotc.ir.tolerances import ON_PLACE
 from shotc.passes.refine_path.finding import Finding
 from shotc.passes.solver_reports import place
-from shotc.planning.free_space import Room, breaches, shortfall
-from shotc.planning.obstacles import flight_room
+from shotc.planning.free_space import FreeSpace, breaches, shortfall
+from shotc.planning.obstacles import flight_space
 
 TOLERANCE = 2e-6
 """Metres and radians beyond a limit that still keep it, as where the convex path is made."""
@@ -58,43 +58,43 @@ def limits(path: PathIR) -> Iterator[Finding]:
     every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
     for track in every:
         drone = mission.drone(track.drone)
-        room = flight_room(mission, drone)
+        space = flight_space(mission, drone)
         for leg in track.legs:
             if not isinstance(leg, HoldLeg):
                 if isinstance(leg, ClockLeg) or leg.phase not in UPRIGHT:
-                    yield from _clearance(mission, room, leg, leg.curve)
+                    yield from _clearance(mission, space, leg, leg.curve)
                 yield from _gimbal(mission, drone, leg, leg.curve)
     yield from _keyframes(path)
 
 
-def nearest(room: Room, curve: Piecewise) -> Near | None:
+def nearest(space: FreeSpace, curve: Piecewise) -> Near | None:
     """Return where a curve of channels x, y, z is too near by the most, None where it nowhere is."""
     bag, worst = pieces(curve), None
     for _ in range(HALVINGS):
         least = TOLERANCE if worst is None else worst.lack + ENOUGH
-        bag = bag.pick(shortfall(room, bag.ctrl) > least)
+        bag = bag.pick(shortfall(space, bag.ctrl) > least)
         if not len(bag):
             break
-        found = _worst_of(room, bag)
+        found = _worst_of(space, bag)
         if found.lack > TOLERANCE and (worst is None or found.lack > worst.lack):
             worst = found
         bag = bag.halves()
     return worst
 
 
-def _worst_of(room: Room, bag: Pieces) -> Near:
+def _worst_of(space: FreeSpace, bag: Pieces) -> Near:
     at = np.concatenate([bag.low, bag.high])
     points = np.concatenate([bag.ctrl[:, 0], bag.ctrl[:, -1]])
-    lack = shortfall(room, points[:, None, :])
+    lack = shortfall(space, points[:, None, :])
     k = int(lack.argmax())
     return Near(float(at[k]), points[k], float(lack[k]))
 
 
-def _clearance(mission: MissionIR, room: Room, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
-    near = nearest(room, curve.channels(0, 1, 2))
+def _clearance(mission: MissionIR, space: FreeSpace, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+    near = nearest(space, curve.channels(0, 1, 2))
     if near is None:
         return
-    breach = breaches(room, near.point)[0]
+    breach = breaches(space, near.point)[0]
     clearance = f"short of its clearance of {breach.clearance:.2f} m"
     lacks = clearance if breach.clearance > 0 else "beyond where the drone's centre must stay"
     x, y, z = near.point
