@@ -9,8 +9,8 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray, Rows, control_rows
 from shotc.ir.owners import Owner
-from shotc.planning.free_space import FreeSpace, Planes, corridor, kept
-from shotc.solvers.spline_problem import Cones, Floors, SplineProblem
+from shotc.planning.free_space import FreeSpace, HalfSpaces, corridor, kept
+from shotc.solvers.spline_problem import Cones, HalfSpaceRows, SplineProblem
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,7 +19,7 @@ class Around:
 
     hulls : shape (P, m, 3), for each piece points whose hull holds it, or is to hold it
     reach : obstacles within this distance beyond their clearance count, metres
-    share : see ``geom.corridor.corridor``
+    share : see ``free_space.corridor``
     """
 
     space: FreeSpace
@@ -34,15 +34,17 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
     index = {name: i for i, name in enumerate(around.space.owners)}
     planes = corridor(around.space, around.hulls, around.reach, around.share)
     owner = np.array([index[o.owner] for o in around.space.obstacles], dtype=np.intp)
-    floors = [_floors(around, planes, owner[planes.obstacle])] if len(planes.obstacle) else []
-    floors += _wall_floors(around, index)
-    return replace(base, floors=tuple(floors), cones=base.cones + _disc_cones(around, index))
+    half_spaces = [rows_of(around.breaks, planes, owner[planes.owner])] if len(planes.piece) else []
+    half_spaces += _wall_floors(around, index)
+    return replace(base, half_spaces=tuple(half_spaces), cones=base.cones + _disc_cones(around, index))
 
 
-def _floors(around: Around, planes: Planes, owner: IntArray) -> Floors:
-    rows = points_of(around.breaks, planes.piece)
-    offset = planes.offset[:, None] - planes.eased
-    return Floors(rows, np.repeat(planes.normal, 6, axis=0), offset.ravel(), np.repeat(owner, 6))
+def rows_of(breaks: Array, planes: HalfSpaces, owner: IntArray) -> HalfSpaceRows:
+    """Return half-spaces as rows of a programme; owner : whom each belongs to there, shape (R,)."""
+    rows = points_of(breaks, planes.piece)
+    return HalfSpaceRows(
+        rows, np.repeat(planes.normal, 6, axis=0), planes.offset.ravel(), np.repeat(owner, 6)
+    )
 
 
 def points_of(breaks: Array, pieces: IntArray) -> Rows:
@@ -51,8 +53,8 @@ def points_of(breaks: Array, pieces: IntArray) -> Rows:
     return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
 
 
-def _wall_floors(around: Around, index: dict[Owner, int]) -> list[Floors]:
-    floors = []
+def _wall_floors(around: Around, index: dict[Owner, int]) -> list[HalfSpaceRows]:
+    half_spaces = []
     for wall in around.space.walls:
         n = np.array(wall.normal)
         slack = (around.hulls @ n).min(axis=1) - wall.offset
@@ -60,9 +62,10 @@ def _wall_floors(around: Around, index: dict[Owner, int]) -> list[Floors]:
         if not len(near):
             continue
         offset = wall.offset + kept(slack[near], around.share)
-        planes = Planes(near, near, np.tile(n, (len(near), 1)), offset, np.zeros((len(near), 6)))
-        floors.append(_floors(around, planes, np.full(len(near), index[wall.owner])))
-    return floors
+        owner = np.full(len(near), index[wall.owner])
+        planes = HalfSpaces(near, np.tile(n, (len(near), 1)), np.repeat(offset[:, None], 6, axis=1), owner)
+        half_spaces.append(rows_of(around.breaks, planes, owner))
+    return half_spaces
 
 
 def _disc_cones(around: Around, index: dict[Owner, int]) -> tuple[Cones, ...]:

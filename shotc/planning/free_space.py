@@ -159,29 +159,50 @@ def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN) -> Boo
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Planes:
-    """Half-spaces n.p >= offset for pieces of a curve.
+class HalfSpaces:
+    """Half-spaces n . p >= offset for the control points of pieces of a curve.
 
-    piece, obstacle : shape (R,), which piece keeps away from which obstacle
-    normal, offset  : shapes (R, 3), (R,)
-    eased           : by how much less the offset is for each of a piece's six control points, shape (R, 6)
+    piece : shape (R,), which piece; normal : (R, 3), units of W
+    offset : (R, 6), metres, for each of the piece's six control points
+    owner : shape (R,), index of what it keeps the piece away from
     """
 
     piece: IntArray
-    obstacle: IntArray
     normal: Array
     offset: Array
-    eased: Array
+    owner: IntArray
+
+    def and_also(self, *others: HalfSpaces) -> HalfSpaces:
+        """Return these and those of others."""
+        every = (self, *others)
+        return HalfSpaces(
+            np.concatenate([each.piece for each in every]),
+            np.concatenate([each.normal for each in every]),
+            np.concatenate([each.offset for each in every]),
+            np.concatenate([each.owner for each in every]),
+        )
 
 
-def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -> Planes:
+NO_HALF_SPACES = HalfSpaces(
+    np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros((0, 6)), np.zeros(0, dtype=np.intp)
+)
+
+
+def beside(piece: IntArray, normal: Array, ends: Array) -> HalfSpaces:
+    """Return half-spaces whose offsets, shape (R, 2), are those at the pieces' ends and linear between."""
+    x = np.linspace(0.0, 1.0, 6)
+    offset = (1.0 - x) * ends[:, :1] + x * ends[:, 1:]
+    return HalfSpaces(piece, normal, offset, np.zeros(len(piece), dtype=np.intp))
+
+
+def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -> HalfSpaces:
     """Separate every piece from every obstacle within ``reach`` metres beyond its clearance.
 
     hulls : shape (P, m, 3), points whose hull holds each piece
     share : of the distance a piece has beyond the clearance, this much is kept, COMFORT at most
     A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
     """
-    pieces, obstacles, normals, offsets, eased = [], [], [], [], []
+    found: list[HalfSpaces] = []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
     for j, o in enumerate(space.obstacles):
         near = np.flatnonzero(distances(o.part, middle) < o.clearance + reach + size)
@@ -197,15 +218,9 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
             less = o.clearance - taper(space, o).needs(points)
             along = np.einsum("nmd,nd->nm", points, n) - border[:, None]
             slack = (along - o.clearance + less).min(axis=1)
-        pieces.append(near)
-        obstacles.append(np.full(len(near), j))
-        normals.append(n)
-        offsets.append(border + o.clearance + kept(slack, share))
-        eased.append(less)
-    if not pieces:
-        none = np.zeros(0, dtype=np.intp)
-        return Planes(none, none, np.zeros((0, 3)), np.zeros(0), np.zeros((0, 6)))
-    return Planes(*map(np.concatenate, (pieces, obstacles, normals, offsets, eased)))
+        offset = (border + o.clearance + kept(slack, share))[:, None] - less
+        found.append(HalfSpaces(near, n, offset, np.full(len(near), j)))
+    return NO_HALF_SPACES.and_also(*found)
 
 
 def taper(space: FreeSpace, obstacle: Obstacle) -> Taper:

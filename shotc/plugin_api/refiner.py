@@ -44,9 +44,9 @@ from shotc.planning.clock.flights import FlownShot, flights, flown_shot
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import Keyed
 from shotc.planning.clock.pictures import least_out
-from shotc.planning.clock.surroundings import Planes, Surroundings, surroundings
+from shotc.planning.clock.surroundings import Surroundings, surroundings
 from shotc.planning.framing.moments import placed_at
-from shotc.planning.free_space import FreeSpace, corridor, kept, shortfall
+from shotc.planning.free_space import NO_HALF_SPACES, FreeSpace, HalfSpaces, beside, corridor, kept, shortfall
 from shotc.planning.obstacles import flight_space
 from shotc.planning.path.angles import smoother
 from shotc.planning.path.rejoin import rejoined
@@ -64,6 +64,7 @@ __all__ = [
     "CAM_YAW",
     "HFOV",
     "MOST_MOVED",
+    "NO_HALF_SPACES",
     "ROUNDING",
     "UNWATCHED",
     "AngleTask",
@@ -79,6 +80,7 @@ __all__ = [
     "Fit",
     "FlownShot",
     "FreeSpace",
+    "HalfSpaces",
     "HoldLeg",
     "IntArray",
     "Keyed",
@@ -88,7 +90,6 @@ __all__ = [
     "PlacedKeyframe",
     "PlacedShot",
     "PlacedSubject",
-    "Planes",
     "Solid",
     "Status",
     "Surroundings",
@@ -96,6 +97,7 @@ __all__ = [
     "View",
     "aim_at",
     "aims_at",
+    "beside",
     "bounded",
     "bounds_of",
     "camera_task_of",

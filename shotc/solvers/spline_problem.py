@@ -36,7 +36,7 @@ class Equalities:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Floors:
+class HalfSpaceRows:
     """Rows whose component along ``normal``, shape (R, 3), is at least ``offset``, shape (R,).
 
     owner : shape (R,), an index of whom the row belongs to; it only matters to ``relax``
@@ -55,7 +55,7 @@ class Cones:
     axes   : the components that count
     centre : shape (R, len(axes)); bound : shape (R,)
     price  : shape (R,), cost of each unit above the bound; None where the bound is hard
-    owner  : shape (R,), as in Floors
+    owner  : shape (R,), as in HalfSpaceRows
     """
 
     rows: Rows
@@ -73,7 +73,7 @@ class SplineProblem:
     size: int
     goals: tuple[Goal, ...]
     equalities: Equalities
-    floors: tuple[Floors, ...] = ()
+    half_spaces: tuple[HalfSpaceRows, ...] = ()
     cones: tuple[Cones, ...] = ()
 
 
@@ -90,7 +90,9 @@ def centred(problem: SplineProblem, about: Array) -> SplineProblem:
         problem.size,
         tuple(replace(g, value=g.value + shift(g.rows)) for g in problem.goals),
         Equalities(problem.equalities.rows, problem.equalities.value + shift(problem.equalities.rows)),
-        tuple(replace(f, offset=f.offset + (shift(f.rows) * f.normal).sum(axis=1)) for f in problem.floors),
+        tuple(
+            replace(f, offset=f.offset + (shift(f.rows) * f.normal).sum(axis=1)) for f in problem.half_spaces
+        ),
         tuple(replace(c, centre=c.centre + shift(c.rows)[:, list(c.axes)]) for c in problem.cones),
     )
 

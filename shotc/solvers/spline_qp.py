@@ -72,7 +72,7 @@ def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
         problem.size,
         tuple(replace(g, value=np.zeros_like(g.value)) for g in problem.goals),
         replace(problem.equalities, value=np.zeros_like(problem.equalities.value)),
-        tuple(replace(f, offset=f.offset - (of(f.rows) * f.normal).sum(axis=1)) for f in problem.floors),
+        tuple(replace(f, offset=f.offset - (of(f.rows) * f.normal).sum(axis=1)) for f in problem.half_spaces),
         tuple(replace(c, centre=c.centre - of(c.rows, c.axes)) for c in problem.cones),
     )
 
@@ -110,7 +110,7 @@ def _keeps(problem: SplineProblem, coef: Array) -> bool:
     miss = np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value)
     return (
         bool((miss <= MISS).all())
-        and all(((f.rows.apply(coef) * f.normal).sum(axis=1) >= f.offset).all() for f in problem.floors)
+        and all(((f.rows.apply(coef) * f.normal).sum(axis=1) >= f.offset).all() for f in problem.half_spaces)
         and all((_lengths(cone, coef) <= cone.bound).all() for cone in problem.cones)
     )
 
@@ -138,7 +138,7 @@ def programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     for axis in EVERY:
         equal = problem.equalities
         rows.zero(terms(equal.rows, first=axis * problem.size), -equal.value[:, axis])
-    for floor in problem.floors:
+    for floor in problem.half_spaces:
         along = (terms(floor.rows, floor.normal[:, axis], axis * problem.size) for axis in EVERY)
         rows.positive(-floor.offset, list(chain.from_iterable(along)))
     for cone in problem.cones:

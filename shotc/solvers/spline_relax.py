@@ -13,7 +13,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import Rows
 from shotc.solvers.conic import Status, solve
-from shotc.solvers.spline_problem import Cones, Floors, SplineProblem, centred, scalar_map
+from shotc.solvers.spline_problem import Cones, HalfSpaceRows, SplineProblem, centred, scalar_map
 
 POINT_PRICE = 1.01  # of a metre that a point gives way: where a floor gives as little, the point stays
 
@@ -23,18 +23,18 @@ class Relaxation:
     """The least changes that let an infeasible problem be solved.
 
     coef : shape (size, 3), the curve they allow
-    floor_lack : per owner of hard floors and cones, by how much it must give way, metres
+    owner_lack : per owner of half-spaces and hard cones, by how much it must give way, metres
     point_shift : per equality, by how far its point must move, metres
     """
 
     status: Status
     coef: Array | None
-    floor_lack: Array
+    owner_lack: Array
     point_shift: Array
 
 
 def relax(problem: SplineProblem, owners: int) -> Relaxation:
-    """Return the smallest give-way (sum of metres) of floors, hard cones and points that is feasible.
+    """Return the smallest give-way (sum of metres) of half-spaces, hard cones and points that is feasible.
 
     Soft cones and the energy are left out: they never stop anything.
     """
@@ -48,7 +48,9 @@ def relax(problem: SplineProblem, owners: int) -> Relaxation:
     shift = cp.Variable(points, nonneg=True)
     miss = _block(problem.equalities.rows, problem.size) @ x - problem.equalities.value.T.ravel()
     constraints = [cp.SOC(shift, cp.reshape(miss, (points, 3), order="F"), axis=1)]
-    constraints += [_floor_map(f, problem.size) @ x + lack[f.owner] >= f.offset for f in problem.floors]
+    constraints += [
+        _half_space_map(f, problem.size) @ x + lack[f.owner] >= f.offset for f in problem.half_spaces
+    ]
     hard = [cone for cone in problem.cones if cone.price is None]
     constraints += [_cone(c, problem.size, x, c.bound + lack[c.owner]) for c in hard]
     programme = cp.Problem(cp.Minimize(cp.sum(lack) + POINT_PRICE * cp.sum(shift)), constraints)
@@ -67,11 +69,11 @@ def _block(rows: Rows, size: int) -> Any:
     return block_diag([one, one, one], format="csr")
 
 
-def _floor_map(floors: Floors, size: int) -> Any:
+def _half_space_map(half_spaces: HalfSpaceRows, size: int) -> Any:
     from scipy.sparse import diags, hstack
 
-    one = scalar_map(floors.rows, size)
-    return hstack([diags(floors.normal[:, axis]) @ one for axis in range(3)], format="csr")
+    one = scalar_map(half_spaces.rows, size)
+    return hstack([diags(half_spaces.normal[:, axis]) @ one for axis in range(3)], format="csr")
 
 
 def _cone(cone: Cones, size: int, x: Any, bound: Any) -> Any:

@@ -175,7 +175,7 @@ class _Passing:
         free = around.free(camera_task, (self.flown.start, self.flown.curve.end), course)
         planes = around.half_spaces(course.ctrl, REACH, SHARE).and_also(free)
         ends = (planes.piece, planes.piece + 1)
-        rows = [np.column_stack([planes.normal, planes.border[:, side]]) for side in (0, 1)]
+        rows = [np.column_stack([planes.normal, planes.offset[:, end]]) for end in (0, -1)]
         return NodePlanes(np.concatenate(ends), np.concatenate(rows))
 
     def _course(self, t: Array) -> Piecewise:

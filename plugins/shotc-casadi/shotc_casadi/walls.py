@@ -38,7 +38,7 @@ def half_spaces(
     hulls = reference(low[:, None] + np.linspace(0.0, 1.0, POINTS) * (high - low)[:, None])[:, :, :3]
     nodes: list[list[tuple[float, Array]]] = [[] for _ in s]
     planes = corridor(space, hulls, margins.reach, share)
-    rows = np.column_stack([planes.normal, planes.offset])
+    rows = np.column_stack([planes.normal, planes.offset.max(axis=1)])
     for k, row in zip(planes.piece, rows, strict=True):
         nodes[int(k)].append((_slack(hulls[k], row), row))
     for k, hull in enumerate(hulls):

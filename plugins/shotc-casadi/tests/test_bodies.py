@@ -19,7 +19,7 @@ from shotc_casadi.clock.rounds import NEARLY
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.convex import distances
 from shotc.geom.solids import Cylinder, Prism, Solid, box
-from shotc.plugin_api.refiner import Array, Planes, restrict
+from shotc.plugin_api.refiner import NO_HALF_SPACES, Array, restrict
 from tests.experiments import crowd
 from tests.unit.planning.clock.test_several_drones import HEAD, PASS, SIDE
 
@@ -76,7 +76,7 @@ def subject() -> ClockSubject:
 
 def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProblem, Body]:
     """A straight flight without half-spaces, and an ellipsoid just beside its middle: y is off by ``at``."""
-    of, none = subject(), np.zeros(0, dtype=np.intp)
+    of = subject()
     breaks = breaks_of(of)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
     course = guide(breaks)
@@ -88,7 +88,7 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
         of,
         breaks,
         wanted,
-        Planes(none, np.zeros((0, 3)), np.zeros((0, 2))),
+        NO_HALF_SPACES,
         Use(NEARLY),
         guess(guide, breaks),
     )

@@ -12,8 +12,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
 from shotc.geom.taper import SLOPE, Taper
-from shotc.planning.clock.moving import LinearMotion, Moving, Sides, linearised, relative_to, sides
-from shotc.planning.free_space import STEEPER
+from shotc.planning.clock.moving import LinearMotion, Moving, linearised, relative_to, sides
+from shotc.planning.free_space import STEEPER, HalfSpaces
 
 STEP = 0.05  # seconds between the places that are compared
 STAND = 1.0  # seconds that a drone stands at least where it has come from far, or leaves for there
@@ -62,11 +62,13 @@ def _lack(motions: Sequence[LinearMotion], course: Piecewise, film: float, times
     return worst
 
 
-def sides_apart(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> Sides:
+def sides_apart(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> HalfSpaces:
     """Put planes between the pieces before and after a film and what is near, at the clearances there."""
     found = sides(widened(motions, course, span), course.ctrl[:, :, :3])
     unfilmed = ~_filmed(course, span)[found.piece]
-    return Sides(found.piece[unfilmed], found.normal[unfilmed], found.offset[unfilmed], found.owner[unfilmed])
+    return HalfSpaces(
+        found.piece[unfilmed], found.normal[unfilmed], found.offset[unfilmed], found.owner[unfilmed]
+    )
 
 
 def widened(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> tuple[LinearMotion, ...]:

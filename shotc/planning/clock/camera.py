@@ -16,7 +16,7 @@ from shotc.planning.clock.bounds import NEARLY, at_rest
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.position import UNSEEN
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
+from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
 from shotc.solvers.spline_qp import minimise
 
 SAMPLES = 4  # of the aim, a piece
@@ -149,7 +149,7 @@ def _smooth(clock: Clock) -> tuple[Goal, ...]:
     return tuple(Goal(_scaled(energy, s**3 * gentle), none, (c,)) for c, s in enumerate(SMOOTH))
 
 
-def _bounds(drone: Drone, breaks: Array) -> tuple[Floors, ...]:
+def _bounds(drone: Drone, breaks: Array) -> tuple[HalfSpaceRows, ...]:
     """Return the ranges, rates and accelerations of gimbal and body as half-spaces of control points."""
     limits, gimbal = drone.limits, drone.gimbal
     found = []
@@ -159,8 +159,8 @@ def _bounds(drone: Drone, breaks: Array) -> tuple[Floors, ...]:
         number = len(rows.piece)
         normal = np.tile(np.array(along), (number, 1))
         owner = np.zeros(number, dtype=np.intp)
-        found.append(Floors(rows, normal, np.full(number, low), owner))
-        found.append(Floors(rows, -normal, np.full(number, -high), owner))
+        found.append(HalfSpaceRows(rows, normal, np.full(number, low), owner))
+        found.append(HalfSpaceRows(rows, -normal, np.full(number, -high), owner))
 
     keep(0, (0.0, 1.0, 0.0), *gimbal.pitch)
     for order, body, axis in (

@@ -21,10 +21,10 @@ from shotc.geom.track_array import places
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import Owner, target_owner
 from shotc.ir.transits import from_target
-from shotc.planning.corridor import points_of
-from shotc.planning.free_space import MARGIN, six
+from shotc.planning.corridor import rows_of
+from shotc.planning.free_space import MARGIN, NO_HALF_SPACES, HalfSpaces, six
 from shotc.planning.obstacles import FreeSpaces
-from shotc.solvers.spline_problem import Floors
+from shotc.solvers.spline_problem import HalfSpaceRows
 
 SAMPLES = 8  # a piece, at which motion is compared with linear motion
 REACH = 4.0  # metres beyond its clearance within which something that moves counts
@@ -111,27 +111,13 @@ def linearised(what: Moving, breaks: Array) -> LinearMotion:
     return LinearMotion(what, ends, 1.2 * deviation_bound)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Sides:
-    """Half-spaces for the control points of pieces, relative to a motion: n . (p - linear) >= offset.
-
-    piece : shape (R,); normal : (R, 3); offset : (R, 6), for each of a piece's six points, in W
-    owner : shape (R,), index of the motion
-    """
-
-    piece: IntArray
-    normal: Array
-    offset: Array
-    owner: IntArray
-
-
-def sides(motions: Sequence[LinearMotion], hulls: Array) -> Sides:
-    """Put a plane between every piece and everything that comes near it.
+def sides(motions: Sequence[LinearMotion], hulls: Array) -> HalfSpaces:
+    """Put a plane between every piece and everything that comes near it; owners index the motions.
 
     hulls : shape (P, m, 3), points whose hull holds each piece, evenly in time from its start to its end
     Where a run of pieces comes too near, all of them pass on one side.
     """
-    rows = []
+    rows: list[HalfSpaces] = []
     for index, motion in enumerate(motions):
         relative = relative_to(motion, hulls)
         need = motion.needs
@@ -150,18 +136,13 @@ def sides(motions: Sequence[LinearMotion], hulls: Array) -> Sides:
         linear = np.linspace(0.0, 1.0, 6)[None, :, None]
         carried = motion.ends[near][:, :1] + linear * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
         offset = border + np.einsum("nmd,nd->nm", carried, normal[near])
-        rows.append((near, normal[near], offset, np.full(len(near), index)))
-    if not rows:
-        none = np.zeros(0, dtype=np.intp)
-        return Sides(none, np.zeros((0, 3)), np.zeros((0, 6)), none)
-    pieces, normals, offsets, owners = zip(*rows, strict=True)
-    return Sides(*map(np.concatenate, (pieces, normals, offsets, owners)))
+        rows.append(HalfSpaces(near, normal[near], offset, np.full(len(near), index)))
+    return NO_HALF_SPACES.and_also(*rows)
 
 
-def floors_of(breaks: Array, beside: Sides, first: int) -> Floors:
+def motion_rows(breaks: Array, planes: HalfSpaces, first: int) -> HalfSpaceRows:
     """Return the half-spaces as rows of a programme; first : index of the first motion among the owners."""
-    normal, owner = np.repeat(beside.normal, 6, axis=0), first + np.repeat(beside.owner, 6)
-    return Floors(points_of(breaks, beside.piece), normal, beside.offset.ravel(), owner)
+    return rows_of(breaks, planes, first + planes.owner)
 
 
 def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> Array:

@@ -18,14 +18,14 @@ from shotc.planning.clock.between import lacking, sides_apart, standing_apart
 from shotc.planning.clock.bounds import Bound, at_rest, limits_of
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.moving import LinearMotion, Moving, Sides, floors_of, linearised, shortfalls, sides
+from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion_rows, shortfalls, sides
 from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.clock.visibility import Kept, Visibility, keep_free
 from shotc.planning.corridor import Around, with_corridor
-from shotc.planning.free_space import FreeSpace, shortfall
+from shotc.planning.free_space import FreeSpace, HalfSpaces, shortfall
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_problem import Equalities, Floors, Goal, SplineProblem
+from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
@@ -70,7 +70,7 @@ class Task:
     visibility: Visibility
     bound: tuple[Bound, ...] = ()
     free: bool = False
-    apart: tuple[Floors, ...] = ()
+    apart: tuple[HalfSpaceRows, ...] = ()
 
     @property
     def mission(self) -> MissionIR:
@@ -123,7 +123,7 @@ def fly(task: Task) -> Flown:
     for _ in range(LOOKS):
         if kept.worst >= 0.0 or best.curve is None:
             break
-        freer = _fly(task, kept.floors)
+        freer = _fly(task, kept.half_spaces)
         if freer.curve is None:
             break
         later = _kept(task, freer.curve)
@@ -165,13 +165,13 @@ def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
     return best
 
 
-def _apart_floors(task: Task, course: Piecewise) -> tuple[Floors, ...]:
+def _apart_floors(task: Task, course: Piecewise) -> tuple[HalfSpaceRows, ...]:
     """Return half-spaces beside a course for the clearances of the ways into the film and out of it."""
     span, breaks, first = (task.clock.start, task.clock.end), task.clock.breaks, len(task.walls.owners)
-    ways = floors_of(breaks, sides_apart(task.motions, course, span), first)
+    ways = motion_rows(breaks, sides_apart(task.motions, course, span), first)
     stands = zip(standing_apart(task.motions, course, span), (0, -1), strict=True)
     ends = [_standing(breaks, sides(at.motions, at.stands), first, row) for at, row in stands]
-    return tuple(floors for floors in (ways, *ends) if len(floors.offset))
+    return tuple(half_spaces for half_spaces in (ways, *ends) if len(half_spaces.offset))
 
 
 def _kept(task: Task, course: Piecewise) -> Kept:
@@ -198,7 +198,7 @@ class _Round:
     ended: bool = False
 
 
-def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
+def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
     """Return the position curve under half-spaces that keep pictures free."""
     breaks, base = task.clock.breaks, _base(task)
     ideal = _ideal(task, breaks)
@@ -206,7 +206,7 @@ def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
     now = _Round(chords)
     while not now.ended and now.rounds < ROUNDS:
         problem = _walled(task, base, now.hulls, now.reach, now.share)
-        problem = replace(problem, floors=(*problem.floors, *task.apart, *free))
+        problem = replace(problem, half_spaces=(*problem.half_spaces, *task.apart, *free))
         solution = minimise(problem)
         now = replace(now, rounds=now.rounds + 1, status=solution.status)
         if solution.coef is None:
@@ -219,7 +219,7 @@ def _fly(task: Task, free: tuple[Floors, ...]) -> Flown:
         elif _astray(task, solution):
             now = replace(now, status=Status.INFEASIBLE, ended=True)
         else:
-            now = _improved(now, solution, points, done=not problem.floors)
+            now = _improved(now, solution, points, done=not problem.half_spaces)
     if now.best is None:
         return Flown(None, now.status, float("nan"), now.rounds, now.relaxation)
     assert now.best.coef is not None
@@ -245,7 +245,7 @@ def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _R
     after = replace(now, relaxation=found)
     if now.best is not None or found is None or found.coef is None:
         return replace(after, ended=True)
-    lacked = float(found.floor_lack.sum())
+    lacked = float(found.owner_lack.sum())
     hulls = _points(task.clock.breaks, found.coef)
     return replace(after, hulls=hulls, share=SHARES[0], lacked=lacked, ended=lacked > hope * now.lacked)
 
@@ -329,10 +329,10 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
     breaks = task.clock.breaks
     problem = with_corridor(base, Around(task.walls, breaks, hulls, reach, share))
     first = len(task.walls.owners)
-    floors = [floors_of(breaks, sides(task.motions, hulls), first)]
+    half_spaces = [motion_rows(breaks, sides(task.motions, hulls), first)]
     for motions, place, row in _stands(task, hulls):
-        floors.append(_standing(breaks, sides(motions, place), first, row))
-    return replace(problem, floors=(*problem.floors, *(f for f in floors if len(f.offset))))
+        half_spaces.append(_standing(breaks, sides(motions, place), first, row))
+    return replace(problem, half_spaces=(*problem.half_spaces, *(f for f in half_spaces if len(f.offset))))
 
 
 def standing_by(
@@ -365,11 +365,13 @@ def _stands(task: Task, hulls: Array) -> tuple[tuple[tuple[LinearMotion, ...], A
     )
 
 
-def _standing(breaks: Array, beside: Sides, first: int, row: int) -> Floors:
+def _standing(breaks: Array, beside: HalfSpaces, first: int, row: int) -> HalfSpaceRows:
     """Return the half-spaces in which a control point stays all the while."""
     every, number = control_rows(breaks), len(beside.piece)
     rows = Rows(np.repeat(every.piece[[row]], number), np.repeat(every.weight[[row]], number, axis=0))
-    return Floors(rows, beside.normal, beside.offset.max(axis=1, initial=-np.inf), first + beside.owner)
+    return HalfSpaceRows(
+        rows, beside.normal, beside.offset.max(axis=1, initial=-np.inf), first + beside.owner
+    )
 
 
 def _scaled(rows: Rows, factor: Array) -> Rows:

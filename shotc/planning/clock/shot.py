@@ -273,7 +273,7 @@ def _lens(camera_task: CameraTask, clock: Clock) -> Array:
 def _lacks(task: Task, flown: Flown) -> tuple[tuple[Owner, float], ...]:
     if flown.relaxation is None:
         return ()
-    found = zip(task.owners, flown.relaxation.floor_lack, strict=True)
+    found = zip(task.owners, flown.relaxation.owner_lack, strict=True)
     return tuple((owner, float(lack)) for owner, lack in found if lack > 1e-3)
 
 

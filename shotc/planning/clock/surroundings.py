@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import IntArray, restrict
+from shotc.geom.bspline import restrict
 from shotc.ir.mission import Drone
 from shotc.ir.path import ClockLeg, PathIR
 from shotc.planning.clock.aims import CameraTask
@@ -28,7 +28,7 @@ from shotc.planning.clock.moving import (
 )
 from shotc.planning.clock.others import other_drones
 from shotc.planning.clock.visibility import Visibility, keep_free, visibility_of
-from shotc.planning.free_space import FreeSpace, kept, shortfall
+from shotc.planning.free_space import NO_HALF_SPACES, FreeSpace, HalfSpaces, beside, kept, shortfall
 from shotc.planning.obstacles import free_spaces_of
 
 
@@ -47,24 +47,27 @@ class Surroundings:
     motions: tuple[LinearMotion, ...]
     pictures: Visibility
 
-    def free(self, camera_task: CameraTask, span: tuple[float, float], course: Piecewise) -> Planes:
+    def free(self, camera_task: CameraTask, span: tuple[float, float], course: Piecewise) -> HalfSpaces:
         """Put half-spaces beside pictures, linearised about a course on these pieces.
 
         span : of the film. On each piece the one that the course is nearest to counts, as far as the course
         itself keeps it.
         """
-        floors = keep_free(camera_task, self.pictures, span, self.breaks, course).floors
-        if not floors:
-            return Planes(np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros((0, 2)))
-        piece = np.concatenate([each.rows.piece for each in floors])
-        normal = np.concatenate([each.normal for each in floors])
+        half_spaces = keep_free(camera_task, self.pictures, span, self.breaks, course).half_spaces
+        if not half_spaces:
+            return NO_HALF_SPACES
+        piece = np.concatenate([each.rows.piece for each in half_spaces])
+        normal = np.concatenate([each.normal for each in half_spaces])
         length = np.linalg.norm(normal, axis=1)
-        normal, offset = normal / length[:, None], np.concatenate([each.offset for each in floors]) / length
+        normal, offset = (
+            normal / length[:, None],
+            np.concatenate([each.offset for each in half_spaces]) / length,
+        )
         slack = np.einsum("rmd,rd->rm", course.ctrl[piece], normal).min(axis=1) - offset
         nearest = np.lexsort((slack, piece))
         nearest = nearest[np.unique(piece[nearest], return_index=True)[1]]
         borders = (offset + np.minimum(slack, 0.0))[nearest]
-        return Planes(piece[nearest], normal[nearest], np.repeat(borders[:, None], 2, axis=1))
+        return beside(piece[nearest], normal[nearest], np.repeat(borders[:, None], 2, axis=1))
 
     def lacking(self, hulls: Array) -> Array:
         """Return by how much pieces fail to prove their clearances, metres; shape (P,), <= 0 is proved.
@@ -73,21 +76,19 @@ class Surroundings:
         """
         return np.maximum(shortfall(self.walls, hulls), shortfalls(self.motions, hulls))
 
-    def half_spaces(self, hulls: Array, reach: float, share: float) -> Planes:
+    def half_spaces(self, hulls: Array, reach: float, share: float) -> HalfSpaces:
         """Put half-spaces between pieces and what is near them.
 
         hulls : as in ``lacking``; reach : metres beyond its clearance within which a wall counts
         share : of the room that a piece has beyond a wall, kept
         """
-        beside = sides(self.motions, hulls)
-        found = [(beside.piece, beside.normal, beside.offset[:, [0, -1]])]
+        found = []
         for normals, offsets in self._bounds(hulls):
             slack = np.einsum("pmd,pd->pm", hulls, normals).min(axis=1) - offsets
             near = np.flatnonzero(slack < reach)
             ends = np.repeat((offsets[near] + kept(slack[near], share))[:, None], 2, axis=1)
-            found.append((near, normals[near], ends))
-        pieces, every, borders = zip(*found, strict=True)
-        return Planes(np.concatenate(pieces), np.concatenate(every), np.concatenate(borders))
+            found.append(beside(near, normals[near], ends))
+        return sides(self.motions, hulls).and_also(*found)
 
     def _bounds(self, hulls: Array) -> Sequence[tuple[Array, Array]]:
         """Return normals (P, 3) and offsets (P,) of walls, and of the tangents of discs beside pieces."""
@@ -102,27 +103,6 @@ class Surroundings:
             n = np.column_stack([-away, np.zeros(len(hulls))])
             found.append((n, n[:, :2] @ centre - disc.radius))
         return found
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Planes:
-    """Half-spaces n.p >= border for all Bernstein points of pieces.
-
-    piece : shape (R,); normal : (R, 3), units
-    border : (R, 2), metres, at the piece's start and end and even between them
-    """
-
-    piece: IntArray
-    normal: Array
-    border: Array
-
-    def and_also(self, other: Planes) -> Planes:
-        """Return these and those of another."""
-        return Planes(
-            np.concatenate([self.piece, other.piece]),
-            np.concatenate([self.normal, other.normal]),
-            np.concatenate([self.border, other.border]),
-        )
 
 
 def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: bool = True) -> Surroundings:

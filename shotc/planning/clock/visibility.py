@@ -22,7 +22,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.preference import prefers_free_pictures
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask, aims_at
-from shotc.solvers.spline_problem import Floors
+from shotc.solvers.spline_problem import HalfSpaceRows
 
 MARGIN = 0.3  # metres that a body is kept out of a picture by
 NEAR = 4.0  # metres out of a picture beyond which nothing is asked
@@ -100,7 +100,7 @@ def _out(camera: Cameras, places: Array, radius: float, half_angle: float | None
 class Kept:
     """Half-spaces that keep pictures free, and by how much the course itself is out of them, metres."""
 
-    floors: tuple[Floors, ...]
+    half_spaces: tuple[HalfSpaceRows, ...]
     worst: float
 
 
@@ -130,8 +130,8 @@ def keep_free(
             (partial(_in_own, camera_task, body, visibility.half_angle), own) for body in visibility.bodies
         ]
     found = [_linear(outside_of, at, breaks, course) for outside_of, at in asked if len(at)]
-    floors = tuple(kept for part in found for kept in part.floors)
-    return Kept(floors, min((part.worst for part in found), default=np.inf))
+    half_spaces = tuple(kept for part in found for kept in part.half_spaces)
+    return Kept(half_spaces, min((part.worst for part in found), default=np.inf))
 
 
 def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -> float:
@@ -156,7 +156,7 @@ def _linear(found: Outside, times: Array, breaks: Array, course: Callable[[Array
     normal = slope[helps]
     offset = (normal * places[helps]).sum(axis=1) - here[helps] + MARGIN
     owner = np.zeros(len(offset), dtype=np.intp)
-    return Kept((Floors(value_rows(breaks, times[helps]), normal, offset, owner),), worst)
+    return Kept((HalfSpaceRows(value_rows(breaks, times[helps]), normal, offset, owner),), worst)
 
 
 def _in_theirs(

@@ -44,8 +44,8 @@ def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | Pa
     outside = breaches(FreeSpace((), tuple(w for w in pad.walls if w.normal[2] == 0.0), pad.discs), home)
     if outside:
         return PadBlocked(outside[0].owner, "outside", outside[0].lack, 0.0)
-    floors = [w.offset for w in flight.walls if w.normal[2] > 0.5]
-    lowest = max([home[2] + LIFT, *(f + PAD_MARGIN for f in floors)])
+    half_spaces = [w.offset for w in flight.walls if w.normal[2] > 0.5]
+    lowest = max([home[2] + LIFT, *(f + PAD_MARGIN for f in half_spaces)])
     ceiling = min(((-w.offset, w.owner) for w in pad.walls if w.normal[2] < -0.5), default=None)
     if ceiling is not None and ceiling[0] < lowest:
         return PadBlocked(ceiling[1], "ceiling", lowest, ceiling[0])

@@ -150,7 +150,7 @@ def _iterate(
         total = solution.objective + solution.excess
         done = best is not None and total > (1 - GAIN) * (best.objective + best.excess)
         best = solution if best is None or not done else best
-        if done or not problem.floors:
+        if done or not problem.half_spaces:
             break
         hulls, share = points, LATER_SHARE
     return problem, best or Status.INFEASIBLE, used

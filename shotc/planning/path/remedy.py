@@ -38,7 +38,7 @@ def conflict(what: Stuck) -> Conflict:
     if relaxation is None:
         return Conflict((), ())
     owners = [
-        (n, float(x)) for n, x in zip(what.solved.owners, relaxation.floor_lack, strict=False) if x > LEAST
+        (n, float(x)) for n, x in zip(what.solved.owners, relaxation.owner_lack, strict=False) if x > LEAST
     ]
     points = [(k, float(x)) for k, x in enumerate(relaxation.point_shift) if x > LEAST]
     return Conflict(tuple(sorted(owners, key=lambda item: -item[1])), tuple(points))

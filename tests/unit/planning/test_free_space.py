@@ -99,7 +99,7 @@ def test_control_points_beyond_the_plane_keep_the_curve_clear(solid, chord, ctrl
     space = FreeSpace((Obstacle(owner("zone z"), solid, clearance),), (), ())
     planes = corridor(space, chord[None], 1e3)
     assume(len(planes.piece))
-    n, offset = planes.normal[0], planes.offset[0]
+    n, offset = planes.normal[0], planes.offset[0, 0]
     assume(float(distances(solid, chord).min()) > clearance)
     moved = ctrl + np.maximum(0.0, offset - ctrl @ n)[:, None] * n  # push stray points onto the plane
     assume(offset >= float(support(solid, n)) + clearance - 1e-9)
@@ -113,7 +113,7 @@ def test_a_piece_keeps_half_of_what_there_is_but_no_more_than_comfort():
     for distance_, kept in ((1.2, 1.1), (9.0, 1.0 + COMFORT)):
         chord = np.array([[[2 + distance_, -1.0, 5.0], [2 + distance_, 1.0, 5.0]]])
         planes = corridor(space, chord, 100.0)
-        assert planes.offset[0] - support(solid, planes.normal)[0] == pytest.approx(kept, abs=0.02)
+        assert planes.offset[0, 0] - support(solid, planes.normal)[0] == pytest.approx(kept, abs=0.02)
 
 
 def test_unbounded_pockets_have_level_planes():

@@ -13,7 +13,15 @@ from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, s
 from shotc.solvers import spline_qp
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
-from shotc.solvers.spline_problem import Cones, Equalities, Floors, Goal, SplineProblem, centred, scalar_map
+from shotc.solvers.spline_problem import (
+    Cones,
+    Equalities,
+    Goal,
+    HalfSpaceRows,
+    SplineProblem,
+    centred,
+    scalar_map,
+)
 from shotc.solvers.spline_qp import minimise
 from shotc.solvers.spline_relax import relax
 
@@ -24,13 +32,13 @@ def waypoints(count_, seed=0, step=10.0):
     return p, s
 
 
-def least_jerk(p, s, pieces=3, floors=(), cones=()):
+def least_jerk(p, s, pieces=3, half_spaces=(), cones=()):
     breaks = subdivide(s, pieces)
     scale = s[-1] / (len(s) - 1)
     jerk = energy_rows(breaks, 3)
     goal = Goal(Rows(jerk.piece, jerk.weight * scale**2.5), np.zeros((len(jerk.piece), 3)))
     fixed = Equalities(value_rows(breaks, s), p)
-    return breaks, SplineProblem(count(breaks), (goal,), fixed, tuple(floors), tuple(cones))
+    return breaks, SplineProblem(count(breaks), (goal,), fixed, tuple(half_spaces), tuple(cones))
 
 
 def energy(problem, coef):
@@ -40,7 +48,7 @@ def energy(problem, coef):
 def floor_on(breaks, normal, offset, owner=0):
     rows = control_rows(breaks)
     size = len(rows.piece)
-    return Floors(rows, np.tile(normal, (size, 1)), np.full(size, offset), np.full(size, owner))
+    return HalfSpaceRows(rows, np.tile(normal, (size, 1)), np.full(size, offset), np.full(size, owner))
 
 
 @pytest.mark.parametrize("pieces", [1, 2, 3])
@@ -91,7 +99,7 @@ def test_bounds_that_do_not_bite_need_no_programme(monkeypatch):
         size = len(rows.piece)
         zero, owner = np.zeros((size, 3)), np.zeros(size, dtype=int)
         cone = Cones(rows, (0, 1, 2), zero, np.full(size, speed), np.ones(size), owner)
-        return least_jerk(p, s, floors=[floor_on(breaks, (0.0, 0.0, 1.0), floor)], cones=[cone])[1]
+        return least_jerk(p, s, half_spaces=[floor_on(breaks, (0.0, 0.0, 1.0), floor)], cones=[cone])[1]
 
     wide, slow, high = (
         bounded(1.01 * fast, low - 0.1),
@@ -119,7 +127,7 @@ def test_floors_hold_and_cost_what_they_must():
     free = minimise(loose)
     lowest = spline(breaks, free.coef).ctrl[:, :, 2].min()
     floor = 0.5 * (lowest + 10)
-    _, tight = least_jerk(p, s, floors=[floor_on(breaks, np.array([0.0, 0.0, 1.0]), floor)])
+    _, tight = least_jerk(p, s, half_spaces=[floor_on(breaks, np.array([0.0, 0.0, 1.0]), floor)])
     found = minimise(tight)
     assert found.status is Status.SOLVED
     assert spline(breaks, found.coef).ctrl[:, :, 2].min() >= floor - 1e-6
@@ -174,7 +182,7 @@ def modelled(problem):
     """The least cost of a problem, modelled in cvxpy: goals, and the price of what leaves its bounds."""
     x = cp.Variable((problem.size, 3))
     rows = [scalar_map(problem.equalities.rows, problem.size) @ x == problem.equalities.value]
-    for f in problem.floors:
+    for f in problem.half_spaces:
         along = cp.sum(cp.multiply(scalar_map(f.rows, problem.size) @ x, f.normal), axis=1)
         rows += [along >= f.offset]
     cost = 0.0
@@ -220,8 +228,8 @@ def test_the_optimum_is_the_one_that_a_modelling_layer_finds(seed):
         cone(fast, (2,), np.full(1, 0.1), 0.9 * steep, 1e2),
     )
     pull = Goal(value_rows(breaks, s[1:3]), p[1:3] + 1.0, (0, 2))
-    down = Floors(values, np.tile([0.0, 0.0, -1.0], (size, 1)), np.full(size, -ceiling), **owner)
-    problem = replace(free, goals=(*free.goals, pull), floors=(down,), cones=cones)
+    down = HalfSpaceRows(values, np.tile([0.0, 0.0, -1.0], (size, 1)), np.full(size, -ceiling), **owner)
+    problem = replace(free, goals=(*free.goals, pull), half_spaces=(down,), cones=cones)
     found, (cost, coef) = minimise(problem), modelled(problem)
     assert found.status is Status.SOLVED
     assert found.objective + found.excess == pytest.approx(cost, rel=1e-6, abs=1e-6)
@@ -234,12 +242,12 @@ def test_the_least_give_way_is_the_distance_that_is_missing():
     p, s = waypoints(2)
     p[:, 2] = 4.0
     breaks, problem = least_jerk(
-        p, s, floors=[floor_on(subdivide(s, 3), np.array([0.0, 0.0, -1.0]), -2.5, 1)]
+        p, s, half_spaces=[floor_on(subdivide(s, 3), np.array([0.0, 0.0, -1.0]), -2.5, 1)]
     )
     assert minimise(problem).status is Status.INFEASIBLE
     found = relax(problem, 3)
     assert found.status in {Status.SOLVED, Status.INACCURATE}
-    assert found.floor_lack == pytest.approx([0.0, 1.5, 0.0], abs=1e-3)
+    assert found.owner_lack == pytest.approx([0.0, 1.5, 0.0], abs=1e-3)
     assert found.point_shift == pytest.approx([0.0, 0.0], abs=1e-3)
     assert spline(breaks, found.coef).ctrl[:, :, 2].max() <= 4.0 + 1e-3
 
@@ -249,12 +257,12 @@ def test_one_point_moves_where_that_is_less_than_a_wall():
     s = np.array([0.0, 10.0, 20.0])
     p = np.array([[0.0, 0, 0], [10.0, 1, 1], [20.0, 0, 0]])
     breaks = subdivide(s, 4)
-    floors = [
+    half_spaces = [
         floor_on(breaks, np.array([0.0, -1.0, 0.0]), 0.0, 0),
         floor_on(breaks, np.array([0.0, 0.0, -1.0]), 0.0, 1),
     ]
-    found = relax(least_jerk(p, s, 4, floors=floors)[1], 2)
-    total = found.floor_lack.sum() + found.point_shift.sum()
+    found = relax(least_jerk(p, s, 4, half_spaces=half_spaces)[1], 2)
+    total = found.owner_lack.sum() + found.point_shift.sum()
     assert total == pytest.approx(np.sqrt(2), abs=5e-3)  # less than the 2 m of both walls
     assert found.point_shift[1] == pytest.approx(np.sqrt(2), abs=5e-3)
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.plugin_api.refiner import Array, Planes
+from shotc.plugin_api.refiner import Array, HalfSpaces
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepest
 from shotc_casadi.clock.several import angles, turning_room
@@ -105,7 +105,7 @@ def problem(
     subject: ClockSubject,
     breaks: Array,
     wanted: ClockReferences,
-    planes: Planes,
+    planes: HalfSpaces,
     use: Use,
     start: tuple[Array, Array],
 ) -> ClockProblem:
@@ -223,14 +223,14 @@ def _shared(stages: Array) -> Array:
     return np.asarray(0.5 * (stages + np.append(0.0, stages[:-1])))
 
 
-def _half_spaces(planes: Planes, stages: int) -> tuple[Array, int]:
+def _half_spaces(planes: HalfSpaces, stages: int) -> tuple[Array, int]:
     """Return the half-spaces as parameters, shape (N + 1, count * PLANE), and how many a stage has."""
     most = int(np.bincount(planes.piece, minlength=1).max()) if len(planes.piece) else 0
     count = next((c for c in COUNTS if c >= most), most)
     table = np.zeros((stages + 1, count, PLANE))
     table[:, :, 3] = -FREE
     filled = np.zeros(stages, dtype=np.intp)
-    for k, normal, border in zip(planes.piece, planes.normal, planes.border, strict=True):
-        table[k, filled[k]] = [*normal, border[0], border[1] - border[0]]
+    for k, normal, offset in zip(planes.piece, planes.normal, planes.offset, strict=True):
+        table[k, filled[k]] = [*normal, offset[0], offset[-1] - offset[0]]
         filled[k] += 1
     return table.reshape(stages + 1, -1), count

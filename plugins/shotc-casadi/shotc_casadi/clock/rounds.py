@@ -13,8 +13,8 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import (
     Array,
     ClockLeg,
+    HalfSpaces,
     Mask,
-    Planes,
     Surroundings,
     restrict,
     surroundings,
@@ -173,7 +173,7 @@ def _next(shot: _Shot, now: _Round) -> _Round:
     return _improved(after, _Best(found, solution, task), anew=anew)
 
 
-def _planes(shot: _Shot, now: _Round) -> Planes:
+def _planes(shot: _Shot, now: _Round) -> HalfSpaces:
     """Return the half-spaces about the course of a round."""
     subject, leg = shot.subject, shot.subject.leg
     planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, SHARE), now.wanted, now.over)

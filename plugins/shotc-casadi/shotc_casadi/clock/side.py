@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.plugin_api import Piecewise
-from shotc.plugin_api.refiner import CAM_YAW, Array, Planes, quintic_hermite
+from shotc.plugin_api.refiner import CAM_YAW, Array, HalfSpaces, beside, quintic_hermite
 from shotc_casadi.clock.references import ClockReferences, ClockSubject
 
 NEAR = 0.35  # of the usual distance: passes over ground that are nearer are held to their side
@@ -81,12 +81,12 @@ def _across(way: Array, away: Array) -> Array:
     return np.asarray(np.where((length > 1e-3) & ((across @ away)[:, None] > ALONG), across, away))
 
 
-def held(planes: Planes, wanted: ClockReferences, over: Sequence[Pass]) -> Planes:
+def held(planes: HalfSpaces, wanted: ClockReferences, over: Sequence[Pass]) -> HalfSpaces:
     """Return half-spaces with those that keep the nodes near a target on their side."""
     target = wanted.target[:, :3]
     for one in over:
         ends = [np.einsum("md,md->m", target[k], one.sides) + one.aside for k in (one.stages, one.stages + 1)]
-        planes = planes.and_also(Planes(one.stages, one.sides, np.column_stack(ends)))
+        planes = planes.and_also(beside(one.stages, one.sides, np.column_stack(ends)))
     return planes
 
 

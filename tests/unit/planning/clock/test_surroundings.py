@@ -83,7 +83,7 @@ def test_the_guide_is_proved_and_keeps_every_half_space(shot: str, name: str) ->
     planes = around.half_spaces(guide.ctrl, 8.0, 0.5)
     assert np.allclose(np.linalg.norm(planes.normal, axis=1), 1.0)
     share = np.linspace(0.0, 1.0, 6)
-    border = planes.border[:, :1] + share * (planes.border[:, 1:] - planes.border[:, :1])
+    border = planes.offset[:, :1] + share * (planes.offset[:, -1:] - planes.offset[:, :1])
     reach = np.einsum("pmd,pd->pm", guide.ctrl[planes.piece], planes.normal)
     assert (reach - border).min() > -1e-6
 
@@ -98,7 +98,7 @@ def test_points_that_keep_all_half_spaces_are_proved_clear() -> None:
     for _ in range(30):
         hulls = guide.ctrl + rng.uniform(-2.0, 2.0, (len(guide.ctrl), 1, 3))
         reach = np.einsum("pmd,pd->pm", hulls[planes.piece], planes.normal)
-        border = planes.border[:, :1] + share * (planes.border[:, 1:] - planes.border[:, :1])
+        border = planes.offset[:, :1] + share * (planes.offset[:, -1:] - planes.offset[:, :1])
         broken = np.zeros(len(hulls), dtype=bool)
         broken[planes.piece[(reach < border).any(axis=1)]] = True
         lack = around.lacking(hulls)
@@ -124,5 +124,5 @@ def test_a_course_keeps_its_own_half_spaces_beside_pictures() -> None:
     camera_task = CameraTask(mission, mission.drone("cam1"), placed.subjects)
     planes = around.free(camera_task, (leg("side").start, leg("side").end), guide)
     reach = np.einsum("pmd,pd->pm", guide.ctrl[planes.piece], planes.normal).min(axis=1)
-    assert (reach - planes.border[:, 0]).min(initial=0.0) > -1e-9
+    assert (reach - planes.offset[:, 0]).min(initial=0.0) > -1e-9
     assert len(set(planes.piece)) == len(planes.piece)
