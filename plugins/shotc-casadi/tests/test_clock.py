@@ -198,12 +198,12 @@ def test_two_solvers_find_the_same_motion() -> None:
     assert max(a.residual, b.residual) < program.FEASIBLE
 
 
-@pytest.mark.parametrize("room", [5.0, 0.0])
-def test_a_problem_is_solved_alike_whatever_was_solved_before_it(space: float) -> None:
+@pytest.mark.parametrize("width", [5.0, 0.0])
+def test_a_problem_is_solved_alike_whatever_was_solved_before_it(width: float) -> None:
     made = task(subject(compiled(FLYBY)))
     lower, upper = (bound.copy() for bound in made.state_bounds)
     node = len(lower) // 2
-    lower[node], upper[node] = made.states[node] - space, made.states[node] + space
+    lower[node], upper[node] = made.states[node] - width, made.states[node] + width
     solving.built.cache_clear()
     first = program.solve(made, "fatrop")
     program.solve(replace(made, state_bounds=(lower, upper)), "fatrop")
