@@ -39,6 +39,7 @@ from shotc.ir.begins import first_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject, Target
+from shotc.ir.owners import Owner, target_owner, zone_owner
 
 KNOT = 0.5  # seconds between the knots of a course
 FEWEST, MOST = 8, 240  # stretches of a course
@@ -102,7 +103,7 @@ def lens_of(drone: Drone) -> Lens:
 def room_of(mission: MissionIR, drone: Drone) -> Room:
     """Return where a drone's camera may be."""
     rules = mission.rules
-    return Room(rules.ground_clearance + drone.radius + LIFT, rules.target_clearance + drone.radius)
+    return Room(rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
 
 
 def places_of(composition: Composition) -> list[Vec2]:
@@ -154,20 +155,20 @@ class _Scene:
         return any(hides(self.mission, s.target, eye, t) is not None for s in self.shot.subjects)
 
 
-def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[str, str, float]]:
-    """Yield every zone and target, by sort and name, that a drone is too near to, and by how much."""
+def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
+    """Yield the owner of every zone and target that a drone is too near to, and by how much."""
     for zone in mission.zones:
         if zone.keep == "out":
             lack = drone.radius - distance(zone.solid, p)
         else:
             lack = drone.radius - depth(zone.solid, p)
         if lack > SAME:
-            yield "zone", zone.name, lack
-    need = mission.rules.target_clearance + drone.radius
+            yield zone_owner(zone), lack
+    need = mission.rules.beside_target(drone.radius)
     for target in mission.targets:
         lack = need - distance(target.solid_at(t), p)
         if lack > SAME:
-            yield "target", target.name, lack
+            yield target_owner(target), lack
 
 
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:

@@ -281,6 +281,14 @@ class Rules(NamedTuple):
     half_angle: float | None = None
     transits: TransitClearance = TransitClearance()
 
+    def over_ground(self, radius: float) -> float:
+        """Return the least height of the centre of a body over flat ground; radius : of the body, metres."""
+        return self.ground_clearance + radius
+
+    def beside_target(self, radius: float) -> float:
+        """Return the least distance of the centre of a body from a target; radius : of the body, metres."""
+        return self.target_clearance + radius
+
 
 class Deferred(NamedTuple):
     """A part of the language that is checked but that this version cannot plan yet."""

@@ -63,8 +63,25 @@ class FramingSpan:
     reference: Piecewise | None
 
 
+class _OnCurve:
+    """A leg that begins and ends at rest where its curve does."""
+
+    __slots__ = ()
+    curve: Piecewise
+
+    @property
+    def pose(self) -> Pose:
+        """Channels at the start of the leg, at rest."""
+        return tuple(map(float, self.curve.ctrl[0, 0]))
+
+    @property
+    def end_pose(self) -> Pose:
+        """Channels at its end, at rest."""
+        return tuple(map(float, self.curve.ctrl[-1, -1]))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class MovingLeg:
+class MovingLeg(_OnCurve):
     """One stretch of flight from rest to rest along a path.
 
     curve : q(s), channels CHANNELS, piecewise quintic, at least C2
@@ -85,16 +102,6 @@ class MovingLeg:
     duration: float | None
     start: float | None
     path: KeyPath
-
-    @property
-    def pose(self) -> Pose:
-        """Channels at the start of the leg, at rest."""
-        return tuple(map(float, self.curve.ctrl[0, 0]))
-
-    @property
-    def end_pose(self) -> Pose:
-        """Channels at its end, at rest."""
-        return tuple(map(float, self.curve.ctrl[-1, -1]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -124,7 +131,7 @@ class HoldLeg:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ClockLeg:
+class ClockLeg(_OnCurve):
     """A shot on its own clock, with the way into its motion and out of it, from rest to rest.
 
     curve : channels CHANNELS over mission time, piecewise quintic, at least C2
@@ -139,16 +146,6 @@ class ClockLeg:
     framing: tuple[Reference, ...]
     path: KeyPath
     keyframes: tuple[KeyframeTime, ...] = ()
-
-    @property
-    def pose(self) -> Pose:
-        """Channels at the start of the leg, at rest."""
-        return tuple(map(float, self.curve.ctrl[0, 0]))
-
-    @property
-    def end_pose(self) -> Pose:
-        """Channels at its end, at rest."""
-        return tuple(map(float, self.curve.ctrl[-1, -1]))
 
 
 PathLeg = MovingLeg | HoldLeg

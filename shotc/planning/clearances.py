@@ -1,7 +1,7 @@
 """What a drone keeps clear of, and by how much: the rule of the language's checks and of all planners.
 
-The judge has its own (``passes.verify.space``), and a test holds one against the other. Plain Python. With it
-stand how much a place lacks, and the shortest way out.
+The two distances are those of ``Rules``. The judge has its own (``passes.verify.space``), and a test holds
+one against the other. Plain Python. With it stand how much a place lacks, and the shortest way out.
 """
 
 from collections.abc import Iterator
@@ -109,7 +109,7 @@ def clearances_of(mission: MissionIR, body: "Drone | Fleet", *, at_pad: bool = F
 
     at_pad : whether it rises from its pad or sinks to it, where a target's clearance does not count
     """
-    beside = body.radius if at_pad else mission.rules.target_clearance + body.radius
+    beside = body.radius if at_pad else mission.rules.beside_target(body.radius)
     zones = [Clearance(zone_owner(z), z.solid, body.radius, z.keep == "in") for z in mission.zones]
     standing = (t for t in mission.targets if t.track is None)
     return [*zones, *(Clearance(target_owner(t), t.solid, beside) for t in standing)]
@@ -124,11 +124,6 @@ def from_parked(mission: MissionIR, drone: Drone) -> list[Clearance]:
     ]
 
 
-def lowest(mission: MissionIR, body: "Drone | Fleet") -> float:
-    """Return the least z of a body's centre over flat ground, metres."""
-    return mission.rules.ground_clearance + body.radius
-
-
 def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -> str:
     """Return in words the shortest move out of an obstacle to a place that is free of all, or nothing."""
     place = free_place(mission, drone, p, obstacle)
@@ -138,7 +133,7 @@ def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) ->
 def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -> Vec3 | None:
     """Return the nearest place out of an obstacle that is free of all, or None."""
     others = clearances_of(mission, drone)
-    low = lowest(mission, drone)
+    low = mission.rules.over_ground(drone.radius)
     places = [outward(p, q) for q in obstacle.ways_out(p)]
     free = [q for q in places if q[2] >= low - ROUNDING and all(o.lack(q) <= ROUNDING for o in others)]
     return min(free, key=lambda place: dist(p, place), default=None)

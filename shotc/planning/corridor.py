@@ -34,17 +34,17 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
     index = {name: i for i, name in enumerate(around.space.owners)}
     planes = corridor(around.space, around.hulls, around.reach, around.share)
     owner = np.array([index[o.owner] for o in around.space.obstacles], dtype=np.intp)
-    half_spaces = [rows_of(around.breaks, planes, owner[planes.owner])] if len(planes.piece) else []
-    half_spaces += _wall_floors(around, index)
+    half_spaces = (
+        [rows_of(around.breaks, replace(planes, owner=owner[planes.owner]))] if len(planes.piece) else []
+    )
+    half_spaces += _wall_rows(around, index)
     return replace(base, half_spaces=tuple(half_spaces), cones=base.cones + _disc_cones(around, index))
 
 
-def rows_of(breaks: Array, planes: HalfSpaces, owner: IntArray) -> HalfSpaceRows:
-    """Return half-spaces as rows of a programme; owner : whom each belongs to there, shape (R,)."""
-    rows = points_of(breaks, planes.piece)
-    return HalfSpaceRows(
-        rows, np.repeat(planes.normal, 6, axis=0), planes.offset.ravel(), np.repeat(owner, 6)
-    )
+def rows_of(breaks: Array, planes: HalfSpaces) -> HalfSpaceRows:
+    """Return half-spaces as rows of a programme, whose owners they index."""
+    rows, owner = points_of(breaks, planes.piece), np.repeat(planes.owner, 6)
+    return HalfSpaceRows(rows, np.repeat(planes.normal, 6, axis=0), planes.offset.ravel(), owner)
 
 
 def points_of(breaks: Array, pieces: IntArray) -> Rows:
@@ -53,7 +53,7 @@ def points_of(breaks: Array, pieces: IntArray) -> Rows:
     return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
 
 
-def _wall_floors(around: Around, index: dict[Owner, int]) -> list[HalfSpaceRows]:
+def _wall_rows(around: Around, index: dict[Owner, int]) -> list[HalfSpaceRows]:
     half_spaces = []
     for wall in around.space.walls:
         n = np.array(wall.normal)
@@ -64,7 +64,7 @@ def _wall_floors(around: Around, index: dict[Owner, int]) -> list[HalfSpaceRows]
         offset = wall.offset + kept(slack[near], around.share)
         owner = np.full(len(near), index[wall.owner])
         planes = HalfSpaces(near, np.tile(n, (len(near), 1)), np.repeat(offset[:, None], 6, axis=1), owner)
-        half_spaces.append(rows_of(around.breaks, planes, owner))
+        half_spaces.append(rows_of(around.breaks, planes))
     return half_spaces
 
 

@@ -12,7 +12,7 @@ from shotc.geom.solids import Cylinder, Prism, convex_parts, edges, hull_and_poc
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
-from shotc.planning.clearances import Clearance, clearances_of, from_parked, lowest
+from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.free_space import MARGIN, Disc, FreeSpace, Obstacle, Wall
 
 
@@ -32,7 +32,7 @@ def flight_space(mission: MissionIR, drone: Drone) -> FreeSpace:
 
     A drone that films nothing stands on its pad; those that fly are no part of a free space.
     """
-    over_ground = lowest(mission, drone)
+    over_ground = mission.rules.over_ground(drone.radius)
     walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
     return _space((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
 

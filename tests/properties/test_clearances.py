@@ -16,7 +16,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.space import space
-from shotc.planning.clearances import clearances_of, lowest
+from shotc.planning.clearances import clearances_of
 from shotc.planning.free_space import bounds_slack
 from shotc.planning.obstacles import flight_space, pad_space
 from tests.support.front_passes import resolved
@@ -73,7 +73,7 @@ def test_the_planners_rule_is_the_judges(rules: tuple[float, float, float, float
     drone = mission.drones[0]
     judged = {c.constraint: c.worst - c.limit for c in space(hovering(mission, place, "transit"))}
     planned = {str(c.owner): -c.lack(place) for c in clearances_of(mission, drone)}
-    planned["ground clearance"] = place[2] - lowest(mission, drone)
+    planned["ground clearance"] = place[2] - mission.rules.over_ground(drone.radius)
     assert judged.keys() == planned.keys()
     for name, slack in planned.items():
         # The judge stops where it is sure: inside a solid it says how deep by its surface alone.
@@ -92,7 +92,10 @@ def test_a_room_is_what_its_clearances_leave(rules: tuple[float, float, float, f
         float(bounds_slack(space, p)[0]),
         *(float(distances(o.part, p[0])) - o.clearance for o in space.obstacles),
     )
-    kept = min(place[2] - lowest(mission, drone), *(-c.lack(place) for c in clearances_of(mission, drone)))
+    kept = min(
+        place[2] - mission.rules.over_ground(drone.radius),
+        *(-c.lack(place) for c in clearances_of(mission, drone)),
+    )
     # A room measures to the planes of a hull, clearances to its edges: both agree on who is inside.
     if abs(kept) > 1e-6 and abs(slack) > 1e-6:
         assert (slack >= 0.0) == (kept >= 0.0)

@@ -44,19 +44,30 @@ shots:
 PASS, ROUND = "pass", "round"
 
 
-def text(*optional: str) -> str:
-    """Return the mission in which some shots accept their convex paths."""
-    made = MISSION
+def accepting(mission: str, *optional: str) -> str:
+    """Return a mission in which some shots accept their convex paths."""
     for shot in optional:
-        made = made.replace(f"  - id: {shot}\n", f"  - id: {shot}\n    refine: {{optional: true}}\n")
-    return made
+        mission = mission.replace(f"id: {shot}\n", f"id: {shot}\n    refine: {{optional: true}}\n")
+    return mission
 
 
 @cache
+def convex_path(mission: str) -> PathIR:
+    """Return the convex path of a mission."""
+    options = PlanOptions(refiner="none", stop_after="solve-path-qp")
+    done = compile_source(mission.encode(), "yard.yaml", None, options)
+    assert done.reports[-1].output is not None, done.diagnostics
+    return done.reports[-1].output
+
+
+def text(*optional: str) -> str:
+    """Return the mission in which some shots accept their convex paths."""
+    return accepting(MISSION, *optional)
+
+
 def path(*optional: str) -> PathIR:
     """Return the convex path of the mission."""
-    options = PlanOptions(refiner="none", stop_after="solve-path-qp")
-    return compile_source(text(*optional).encode(), "yard.yaml", None, options).reports[-1].output
+    return convex_path(text(*optional))
 
 
 class Odd:

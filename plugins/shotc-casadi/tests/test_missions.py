@@ -13,6 +13,7 @@ from shotc_casadi.rounds import ROUNDS, refine_shot
 
 from shotc.api import emit_plan
 from shotc.diag.registry import has_errors
+from shotc.ir.owners import owner_of
 from shotc.ir.path import MovingLeg
 from shotc.planning.free_space import shortfall
 from shotc.planning.timing.leg import fastest_moves, plan_of
@@ -139,7 +140,7 @@ def test_what_the_nodes_do_not_keep_is_tightened_until_it_is_proved(monkeypatch)
     """A refiner that does not see the wall at its nodes finds it in the proof, and comes back."""
     real = rounds.half_spaces
     (subject,) = subjects(path_of(compiled(WALLED), "solve-path-qp"))
-    wall = next(owner for owner in subject.space.owners if str(owner) == "zone wall")
+    wall = owner_of(subject.mission, "zone wall")
     monkeypatch.setattr(rounds, "half_spaces", lambda space, *rest: real(space.without(wall), *rest))
     found = refine_shot(subject, OURS)
     assert 1 < found.rounds <= ROUNDS

@@ -64,8 +64,9 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown) -> Error:
 
 def nearest_miss(obstacles: tuple[Clearance, ...], flown: Flown) -> tuple[str, float]:
     """Return the obstacle whose clearance is cut deepest, and by how much, m; ("", 0) if none is."""
-    deepest = ((float(shortfall(o, flown.position).max()), str(o.owner)) for o in obstacles)
-    cuts = list(deepest) if len(flown.position) else []
+    if not len(flown.position):
+        return ("", 0.0)
+    cuts = ((float(shortfall(o, flown.position).max()), str(o.owner)) for o in obstacles)
     depth, name = max(cuts, default=(0.0, ""))
     return (name, depth) if depth > 0 else ("", 0.0)
 

@@ -30,7 +30,7 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting
     aside = hypot(*setting.offset[:2]) > LEVEL
     level = aside and not keyframe.placed
     offset = _back(setting, fits, level=level)
-    floor = mission.rules.ground_clearance + mission.drone(shot.drone).radius
+    floor = mission.rules.over_ground(mission.drone(shot.drone).radius)
     if aside and not level and (offset is None or _place(keyframe, setting, offset)[2] < floor):
         level, offset = True, _back(setting, fits, level=True)
     if offset is None:

@@ -98,10 +98,7 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
     refined |= {
         now.shot: now.curve.channels(*CAMERA)
         for was, now in _on_paths(before, path)
-        if isinstance(now, MovingLeg)
-        and now.shot is not None
-        and now.shot not in convex
-        and not same(was, now)
+        if now.shot is not None and now.shot not in convex and not same(was, now)
     }
     try:
         joined = rejoined(before, refined)

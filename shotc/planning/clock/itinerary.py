@@ -75,7 +75,6 @@ class _State(NamedTuple):
     ends: dict[str, float]
     last: _Last | None
     slack: float
-    late: float
 
 
 class _Last(NamedTuple):
@@ -165,12 +164,12 @@ class Itinerary:
 
     def _state(self) -> _State:
         lists = tuple(self.legs), self.clock, tuple(self.deviations), tuple(self.stats)
-        return _State(*lists, dict(self.ends), self.last, self.slack, self.late)
+        return _State(*lists, dict(self.ends), self.last, self.slack)
 
     def _restore(self, state: _State) -> None:
         self.legs, self.clock = list(state.legs), state.clock
         self.deviations, self.stats = list(state.deviations), list(state.stats)
-        self.last, self.slack, self.late = state.last, state.slack, state.late
+        self.last, self.slack = state.last, state.slack
         self.ends.clear()
         self.ends.update(state.ends)
 

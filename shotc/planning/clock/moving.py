@@ -7,7 +7,7 @@ clearance, so that a plane beside the linear motion keeps clear of the true one.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -85,7 +85,7 @@ class LinearMotion:
 
 def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     """Return the targets that move, each a cylinder about its centre."""
-    clearance = drone.radius + mission.rules.target_clearance
+    clearance = mission.rules.beside_target(drone.radius)
     found = []
     for target in mission.targets:
         if target.track is not None:
@@ -142,7 +142,7 @@ def sides(motions: Sequence[LinearMotion], hulls: Array) -> HalfSpaces:
 
 def motion_rows(breaks: Array, planes: HalfSpaces, first: int) -> HalfSpaceRows:
     """Return the half-spaces as rows of a programme; first : index of the first motion among the owners."""
-    return rows_of(breaks, planes, first + planes.owner)
+    return rows_of(breaks, replace(planes, owner=first + planes.owner))
 
 
 def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> Array:

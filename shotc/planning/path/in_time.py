@@ -15,13 +15,11 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Leg, MovingLeg, Pose, TimedPath
+from shotc.ir.path import MovingLeg, Pose, TimedPath
 from shotc.planning.path.legs import end_of, turned_way
 from shotc.planning.path.shots import AngleFailure
 from shotc.planning.path.with_camera import SAME_END, NoTransit, with_camera
 from shotc.planning.timing.estimate import lateness, leg_time
-
-AnyLeg = Leg
 
 
 def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewise]) -> TimedPath:

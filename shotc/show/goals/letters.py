@@ -63,7 +63,7 @@ def too_small(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic 
     if source.height >= needed * (1.0 - 1e-9):
         return None
     notes = (passing(fleet), f"{'small ' if share < 1.0 else ''}letters need {DOTS} lights in their height")
-    larger = enlarged(picture, needed / source.height, mission.rules.ground_clearance + fleet.radius)
+    larger = enlarged(picture, needed / source.height, mission.rules.over_ground(fleet.radius))
     message = f"letters {source.height:.4g} m high are too small to be read"
     help_ = f"make them larger (`{size_words(source, larger.source)}`)"
     closer = source.height / needed * fleet.apart.across - fleet.apart.margin

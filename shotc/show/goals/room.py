@@ -40,7 +40,7 @@ class Room:
 
 def room_of(mission: MissionIR, fleet: Fleet) -> Room:
     """Return what a fleet's goals keep clear of."""
-    return Room(tuple(clearances_of(mission, fleet)), mission.rules.ground_clearance + fleet.radius)
+    return Room(tuple(clearances_of(mission, fleet)), mission.rules.over_ground(fleet.radius))
 
 
 def lack_of(obstacle: Clearance, goals: Array) -> Array:

@@ -57,7 +57,7 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
 def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator[float]:
     """Yield the least change up, and the least one down to ``least``, that free a path, metres."""
     drone = mission.drone(shot.drone)
-    around, floor = clearances_of(mission, drone), mission.rules.ground_clearance + drone.radius
+    around, floor = clearances_of(mission, drone), mission.rules.over_ground(drone.radius)
 
     def blocked(k: Keyframe) -> bool:
         if k.at[2] < floor - ROUNDING:

@@ -72,7 +72,7 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
     if subject.size is None:
         return None
     drone = mission.drone(shot.drone)
-    near = mission.rules.target_clearance + drone.radius
+    near = mission.rules.beside_target(drone.radius)
     wanted = wanted_at(mission, subject, first_start(mission, shot))
     toward = direction(wanted.azimuth or 0.0, wanted.elevation or 0.0)
     least = nearest(wanted, toward, near)
@@ -127,7 +127,7 @@ def _blocked(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | N
 
 def _too_low(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | None:
     shot, subject = course.shot, course.shot.subjects[0]
-    need = mission.rules.ground_clearance + mission.drone(shot.drone).radius
+    need = mission.rules.over_ground(mission.drone(shot.drone).radius)
     z = min(pose[2] for pose in course.poses)
     if z >= need - ROUNDING:
         return None
@@ -166,8 +166,7 @@ def _without_room(mission: MissionIR, course: Course, advise: bool) -> Diagnosti
     subject = shot.subjects[0]
     asked = next((s for s in shot.subjects if s.view is not None), subject)
     x, y, z = course.poses[0][:3]
-    what, name, lack = max(lacks(mission, drone, (x, y, z), course.times[0]), key=lambda found: found[2])
-    owner = mission.target(name) if what == "target" else next(z for z in mission.zones if z.name == name)
+    owner, lack = max(lacks(mission, drone, (x, y, z), course.times[0]), key=lambda found: found[1])
     free = all(s.view is None or s.view[0] is None for s in shot.subjects)
     size = mission.origins.value(shot_key(mission, shot, subject, "size"))
     label = size if free else _view_label(mission, shot, asked, "azimuth")
@@ -179,7 +178,7 @@ def _without_room(mission: MissionIR, course: Course, advise: bool) -> Diagnosti
             mission.origins.key(owner.path, "what is in its way"),
         ),
         (
-            f"it would be at [{x:.1f}, {y:.1f}, {z:.1f}], where {what} `{name}` lacks {lack:.2f} m",
+            f"it would be at [{x:.1f}, {y:.1f}, {z:.1f}], where {owner.words} lacks {lack:.2f} m",
             "it is so all through the shot",
         ),
         _either(

@@ -89,7 +89,7 @@ def stands_free(mission: MissionIR, drone: Drone) -> bool:
 
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[str, str] | None:
     """Return what stands against a home, and the numbers; None where nothing does."""
-    top = max(drone.home[2], mission.rules.ground_clearance + drone.radius)
+    top = max(drone.home[2], mission.rules.over_ground(drone.radius))
     room = take_off_room(drone.home, top, obstacle)
     if room >= drone.radius - ROUNDING:
         return None

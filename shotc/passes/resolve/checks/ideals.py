@@ -80,7 +80,7 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     ideal = shot.ideal
     if ideal is None or ideal.frame in ("about", "keyframes"):
         return
-    need = mission.rules.ground_clearance + mission.drone(shot.drone).radius
+    need = mission.rules.over_ground(mission.drone(shot.drone).radius)
     lowest = min(offset[2] for _, offset in ideal.points)
     if lowest >= need - ROUNDING:
         return

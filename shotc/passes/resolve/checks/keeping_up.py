@@ -154,7 +154,7 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
     first, last = ideal.points[0][1], ideal.points[-1][1]
     asked = abs(first[1]) if key == "offset" else hypot(first[0], first[1])
     end = hypot(last[0], last[1]) / asked if (*shot.path, key, 0) in mission.origins.values else 1.0
-    least = mission.target(ideal.target).radius + mission.rules.target_clearance + drone.radius
+    least = mission.target(ideal.target).radius + mission.rules.beside_target(drone.radius)
     least /= min(1.0, end)
 
     def at(metres: float) -> Shot:

@@ -26,7 +26,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
     looks = keyframe.target is not None and keyframe.aim is None
     if not looks or (free is not None and _shown(mission, shot, keyframe, free)):
         return "move it to a free place" if free is None else move(p, free)
-    around, floor = clearances_of(mission, drone), mission.rules.ground_clearance + drone.radius
+    around, floor = clearances_of(mission, drone), mission.rules.over_ground(drone.radius)
     centre = mission.target(str(keyframe.target)).centre
     found: list[Vec3] = []
     for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:WAYS]:

@@ -87,7 +87,7 @@ def _fault(mission: MissionIR, drone: Drone, target: Target, when: float, why: s
 
 def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
     """Return in words the move of a home to a near place over which nothing comes, not ``target`` either."""
-    wide = drone.radius + mission.rules.target_clearance
+    wide = mission.rules.beside_target(drone.radius)
     reach = target.radius + wide + BESIDE
     x, y, z = drone.home
     for rings in RINGS:

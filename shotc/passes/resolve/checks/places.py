@@ -27,7 +27,7 @@ def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diag
     for path, keyframes in _by_line(shot).items():
         for fault in too_low(mission, shot, drone, path, keyframes):
             yield path, fault
-        raised = [_raised(k, mission.rules.ground_clearance + drone.radius) for k in keyframes]
+        raised = [_raised(k, mission.rules.over_ground(drone.radius)) for k in keyframes]
         for obstacle in clearances_of(mission, drone):
             for fault in blocked(mission, shot, raised, obstacle, clear):
                 yield path, fault
@@ -52,7 +52,7 @@ def too_low(
 ) -> Iterator[Diagnostic]:
     """Yield the fault of a line with a keyframe that is too near to the ground."""
     lowest = min(keyframes, key=lambda k: k.at[2])
-    floor = mission.rules.ground_clearance + drone.radius
+    floor = mission.rules.over_ground(drone.radius)
     z = lowest.at[2]
     if z >= floor - ROUNDING:
         return

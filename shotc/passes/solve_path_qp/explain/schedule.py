@@ -122,7 +122,7 @@ def _pad_met(mission: MissionIR, drone: Drone, found: Meets) -> Diagnostic:
         f"at t = {met.time:.1f} s the target reaches {at_least(met.lack)} m into the body, at the "
         f"best of the times to {verb} that were tried",
     )
-    away = at_least(target.radius + drone.radius + mission.rules.target_clearance)
+    away = at_least(target.radius + mission.rules.beside_target(drone.radius))
     remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
     remedies.append(f"put `home` where the axis of `{target.name}` comes no nearer than {away} m")
     message = f"`{drone.name}` cannot {verb} clear of target `{target.name}`"

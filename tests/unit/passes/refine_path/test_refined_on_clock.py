@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
 
-from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, MovingLeg, PathIR, TimedPath, X, Y, Z, filmed
@@ -19,7 +17,7 @@ from shotc.planning.clock.flights import flown_shot
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.with_camera import NoTransit
 from shotc.planning.timing.estimate import leg_time
-from tests.support.bad_refiners import Odd
+from tests.support.bad_refiners import Odd, accepting, convex_path
 
 MISSION = """\
 shotc: 1
@@ -43,19 +41,8 @@ SEAT = Seat(Odd(Outcome), "odd-maker")
 CAMERA = (X, Y, Z, CAM_YAW, CAM_PITCH)
 
 
-def text(*optional: str) -> str:
-    made = MISSION
-    for shot in optional:
-        made = made.replace(f"id: {shot}", f"id: {shot}\n    refine: {{optional: true}}")
-    return made
-
-
-@cache
 def path(*optional: str) -> PathIR:
-    options = PlanOptions(refiner="none", stop_after="solve-path-qp")
-    done = compile_source(text(*optional).encode(), "yard.yaml", None, options)
-    assert done.reports[-1].output is not None, done.diagnostics
-    return done.reports[-1].output
+    return convex_path(accepting(MISSION, *optional))
 
 
 def refine(act, *optional: str):

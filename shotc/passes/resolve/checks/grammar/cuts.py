@@ -85,7 +85,7 @@ def _as_far(mission: MissionIR, after: Shot, right: Sight, ratio: float) -> list
     away = hypot(x, y, z)
     target = mission.target(right.names[0])
     near, far = away * ratio / ALIKE, away * ratio * ALIKE
-    clear = target.radius + mission.rules.target_clearance + mission.drone(after.drone).radius
+    clear = target.radius + mission.rules.beside_target(mission.drone(after.drone).radius)
     found = [f"write `distance: {at_least(sqrt(far * far - z * z), 1)}` or more"]
     if near > hypot(clear, z):
         found.insert(0, f"write `distance: {at_most(sqrt(near * near - z * z), 1)}` or less")

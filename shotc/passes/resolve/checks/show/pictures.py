@@ -74,7 +74,7 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
         f"no more than {floor(most)} fit {where} this {word}, and fleet `{fleet.name}` has {count}",
     )
     factor = growth(picture, fleet.apart, count)
-    larger = enlarged(picture, factor, mission.rules.ground_clearance + fleet.radius)
+    larger = enlarged(picture, factor, mission.rules.over_ground(fleet.radius))
     labels = (
         mission.origins.key(key_of(picture)),
         mission.origins.value((*fleet.path, "count"), "the fleet"),
@@ -91,7 +91,7 @@ def _too_low(
     mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]
 ) -> Iterator[Diagnostic]:
     low = lowest(shape)
-    floor_ = mission.rules.ground_clearance + fleet.radius
+    floor_ = mission.rules.over_ground(fleet.radius)
     if low >= floor_ - ROUNDING:
         return
     where = f"{-low:.2f} m under the ground" if low < 0 else f"{low:.2f} m over the ground"
@@ -137,7 +137,7 @@ def _inside(
     labels = (centre_label(mission, picture), mission.origins.key(zone.owner.path, "the zone"))
     word = word_of(picture)
     # Below the ground clearance it is too low anyway, which is told once.
-    low = max(lowest(shape), mission.rules.ground_clearance + fleet.radius)
+    low = max(lowest(shape), mission.rules.over_ground(fleet.radius))
     high = highest(shape)
     bottom, top = zone.solid.bottom + fleet.radius, zone.solid.top - fleet.radius
     if low < bottom - ROUNDING or high > top + ROUNDING:
@@ -168,7 +168,7 @@ def _inside(
 def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]) -> str:
     """Propose the shortest way to where a picture is clear of everything; empty where none is found."""
     centre, around = picture.source.centre, clearances_of(mission, fleet)
-    floor_ = mission.rules.ground_clearance + fleet.radius
+    floor_ = mission.rules.over_ground(fleet.radius)
     if centre is None or len(shape) * len(around) > MANY:
         return ""
     for metres in range(1, FARTHEST + 1):
