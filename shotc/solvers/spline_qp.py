@@ -6,6 +6,7 @@ mission asks for many curves of many shapes, so their rows go to Clarabel direct
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
@@ -16,7 +17,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import Rows
 from shotc.solvers.cone_rows import ConeRows, Near, Term
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_problem import EVERY, Cones, SplineProblem, centred, scalar_map, terms
+from shotc.solvers.spline_problem import EVERY, Cones, Goal, SplineProblem, centred, scalar_map, terms
 
 MISS = 1e-6  # metres that a solution may miss an equality by
 TOLERANCE = 1e-8
@@ -45,14 +46,15 @@ def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     """
     centre = problem.equalities.value.mean(axis=0)
     problem = centred(problem, centre)
-    free = _unbounded(problem)
+    squares = squares_of(problem)
+    free = _unbounded(problem, squares)
     if free is not None and _keeps(problem, free):
         return SplineSolution(Status.SOLVED, free + centre, _energy(problem, free), 0.0)
     left = problem if free is None else _leaving(problem, free)
-    found = programme(left, unit)
+    found = programme(left, squares, unit)
     if found.coef is None and (dear := _dearest(problem)) > unit:
         # Costs of many orders above the constraints pass for a certificate that there is no solution.
-        found = programme(left, dear)
+        found = programme(left, squares, dear)
     if found.coef is None:
         return found
     coef = found.coef if free is None else free + found.coef
@@ -77,31 +79,59 @@ def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
     )
 
 
-def _unbounded(problem: SplineProblem) -> Array | None:
+@dataclass(frozen=True, slots=True, eq=False)
+class Square:
+    """The part of the objective of components that have the same goals: |maps c - value|^2 for each.
+
+    axes : these components; goals : theirs; maps : shape (R, size), sparse; gram : maps.T @ maps
+    """
+
+    axes: list[int]
+    goals: list[Goal]
+    maps: Any
+    gram: Any
+
+    def slope(self, goals: Sequence[Goal]) -> Array:
+        """Return maps.T @ value for each component, shape (size, len(axes)); goals : the same with values."""
+        values = [goal.value[:, self.axes] for goal in goals if self.axes[0] in goal.axes]
+        return np.asarray(self.maps.T @ np.concatenate([np.zeros((0, len(self.axes))), *values]))
+
+
+def squares_of(problem: SplineProblem) -> list[Square]:
+    """Return the objective, components with the same goals together."""
+    from scipy.sparse import csr_matrix, vstack
+
+    squares, left = [], list(EVERY)
+    while left:
+        alike = [k for k in left if all((k in goal.axes) == (left[0] in goal.axes) for goal in problem.goals)]
+        left = [k for k in left if k not in alike]
+        mine = [goal for goal in problem.goals if alike[0] in goal.axes]
+        each = (scalar_map(goal.rows, problem.size) for goal in mine)
+        maps = vstack([csr_matrix((0, problem.size)), *each], format="csr")
+        squares.append(Square(alike, mine, maps, maps.T @ maps))
+    return squares
+
+
+def _unbounded(problem: SplineProblem, squares: list[Square]) -> Array | None:
     """Return the curve of least energy through the equalities, or None where there is not one.
 
     Where it breaks no bound, soft ones included, it is the optimum of the whole problem.
     """
-    from scipy.sparse import bmat, vstack
+    from scipy.sparse import bmat
     from scipy.sparse.linalg import splu
 
     through = scalar_map(problem.equalities.rows, problem.size)
     coef = np.zeros((problem.size, 3))
-    left = list(EVERY)
-    while left:
-        mine = [goal for goal in problem.goals if left[0] in goal.axes]
-        alike = [k for k in left if all((k in goal.axes) == (left[0] in goal.axes) for goal in problem.goals)]
-        left = [k for k in left if k not in alike]
-        if not mine:
+    for square in squares:
+        if not square.goals:
             return None
-        maps = vstack([scalar_map(goal.rows, problem.size) for goal in mine], format="csr")
-        system = bmat([[maps.T @ maps, through.T], [through, None]], format="csc")
-        wanted = maps.T @ np.concatenate([goal.value[:, alike] for goal in mine])
+        system = bmat([[square.gram, through.T], [through, None]], format="csc")
+        equal = problem.equalities.value[:, square.axes]
         try:
-            solved = splu(system).solve(np.concatenate([wanted, problem.equalities.value[:, alike]]))
+            solved = splu(system).solve(np.concatenate([square.slope(problem.goals), equal]))
         except RuntimeError:  # singular: goals and equalities leave a direction free
             return None
-        coef[:, alike] = solved[: problem.size]
+        coef[:, square.axes] = solved[: problem.size]
     return coef if np.isfinite(coef).all() else None
 
 
@@ -129,8 +159,8 @@ def _dearest(problem: SplineProblem) -> float:
     return max([0.0, *(float(cone.price.max()) for cone in problem.cones if cone.price is not None)])
 
 
-def programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
-    """Solve with the objective measured in ``unit`` m^2, of which some is left."""
+def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) -> SplineSolution:
+    """Solve with the objective measured in ``unit`` m^2, of which some is left; squares : of its goals."""
     priced = [cone for cone in problem.cones if cone.price is not None]
     slacks = sum(len(cone.bound) for cone in priced)
     rows = ConeRows(3 * problem.size + slacks)
@@ -150,7 +180,7 @@ def programme(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
             price.append(cone.price)
             at += len(one)
         _bounded(rows, problem.size, cone, more)
-    hessian, slope = _quadratic(problem, slacks)
+    hessian, slope = _quadratic(problem, squares, slacks)
     near = Near(np.zeros(rows.unknowns), 1.0)
     status, x = rows.solve((slope + np.concatenate(price)) / unit, TOLERANCE, hessian / unit, near=near)
     if status not in {Status.SOLVED, Status.INACCURATE}:
@@ -173,15 +203,14 @@ def _bounded(rows: ConeRows, size: int, cone: Cones, more: list[Term]) -> None:
         rows.positive(cone.bound + sign * cone.centre[:, 0], more + part)
 
 
-def _quadratic(problem: SplineProblem, slacks: int) -> tuple[Any, Array]:
+def _quadratic(problem: SplineProblem, squares: list[Square], slacks: int) -> tuple[Any, Array]:
     """Return Hessian and slope of the goals' sum of squares over all unknowns; slacks have no part in it."""
-    from scipy.sparse import block_diag, csc_matrix, vstack
+    from scipy.sparse import block_diag, csc_matrix
 
-    size, hessian, slope = problem.size, [], [np.zeros(0)]
-    for axis in EVERY:
-        mine = [goal for goal in problem.goals if axis in goal.axes]
-        maps = vstack([csc_matrix((0, size)), *(scalar_map(goal.rows, size) for goal in mine)], format="csc")
-        hessian.append(2.0 * (maps.T @ maps))
-        slope.append(-2.0 * (maps.T @ np.concatenate([np.zeros(0), *(g.value[:, axis] for g in mine)])))
-    square = block_diag([*hessian, csc_matrix((slacks, slacks))], format="csc")
-    return square, np.concatenate([*slope, np.zeros(slacks)])
+    grams, slope = [None] * len(EVERY), np.zeros((problem.size, len(EVERY)))
+    for square in squares:
+        slope[:, square.axes] = -2.0 * square.slope(problem.goals)
+        for axis in square.axes:
+            grams[axis] = 2.0 * square.gram
+    hessian = block_diag([*grams, csc_matrix((slacks, slacks))], format="csc")
+    return hessian, np.concatenate([slope.T.ravel(), np.zeros(slacks)])

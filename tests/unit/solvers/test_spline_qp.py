@@ -22,7 +22,7 @@ from shotc.solvers.spline_problem import (
     centred,
     scalar_map,
 )
-from shotc.solvers.spline_qp import minimise
+from shotc.solvers.spline_qp import minimise, squares_of
 from shotc.solvers.spline_relax import relax
 
 
@@ -107,13 +107,14 @@ def test_bounds_that_do_not_bite_need_no_programme(monkeypatch):
         bounded(fast, low + 0.1),
     )
     programme, asked = spline_qp.programme, []
-    monkeypatch.setattr(spline_qp, "programme", lambda q, unit: asked.append(q) or programme(q, unit))
-    found, reference = minimise(wide), programme(wide)
+    monkeypatch.setattr(spline_qp, "programme", lambda q, *given: asked.append(q) or programme(q, *given))
+    found, reference = minimise(wide), programme(wide, squares_of(wide))
     assert not asked
     assert found.objective == pytest.approx(reference.objective, rel=1e-7)
     assert found.excess == 0.0
     centre = wide.equalities.value.mean(axis=0)
-    assert np.abs(found.coef - centre - programme(centred(wide, centre)).coef).max() < 1e-5
+    middle = centred(wide, centre)
+    assert np.abs(found.coef - centre - programme(middle, squares_of(middle)).coef).max() < 1e-5
     for tight in (slow, high):
         asked.clear()
         minimise(tight)
