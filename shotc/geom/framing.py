@@ -14,8 +14,9 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import ROUNDING, View, frustum_margins, nearest_depth, point_margins, silhouette_bounds
 from shotc.geom.pieces import Mask
+from shotc.geom.solid_arrays.points import signed_distance
+from shotc.geom.solid_arrays.segments import blocks
 from shotc.geom.solids import Cylinder, Solid
-from shotc.geom.solids_array import blocks, signed_distance
 
 
 @dataclass(frozen=True, slots=True, eq=False)

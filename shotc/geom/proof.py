@@ -20,8 +20,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask, Pieces
+from shotc.geom.solid_arrays.points import FAR_M, heights, separation, signed_distance, support
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, hull_and_pockets
-from shotc.geom.solids_array import FAR, separation, signed_distance, support
 from shotc.geom.taper import Taper
 
 ROUNDS = 60
@@ -201,8 +201,8 @@ def sup_outside(pieces: Pieces, solid: Solid, gap: Callable[[float], float], *, 
 
 
 def _excess(hull: Solid, floor: bool) -> Value:
-    bottom = max(hull.bottom, -FAR) if floor else -FAR
-    top = min(hull.top, FAR)
+    bottom, top = heights(hull)
+    bottom = bottom if floor else -FAR_M
     if isinstance(hull, Cylinder):
         centre, radius = np.array(hull.centre), hull.radius
 
@@ -254,5 +254,5 @@ def _box(solid: Solid) -> tuple[Array, Array]:
     else:
         points = np.array(solid.points)
         corners = np.stack([points.min(axis=0), points.max(axis=0)])
-    bottom, top = max(solid.bottom, -FAR), min(solid.top, FAR)
+    bottom, top = heights(solid)
     return np.array([*corners[0], bottom]), np.array([*corners[1], top])

@@ -14,7 +14,10 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.convex import BoolArray, distances, segment_distances, separate, support
+from shotc.geom.pieces import Mask
+from shotc.geom.solid_arrays.planes import separate
+from shotc.geom.solid_arrays.points import distances, support
+from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Solid
 from shotc.geom.taper import SLOPE, Taper
 from shotc.geom.vec import Vec3
@@ -144,7 +147,7 @@ def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
     return np.asarray(obstacle.clearance + np.minimum(margin, 0.5 * np.maximum(space, 0.0)))
 
 
-def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN) -> BoolArray:
+def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN) -> Mask:
     """Tell for segments a-b, shapes (N, 3), and obstacles whether they come too near; (N, obstacles)."""
     out = np.zeros((len(a), len(space.obstacles)), dtype=bool)
     low, high = np.minimum(a, b), np.maximum(a, b)

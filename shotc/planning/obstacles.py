@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import hypot, inf
 from typing import NamedTuple
 
-from shotc.geom.convex import bounded
+from shotc.geom.solid_arrays.points import bounded
 from shotc.geom.solids import Cylinder, Prism, convex_parts, edges, hull_and_pockets
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, target_owner, zone_owner

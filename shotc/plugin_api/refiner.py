@@ -9,9 +9,9 @@ from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, silhouette_bounds
-from shotc.geom.convex import bounded, distances
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import worst_of_runs
+from shotc.geom.solid_arrays.points import bounded, distances
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
 from shotc.geom.vec import wrapped

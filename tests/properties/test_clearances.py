@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise
-from shotc.geom.convex import distances
+from shotc.geom.solid_arrays.points import distances
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CHANNELS, HFOV

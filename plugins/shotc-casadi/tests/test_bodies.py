@@ -17,7 +17,7 @@ from shotc_casadi.clock.refiner import subject_of
 from shotc_casadi.clock.rounds import NEARLY
 
 from shotc.api import PlanOptions, compile_source
-from shotc.geom.convex import distances
+from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Cylinder, Prism, Solid, box
 from shotc.plugin_api.refiner import NO_HALF_SPACES, Array, restrict
 from tests.experiments import crowd

@@ -7,7 +7,7 @@ import pytest
 from shotc_casadi.margins import Margins
 from shotc_casadi.walls import COUNTS, FREE, half_spaces
 
-from shotc.geom.convex import support
+from shotc.geom.solid_arrays.points import support
 from tests.support.path_scenes import free, mission, shot
 from tests.support.records import replace as changed
 from tests.support.refiner_scenes import nodes_of, subject, walled

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.clearance import footprint_distance
 from shotc.emit.mavlink.geo import METRE_DECIMALS, Geo
+from shotc.geom.solid_arrays.points import footprint_distances
 from shotc.geom.solids import Cylinder, signed_area
 from shotc.ir.mission import MissionIR, Zone
 
@@ -84,7 +84,7 @@ def fence_of(mission: MissionIR, geo: Geo, track: Array, *, one_inclusion: bool)
 
 
 def _misfit(zone: Zone, xy: Array) -> str:
-    distance = footprint_distance(zone.solid, xy)
+    distance = footprint_distances(zone.solid, xy)
     if zone.keep == "in":
         return "" if float(distance.max()) == 0.0 else "the flight's ground track leaves it"
     if float(distance.min()) < MARGIN:

@@ -8,7 +8,7 @@ from math import degrees
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.solids_array import signed_distance
+from shotc.geom.solid_arrays.points import signed_distance
 from shotc.ir.bodies import moved
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z

@@ -18,8 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solids import Cylinder, Solid
-from shotc.geom.solids_array import signed_distance
 from shotc.ir.bodies import flying, moved
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.path import Deviation

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
+from shotc.geom.solid_arrays.points import distances
 from shotc.geom.taper import SLOPE, Taper
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, relative_to, sides
 from shotc.planning.free_space import STEEPER, HalfSpaces

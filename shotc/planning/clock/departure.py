@@ -18,8 +18,8 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.convex import distances
 from shotc.geom.pieces import Mask
+from shotc.geom.solid_arrays.points import distances
 from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import Owner

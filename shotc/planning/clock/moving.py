@@ -14,8 +14,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.convex import separate, support
 from shotc.geom.pieces import Mask
+from shotc.geom.solid_arrays.planes import separate
+from shotc.geom.solid_arrays.points import support
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.track_array import places
 from shotc.ir.mission import Drone, MissionIR

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import distances
 from shotc.geom.sampling import directions
+from shotc.geom.solid_arrays.points import distances
 from shotc.planning.clock.moving import COMFORT, Moving
 from shotc.planning.free_space import MARGIN, FreeSpace, bounds_slack
 

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.convex import distances
 from shotc.geom.sampling import worst_of_runs
+from shotc.geom.solid_arrays.points import distances
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import closest_points, support
+from shotc.geom.solid_arrays.points import closest_points, support
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner
 from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, Wall

@@ -11,7 +11,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, subdivide
-from shotc.geom.convex import segment_distances
+from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import (

@@ -12,7 +12,7 @@ from math import pi
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import FAR, support
+from shotc.geom.solid_arrays.points import FAR_M, support
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.planning.free_space import MARGIN, Breach, FreeSpace, blocked, bounds_slack, breaches
@@ -147,7 +147,7 @@ def _nearest_free(space: FreeSpace, p: Array) -> Array | None:
         # The way out along each ray: the support of the solid seen from p, and the clearance.
         out = support(o.part, rays) - rays @ p + reach
         tries += list(p + rays[out > 0] * out[out > 0, None])
-        if o.part.top < FAR:
+        if o.part.top < FAR_M:
             tries.append(np.array([p[0], p[1], o.part.top + reach]))
     for wall in space.walls:
         lack = wall.offset + MARGIN - float(p @ np.array(wall.normal))

@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import FAR, segment_distances
+from shotc.geom.solid_arrays.points import FAR_M
+from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
@@ -49,7 +50,7 @@ def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | Pa
     ceiling = min(((-w.offset, w.owner) for w in pad.walls if w.normal[2] < -0.5), default=None)
     if ceiling is not None and ceiling[0] < lowest:
         return PadBlocked(ceiling[1], "ceiling", lowest, ceiling[0])
-    tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles if o.part.top < FAR]
+    tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles if o.part.top < FAR_M]
     usual = max(lowest, home[2] + CUSTOM)
     heights = [*sorted({usual, *(t for t in tops if t > usual)}), lowest]
     points = np.array([[home[0], home[1], z] for z in heights])

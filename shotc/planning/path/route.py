@@ -16,7 +16,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.convex import FAR, BoolArray, distances, segment_distances
+from shotc.geom.pieces import Mask
+from shotc.geom.solid_arrays.points import FAR_M, distances
+from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Solid
 from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, blocked, bounds_slack
 
@@ -86,7 +88,7 @@ class _Scene:
         return self.grown[j].clearance + self.share * NODE_MARGIN
 
 
-def _search(scene: _Scene, first: BoolArray, start: Array, end: Array) -> Array | None:
+def _search(scene: _Scene, first: Mask, start: Array, end: Array) -> Array | None:
     active = first
     best: Array | None = None
     for _ in range(len(scene.grown) + 1):
@@ -112,7 +114,7 @@ class _Graph:
         self.nodes: Array = nodes[free]
         self.touched = np.zeros(len(scene.grown), dtype=bool)
 
-    def search(self) -> tuple[Array | None, BoolArray]:
+    def search(self) -> tuple[Array | None, Mask]:
         """Return the cheapest way found, and which obstacles stopped an edge."""
         nodes = self.nodes
         cost = np.full(len(nodes), np.inf)
@@ -150,7 +152,7 @@ class _Graph:
         for j, g in enumerate(self.scene.grown):
             enter, leave = _clip(g, a, b, self.scene.reach(j))
             over = np.maximum(leave - enter, 0.0)
-            if g.top < FAR:
+            if g.top < FAR_M:
                 price = price + OVERFLIGHT_PRICE * over * stride
             hit = self._hits(j, a, b, enter, leave)
             exact = self._close(j, i, others)
@@ -160,20 +162,20 @@ class _Graph:
             price[hit] = np.inf
         return np.asarray(price)
 
-    def _hits(self, j: int, a: Array, b: Array, enter: Array, leave: Array) -> BoolArray:
+    def _hits(self, j: int, a: Array, b: Array, enter: Array, leave: Array) -> Mask:
         """Edges that cut the grown prism, given where they are above or below its footprint."""
         g, reach = self.scene.grown[j], self.scene.reach(j)
         low, high = _clip_heights(a[:, 2], b[:, 2] - a[:, 2], g.bottom - reach, g.top + reach)
         return np.asarray(np.maximum(enter, low) < np.minimum(leave, high) - 1e-9)
 
-    def _close(self, j: int, i: int, others: IntArray) -> BoolArray:
+    def _close(self, j: int, i: int, others: IntArray) -> Mask:
         """Edges whose start or end point of the whole way stands inside the grown prism."""
         inside = _inside(self.scene.grown[j], self.nodes[:2], self.scene.reach(j) + 1e-6)
         if i <= 1 and inside[i]:
             return np.ones(len(others), dtype=np.bool_)
         return np.asarray((others == 1) & inside[1])
 
-    def _near(self, j: int, a: Array, b: Array) -> BoolArray:
+    def _near(self, j: int, a: Array, b: Array) -> Mask:
         o = self.scene.space.obstacles[j]
         own = np.minimum(distances(o.part, a), distances(o.part, b)) - o.clearance
         need = o.clearance + np.minimum(self.scene.share * MARGIN, 0.5 * np.maximum(own, 0.0))
@@ -226,7 +228,7 @@ def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) ->
     heights = [float(start[2]), float(end[2])]
     for k in active:
         g, reach = scene.grown[k], scene.node_reach(k)
-        heights += [h for h in (g.top + reach, g.bottom - reach) if abs(h) < FAR / 2]
+        heights += [h for h in (g.top + reach, g.bottom - reach) if abs(h) < FAR_M / 2]
     levels += [np.full(len(xy), h) for h in sorted(set(heights))]
     corners = [np.column_stack([xy, z]) for z in levels]
     return np.concatenate([*corners, *_crossings(scene, j, xy, start, end)])
@@ -240,11 +242,11 @@ def _crossings(scene: _Scene, j: int, xy: Array, start: Array, end: Array) -> li
     if enter[0] < leave[0]:
         rim.append(start[:2] + np.stack([enter, leave]) * (end[:2] - start[:2]))
     over = np.concatenate(rim)
-    heights = [h for h in (g.top + reach, g.bottom - reach) if abs(h) < FAR / 2]
+    heights = [h for h in (g.top + reach, g.bottom - reach) if abs(h) < FAR_M / 2]
     return [np.column_stack([over, np.full(len(over), h)]) for h in heights]
 
 
-def _inside(g: _Grown, p: Array, reach: float) -> BoolArray:
+def _inside(g: _Grown, p: Array, reach: float) -> Mask:
     flat = (p[:, :2] @ g.normals.T <= g.offsets + reach - 1e-9).all(axis=1)
     return np.asarray(flat & (p[:, 2] < g.top + reach - 1e-9) & (p[:, 2] > g.bottom - reach + 1e-9))
 

@@ -16,8 +16,9 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.convex import BoolArray, distances
+from shotc.geom.pieces import Mask
 from shotc.geom.sampling import directions
+from shotc.geom.solid_arrays.points import distances
 from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone
@@ -178,7 +179,7 @@ def _along(corners: Array) -> Array:
     return np.concatenate(parts)
 
 
-def _keeps(space: FreeSpace, points: Array, more: float = -ROUNDING) -> BoolArray:
+def _keeps(space: FreeSpace, points: Array, more: float = -ROUNDING) -> Mask:
     """Tell which places (..., 3) are as far from everything as is needed there, and so much more."""
     fine = np.ones(points.shape[:-1], dtype=np.bool_)
     for o in space.obstacles:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.solids_array import signed_distance
+from shotc.geom.solid_arrays.points import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet
 from shotc.planning.clearances import ROUNDING, Clearance, clearances_of, outward

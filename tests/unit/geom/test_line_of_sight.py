@@ -8,8 +8,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from shotc.geom.line_of_sight import crosses
+from shotc.geom.solid_arrays.segments import blocks
 from shotc.geom.solids import Cylinder, Prism, Solid, box
-from shotc.geom.solids_array import blocks
 
 SOLIDS = (
     (Cylinder((1.0, 0.5), 2.0, 0.0, 3.0), (1.0, 0.5)),

@@ -12,6 +12,8 @@ from shotc.geom import proof
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.geom.pieces import Pieces, cut, join, pieces
 from shotc.geom.proof import inf_channel, inf_distance, sup_channel, sup_norm, sup_outside
+from shotc.geom.solid_arrays.points import signed_distance
+from shotc.geom.solid_arrays.segments import blocks
 from shotc.geom.solids import (
     Cylinder,
     Prism,
@@ -25,7 +27,6 @@ from shotc.geom.solids import (
     inside_polygon,
 )
 from shotc.geom.solids import signed_distance as exact_distance
-from shotc.geom.solids_array import blocks, signed_distance
 
 coordinates = st.floats(-50, 50, allow_nan=False, width=32)
 

@@ -10,7 +10,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise
-from shotc.geom.convex import bounded, closest_points, distances, segment_distances, separate, support
+from shotc.geom.solid_arrays.planes import separate
+from shotc.geom.solid_arrays.points import bounded, closest_points, distances, support
+from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Prism, box, convex_parts, distance
 from shotc.planning.free_space import (
     COMFORT,

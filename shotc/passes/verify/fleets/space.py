@@ -15,8 +15,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.pieces import Pieces, cut, join
 from shotc.geom.proof import Bound, box_gap, inf_channel, inf_distance, norm, sup_convex, sup_outside
+from shotc.geom.solid_arrays.points import separation, signed_distance
 from shotc.geom.solids import Solid, convex_parts
-from shotc.geom.solids_array import separation, signed_distance
 from shotc.geom.track_array import places
 from shotc.ir.mission import Target, Zone
 from shotc.ir.origin import KeyPath

@@ -14,6 +14,7 @@ from shotc.emit.storyboard.labels import leader, nearest_room
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
+from shotc.geom.solid_arrays.points import in_convex
 from shotc.geom.solids import convex_hull
 from shotc.ir.sampling import light_colors
 from shotc.show.emit.contact_sheet.moments import Board
@@ -123,9 +124,7 @@ def _inside(shape: Array) -> Array:
     low, high = shape.min(axis=0), shape.max(axis=0)
     x, y = (np.arange(low[i] + CELL / 2, high[i], CELL) for i in (0, 1))
     at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    along = np.roll(shape, -1, axis=0) - shape
-    off = at[:, None] - shape
-    return at[(along[:, 0] * off[..., 1] - along[:, 1] * off[..., 0] >= 0).all(axis=1)]
+    return at[in_convex(shape, at)]
 
 
 def _squares(points: Sequence[Array], width: float) -> list[Box]:

@@ -13,7 +13,7 @@ import numpy as np
 from shotc.emit.audience import ASPECT, audience, focal_length, picture_name, pictures_shown
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View
-from shotc.geom.pieces import Mask
+from shotc.geom.solid_arrays.points import in_footprint
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.fleet import FleetTrajectory, Lights
 from shotc.ir.mission import MissionIR, Zone
@@ -47,7 +47,7 @@ def show_of(plan: VerifiedIR) -> Show:
     flown = [curves(flight) for flight in flights]
     control = np.concatenate([found.control.reshape(-1, 3) for found in flown])
     kept = [zone for zone in mission.zones if zone.keep == "in"]
-    left = tuple(zone for zone in kept if outside(zone.solid, control))
+    left = tuple(zone for zone in kept if not in_footprint(zone.solid, control[:, :2]).all())
     drones = [
         drone
         for flight, found in zip(flights, flown, strict=True)
@@ -194,25 +194,6 @@ def _limits(mission: MissionIR, highest: float) -> Json:
 
 
 SIDES = 48
-
-
-def outside(solid: Solid, points: Array) -> bool:
-    """Tell whether any of these points, shape (k, 3), is not above or below a solid."""
-    flat = points[:, :2]
-    if isinstance(solid, Cylinder):
-        away = np.linalg.norm(flat - np.array(solid.centre), axis=1)
-        return bool(away.max() > solid.radius)
-    return not bool(_inside(np.array(solid.points), flat).all())
-
-
-def _inside(corners: Array, points: Array) -> Mask:
-    """Tell which points lie in a polygon: those whose way East crosses an odd number of its edges."""
-    odd = np.zeros(len(points), dtype=np.bool_)
-    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if ay != by:
-            spans = (points[:, 1] >= ay) != (points[:, 1] >= by)
-            odd ^= spans & (points[:, 0] < ax + (points[:, 1] - ay) / (by - ay) * (bx - ax))
-    return odd
 
 
 def fence(solid: Solid) -> Array:

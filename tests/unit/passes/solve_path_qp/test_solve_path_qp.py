@@ -9,7 +9,7 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
-from shotc.geom.convex import distances
+from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.limits import Timing
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HoldLeg

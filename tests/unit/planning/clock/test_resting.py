@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import distances
+from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Cylinder
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR

@@ -13,7 +13,7 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
-from shotc.geom.convex import distances
+from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Cylinder, point
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from shotc.geom.convex import segment_distances
+from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.planning.free_space import FreeSpace, Obstacle, Wall, breaches
 from shotc.planning.path.route import DETOUR, find_route, length

@@ -7,7 +7,7 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
-from shotc.geom.convex import distances
+from shotc.geom.solid_arrays.points import distances
 from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext

@@ -14,11 +14,11 @@ import pytest
 
 from shotc.emit.audience import ASPECT, audience
 from shotc.geom.fleet_spline import places
-from shotc.geom.solids import Cylinder, Prism
+from shotc.geom.solids import Cylinder
 from shotc.ir.sampling import light_colors
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.skyc import EMITTER
-from shotc.show.emit.skyc.show import outside, program
+from shotc.show.emit.skyc.show import program
 from tests.support import show_flights, skyc_reader
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
@@ -196,12 +196,6 @@ def test_a_zone_that_the_pads_are_outside_of_is_no_fence() -> None:
     found = read(plan)["settings"]
     assert len(found["geofence"]["polygons"]) == 1
     assert found["validation"]["maxAltitude"] == 80.0
-
-
-def test_outside_of_a_zone_that_is_not_convex() -> None:
-    corner = Prism(((0.0, 0.0), (10.0, 0.0), (10.0, 2.0), (2.0, 2.0), (2.0, 10.0), (0.0, 10.0)), 0.0, 1.0)
-    assert not outside(corner, np.array([[1.0, 9.0, 5.0], [9.0, 1.0, 5.0], [1.0, 1.0, -5.0]]))
-    assert outside(corner, np.array([[1.0, 9.0, 0.5], [3.0, 3.0, 0.5]]))
 
 
 def test_two_fleets_are_one_show() -> None:

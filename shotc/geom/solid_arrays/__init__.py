@@ -1,0 +1,1 @@
+"""Solids for whole arrays of points: distances, segments, planes between. Mirrors ``geom.solids``."""

@@ -1,0 +1,81 @@
+"""Planes between convex solids and sets of points: each proves a distance of the whole hull."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.solid_arrays.points import NO_AREA_M2, closest_points, distances, support
+from shotc.geom.solid_arrays.segments import nearest_on_segments
+from shotc.geom.solids import Solid
+
+_TURN = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
+_UP = np.array([0.0, 0.0, 1.0])
+
+WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)]), _UP])
+"""Normals to try for points inside a solid, which have no closest point to be pushed away from."""
+
+TOUCHES_M = 1e-9
+"""Distance from a solid at which a point is in it."""
+
+CLOSE = 1e-3
+"""Share of a distance that a gap may fall short of it to be as wide as any."""
+
+
+def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]:
+    """Return planes between point sets and a solid.
+
+    hulls : shape (N, m, 3), each the hull of m points
+    Returns unit normals (N, 3) that point away from the solid, and the gaps (N,): the least of
+    n.p - support(n) over each set, metres. A positive gap proves the distance; it is within a few
+    per cent of the true distance (alternating projections on the sets, best normal kept). A negative
+    one says how deep the set reaches in.
+    """
+    starts = np.concatenate([hulls.mean(axis=1, keepdims=True), hulls], axis=1)
+    if hulls.shape[1] == 2:  # projections converge slowly along a chord; its nearest point is known
+        nearest = nearest_on_segments(part, hulls[:, 0], hulls[:, 1])
+        starts = np.concatenate([starts, nearest[:, None]], axis=1)
+    ways_out = np.broadcast_to(WAYS_OUT, (len(hulls), *WAYS_OUT.shape))
+    towards, _ = _away(part, starts)
+    best, best_gap = _widest(part, hulls, np.concatenate([ways_out, towards], axis=1))
+    at = np.take_along_axis(hulls, distances(part, hulls).argmin(axis=1)[:, None, None], axis=1)[:, 0]
+    for _ in range(rounds):
+        n, far = _away(part, at)
+        best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
+        # No plane has a wider gap than the distance of two points; from one inside no way leads on.
+        if ((best_gap >= (1.0 - CLOSE) * far) | (far <= TOUCHES_M)).all():
+            break
+        # Frank-Wolfe step: towards the point of the hull that lies deepest along the normal.
+        deepest = np.einsum("nmd,nd->nm", hulls, n).argmin(axis=1)
+        vertex = np.take_along_axis(hulls, deepest[:, None, None], axis=1)[:, 0]
+        step = vertex - at
+        length2 = np.maximum((step**2).sum(axis=1), NO_AREA_M2)
+        x = np.clip(-far * (n * step).sum(axis=1) / length2, 0.0, 1.0)
+        at = at + x[:, None] * step
+    return best, best_gap
+
+
+def gaps(part: Solid, hulls: Array, normals: Array) -> Array:
+    """Return the least n.p - support(n) of each point set (N, m, 3) for unit normals (N, 3)."""
+    return np.asarray(np.einsum("nmd,nd->nm", hulls, normals).min(axis=1) - support(part, normals))
+
+
+def _away(part: Solid, p: Array) -> tuple[Array, Array]:
+    """Return unit directions from a solid to points (..., 3), upwards from inside, and how far; (...)."""
+    away = p - closest_points(part, p)
+    far = np.linalg.norm(away, axis=-1)
+    outside = (far > TOUCHES_M)[..., None]
+    return np.where(outside, away / np.maximum(far, TOUCHES_M)[..., None], _UP), far
+
+
+def _widest(part: Solid, hulls: Array, normals: Array) -> tuple[Array, Array]:
+    """Return, of several unit normals (N, K, 3), the one with the widest gap to each set, and that gap."""
+    least = np.einsum("nmd,nkd->nkm", hulls, normals).min(axis=2) - support(part, normals)
+    k = least.argmax(axis=1)
+    each = np.arange(len(hulls))
+    return normals[each, k], least[each, k]
+
+
+def _better(best: Array, best_gap: Array, n: Array, gap: Array) -> tuple[Array, Array]:
+    wins = gap > best_gap
+    return np.where(wins[:, None], n, best), np.where(wins, gap, best_gap)
