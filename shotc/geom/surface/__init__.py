@@ -1,0 +1,1 @@
+"""Triangles as obstacles, ground and occluders: proofs for every instant, searches, planes, sight."""

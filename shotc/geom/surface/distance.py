@@ -1,0 +1,242 @@
+"""How near curves come to a surface, proved for every instant.
+
+Pairs of a piece and a triangle are halved (branch and bound). Of a pair, no point of the piece is nearer to
+the triangle than all control points are along a fixed direction; the direction is that from the triangle
+to the middle of the piece. The surface has no inside: the distance is 0 where a curve crosses it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask, Pieces, join
+from shotc.geom.proof import OPEN_LIMIT, ROUNDS, Bound
+from shotc.geom.surface.near import nearest, some_distance
+from shotc.geom.surface.tree import Pairs, Surface, TooMany, box_distances, search
+from shotc.geom.surface.triangles import closest, dot, highest, lowest
+
+Gap = Callable[[float], float]
+PIECES_LIMIT = 50_000
+"""Pieces to which curves are cut to meet fewer boxes each."""
+
+LIKELIEST = 8
+"""Pieces whose middles are measured exactly before the search."""
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceBound(Bound):
+    """A bound, and where its value is attained.
+
+    piece    : number of the piece, of those given; -1 where there is none
+    triangle : number of the triangle, of those that the surface was made of; -1 where there is none
+    """
+
+    piece: int = -1
+    triangle: int = -1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Numbered:
+    """Pieces, and which of the given ones each is a part of, shape (M,)."""
+
+    pieces: Pieces
+    source: IntArray
+
+    def __len__(self) -> int:
+        return len(self.source)
+
+    def pick(self, which: Mask | IntArray) -> Numbered:
+        """Return some of them, by a mask of shape (M,) or by their numbers."""
+        p = self.pieces
+        return Numbered(Pieces(p.low[which], p.high[which], p.ctrl[which]), self.source[which])
+
+    def halves(self) -> Numbered:
+        """Return every piece cut in two, the left halves first."""
+        return Numbered(self.pieces.halves(), np.concatenate([self.source, self.source]))
+
+    def and_also(self, other: Numbered) -> Numbered:
+        """Return these and others."""
+        return Numbered(join([self.pieces, other.pieces]), np.concatenate([self.source, other.source]))
+
+
+@dataclass(slots=True)
+class Search:
+    """What a search for the least value knows: the least one met, and the least bound it stopped at."""
+
+    best: float = np.inf
+    at: float = 0.0
+    piece: int = -1
+    triangle: int = -1
+    closed: float = np.inf
+    rest: float = np.inf
+
+    def meet(self, values: Array, parts: Numbered, index: IntArray, triangles: IntArray) -> None:
+        """Take the least of the values (K,) that the middles of some pieces have at some triangles."""
+        k = int(np.argmin(values)) if len(values) else -1
+        if k >= 0 and values[k] < self.best:
+            i, pieces = int(index[k]), parts.pieces
+            self.best, self.at = float(values[k]), float(0.5 * (pieces.low[i] + pieces.high[i]))
+            self.piece, self.triangle = int(parts.source[i]), int(triangles[k])
+
+    def keep_open(self, pairs: Pairs, lower: Array, gap: Gap) -> tuple[Pairs, Array]:
+        """Return the pairs whose bounds (K,) leave room for less than is known, and these bounds."""
+        is_open = lower < self.best - gap(self.best)
+        self.closed = min(self.closed, float(lower[~is_open].min(initial=np.inf)))
+        self.rest = float(lower[is_open].min(initial=np.inf))
+        return pairs.pick(is_open), lower[is_open]
+
+    def bound(self, surface: Surface) -> SurfaceBound:
+        """Return what is proved."""
+        triangle = int(surface.source[self.triangle]) if self.triangle >= 0 else -1
+        proven = min(self.closed, self.best, self.rest)
+        return SurfaceBound(proven, self.best, self.at, self.piece, triangle)
+
+
+def inf_distance(pieces: Pieces, surface: Surface, gap: Gap) -> SurfaceBound:
+    """Bound the infimum of the distance from a surface along pieces of shape (M, n + 1, 3), metres.
+
+    gap : how far ``proven`` may stay below ``attained``, given the smallest distance found so far
+    No pieces, or no triangles: both are inf. Where a curve crosses the surface the value is 0, or at most
+    the gap: it has no sign.
+    """
+    known = Search()
+    if len(surface) and len(pieces):
+        run(_Distances(known, surface, gap), Numbered(pieces, np.arange(len(pieces))))
+    return known.bound(surface)
+
+
+class Problem(Protocol):
+    """What ``run`` needs of a least value over pairs of pieces and triangles."""
+
+    @property
+    def known(self) -> Search:
+        """What is known of it."""
+
+    def look(self, parts: Numbered) -> None:
+        """Take some values for a start."""
+
+    def long(self, parts: Numbered) -> Mask:
+        """Tell which pieces, (M,), are to be halved where they meet too many boxes."""
+
+    def pairs(self, parts: Numbered, most: int | None) -> Pairs:
+        """Return the pairs that may hold the least value; TooMany where they are more than ``most``."""
+
+    def close(self, parts: Numbered, pairs: Pairs) -> None:
+        """Bound the value over pairs."""
+
+
+def run(problem: Problem, parts: Numbered) -> None:
+    """Find the least value, piece by piece where all at once would meet too many boxes."""
+    problem.look(parts)
+    rest, closed = [parts], np.inf
+    while rest:
+        parts = rest.pop()
+        try:
+            problem.close(parts, problem.pairs(parts, OPEN_LIMIT if len(parts) > 1 else None))
+            closed = min(closed, problem.known.rest)
+        except TooMany:
+            rest += _fewer(problem, parts)
+    problem.known.rest = closed
+
+
+def _fewer(problem: Problem, parts: Numbered) -> list[Numbered]:
+    long = problem.long(parts)
+    if long.any() and len(parts) < PIECES_LIMIT:
+        shorter = parts.pick(long).halves()
+        problem.look(shorter)
+        parts = parts.pick(~long).and_also(shorter)
+        return [parts]
+    half = len(parts) // 2
+    return [parts.pick(np.arange(half)), parts.pick(np.arange(half, len(parts)))]
+
+
+def middles(ctrl: Array) -> Array:
+    """Return the points (M, 3) in the middle of pieces, by de Casteljau."""
+    while ctrl.shape[1] > 1:
+        ctrl = 0.5 * (ctrl[:, :-1] + ctrl[:, 1:])
+    return ctrl[:, 0]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Distances:
+    """The problem of the least distance, for ``run``."""
+
+    known: Search
+    surface: Surface
+    gap: Gap
+
+    def look(self, parts: Numbered) -> None:
+        """Take the distance of the middles of pieces for a start: of all some, of the likeliest the least."""
+        middle = middles(parts.pieces.ctrl)
+        some = some_distance(self.surface, middle)
+        likely = np.argsort(some)[:LIKELIEST]
+        limit = np.nextafter(min(self.known.best, float(some.min())), np.inf)
+        found = nearest(self.surface, middle[likely], limit)
+        self.known.meet(found.distance, parts, likely, found.triangle)
+
+    def long(self, parts: Numbered) -> Mask:
+        """Tell which pieces meet fewer boxes once they are halved."""
+        size = np.ptp(parts.pieces.ctrl, axis=1)
+        return np.asarray(np.sqrt(dot(size, size)) > self.known.best)
+
+    def pairs(self, parts: Numbered, most: int | None) -> Pairs:
+        """Return the pairs whose boxes leave room for less than is known."""
+        low, high = parts.pieces.ctrl.min(axis=1), parts.pieces.ctrl.max(axis=1)
+        limit = self.known.best - self.gap(self.known.best)
+        met = [self.known.closed]
+
+        def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
+            apart = box_distances(low[item], high[item], its_low, its_high)
+            near = apart < limit
+            met.append(float(apart[~near].min(initial=np.inf)))
+            return near
+
+        pairs = search(self.surface, len(parts), meets, most)
+        self.known.closed = min(met)
+        return pairs
+
+    def close(self, parts: Numbered, pairs: Pairs) -> None:
+        """Halve pieces of pairs until no pair leaves room for less than is known, but for the gap."""
+        lower = np.zeros(len(pairs))
+        for _ in range(ROUNDS):
+            lower = np.maximum(lower, self._boxes_apart(parts, pairs))
+            pairs, lower = self.known.keep_open(pairs, lower, self.gap)
+            if not len(pairs) or len(pairs) > OPEN_LIMIT:
+                break
+            lower = np.maximum(lower, self._bounds(parts, pairs))
+            pairs, lower = self.known.keep_open(pairs, lower, self.gap)
+            parts, pairs = halve(parts, pairs)
+            lower = np.concatenate([lower, lower])
+
+    def _boxes_apart(self, parts: Numbered, pairs: Pairs) -> Array:
+        ctrl, triangles = parts.pieces.ctrl, self.surface.triangles[pairs.triangle]
+        low, high = ctrl.min(axis=1)[pairs.item], ctrl.max(axis=1)[pairs.item]
+        return box_distances(low, high, lowest(triangles), highest(triangles))
+
+    def _bounds(self, parts: Numbered, pairs: Pairs) -> Array:
+        """Return lower bounds (K,) of the distances of pairs, and take those of the middles."""
+        triangles = self.surface.triangles[pairs.triangle]
+        middle = middles(parts.pieces.ctrl)[pairs.item]
+        found = closest(triangles, middle)
+        self.known.meet(found.distance, parts, pairs.item, pairs.triangle)
+        normal = (middle - found.point) / np.maximum(found.distance, 1e-300)[:, None]
+        ctrl = parts.pieces.ctrl[pairs.item] - found.point[:, None]
+        along = np.einsum("kmd,kd->km", ctrl, normal).min(axis=1)
+        behind = np.einsum("kvd,kd->kv", triangles - found.point[:, None], normal).max(axis=1)
+        # Next to a crossing the direction is noise, and a bound below 0 tells nothing.
+        length = np.maximum(np.sqrt(dot(normal, normal)), 1.0)
+        return np.asarray(np.maximum((along - behind) / length, 0.0))
+
+
+def halve(parts: Numbered, pairs: Pairs) -> tuple[Numbered, Pairs]:
+    """Halve the pieces of pairs; each pair becomes two."""
+    used, item = np.unique(pairs.item, return_inverse=True)
+    parts = parts.pick(used).halves()
+    triangle = np.concatenate([pairs.triangle, pairs.triangle])
+    return parts, Pairs(np.concatenate([item, item + len(used)]), triangle)

@@ -1,0 +1,148 @@
+"""How high curves are above ground, proved for every instant.
+
+Pairs of a piece and a triangle are halved (branch and bound). Over one triangle the height above its plane is
+a polynomial, nowhere less than at a control point. A triangle that one of its own sides parts from all
+control points, in the plan, is not under the piece.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask, Pieces
+from shotc.geom.proof import OPEN_LIMIT, ROUNDS
+from shotc.geom.surface.distance import Gap, Numbered, Search, SurfaceBound, halve, middles, run
+from shotc.geom.surface.ground import Ground, NoGround, heights, leaves, under
+from shotc.geom.surface.tree import Pairs, plan_boxes_meet, search
+from shotc.geom.surface.triangles import TINY, dot, highest, lowest
+
+PARTED = 1e-9
+"""Metres by which a side has to part a triangle from a piece: on a common side, both triangles count."""
+SLIVER = 1e-9
+"""Area over the square of the longest side, in the plan, below which a plane is not trusted."""
+_NEXT = [1, 2, 0]
+
+
+def inf_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGround:
+    """Bound the infimum of the height above ground along pieces of shape (M, n + 1, 3), metres.
+
+    gap : how far ``proven`` may stay below ``attained``, given the smallest height found so far
+    Negative is under the ground. No pieces: both are inf. NoGround where a piece is not all above ground.
+    """
+    return leaves(ground, pieces) or _least(pieces, ground, gap, 1.0)
+
+
+def sup_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGround:
+    """Bound the supremum of the height above ground; no pieces: both are -inf. Else as ``inf_height``."""
+    found = leaves(ground, pieces)
+    if found is not None:
+        return found
+    least = _least(pieces, ground, lambda worst: gap(-worst), -1.0)
+    return SurfaceBound(-least.proven, -least.attained, least.at, least.piece, least.triangle)
+
+
+def _least(pieces: Pieces, ground: Ground, gap: Gap, sign: float) -> SurfaceBound:
+    known = Search()
+    if len(pieces):
+        run(_Heights(known, ground, gap, sign), Numbered(pieces, np.arange(len(pieces))))
+    return known.bound(ground.surface)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Heights:
+    """The problem of the least of ``sign`` times the height above ground, for ``run``."""
+
+    known: Search
+    ground: Ground
+    gap: Gap
+    sign: float
+
+    def look(self, parts: Numbered) -> None:
+        """Take the heights of the middles of all pieces for a start."""
+        middle = middles(parts.pieces.ctrl)
+        found = under(self.ground, middle[:, :2])
+        there = np.flatnonzero(found.triangle >= 0)
+        values = self.sign * (middle[there, 2] - found.height[there])
+        self.known.meet(values, parts, there, found.triangle[there])
+
+    def long(self, parts: Numbered) -> Mask:
+        """Tell which pieces meet fewer boxes once they are halved: all."""
+        return np.ones(len(parts), dtype=bool)
+
+    def pairs(self, parts: Numbered, most: int | None) -> Pairs:
+        """Return the pairs that meet in the plan and whose heights leave room for less than is known."""
+        ctrl = parts.pieces.ctrl
+        low, high = ctrl[..., :2].min(axis=1), ctrl[..., :2].max(axis=1)
+        lowest_z = (self.sign * ctrl[..., 2]).min(axis=1)
+        limit = self.known.best - self.gap(self.known.best)
+        met = [self.known.closed]
+
+        def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
+            over = plan_boxes_meet(low[item], high[item], its_low, its_high)
+            lower = lowest_z[item] - self._top(its_low, its_high)
+            met.append(float(lower[over & (lower >= limit)].min(initial=np.inf)))
+            return np.asarray(over & (lower < limit))
+
+        pairs = search(self.ground.surface, len(parts), meets, most)
+        self.known.closed = min(met)
+        return pairs
+
+    def close(self, parts: Numbered, pairs: Pairs) -> None:
+        """Halve pieces of pairs until no pair leaves room for less than is known, but for the gap."""
+        lower = np.full(len(pairs), -np.inf)
+        for _ in range(ROUNDS):
+            triangles = self.ground.surface.triangles[pairs.triangle]
+            met = ~_parted(triangles, parts.pieces.ctrl[pairs.item])
+            pairs, lower, triangles = pairs.pick(met), lower[met], triangles[met]
+            lower = np.maximum(lower, self._bounds(parts, pairs, triangles))
+            self._take_middles(parts, pairs, triangles)
+            pairs, lower = self.known.keep_open(pairs, lower, self.gap)
+            if not len(pairs) or len(pairs) > OPEN_LIMIT:
+                break
+            parts, pairs = halve(parts, pairs)
+            lower = np.concatenate([lower, lower])
+
+    def _top(self, low: Array, high: Array) -> Array:
+        """Return ``sign`` times z of boxes, (K,), where it is most."""
+        return np.asarray(high[:, 2] if self.sign > 0 else -low[:, 2])
+
+    def _bounds(self, parts: Numbered, pairs: Pairs, triangles: Array) -> Array:
+        """Return lower bounds (K,) of values over pairs: above the plane, and above the highest corner."""
+        ctrl = parts.pieces.ctrl[pairs.item]
+        lowest_z = (self.sign * ctrl[..., 2]).min(axis=1)
+        above = lowest_z - self._top(lowest(triangles), highest(triangles))
+        one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+        turn = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+        sizes = dot(one[:, :2], one[:, :2]) + dot(other[:, :2], other[:, :2])
+        whole = np.abs(turn) > SLIVER * sizes
+        turn = np.where(whole, turn, 1.0)
+        slope_x = (one[:, 2] * other[:, 1] - other[:, 2] * one[:, 1]) / turn
+        slope_y = (one[:, 0] * other[:, 2] - other[:, 0] * one[:, 2]) / turn
+        offset = ctrl - triangles[:, :1]
+        over = offset[..., 2] - slope_x[:, None] * offset[..., 0] - slope_y[:, None] * offset[..., 1]
+        return np.asarray(np.where(whole, np.maximum(above, (self.sign * over).min(axis=1)), above))
+
+    def _take_middles(self, parts: Numbered, pairs: Pairs, triangles: Array) -> None:
+        middle = middles(parts.pieces.ctrl)[pairs.item]
+        height = heights(triangles, middle[:, :2])
+        there = np.flatnonzero(~np.isnan(height))
+        values = self.sign * (middle[there, 2] - height[there])
+        self.known.meet(values, parts, pairs.item[there], pairs.triangle[there])
+
+
+def _parted(triangles: Array, ctrl: Array) -> Mask:
+    """Tell which triangles (K, 3, 3) a side of theirs parts from control points (K, n + 1, 3), in the plan.
+
+    Triangles without an area are parted from all: they are no ground.
+    """
+    plan = triangles[..., :2]
+    edges = plan[:, _NEXT] - plan
+    turn = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
+    inward = np.stack([-edges[..., 1], edges[..., 0]], axis=-1) * np.sign(turn)[:, None, None]
+    reach = np.einsum("kmd,ked->kme", ctrl[..., :2], inward).max(axis=1)
+    border = dot(plan, inward) - PARTED * np.sqrt(dot(edges, edges))
+    return np.asarray((reach < border).any(axis=1) | (np.abs(turn) <= TINY))

@@ -1,0 +1,113 @@
+"""What of a surface is near: to points, to boxes, to segments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask
+from shotc.geom.surface.tree import FAN, Pairs, Surface, box_distances, search
+from shotc.geom.surface.triangles import closest, dot, segment_distances
+
+AT_ONCE = 2048
+"""Things sought together: their pairs fit the cache."""
+ROUNDING = 1e-9
+"""Metres, and share of a distance, that a box may seem farther than a triangle in it."""
+CENTRED = 0.25
+"""What the distance from a box's middle counts beside that from the box, squared, on the way down."""
+SHORT = 4.0
+"""Metres: longer segments are cut into such parts, for the box of a slanting one holds too much."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Nearest:
+    """What of a surface is nearest to points.
+
+    distance : (K,), metres; inf where nothing is nearer than the limit
+    point    : (K, 3), of the surface; NaN where nothing is
+    triangle : (K,), in the order of the surface; -1 where nothing is
+    """
+
+    distance: Array
+    point: Array
+    triangle: IntArray
+
+
+def nearest(surface: Surface, p: Array, limit: Array | float = np.inf) -> Nearest:
+    """Return what is nearest to points (K, 3), if it is nearer than ``limit``, one for all or one each."""
+    count = len(p)
+    found = Nearest(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
+    limits = np.broadcast_to(np.asarray(limit, dtype=np.float64), (count,))
+    for start in range(0, count, AT_ONCE):
+        part = slice(start, start + AT_ONCE)
+        _nearest(surface, p[part], limits[part], Nearest(*(getattr(found, f)[part] for f in _FIELDS)))
+    return found
+
+
+_FIELDS = ("distance", "point", "triangle")
+
+
+def _nearest(surface: Surface, p: Array, limit: Array, out: Nearest) -> None:
+    if not len(surface):
+        return
+    reach = np.minimum(limit, some_distance(surface, p) * (1.0 + ROUNDING) + ROUNDING)
+    pairs = search(surface, len(p), lambda i, low, high: box_distances(p[i], p[i], low, high) < reach[i])
+    at = closest(surface.triangles[pairs.triangle], p[pairs.item])
+    item, best = pairs.best(at.distance)
+    nearer = at.distance[best] < limit[item]
+    item, best = item[nearer], best[nearer]
+    out.distance[item] = at.distance[best]
+    out.point[item] = at.point[best]
+    out.triangle[item] = pairs.triangle[best]
+
+
+def some_distance(surface: Surface, p: Array) -> Array:
+    """Return how far points (K, 3) are from some triangle that is near: no less than the distance, (K,)."""
+    top = len(surface.low) - 1
+    each = np.arange(len(p))
+    nodes = np.broadcast_to(np.arange(len(surface.low[top])), (len(p), len(surface.low[top])))
+    for level in range(top, -1, -1):
+        low, high = surface.low[level][nodes], surface.high[level][nodes]
+        apart = np.maximum(np.maximum(low - p[:, None], p[:, None] - high), 0.0)
+        off = 0.5 * (low + high) - p[:, None]  # of boxes that the point is in, the middle tells
+        node = nodes[each, (dot(apart, apart) + CENTRED * dot(off, off)).argmin(axis=1)]
+        below = len(surface.low[level - 1]) if level else len(surface)
+        nodes = np.minimum(FAN * node[:, None] + np.arange(FAN), below - 1)
+    triangles = surface.triangles[nodes.ravel()]
+    found = closest(triangles, np.repeat(p, FAN, axis=0)).distance
+    return np.asarray(found.reshape(-1, FAN).min(axis=1))
+
+
+def within(surface: Surface, low: Array, high: Array, reach: Array | float) -> Pairs:
+    """Return the triangles whose boxes are nearer than ``reach`` to boxes low-high, shapes (K, 3), metres."""
+    reaches = np.broadcast_to(np.asarray(reach, dtype=np.float64), (len(low),))
+
+    def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
+        return box_distances(low[item], high[item], its_low, its_high) < reaches[item]
+
+    return search(surface, len(low), meets)
+
+
+def comes_within(surface: Surface, a: Array, b: Array, distance: Array | float) -> Mask:
+    """Tell which segments a-b, shapes (K, 3), come nearer to a surface than a distance, metres; (K,)."""
+    out = np.zeros(len(a), dtype=bool)
+    limits = np.broadcast_to(np.asarray(distance, dtype=np.float64), (len(a),))
+    parts = np.maximum(1, np.ceil(np.linalg.norm(b - a, axis=1) / SHORT)).astype(np.intp)
+    owner = np.repeat(np.arange(len(a)), parts)
+    step = np.arange(len(owner)) - np.repeat(np.cumsum(parts) - parts, parts)
+    side, share = (b - a)[owner], 1.0 / parts[owner][:, None]
+    begin = a[owner] + side * (step[:, None] * share)
+    end = np.where(
+        (step + 1 == parts[owner])[:, None], b[owner], a[owner] + side * ((step + 1)[:, None] * share)
+    )
+    for start in range(0, len(owner), AT_ONCE):
+        part = slice(start, start + AT_ONCE)
+        p, q, of = begin[part], end[part], owner[part]
+        pairs = within(surface, np.minimum(p, q), np.maximum(p, q), limits[of])
+        pairs = pairs.pick(~out[of[pairs.item]])
+        apart = segment_distances(surface.triangles[pairs.triangle], p[pairs.item], q[pairs.item])
+        out[of[pairs.item[apart < limits[of[pairs.item]]]]] = True
+    return out

@@ -1,0 +1,170 @@
+"""A surface: triangles in a flat tree of boxes, in Morton order, without pointers.
+
+Four triangles make a leaf and four nodes a node: node i of a level has the nodes 4i to 4i + 3 of the
+level below it. Searches go down all levels at once, with pairs of what is sought and a node.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask
+from shotc.geom.surface.triangles import dot, halved, highest, lowest
+
+FAN = 4
+"""Triangles of a leaf, and children of a node."""
+TOP = 16
+"""Nodes with which a search begins, at most."""
+LONG = 8.0
+"""Times the median of all longest edges, from which a triangle is halved: it would swell its leaf."""
+SPARE = 4096
+"""Halves that may be made of few long triangles; of many, half as many as there are triangles."""
+_SPREAD = (
+    (32, 0x1F00000000FFFF),
+    (16, 0x1F0000FF0000FF),
+    (8, 0x100F00F00F00F00F),
+    (4, 0x10C30C30C30C30C3),
+    (2, 0x1249249249249249),
+)
+_CELLS = 2**21 - 1  # of a Morton code, along each axis
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """Triangles, and boxes round them.
+
+    triangles : shape (N, 3, 3), metres of W; those of a leaf follow one another
+    source    : shape (N,), which triangle of those given each one is, or is a part of
+    low, high : corners of boxes, one array (n, 3) a level: leaves first, at most TOP nodes last
+    """
+
+    triangles: Array
+    source: IntArray
+    low: tuple[Array, ...]
+    high: tuple[Array, ...]
+
+    def __len__(self) -> int:
+        return len(self.triangles)
+
+
+def surface_of(triangles: Array) -> Surface:
+    """Put triangles (N, 3, 3), metres of W, into a tree; none are allowed.
+
+    ValueError where a corner is not finite, or the shape is another.
+    """
+    given = np.ascontiguousarray(triangles, dtype=np.float64)
+    if given.ndim != 3 or given.shape[1:] != (3, 3) or not np.isfinite(given).all():
+        raise ValueError(f"triangles are finite and of shape (N, 3, 3), not {given.shape}")
+    if not len(given):
+        return Surface(given, np.zeros(0, dtype=np.intp), (), ())
+    small = halved(given, _longest(given))
+    order = np.argsort(_morton(small.triangles.mean(axis=1)), kind="stable")
+    laid, source = small.triangles[order], small.source[order]
+    low, high = [_grouped(lowest(laid), np.minimum)], [_grouped(highest(laid), np.maximum)]
+    while len(low[-1]) > TOP:
+        low.append(_grouped(low[-1], np.minimum))
+        high.append(_grouped(high[-1], np.maximum))
+    for array in (laid, source, *low, *high):
+        array.setflags(write=False)
+    return Surface(laid, source, tuple(low), tuple(high))
+
+
+def _longest(triangles: Array) -> float:
+    """Return the edge from which triangles are halved: many small ones must not pay for few large ones."""
+    sides = triangles[:, [1, 2, 0]] - triangles
+    edges = np.sqrt(dot(sides, sides).max(axis=1))
+    limit = LONG * max(float(np.median(edges)), 1e-3 * float(edges.max()))
+    while ((edges[edges > limit] / limit) ** 2).sum() > max(0.5 * len(edges), SPARE):
+        limit *= 2.0
+    return max(limit, 1e-9)
+
+
+def _morton(points: Array) -> Array:
+    """Return numbers (N,) in whose order points lie near one another (Morton 1966)."""
+    low = points.min(axis=0)
+    size = max(float((points - low).max()), 1e-9)  # one scale: cells are cubes
+    cells = np.minimum((points - low) * (_CELLS / size), _CELLS).astype(np.uint64)
+    for shift, mask in _SPREAD:
+        cells = (cells | (cells << np.uint64(shift))) & np.uint64(mask)
+    code: Array = cells[:, 0] | (cells[:, 1] << np.uint64(1)) | (cells[:, 2] << np.uint64(2))
+    return code
+
+
+def _grouped(boxes: Array, extreme: np.ufunc) -> Array:
+    return np.asarray(extreme.reduceat(boxes, np.arange(0, len(boxes), FAN), axis=0))
+
+
+class TooMany(Exception):
+    """A search met more pairs than it was allowed."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pairs:
+    """What is sought, and triangles of the surface, number by number; shapes (K,), the sought in order."""
+
+    item: IntArray
+    triangle: IntArray
+
+    def __len__(self) -> int:
+        return len(self.item)
+
+    def pick(self, which: Mask) -> Pairs:
+        """Return the pairs where the mask of shape (K,) is true."""
+        return Pairs(self.item[which], self.triangle[which])
+
+    def best(self, value: Array) -> tuple[IntArray, IntArray]:
+        """Return the items that are there, each once, and which pair has the least value (K,) of each."""
+        order = np.lexsort((value, self.item))
+        item = self.item[order]
+        first = np.flatnonzero(np.concatenate([[True], item[1:] != item[:-1]])) if len(item) else order
+        return item[first], order[first]
+
+
+Meets = Callable[[IntArray, Array, Array], Mask]
+"""Whether what is sought, (K,), may meet what is in boxes: low (K, 3), high (K, 3)."""
+
+
+def search(surface: Surface, count: int, meets: Meets, most: int | None = None) -> Pairs:
+    """Return the triangles whose boxes, and all boxes round these, meet each of ``count`` things.
+
+    most : pairs of a thing and a box at once; TooMany beyond that
+    """
+    if not len(surface) or not count:
+        return Pairs(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))
+    top = len(surface.low[-1])
+    item, node = np.repeat(np.arange(count), top), np.tile(np.arange(top), count)
+    below = (*(len(low) for low in surface.low), 0)
+    for level in range(len(surface.low) - 1, -1, -1):
+        keep = meets(item, surface.low[level][node], surface.high[level][node])
+        item, node = item[keep], node[keep]
+        if most is not None and FAN * len(item) > most:
+            raise TooMany
+        item = np.repeat(item, FAN)
+        node = (FAN * node[:, None] + np.arange(FAN)).ravel()
+        inside = node < (below[level - 1] if level else len(surface))
+        item, node = item[inside], node[inside]
+    corners = surface.triangles[node]
+    keep = meets(item, lowest(corners), highest(corners))
+    return Pairs(item[keep], node[keep])
+
+
+def plan_boxes_meet(low: Array, high: Array, other_low: Array, other_high: Array) -> Mask:
+    """Tell which boxes meet others in the plan, shapes (K, 2 or 3); shape (K,)."""
+    # Column by column: a reduction over so short an axis takes far longer.
+    return np.asarray(
+        (low[:, 0] <= other_high[:, 0])
+        & (low[:, 1] <= other_high[:, 1])
+        & (high[:, 0] >= other_low[:, 0])
+        & (high[:, 1] >= other_low[:, 1])
+    )
+
+
+def box_distances(low: Array, high: Array, other_low: Array, other_high: Array) -> Array:
+    """Return the distances of boxes from boxes, shapes (K, 3); shape (K,), 0 where they meet."""
+    apart = np.maximum(np.maximum(other_low - high, low - other_high), 0.0)
+    return np.asarray(np.sqrt(dot(apart, apart)))
