@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.keyed import is_keyed
@@ -170,11 +170,8 @@ class TimedPath:
 
 
 @dataclass(frozen=True, slots=True)
-class Deviation:
-    """How far a generated path left its ideal: metres, at path parameter s of a shot, and why.
-
-    Of a shot on its own clock s is mission time.
-    """
+class PathDeviation:
+    """How far a shot on a path left its ideal: ``distance`` metres, at path parameter s, and why."""
 
     shot: str
     distance: float
@@ -182,11 +179,25 @@ class Deviation:
     cause: str
 
 
+@dataclass(frozen=True, slots=True)
+class ClockDeviation:
+    """How far a shot on its own clock left its ideal: ``distance`` metres, at mission time t, and why."""
+
+    shot: str
+    distance: float
+    t: float
+    cause: str
+
+
+Deviation = PathDeviation | ClockDeviation
+_Deviation = TypeVar("_Deviation", PathDeviation, ClockDeviation, Deviation)
+
+
 LIMITS, CALM = "the drone's limits", "a calmer camera, and the drone's limits"
 """Causes that are neither a thing in the way nor a picture."""
 
 
-def from_what_was_asked(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Deviation, ...]:
+def from_what_was_asked(mission: MissionIR, deviations: Iterable[_Deviation]) -> tuple[_Deviation, ...]:
     """Return the deviations from places that somebody asked for.
 
     Nobody did between the keyframes of a shot on its own clock: only what stands in the way counts there.

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from shotc.cli.centred import centred
 from shotc.cli.summary import WIDTH, shot_rows, summary
-from shotc.ir.path import Deviation
+from shotc.ir.path import PathDeviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.spec.compositions import COMPOSITIONS
 from tests.support.film_plans import SPEED, orbit_plan
@@ -62,7 +62,7 @@ def test_what_is_come_nearest_to_names_the_drone_where_several_fly() -> None:
 def test_of_the_stretches_bent_by_one_cause_the_worst_is_told() -> None:
     plan = orbit_plan()
     bent = tuple(
-        Deviation("half", distance, 30.0, cause)
+        PathDeviation("half", distance, 30.0, cause)
         for distance, cause in ((0.59, "zone tree"), (0.2, "drone cam2"), (0.64, "zone tree"))
     )
     changed = VerifiedIR(replace(plan.trajectory, deviations=bent), plan.certificate)

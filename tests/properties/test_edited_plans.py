@@ -83,7 +83,8 @@ def of_the_flight(chance: random.Random, document: Document) -> None:
     if chance.random() < 0.5:
         shots = [shot["id"] for shot in document["mission"]["shots"]]
         document["deviations"] = [
-            {"shot": shot, "distance": 100.0, "s": 0.0, "cause": "zone tree"} for shot in shots
+            {"type": "PathDeviation", "shot": shot, "distance": 100.0, "s": 0.0, "cause": "zone tree"}
+            for shot in shots
         ]
 
 

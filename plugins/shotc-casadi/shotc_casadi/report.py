@@ -7,7 +7,7 @@ from math import isfinite, isnan, nan
 import numpy as np
 
 from shotc.plugin_api import Diagnostic, PathIR, SolverState
-from shotc.plugin_api.refiner import Deviation, leg_of
+from shotc.plugin_api.refiner import PathDeviation, leg_of
 from shotc_casadi.messages import UNITS, fallen_back, unsolved
 from shotc_casadi.rounds import Gap, Refined
 from shotc_casadi.solving import MOTION
@@ -57,7 +57,7 @@ def state_of(refined: Refined, constraint: str, name: str) -> SolverState:
     )
 
 
-def deviation(path: PathIR, refined: Refined) -> list[Deviation]:
+def deviation(path: PathIR, refined: Refined) -> list[PathDeviation]:
     """Return where a refined shot is farthest from its convex path, if that is worth telling."""
     assert refined.camera is not None
     leg = leg_of(path, refined.shot)
@@ -68,7 +68,7 @@ def deviation(path: PathIR, refined: Refined) -> list[Deviation]:
     if away[k] < NOTICE:
         return []
     return [
-        Deviation(
+        PathDeviation(
             refined.shot, float(away[k]), float(refined.nodes.s[k]), "its framing and a smoother flight"
         )
     ]

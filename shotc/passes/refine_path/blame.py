@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.path import PathIR, filmed
+from shotc.ir.path import ClockDeviation, PathIR, filmed
 from shotc.passes.refine_path.finding import Fault
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept, same
@@ -96,7 +96,8 @@ def still_true(paths: tuple[PathIR, PathIR], said: tuple[Diagnostic, ...]) -> tu
         or (d.code == OF_THE_GUIDE and _of(mission, d) in refined)
     }
     guided = {_of(mission, d) for d in said if id(d) in told and d.code == OF_THE_GUIDE}
-    anew = left_places(mission, (d for d in after.deviations if d.shot in guided))
+    on_clock = (d for d in after.deviations if isinstance(d, ClockDeviation))
+    anew = left_places(mission, (d for d in on_clock if d.shot in guided))
     return (*(d for d in said if id(d) not in told), *anew)
 
 

@@ -225,11 +225,11 @@ def _on_clock(
     if trouble is not None:
         return _stopped(*warnings, _told(mission, flight, None, trouble))
     curved = [s for s in shots if isinstance(s, PlannedShot)]
-    on_paths = {s.shot.shot.id for s in curved}
-    left = left_places(mission, (d for d in itinerary.deviations if d.shot not in on_paths))
-    deviations = (*(d for s in curved for d in s.deviations), *itinerary.deviations)
+    left = left_places(mission, itinerary.deviations)
+    deviations: list[Deviation] = [d for s in curved for d in s.deviations]
+    deviations += itinerary.deviations
     stats = (*(x for s in curved for x in s.stats), *itinerary.stats)
-    return _Planned(tuple(itinerary.legs), deviations, stats, (*warnings, *left))
+    return _Planned(tuple(itinerary.legs), tuple(deviations), stats, (*warnings, *left))
 
 
 def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble: ClockFailure) -> Diagnostic:

@@ -17,7 +17,7 @@ import numpy as np
 from shotc.ir.keyed import carriers
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Deviation, Leg, MovingLeg, Pose, TimedPath
+from shotc.ir.path import ClockDeviation, Leg, MovingLeg, Pose, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import NextLeg, Transfer, When, choose
@@ -70,7 +70,7 @@ class _State(NamedTuple):
 
     legs: tuple[Leg, ...]
     clock: float
-    deviations: tuple[Deviation, ...]
+    deviations: tuple[ClockDeviation, ...]
     stats: tuple[tuple[str, float | str], ...]
     ends: dict[str, float]
     last: _Last | None
@@ -101,7 +101,7 @@ class Itinerary:
     ends: dict[str, float]
     legs: list[Leg] = field(default_factory=list)
     clock: float = 0.0
-    deviations: list[Deviation] = field(default_factory=list)
+    deviations: list[ClockDeviation] = field(default_factory=list)
     stats: list[tuple[str, float | str]] = field(default_factory=list)
     last: _Last | None = None
     slack: float = inf

@@ -14,7 +14,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot
 from shotc.ir.owners import Owner
-from shotc.ir.path import LIMITS, ClockLeg, Deviation
+from shotc.ir.path import LIMITS, ClockDeviation, ClockLeg
 from shotc.ir.phases import Reference
 from shotc.ir.preference import noted
 from shotc.planning.clock.aims import CameraTask, camera_task_of
@@ -93,7 +93,7 @@ class TimedShot:
     """
 
     leg: ClockLeg
-    deviations: tuple[Deviation, ...]
+    deviations: tuple[ClockDeviation, ...]
     stats: tuple[tuple[str, float | str], ...]
     off: float
     lacks: tuple[float, float]
@@ -287,11 +287,11 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[Reference, .
     return tuple(spans)
 
 
-def _deviations(task: Task, flown: Flown, away: Array) -> tuple[Deviation, ...]:
+def _deviations(task: Task, flown: Flown, away: Array) -> tuple[ClockDeviation, ...]:
     """Return, for each stretch on which the motion leaves the ideal, the worst of it; as ``_away`` has it."""
     times = _filmed(task)
     return tuple(
-        Deviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
+        ClockDeviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
 

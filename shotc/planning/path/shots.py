@@ -11,7 +11,7 @@ from shotc.geom.bspline import restrict
 from shotc.geom.sampling import worst_of_runs
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import Deviation, FramingSpan, HoldLeg, Mark, MovingLeg, PathLeg, Stop
+from shotc.ir.path import FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
 from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
@@ -31,7 +31,7 @@ class PlannedShot:
 
     shot: PlacedShot
     leg: PathLeg
-    deviations: tuple[Deviation, ...]
+    deviations: tuple[PathDeviation, ...]
     cuts: tuple[Cut, ...]
     swing: Swing | None
     stats: tuple[tuple[str, float | str], ...]
@@ -250,12 +250,12 @@ def _marks(placed: PlacedShot, keyed: KeyedPath) -> tuple[Mark, ...]:
     )
 
 
-def _deviations(space: FreeSpace, placed: PlacedShot, keyed: KeyedPath) -> tuple[Deviation, ...]:
+def _deviations(space: FreeSpace, placed: PlacedShot, keyed: KeyedPath) -> tuple[PathDeviation, ...]:
     """Return, for each run of keyframes that the path leaves, the worst of it."""
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
     away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
     return tuple(
-        Deviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(space, points[i]))
+        PathDeviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(space, points[i]))
         for i in worst_of_runs(away, LEFT, NOTICE)
     )
 

@@ -10,7 +10,7 @@ from shotc.emit.csv_table import FRAMING, GEODETIC, LIGHT, TRAJECTORY
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import PlacedKeyframe, PlacedSubject
 from shotc.ir.mission import MissionIR
-from shotc.ir.path import Deviation
+from shotc.ir.path import ClockDeviation, PathDeviation
 from shotc.ir.phases import Reference
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim, DroneTrajectory
@@ -19,7 +19,16 @@ from tests.support.film_plans import orbit_plan
 
 PAGE = (Path(shotc.__file__).parent / "docs" / "outputs.md").read_text(encoding="utf-8")
 NAMED = set(re.findall(r"`([^`]+)`", PAGE))
-RECORDS = (Claim, DroneTrajectory, Reference, Deviation, PlacedKeyframe, PlacedSubject, FleetTrajectory)
+RECORDS = (
+    Claim,
+    DroneTrajectory,
+    Reference,
+    PathDeviation,
+    ClockDeviation,
+    PlacedKeyframe,
+    PlacedSubject,
+    FleetTrajectory,
+)
 
 
 def test_every_column_of_the_tables_is_explained():

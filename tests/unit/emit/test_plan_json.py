@@ -17,6 +17,7 @@ from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Zone
 from shotc.ir.origin import OriginMap
 from shotc.ir.passes import PassContext
+from shotc.ir.path import ClockDeviation, PathDeviation
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.lowering import lower_kept
@@ -65,6 +66,21 @@ def test_ir_to_bytes_to_ir_is_identity() -> None:
     assert read.trajectory is not None
     assert same(read.trajectory, PLAN.trajectory)
     assert same(read.certificate, PLAN.certificate)
+
+
+def test_a_deviation_is_at_a_length_or_at_a_time() -> None:
+    shot = PLAN.trajectory.keyframes.shots[0].shot.id
+    both = (PathDeviation(shot, 1.0, 3.0, "zone tree"), ClockDeviation(shot, 0.5, 7.0, "drone cam2"))
+    plan = replace(PLAN, trajectory=replace(PLAN.trajectory, deviations=both))
+    (artifact,) = EMITTER.emit(plan).artifacts
+    one, other = json.loads(artifact.data)["deviations"]
+    assert (one["type"], one["s"]) == ("PathDeviation", 3.0)
+    assert (other["type"], other["t"]) == ("ClockDeviation", 7.0)
+    assert "t" not in one
+    assert "s" not in other
+    read = read_plan(artifact.data, "plan.json").trajectory
+    assert read is not None
+    assert read.deviations == both
 
 
 def test_the_same_bytes_twice_and_after_reading() -> None:

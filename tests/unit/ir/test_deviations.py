@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from shotc.ir.path import CALM, LIMITS, Deviation, from_what_was_asked
+from shotc.ir.path import CALM, LIMITS, ClockDeviation, from_what_was_asked
 from tests.support.front_passes import clean
 
 TEXT = """\
@@ -28,7 +28,7 @@ WHOLE = "the whole subject in the frame, and the drone's limits"
 def test_between_keyframes_only_limits_and_calm_do_not_count() -> None:
     mission = clean(TEXT).mission
     all_ = [
-        Deviation(shot, 2.0, 6.0, cause)
+        ClockDeviation(shot, 2.0, 6.0, cause)
         for shot in ("keyed", "chase")
         for cause in (LIMITS, CALM, WHOLE, "`tree`")
     ]

@@ -17,8 +17,8 @@ from shotc.plugin_api import (
 )
 from shotc.plugin_api.refiner import (
     CALM,
+    ClockDeviation,
     ClockLeg,
-    Deviation,
     TimedPath,
     given_up,
     ideal_places,
@@ -140,25 +140,27 @@ def with_leg(path: PathIR, leg: ClockLeg, why: str) -> PathIR:
     )
     moved = replace(path, timed=timed)
     others = tuple(d for d in path.deviations if d.shot != leg.shot)
-    mine = tuple(d for d in path.deviations if d.shot == leg.shot)
+    mine = tuple(d for d in path.deviations if d.shot == leg.shot and isinstance(d, ClockDeviation))
     return replace(moved, deviations=(*others, *_deviations(subject_of(moved, leg.shot), mine, why)))
 
 
-def _deviations(subject: ClockSubject, before: tuple[Deviation, ...], why: str) -> tuple[Deviation, ...]:
+def _deviations(
+    subject: ClockSubject, before: tuple[ClockDeviation, ...], why: str
+) -> tuple[ClockDeviation, ...]:
     """Return the worst of every stretch off the ideal; what moved the guide nearest to there is why."""
     leg = subject.leg
     t = np.append(np.arange(leg.start, leg.end, STEP), leg.end)
     ideal = ideal_places(subject.mission, subject.placed.shot, leg.start, t)
     away = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1)
     return tuple(
-        Deviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
+        ClockDeviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
         for k in worst_of_runs(away, LEFT, NOTICE)
     )
 
 
-def _cause(before: tuple[Deviation, ...], t: float, why: str) -> str:
-    near = [d for d in before if why == CALM or abs(d.s - t) <= SAME]
-    return min(near, key=lambda d: abs(d.s - t)).cause if near else why
+def _cause(before: tuple[ClockDeviation, ...], t: float, why: str) -> str:
+    near = [d for d in before if why == CALM or abs(d.t - t) <= SAME]
+    return min(near, key=lambda d: abs(d.t - t)).cause if near else why
 
 
 def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: str) -> Diagnostic | None:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.owners import owner_of
-from shotc.ir.path import Deviation, from_what_was_asked
+from shotc.ir.path import ClockDeviation, from_what_was_asked
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
 from shotc.rounding import at_least, up
 
@@ -15,7 +15,7 @@ TOLD = 5  # stretches of a shot that are told one by one
 SILENT = "rules: {mutual_visibility: {strength: off}}"
 
 
-def left_places(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Diagnostic, ...]:
+def left_places(mission: MissionIR, deviations: Iterable[ClockDeviation]) -> tuple[Diagnostic, ...]:
     """Warn, once a shot, of the stretches on which it leaves its place beside its target."""
     every = from_what_was_asked(mission, deviations)
     return tuple(
@@ -24,7 +24,7 @@ def left_places(mission: MissionIR, deviations: Iterable[Deviation]) -> tuple[Di
     )
 
 
-def _left_place(mission: MissionIR, stretches: list[Deviation]) -> Diagnostic:
+def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnostic:
     worst = max(stretches, key=lambda d: d.distance)
     shot = mission.shot(worst.shot)
     labels: list[Label] = [mission.origins.value((*shot.path, "kind"))]
@@ -36,12 +36,12 @@ def _left_place(mission: MissionIR, stretches: list[Deviation]) -> Diagnostic:
         causes.append(cause if owner is None else owner.words)
     notes = [f"what stands against it: {', '.join(causes)}, and that it is flown smoothly"]
     if len(stretches) > 1:
-        often = ", ".join(f"{d.distance:.2f} m at t = {d.s:.1f} s" for d in stretches[:TOLD])
+        often = ", ".join(f"{d.distance:.2f} m at t = {d.t:.1f} s" for d in stretches[:TOLD])
         more = f" and {len(stretches) - TOLD} more" if len(stretches) > TOLD else ""
         notes.append(f"on {len(stretches)} stretches: {often}{more}")
     return Diagnostic(
         "M008",
-        f"shot `{shot.id}` leaves its place by {worst.distance:.2f} m at t = {worst.s:.1f} s",
+        f"shot `{shot.id}` leaves its place by {worst.distance:.2f} m at t = {worst.t:.1f} s",
         tuple(labels),
         tuple(notes),
         "give the shot more room, or the drone higher limits"

@@ -13,7 +13,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, owner_of
-from shotc.ir.path import Deviation
+from shotc.ir.path import PathDeviation
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import flight_space, pad_space
 from shotc.planning.path.angles import NOTICE, Cut
@@ -110,7 +110,7 @@ def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:
     )
 
 
-def moved(mission: MissionIR, shot: PlacedShot, deviation: Deviation) -> Diagnostic:
+def moved(mission: MissionIR, shot: PlacedShot, deviation: PathDeviation) -> Diagnostic:
     """Return the warning for a generated path that had to leave its ideal."""
     where = f"{deviation.s:.1f} m along the shot"
     labels = [mission.origins.key(shot.shot.path, "the path leaves its ideal here")]

@@ -11,7 +11,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import BODY_YAW, CAM_YAW, Deviation
+from shotc.ir.path import BODY_YAW, CAM_YAW, PathDeviation
 from shotc.passes.refine_path import REFINER, RefinePath, Seat, Unusable
 from tests.support.bad_refiners import PASS, ROUND, along, bumped, leg, nan, path, refine, returns, with_leg
 from tests.support.records import replace
@@ -179,7 +179,7 @@ def turned_once_more(ir):
 @pytest.mark.timeout(60)
 def test_a_convex_path_follows_a_refined_one_a_whole_turn_farther():
     def act(ir):
-        bent = (Deviation(PASS, 1.0, 3.0, "art"), Deviation(ROUND, 2.0, 3.0, "art"))
+        bent = (PathDeviation(PASS, 1.0, 3.0, "art"), PathDeviation(ROUND, 2.0, 3.0, "art"))
         return Outcome(replace(nan(turned_once_more(ir), ROUND), stats=(("turns", 1.0),), deviations=bent))
 
     outcome = refine(act, ROUND)

@@ -11,7 +11,7 @@ import pytest
 from shotc import api
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import MissionIR, Zone
-from shotc.ir.path import Deviation
+from shotc.ir.path import PathDeviation
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.explained import (
     NEAR,
@@ -56,8 +56,8 @@ def test_a_fence_and_the_ground_explain_what_the_way_is_beyond_them() -> None:
 
 
 def test_a_cause_that_is_not_there_is_not_believed() -> None:
-    told = [Deviation("a", 9.0, 0.0, "zone wall"), Deviation("a", 4.0, 0.0, "zone mast")]
-    told.append(Deviation("a", 2.0, 0.0, "the drone's limits"))
+    told = [PathDeviation("a", 9.0, 0.0, "zone wall"), PathDeviation("a", 4.0, 0.0, "zone mast")]
+    told.append(PathDeviation("a", 2.0, 0.0, "the drone's limits"))
     assert believed(told, {"zone mast": 5.0}) == [4.0, 2.0]
 
 

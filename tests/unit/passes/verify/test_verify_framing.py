@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import quintic_hermite
 from shotc.geom.solids import box
 from shotc.ir.mission import Promise, Zone
-from shotc.ir.path import CAM_YAW, HFOV, Deviation
+from shotc.ir.path import CAM_YAW, HFOV, PathDeviation
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.hidden import longest
@@ -180,7 +180,7 @@ def test_a_cropped_target_is_told_with_a_promise_to_paste() -> None:
 
 
 def test_a_broken_promise_names_what_bent_the_path() -> None:
-    bent = (Deviation("half", 1.5, 3.0, "zone tree"), Deviation("other", 9.0, 0.0, "the ground"))
+    bent = (PathDeviation("half", 1.5, 3.0, "zone tree"), PathDeviation("other", 9.0, 0.0, "the ground"))
     (found,) = promising(Promise(size=(0.1, 0.7)), replace(PLAN, deviations=bent))
     assert "the shot leaves its ideal path by up to 1.50 m, round zone `tree`" in found.notes
     assert not any("ground" in note for note in found.notes)

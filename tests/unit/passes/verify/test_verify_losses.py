@@ -10,7 +10,7 @@ import pytest
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Promise
-from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, Deviation
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, PathDeviation
 from shotc.passes.verify import judge
 from shotc.passes.verify.loss import at_limit
 from tests.support.records import replace
@@ -68,7 +68,7 @@ def test_it_is_told_with_its_error_frame_and_time():
 
 
 def test_what_bent_the_path_is_told():
-    bent = replace(turned(10.0), deviations=(Deviation("half", 1.5, 3.0, "zone tree"),))
+    bent = replace(turned(10.0), deviations=(PathDeviation("half", 1.5, 3.0, "zone tree"),))
     assert "round zone `tree`" in told(bent).notes[2]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
-from shotc.ir.path import Deviation
+from shotc.ir.path import ClockDeviation
 from shotc.ir.preference import MOST_MOVED, Price, given_up, noted
 from shotc.passes.solve_path_qp.explain.on_clock import left_places
 from shotc.planning.clock import position
@@ -105,7 +105,7 @@ def test_stretches_off_a_shots_place_are_told_in_one() -> None:
     done = orbit()
     assert done.plan is not None
     cause = "the pictures of other drones"
-    stretches = [Deviation("round", 0.6 + 0.1 * k, 21.0 + k, cause) for k in range(7)]
+    stretches = [ClockDeviation("round", 0.6 + 0.1 * k, 21.0 + k, cause) for k in range(7)]
     (said,) = left_places(done.plan.trajectory.keyframes.mission, stretches)
     assert said.message == "shot `round` leaves its place by 1.20 m at t = 27.0 s"
     assert "on 7 stretches: 0.60 m at t = 21.0 s" in said.notes[1]
