@@ -113,8 +113,8 @@ class Pairs:
     def __len__(self) -> int:
         return len(self.item)
 
-    def pick(self, which: Mask) -> Pairs:
-        """Return the pairs where the mask of shape (K,) is true."""
+    def pick(self, which: Mask | slice) -> Pairs:
+        """Return some of the pairs, by a mask of shape (K,) or a slice."""
         return Pairs(self.item[which], self.triangle[which])
 
     def best(self, value: Array) -> tuple[IntArray, IntArray]:

@@ -1,0 +1,130 @@
+"""What a surface hides of rectangles that stand in for targets: one packet of rays a frame.
+
+Rays lead to the middles of n x n cells of a parallelogram, so that all that is linear in a ray is so in
+the cell: three products a triangle serve all rays (watertight on common sides, as signs of one product are).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask
+from shotc.geom.surface.tree import Pairs, Surface, search
+from shotc.geom.surface.triangles import cross, dot
+
+FRAMES_AT_ONCE = 256
+"""Frames whose pairs with triangles fit the cache."""
+PAIRS_AT_ONCE = 16_384
+SHORT_OF = 1.0 - 1e-6
+"""Share of the way to a cell at which rays end: what a target stands on, or touches, does not hide it."""
+_NONE = 1e-300  # instead of a length that is none, so that what is divided by it is far beyond any share
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Billboards:
+    """A parallelogram a frame, and the eye that looks at it; all of shape (F, 3), metres of W.
+
+    Its points are corner + a right + b up, 0 <= a, b <= 1.
+    """
+
+    eye: Array
+    corner: Array
+    right: Array
+    up: Array
+
+    def __len__(self) -> int:
+        return len(self.eye)
+
+    def part(self, which: slice) -> Billboards:
+        """Return those of some frames."""
+        return Billboards(self.eye[which], self.corner[which], self.right[which], self.up[which])
+
+
+def billboards(eye: Array, centre: Array, width: Array | float, height: Array | float) -> Billboards:
+    """Return the rectangles that face eyes (F, 3) about centres (F, 3), with level lower sides; metres.
+
+    width, height : (F,) or one for all. Seen from straight above, the lower side faces South.
+    """
+    away = centre - eye
+    level = np.column_stack([away[:, 1], -away[:, 0], np.zeros(len(away))])
+    size = np.linalg.norm(level, axis=1)
+    level[size <= 0.0] = [1.0, 0.0, 0.0]
+    level /= np.linalg.norm(level, axis=1)[:, None]
+    steep = cross(level, away)
+    steep /= np.maximum(np.linalg.norm(steep, axis=1), _NONE)[:, None]
+    right = level * np.broadcast_to(width, (len(eye),))[:, None]
+    up = steep * np.broadcast_to(height, (len(eye),))[:, None]
+    return Billboards(eye, centre - 0.5 * (right + up), right, up)
+
+
+def facing_cylinders(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
+    """Return the least such rectangles that hold what upright cylinders at centres (F, 3) show from far."""
+    away = centre - eye
+    far = np.maximum(np.linalg.norm(away, axis=1), _NONE)
+    upright = np.hypot(away[:, 0], away[:, 1]) / far
+    shown = height * upright + 2.0 * radius * np.abs(away[:, 2]) / far
+    return billboards(eye, centre, 2.0 * radius, shown)
+
+
+def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
+    """Tell which of n x n cells a surface hides: shape (F, n, n), along right and up.
+
+    The mean over a frame is the share that is hidden.
+    """
+    out = np.zeros((len(boards), n * n), dtype=bool)
+    for start in range(0, len(boards), FRAMES_AT_ONCE):
+        which = slice(start, start + FRAMES_AT_ONCE)
+        some = boards.part(which)
+        pairs = _candidates(surface, some)
+        for first in range(0, len(pairs), PAIRS_AT_ONCE):
+            part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))
+            hits = _hits(surface.triangles[part.triangle], some, part.item, n)
+            frame, begin = np.unique(part.item, return_index=True)
+            out[which][frame] |= np.logical_or.reduceat(hits, begin, axis=0)
+    return out.reshape(-1, n, n)
+
+
+def _candidates(surface: Surface, boards: Billboards) -> Pairs:
+    """Return the triangles whose boxes meet the boxes that slide from the eye to the billboard, growing."""
+    on = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
+    grown = 0.5 * (np.abs(boards.right) + np.abs(boards.up))
+    # At share x of the way: x (on + grown) >= low - eye and x (grown - on) >= eye - high, axis by axis.
+    speed = np.concatenate([on + grown, grown - on], axis=1)
+    speed = np.where(speed == 0.0, _NONE, speed)
+    per, enters = 1.0 / speed, speed > 0.0
+
+    def meets(frame: IntArray, low: Array, high: Array) -> Mask:
+        eye = boards.eye[frame]
+        share = np.concatenate([low - eye, eye - high], axis=1) * per[frame]
+        entering = enters[frame]
+        first = np.where(entering, share, 0.0).max(axis=1)
+        last = np.where(entering, 1.0, share).min(axis=1)
+        return np.asarray(np.maximum(first, 0.0) <= np.minimum(last, 1.0))
+
+    return search(surface, len(boards), meets)
+
+
+def _hits(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Mask:
+    """Tell which rays of the frames (K,) their triangles (K, 3, 3) stop; shape (K, n * n)."""
+    corners = triangles - boards.eye[frame][:, None]
+    # A ray passes inside of a side where its product with the plane of eye and side is positive.
+    planes = cross(corners, corners[:, [1, 2, 0]])
+    volume = dot(corners[:, 0], planes[:, 1])
+    planes *= np.sign(volume)[:, None, None]
+    to = np.stack([boards.corner - boards.eye, boards.right, boards.up], axis=1)[frame]
+    products = np.einsum("ksd,kpd->skp", planes, to) @ _cells(n)
+    inside = np.minimum(np.minimum(products[0], products[1]), products[2]) >= 0.0
+    # The sum is the product with the triangle's own plane; the volume over it, the share of the way.
+    whole = products[0] + products[1] + products[2]
+    return np.asarray(inside & (whole * SHORT_OF > np.abs(volume)[:, None]) & (volume != 0.0)[:, None])
+
+
+def _cells(n: int) -> Array:
+    """Return 1, a and b of all cells' middles, shape (3, n * n)."""
+    middle = (np.arange(n) + 0.5) / n
+    a, b = np.meshgrid(middle, middle, indexing="ij")
+    return np.stack([np.ones(n * n), a.ravel(), b.ravel()])

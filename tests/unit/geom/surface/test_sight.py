@@ -1,0 +1,137 @@
+"""What hides billboards: walls of known size, all rays against all triangles, seams, how near shares are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from shotc.geom.surface import sight
+from shotc.geom.surface.sight import Billboards, billboards, facing_cylinders, hidden
+from shotc.geom.surface.tree import Surface, surface_of
+from tests.support.surfaces import grid, some_triangles
+
+
+def rectangle(y: float, x: tuple[float, float], z: tuple[float, float]) -> np.ndarray:
+    """An upright wall across the line of sight North."""
+    a, b, c, d = ([x[0], y, z[0]], [x[1], y, z[0]], [x[1], y, z[1]], [x[0], y, z[1]])
+    return np.array([[a, b, c], [a, c, d]], dtype=float)
+
+
+def north(distance: float = 20.0, size: float = 2.0) -> Billboards:
+    """A square to the North of the origin, at the height of the eye."""
+    return billboards(np.zeros((1, 3)), np.array([[0.0, distance, 0.0]]), size, size)
+
+
+def rays(boards: Billboards, n: int) -> np.ndarray:
+    middle = (np.arange(n) + 0.5) / n
+    points = boards.corner[:, None, None] + middle[:, None, None] * boards.right[:, None, None]
+    return points + middle[:, None] * boards.up[:, None, None]
+
+
+def by_all_pairs(triangles: np.ndarray, boards: Billboards, n: int) -> np.ndarray:
+    """Every ray against every triangle (Möller and Trumbore 1997)."""
+    eye, points = boards.eye[:, None, None, None], rays(boards, n)[:, :, :, None]
+    way, a = points - eye, triangles[:, 0]
+    one, other = triangles[:, 1] - a, triangles[:, 2] - a
+    p = np.cross(way, other)
+    with np.errstate(all="ignore"):
+        scale = 1.0 / (p * one).sum(-1)
+        from_a = eye - a
+        u = (from_a * p).sum(-1) * scale
+        q = np.cross(from_a, one)
+        v, t = (way * q).sum(-1) * scale, (other * q).sum(-1) * scale
+        return ((u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0) & (t < 1 - 1e-6)).any(axis=-1)
+
+
+@settings(max_examples=80)
+@given(st.integers(0, 2**32 - 1), st.integers(1, 80))
+def test_the_same_rays_are_stopped_as_by_all_pairs(seed: int, count: int):
+    random = np.random.default_rng(seed)
+    triangles = some_triangles(random, count)
+    eye, centre = random.normal(size=(2, 12, 3)) * 15
+    boards = billboards(eye, centre, random.uniform(0.1, 8.0, 12), random.uniform(0.1, 8.0, 12))
+    found, expected = hidden(surface_of(triangles), boards, 5), by_all_pairs(triangles, boards, 5)
+    assert (found != expected).mean() < 0.002  # rays that graze an edge may differ
+
+
+@pytest.mark.parametrize(
+    ("wall", "share"), [((-5, 5), 1.0), ((0, 5), 0.5), ((-5, -0.5), 0.0), ((0.25, 5), 0.25)]
+)
+def test_a_wall_half_way_hides_what_it_covers(wall: tuple[float, float], share: float):
+    found = hidden(surface_of(rectangle(10.0, wall, (-5, 5))), north(), 8)
+    assert found.mean() == share
+    if share == 0.5:  # the eastern half: cells count along right, then up
+        assert found[0, 4:].all()
+        assert not found[0, :4].any()
+
+
+def test_a_wall_covers_the_upper_half():
+    found = hidden(surface_of(rectangle(10.0, (-5, 5), (0, 5))), north(), 8)
+    assert found[0, :, 4:].all()
+    assert not found[0, :, :4].any()
+
+
+@pytest.mark.parametrize("y", [-10.0, 20.0, 25.0])
+def test_what_is_behind_the_eye_or_not_before_the_target_hides_nothing(y: float):
+    assert not hidden(surface_of(rectangle(y, (-9, 9), (-9, 9))), north()).any()
+
+
+def test_a_target_that_stands_on_the_ground_is_not_hidden_by_it():
+    ground = surface_of(grid(np.zeros((80, 80))).triangles)
+    eye, centre = np.array([[10.0, 10.0, 4.0]]), np.array([[60.0, 70.0, 0.95]])
+    assert not hidden(ground, facing_cylinders(eye, centre, 0.4, 1.9 * 0.95)).any()
+    assert hidden(ground, facing_cylinders(eye - [0, 0, 8], centre, 0.4, 1.9)).all()
+
+
+def test_no_ray_slips_through_the_seams_of_a_closed_surface():
+    ball = surface_of(np.asarray(trimesh.creation.icosphere(3, radius=5.0).triangles))
+    eye = np.random.default_rng(1).normal(size=(200, 3))
+    eye *= 30.0 / np.linalg.norm(eye, axis=1)[:, None]
+    # Rays through the corners and the middles of sides, where three and more triangles meet.
+    corners = np.unique(ball.triangles.reshape(-1, 3), axis=0)[:200]
+    none = np.zeros((len(corners), 3))
+    through = Billboards(eye[: len(corners)], eye[: len(corners)] + 3.0 * (corners * 0.5 - eye), none, none)
+    assert hidden(ball, through, 1).all()
+
+
+def test_a_target_seen_from_straight_above_has_its_width():
+    boards = facing_cylinders(np.array([[3.0, 4.0, 50.0]]), np.array([[3.0, 4.0, 1.0]]), 0.4, 2.0)
+    assert np.linalg.norm(boards.right) == pytest.approx(0.8)
+    assert np.linalg.norm(boards.up) == pytest.approx(0.8)
+    assert boards.corner + 0.5 * (boards.right + boards.up) == pytest.approx(np.array([[3.0, 4.0, 1.0]]))
+
+
+def test_a_target_seen_from_its_own_height_is_upright():
+    boards = facing_cylinders(np.array([[0.0, -9.0, 1.0]]), np.array([[0.0, 0.0, 1.0]]), 0.4, 2.0)
+    assert boards.right == pytest.approx(np.array([[0.8, 0.0, 0.0]]))
+    assert boards.up == pytest.approx(np.array([[0.0, 0.0, 2.0]]))
+
+
+def test_shares_of_sixty_four_rays_are_near_those_of_ten_thousand(monkeypatch: pytest.MonkeyPatch):
+    random = np.random.default_rng(7)
+    surface = _trunks(random)
+    eye = np.column_stack([random.uniform(-60, 60, (150, 2)), random.uniform(1, 12, 150)])
+    centre = np.column_stack([random.uniform(-60, 60, (150, 2)), np.full(150, 0.95)])
+    boards = facing_cylinders(eye, centre, 0.4, 1.9)
+    share = hidden(surface, boards).mean(axis=(1, 2))
+    exact = hidden(surface, boards, 100).mean(axis=(1, 2))
+    assert 0.05 < exact.mean() < 0.95
+    assert np.abs(share - exact).mean() < 0.01
+    monkeypatch.setattr(sight, "FRAMES_AT_ONCE", 7)
+    monkeypatch.setattr(sight, "PAIRS_AT_ONCE", 5)
+    assert (hidden(surface, boards).mean(axis=(1, 2)) == share).all()
+
+
+def _trunks(random: np.random.Generator) -> Surface:
+    trunk = np.asarray(trimesh.creation.cylinder(radius=0.5, height=12, sections=12).triangles)
+    places = np.column_stack([random.uniform(-60, 60, (120, 2)), np.full(120, 6.0)])
+    return surface_of((trunk + places[:, None, None]).reshape(-1, 3, 3))
+
+
+def test_nothing_hides_nothing():
+    assert not hidden(surface_of(np.zeros((0, 3, 3))), north()).any()
+    nobody = Billboards(*np.zeros((4, 0, 3)))
+    assert hidden(surface_of(rectangle(1, (0, 1), (0, 1))), nobody).shape == (0, 8, 8)
