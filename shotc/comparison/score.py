@@ -11,7 +11,7 @@ from math import isfinite
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
-from shotc.geom.camera import ROUNDING
+from shotc.geom.camera import ROUNDING_M
 from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
 from shotc.ir.comparison import FlownShot, Score, Trace
@@ -60,7 +60,7 @@ def score(traces: Sequence[Trace], squared_jerk: float, duration: float) -> Scor
         error_mean=float(error.mean()) if count else None,
         error_p95=float(error[int(np.ceil(MOST * count)) - 1]) if count else None,
         error_worst=float(error[-1]) if count else None,
-        in_frame=float((margin >= -ROUNDING).mean()) if len(margin) else None,
+        in_frame=float((margin >= -ROUNDING_M).mean()) if len(margin) else None,
         in_frame_four_points=float(points.mean()) if len(points) else None,
         jerk_rms=float(np.sqrt(squared_jerk / duration)) if duration > 0 else 0.0,
         duration=duration,

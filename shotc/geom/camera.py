@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from shotc.geom.vec import Vec2, Vec3, direction
 
-ROUNDING = 1e-6
+ROUNDING_M = 1e-6
 """Metres out of the frame that are rounding, as in every other limit: a target may touch the frame's edge."""
 
 S = Any  # float or NDArray[float64]; arithmetic is the same for both

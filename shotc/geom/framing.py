@@ -12,7 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import ROUNDING, View, frustum_margins, nearest_depth, point_margins, silhouette_bounds
+from shotc.geom.camera import (
+    ROUNDING_M,
+    View,
+    frustum_margins,
+    nearest_depth,
+    point_margins,
+    silhouette_bounds,
+)
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solid_arrays.segments import blocks
@@ -64,7 +71,7 @@ class Frames:
     @property
     def in_frame(self) -> Mask:
         """Whether the whole silhouette is in the frame."""
-        return np.asarray(self.margin >= -ROUNDING)
+        return np.asarray(self.margin >= -ROUNDING_M)
 
 
 def frames(cameras: Cameras, target: Cylinder, hiding: Sequence[Solid] = ()) -> Frames:

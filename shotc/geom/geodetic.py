@@ -6,7 +6,7 @@ from math import cos, radians, sin, sqrt
 
 from shotc.geom.vec import Vec3
 
-SEMI_MAJOR = 6378137.0  # metres, WGS84
+SEMI_MAJOR_M = 6378137.0  # metres, WGS84
 FLATTENING = 1 / 298.257223563
 _E2 = FLATTENING * (2 - FLATTENING)
 
@@ -44,6 +44,6 @@ def above_ground(place: Vec3, origin: Vec3) -> Vec3:
 
 def _earth_centred(place: Vec3) -> Vec3:
     lat, lon, alt = radians(place[0]), radians(place[1]), place[2]
-    normal = SEMI_MAJOR / sqrt(1 - _E2 * sin(lat) ** 2)
+    normal = SEMI_MAJOR_M / sqrt(1 - _E2 * sin(lat) ** 2)
     ring = (normal + alt) * cos(lat)
     return (ring * cos(lon), ring * sin(lon), (normal * (1 - _E2) + alt) * sin(lat))

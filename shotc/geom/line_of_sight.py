@@ -16,7 +16,7 @@ from shotc.geom.vec import Vec2, Vec3
 
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
 
-TOUCH = 1e-6  # metres of rounding, so that what stands on something touches it
+TOUCH_M = 1e-6  # metres of rounding, so that what stands on something touches it
 
 
 def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
@@ -37,7 +37,7 @@ def are_one(offset: tuple[S, S, S], across: S, tall: S) -> S:
     offset : between their centres; across : sum of their radii; tall : half the sum of their heights, metres
     """
     x, y, z = offset
-    return (x * x + y * y <= (across + TOUCH) ** 2) & (abs(z) <= tall + TOUCH)
+    return (x * x + y * y <= (across + TOUCH_M) ** 2) & (abs(z) <= tall + TOUCH_M)
 
 
 def _level(solid: Solid, a: Vec3, b: Vec3) -> tuple[float, float] | None:

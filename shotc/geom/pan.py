@@ -6,14 +6,14 @@ Best Practices). Where a subject is followed it stands still on screen and holds
 may go through in 3 s.
 """
 
-FREE = 7.0  # seconds a frame width takes at least where nobody is followed
-FOLLOWING = 3.0  # and where the camera follows a subject
-WINDOW = 1.0  # seconds over which a turn is judged whose course is known
+FREE_S = 7.0  # seconds a frame width takes at least where nobody is followed
+FOLLOWING_S = 3.0  # and where the camera follows a subject
+WINDOW_S = 1.0  # seconds over which a turn is judged whose course is known
 
 
 def slowest(followed: str | None) -> float:
     """Return the seconds that a frame width takes at least; followed : whom the eye holds on to."""
-    return FREE if followed is None else FOLLOWING
+    return FREE_S if followed is None else FOLLOWING_S
 
 
 def whose(followed: str | None) -> str:

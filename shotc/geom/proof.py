@@ -27,7 +27,7 @@ from shotc.geom.taper import Taper
 ROUNDS = 60
 """Halvings before a bound is given as it is; an interval of an hour is then shorter than a nanosecond."""
 
-OPEN_LIMIT = 200_000
+OPEN_PIECES_LIMIT = 200_000
 """Pieces halved at once; beyond it the bound stays proven but is not made tighter."""
 
 Value = Callable[[Array], Array]
@@ -68,7 +68,7 @@ def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> B
         is_open = upper > best + gap(best)
         closed = max(closed, float(upper[~is_open].max(initial=-np.inf)))
         rest = float(upper[is_open].max(initial=-np.inf))
-        if is_open.sum() > OPEN_LIMIT:
+        if is_open.sum() > OPEN_PIECES_LIMIT:
             break
         pieces = pieces.pick(is_open).halves()
     return Bound(max(closed, best, rest), best, at)
@@ -140,7 +140,7 @@ def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> Bou
         is_open = lower < best - gap(best)
         closed = min(closed, float(lower[~is_open].min(initial=np.inf)))
         rest = float(lower[is_open].min(initial=np.inf))
-        if best <= 0.0 or is_open.sum() > OPEN_LIMIT:
+        if best <= 0.0 or is_open.sum() > OPEN_PIECES_LIMIT:
             break
         pieces = pieces.pick(is_open).halves()
     return Bound(min(closed, best, rest), best, at)

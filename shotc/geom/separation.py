@@ -26,22 +26,22 @@ from shotc.geom.fleet_spline import pieces
 
 Index = NDArray[np.intp]
 
-GAP = 5e-7
+GAP_M = 5e-7
 """How far the proved bound may stay below a value that is attained, relative beyond one metre."""
 
-REACH = 0.4
+REACH_SHARE = 0.4
 """Largest radius of a drone's ball in a slab, as a share of the horizontal distance that is to be kept."""
 
-SAMPLES = 128
+SAMPLE_SLABS = 128
 """Slabs in whose middle the nearest pair is looked for first: the nearer it is, the fewer pairs count."""
 
 ROUNDS = 60
 """Halvings before a bound is given as it is, as in ``geom.proof``."""
 
-OPEN_LIMIT = 200_000
+OPEN_INTERVALS_LIMIT = 200_000
 """Intervals halved at once; beyond it the bound stays proven but is not made tighter."""
 
-BLOCK = 50_000
+BLOCK_PAIRS = 50_000
 """Pairs looked at together, which bounds the memory."""
 
 
@@ -150,12 +150,12 @@ class _Search:
 
     def run(self) -> Nearest:
         slabs = self._slabs()
-        for low, high in slabs[:: max(1, len(slabs) // SAMPLES)]:
+        for low, high in slabs[:: max(1, len(slabs) // SAMPLE_SLABS)]:
             self._sample(low, high)
         bags: list[_Bag] = []
         for bag in (bag for slab in slabs for bag in self._open(*slab)):
             bags.append(bag)
-            if sum(len(bag.ends) for bag in bags) > BLOCK:
+            if sum(len(bag.ends) for bag in bags) > BLOCK_PAIRS:
                 self._close(_join(bags))
                 bags = []
         self._close(_join(bags))
@@ -169,7 +169,7 @@ class _Search:
         if self.other is not None:
             breaks = np.unique(np.concatenate([breaks, self.other.breaks]))
         found: list[tuple[float, float]] = []
-        reach = REACH * self.apart.across
+        reach = REACH_SHARE * self.apart.across
         for low, high in pairwise(breaks.tolist()):
             _, radius = _balls(_steady(self._ctrl(low, high)))
             parts = max(1, int(np.ceil(radius.max(initial=0.0) / reach)))
@@ -211,8 +211,8 @@ class _Search:
         far = self.best * (np.sqrt(2.0) if self.upright else 1.0)
         skip = 0 if self.other is None else len(self.one.ctrl[0])
         candidates = self._candidates(centre, far + 2.0 * float(radius.max(initial=0.0)))
-        for at in range(0, len(candidates), BLOCK):
-            pairs = candidates[at : at + BLOCK]
+        for at in range(0, len(candidates), BLOCK_PAIRS):
+            pairs = candidates[at : at + BLOCK_PAIRS]
             first, second = pairs[:, 0], pairs[:, 1] + skip
             near = _norm(centre[first] - centre[second]) - radius[first] - radius[second] < far
             relative = ctrl[first[near]] - ctrl[second[near]]
@@ -240,13 +240,13 @@ class _Search:
             pair = (int(bag.pairs[k, 0]), int(bag.pairs[k, 1]))
             self._note(float(sizes[k]), pair, float(bag.ends[k].mean()))
             bag = bag.pick(self._least(bag.ctrl) < self.best - self._gap())
-            if len(bag.ends) > OPEN_LIMIT:
+            if len(bag.ends) > OPEN_INTERVALS_LIMIT:
                 break
             bag = bag.halves()
         self.rest = min(self.rest, float(self._least(bag.ctrl).min(initial=np.inf)))
 
     def _gap(self) -> float:
-        return GAP * max(1.0, self.best)
+        return GAP_M * max(1.0, self.best)
 
     def _size(self, relative: Array) -> Array:
         """Return how near the drones are whose stretched relative positions are given, shape (M,)."""

@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.camera import frustum_margins
 from shotc.geom.framing import Cameras
 
-WITHIN = -0.5 * np.pi
+WITHIN_RAD = -0.5 * np.pi
 """Radians: what a ball is off the axis of a camera that is inside of it."""
 
 
@@ -33,7 +33,7 @@ def off_axis(cameras: Cameras, places: Array, radius: float) -> Array:
     aside = np.hypot(right, down)
     far = np.hypot(aside, forward)
     half = np.arcsin(radius / np.maximum(far, radius)) if radius > 0 else np.zeros_like(far)
-    return np.where(far > radius, np.arctan2(aside, forward) - half, WITHIN)
+    return np.where(far > radius, np.arctan2(aside, forward) - half, WITHIN_RAD)
 
 
 def _away(cameras: Cameras, places: Array) -> tuple[Array, Array, Array]:

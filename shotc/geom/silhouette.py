@@ -18,7 +18,7 @@ from shotc.geom.vec import Vec2, Vec3
 
 Array = NDArray[np.float64]
 
-NEAR = 0.01
+NEAR_PLANE_M = 0.01
 """Depth of the near plane, metres; small beside any clearance, so that the cut is never on screen."""
 
 
@@ -164,7 +164,7 @@ def _clip_near(loop: Array) -> Array:
     # Sutherland-Hodgman against one plane, in the camera frame.
     if np.isnan(loop).any():
         return np.empty((0, 3))
-    inside = loop[:, 2] >= NEAR
+    inside = loop[:, 2] >= NEAR_PLANE_M
     if inside.all():
         return loop
     kept: list[Array] = []
@@ -178,7 +178,7 @@ def _clip_near(loop: Array) -> Array:
 
 
 def _clip_strip(strip: Array) -> list[Array]:
-    inside = strip[:, 2] >= NEAR
+    inside = strip[:, 2] >= NEAR_PLANE_M
     if inside.all():
         return [strip]
     runs: list[list[Array]] = []
@@ -195,7 +195,7 @@ def _clip_strip(strip: Array) -> list[Array]:
 
 
 def _crossing(a: Array, b: Array) -> Array:
-    share = (NEAR - a[2]) / (b[2] - a[2])
+    share = (NEAR_PLANE_M - a[2]) / (b[2] - a[2])
     point: Array = a + share * (b - a)
-    point[2] = NEAR
+    point[2] = NEAR_PLANE_M
     return point

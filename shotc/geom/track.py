@@ -9,11 +9,11 @@ from typing import NamedTuple, Self
 from shotc.geom.same import Same
 from shotc.geom.vec import Vec3
 
-AROUND = 1.0  # seconds before and after, over which a heading is taken from the motion
-STILL = 1e-6  # metres or m/s that are rounding
-MOVES = 0.1  # metres over that time; less is standing still
-STRAIGHT = 1e-6  # sine of the angle between two stretches that go the same way
-LEAST_LEG = 1e-9  # metres of a stretch that has a direction
+HEADING_SPAN_S = 1.0  # seconds before and after, over which a heading is taken from the motion
+STILL_M = 1e-6  # metres or m/s that are rounding
+MOVES_M = 0.1  # metres over that time; less is standing still
+STRAIGHT_SINE = 1e-6  # sine of the angle between two stretches that go the same way
+LEAST_LEG_M = 1e-9  # metres of a stretch that has a direction
 
 
 class Track(NamedTuple):
@@ -64,20 +64,21 @@ class Track(NamedTuple):
     @property
     def underway(self) -> float:
         """A time from which on its course is known, seconds."""
-        return self.times[0] + AROUND
+        return self.times[0] + HEADING_SPAN_S
 
     @property
     def straight(self) -> bool:
         """Whether it goes one way only, and faces that way."""
         legs = [(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(self.points)]
-        legs = [leg for leg in (*legs, self.after[:2]) if hypot(*leg) > LEAST_LEG]
+        legs = [leg for leg in (*legs, self.after[:2]) if hypot(*leg) > LEAST_LEG_M]
         if not legs:
             return False
         if self.headings and max(self.headings) - min(self.headings) > pi / 180:
             return False
         x, y = legs[0]
         return all(
-            abs(x * b - y * a) <= STRAIGHT * hypot(x, y) * hypot(a, b) and x * a + y * b > 0 for a, b in legs
+            abs(x * b - y * a) <= STRAIGHT_SINE * hypot(x, y) * hypot(a, b) and x * a + y * b > 0
+            for a, b in legs
         )
 
     def speed(self, t: float) -> float:
@@ -106,14 +107,14 @@ class Track(NamedTuple):
 
     def _moved(self, t: float) -> tuple[float, float] | None:
         """Return how far it moves over ground in the second before a time and the one after, metres."""
-        a, b = self.at(t - AROUND), self.at(t + AROUND)
+        a, b = self.at(t - HEADING_SPAN_S), self.at(t + HEADING_SPAN_S)
         moved = (b[0] - a[0], b[1] - a[1])
-        return moved if hypot(*moved) >= MOVES else None
+        return moved if hypot(*moved) >= MOVES_M else None
 
     def _last_course(self, t: float) -> float:
         """Return the direction of the last stretch on which it moved by a time, or of the first one ever."""
         i, _ = self._row(t)
-        carried = hypot(self.after[0], self.after[1]) > STILL
+        carried = hypot(self.after[0], self.after[1]) > STILL_M
         moving = _moving(Same(self.points))
         if carried and (i == len(self.times) - 1 or not moving):
             return atan2(self.after[1], self.after[0])
@@ -128,7 +129,7 @@ class Track(NamedTuple):
 def _moving(rows: Same[tuple[Vec3, ...]]) -> tuple[int, ...]:
     """Return the rows at which a stretch begins that leads somewhere else on the map."""
     legs = enumerate(pairwise(rows.it))
-    return tuple(i for i, (a, b) in legs if hypot(b[0] - a[0], b[1] - a[1]) > STILL)
+    return tuple(i for i, (a, b) in legs if hypot(b[0] - a[0], b[1] - a[1]) > STILL_M)
 
 
 def unwrapped(angles: list[float]) -> tuple[float, ...]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict
-from shotc.geom.track import AROUND, MOVES, Track
+from shotc.geom.track import HEADING_SPAN_S, MOVES_M, Track
 
 
 def places(track: Track, t: Array) -> Array:
@@ -20,9 +20,9 @@ def headings(track: Track, t: Array) -> Array:
     """Return where the target faces at times of shape (M,), rad, shape (M,); as ``Track.heading``."""
     if track.headings:
         return np.array([track.heading(float(u)) for u in t])
-    moved = places(track, t + AROUND)[:, :2] - places(track, t - AROUND)[:, :2]
+    moved = places(track, t + HEADING_SPAN_S)[:, :2] - places(track, t - HEADING_SPAN_S)[:, :2]
     found = np.arctan2(moved[:, 1], moved[:, 0])
-    for k in np.flatnonzero(np.hypot(moved[:, 0], moved[:, 1]) < MOVES):
+    for k in np.flatnonzero(np.hypot(moved[:, 0], moved[:, 1]) < MOVES_M):
         found[k] = track.heading(float(t[k]))
     return np.asarray(found)
 

@@ -17,16 +17,16 @@ from shotc.geom.vec import Vec2, Vec3, minus
 Pose = tuple[float, float, float, float, float]
 Residuals = list[float]
 
-FAR = 1e5  # metres beyond which nothing is filmed
+FAR_M = 1e5  # metres beyond which nothing is filmed
 HALVINGS = 60
-STEEP = 10.0  # weight of what has to hold
-FAINT = 0.01  # weight of what is free: that it stays as it is, and is level
-EDGE = 0.97  # of half a frame, within which a whole target is kept
+HARD_WEIGHT = 10.0  # weight of what has to hold
+FAINT_WEIGHT = 0.01  # weight of what is free: that it stays as it is, and is level
+EDGE_SHARE = 0.97  # of half a frame, within which a whole target is kept
 NUDGE = 1e-6
 ROUNDS = 100
 DAMPINGS = 12
-SETTLED = 1e-6  # share of the cost by which a round has to lower it
-STEEPEST = 1.5  # rad of elevation that a free view is raised to
+SETTLED_SHARE = 1e-6  # share of the cost by which a round has to lower it
+STEEPEST_RAD = 1.5  # rad of elevation that a free view is raised to
 
 
 class Lens(NamedTuple):
@@ -129,7 +129,7 @@ def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
 
 def distance_for(wanted: Wanted, lens: Lens, toward: Vec3, size: float) -> float:
     """Return the distance along a unit vector from which a subject has a size; 0 where none is so near."""
-    low, high = 1e-3, FAR
+    low, high = 1e-3, FAR_M
     for _ in range(HALVINGS + 20):
         middle = sqrt(low * high)
         if size_from(wanted, lens, _times(toward, middle)) > size:
@@ -171,7 +171,7 @@ def stand(wanted: Wanted, lens: Lens, room: Room, azimuth: float, size: float) -
     offset = at(0.0)
     if offset[2] >= lift:
         return offset
-    low, high = 0.0, STEEPEST
+    low, high = 0.0, STEEPEST_RAD
     for _ in range(30):
         middle = 0.5 * (low + high)
         if at(middle)[2] < lift:
@@ -261,7 +261,7 @@ def viewpoint(
         if columns is None:
             break
         before, best = best.cost, _lowered(search, best, columns)
-        if before - best.cost <= SETTLED * max(before, 1e-12):
+        if before - best.cost <= SETTLED_SHARE * max(before, 1e-12):
             break
     return best.pose, best.cost
 
@@ -327,26 +327,26 @@ def _residuals(
         if not high > low:
             return None
         if s.uv is None:
-            found += [FAINT * u, FAINT * v]
+            found += [FAINT_WEIGHT * u, FAINT_WEIGHT * v]
         else:
             found += [u - s.uv[0], v - s.uv[1]]
         if s.size is not None:
             found.append(log(0.5 * (high - low) / s.size))
         elif not sized:
-            found.append(FAINT * log(0.5 * (high - low) / LONG))
+            found.append(FAINT_WEIGHT * log(0.5 * (high - low) / WHOLE_SIZE))
         if s.whole:
-            found += [STEEP * max(0.0, edge - EDGE) for edge in (-left, right, -low, high)]
+            found += [HARD_WEIGHT * max(0.0, edge - EDGE_SHARE) for edge in (-left, right, -low, high)]
         found += _off_view(s, offset)
         if s.elevation is None:
-            found.append(FAINT * offset[2] / max(hypot(*offset), 1e-9))
-        found.append(STEEP * max(0.0, near - gap(s, offset)))
+            found.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
+        found.append(HARD_WEIGHT * max(0.0, near - gap(s, offset)))
     if since is not None:
-        found += [FAINT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
-        found.append(STEEP * max(0.0, hypot(*minus(eye, since.eye)) - since.way))
+        found += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
+        found.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, since.eye)) - since.way))
     return found
 
 
-LONG = 0.4  # size of a subject that is asked none: the whole of it, in its surroundings
+WHOLE_SIZE = 0.4  # size of a subject that is asked none: the whole of it, in its surroundings
 
 
 def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:

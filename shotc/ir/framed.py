@@ -22,7 +22,7 @@ from shotc.geom.line_of_sight import are_one, crosses
 from shotc.geom.solids import depth, distance
 from shotc.geom.vec import Vec2, Vec3, minus, plus
 from shotc.geom.viewpoint import (
-    LONG,
+    WHOLE_SIZE,
     Lens,
     Pose,
     Room,
@@ -52,7 +52,7 @@ BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects d
 BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed if one is clear
 AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
-SMALLER = tuple(LONG * 0.95**k for k in range(60))
+SMALLER = tuple(WHOLE_SIZE * 0.95**k for k in range(60))
 """Sizes of one subject that is asked none: the first with which it is whole."""
 
 

@@ -26,8 +26,8 @@ from shotc.rounding import at_least, at_most, down, up
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Fleet
 
-ROUNDING = 1e-6  # metres
-NUDGE = 0.01  # metres that a proposed place lies farther off than it must
+ROUNDING_M = 1e-6  # metres
+NUDGE_M = 0.01  # metres that a proposed place lies farther off than it must
 WINDS = ("east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east")
 
 
@@ -87,7 +87,7 @@ class Clearance(NamedTuple):
 
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:
         """Yield places near ``p`` that may have the room: up, down and sideways."""
-        room = self.metres + NUDGE
+        room = self.metres + NUDGE_M
         if self.inside:
             z = min(max(p[2], self.solid.bottom + room), self.solid.top - room)
             yield (p[0], p[1], z)
@@ -135,7 +135,7 @@ def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -
     others = clearances_of(mission, drone)
     low = mission.rules.over_ground(drone.radius)
     places = [outward(p, q) for q in obstacle.ways_out(p)]
-    free = [q for q in places if q[2] >= low - ROUNDING and all(o.lack(q) <= ROUNDING for o in others)]
+    free = [q for q in places if q[2] >= low - ROUNDING_M and all(o.lack(q) <= ROUNDING_M for o in others)]
     return min(free, key=lambda place: dist(p, place), default=None)
 
 

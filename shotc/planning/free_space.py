@@ -23,9 +23,9 @@ from shotc.geom.taper import SLOPE, Taper
 from shotc.geom.vec import Vec3
 from shotc.ir.owners import Owner
 
-COMFORT = 0.5  # kept beyond that by a curve where there is room, metres
-STEEPER = 1.4  # times the slope of what is needed: planned curves leave their polylines a little
-MARGIN = 0.05  # kept beyond what verification asks, metres: later stages interpolate the path
+COMFORT_M = 0.5  # kept beyond that by a curve where there is room, metres
+STEEPER_RATIO = 1.4  # times the slope of what is needed: planned curves leave their polylines a little
+MARGIN_M = 0.05  # kept beyond what verification asks, metres: later stages interpolate the path
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +147,7 @@ def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
     return np.asarray(obstacle.clearance + np.minimum(margin, 0.5 * np.maximum(space, 0.0)))
 
 
-def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN) -> Mask:
+def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN_M) -> Mask:
     """Tell for segments a-b, shapes (N, 3), and obstacles whether they come too near; (N, obstacles)."""
     out = np.zeros((len(a), len(space.obstacles)), dtype=bool)
     low, high = np.minimum(a, b), np.maximum(a, b)
@@ -202,7 +202,7 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
     """Separate every piece from every obstacle within ``reach`` metres beyond its clearance.
 
     hulls : shape (P, m, 3), points whose hull holds each piece
-    share : of the distance a piece has beyond the clearance, this much is kept, COMFORT at most
+    share : of the distance a piece has beyond the clearance, this much is kept, COMFORT_M at most
     A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
     """
     found: list[HalfSpaces] = []
@@ -229,7 +229,7 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
 def taper(space: FreeSpace, obstacle: Obstacle) -> Taper:
     """Return what is needed of the distance from an obstacle in a free space whose clearances taper."""
     ends = np.array(space.ends, dtype=np.float64).reshape(-1, 3)
-    return Taper(obstacle.clearance, STEEPER * SLOPE, ends, distances(obstacle.part, ends))
+    return Taper(obstacle.clearance, STEEPER_RATIO * SLOPE, ends, distances(obstacle.part, ends))
 
 
 def six(hulls: Array) -> Array:
@@ -242,7 +242,7 @@ def six(hulls: Array) -> Array:
 
 def kept(slack: Array, share: float) -> Array:
     """Return the margin to keep, metres, where there is ``slack`` beyond the clearance."""
-    return np.minimum(COMFORT, share * np.maximum(slack, 0.0))
+    return np.minimum(COMFORT_M, share * np.maximum(slack, 0.0))
 
 
 def shortfall(space: FreeSpace, hulls: Array) -> Array:

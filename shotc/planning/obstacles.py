@@ -13,7 +13,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
-from shotc.planning.free_space import MARGIN, Disc, FreeSpace, Obstacle, Wall
+from shotc.planning.free_space import MARGIN_M, Disc, FreeSpace, Obstacle, Wall
 
 
 class FreeSpaces(NamedTuple):
@@ -44,7 +44,7 @@ def free_spaces_of(mission: MissionIR, drone: Drone) -> FreeSpaces:
     def widened(obstacle: Obstacle) -> Obstacle:
         apart = wide.get(obstacle.owner)
         return (
-            obstacle if apart is None else replace(obstacle, clearance=drone.radius + apart.metres + MARGIN)
+            obstacle if apart is None else replace(obstacle, clearance=drone.radius + apart.metres + MARGIN_M)
         )
 
     required = frozenset(owner for owner, apart in wide.items() if apart is not None and apart.required)

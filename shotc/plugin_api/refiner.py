@@ -8,7 +8,7 @@ from __future__ import annotations
 from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
-from shotc.geom.camera import ROUNDING, View, aim_at, frustum_margins, silhouette_bounds
+from shotc.geom.camera import ROUNDING_M, View, aim_at, frustum_margins, silhouette_bounds
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import worst_of_runs
 from shotc.geom.solid_arrays.points import bounded, distances
@@ -67,7 +67,7 @@ __all__ = [
     "HFOV",
     "MOST_MOVED",
     "NO_HALF_SPACES",
-    "ROUNDING",
+    "ROUNDING_M",
     "UNWATCHED",
     "AngleTask",
     "Array",

@@ -32,18 +32,18 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.clock.refiner import IN_PICTURE, OUT, refine_one
 from shotc_casadi.conditions import Condition
-from shotc_casadi.margins import REACH
+from shotc_casadi.margins import REACH_M
 from shotc_casadi.messages import stats
-from shotc_casadi.proof import PROVED
+from shotc_casadi.proof import PROVED_M
 from shotc_casadi.references import Subject, subject_of
 from shotc_casadi.report import deviation, report
 from shotc_casadi.rounds import Refined, refine_shot
 from shotc_casadi.walls import NodePlanes
 
 TRIES = 3  # about the last refined path; one more is about the convex path, which is known to be clear
-APART = 1e-6  # seconds at least between two nodes
-DEEPER = 0.05  # share by which a drone may be deeper in a picture in which it is already
-SHARE = 0.5  # of the room beside a wall, kept; what moves has its own
+APART_S = 1e-6  # seconds at least between two nodes
+DEEPER_SHARE = 0.05  # share by which a drone may be deeper in a picture in which it is already
+ROOM_SHARE = 0.5  # of the room beside a wall, kept; what moves has its own
 
 
 def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> Outcome[PathIR]:
@@ -138,10 +138,10 @@ def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
     lacks = _lacking(after, subject)
     kept = _lacking(before, subject) if lacks else {}
     for owner, lack in lacks.items():
-        if lack > kept.get(owner, 0.0) + PROVED:
+        if lack > kept.get(owner, 0.0) + PROVED_M:
             return f"refined, it comes {lack:.2g} m too near to {owner}"
     free = least_out(before)
-    return IN_PICTURE if least_out(after) < min(OUT, free - DEEPER * abs(free)) else None
+    return IN_PICTURE if least_out(after) < min(OUT, free - DEEPER_SHARE * abs(free)) else None
 
 
 def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
@@ -151,7 +151,7 @@ def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
     found: dict[str, float] = {}
     for motion in around.motions:
         lack = float(replace(around, motions=(motion,)).lacking(flown.ctrl[:, :, :3]).max())
-        if lack > PROVED:
+        if lack > PROVED_M:
             found[str(motion.what.owner)] = lack
     return found
 
@@ -166,14 +166,14 @@ class _Passing:
 
     def half_spaces(self, s: Array) -> NodePlanes:
         """Return half-spaces for nodes at path parameters s, shape (N + 1,)."""
-        t = self.flown.times(s) + APART * np.arange(len(s))
-        t = np.minimum(t, self.flown.curve.end + APART * np.arange(len(s)))
+        t = self.flown.times(s) + APART_S * np.arange(len(s))
+        t = np.minimum(t, self.flown.curve.end + APART_S * np.arange(len(s)))
         course = self._course(t)
         drone = self.subject.drone
         around = surroundings(self.path, drone, t, standing_too=False)
         camera_task = CameraTask(self.subject.mission, drone, tuple(self._subjects()))
         free = around.free(camera_task, (self.flown.start, self.flown.curve.end), course)
-        planes = around.half_spaces(course.ctrl, REACH, SHARE).and_also(free)
+        planes = around.half_spaces(course.ctrl, REACH_M, ROOM_SHARE).and_also(free)
         ends = (planes.piece, planes.piece + 1)
         rows = [np.column_stack([planes.normal, planes.offset[:, end]]) for end in (0, -1)]
         return NodePlanes(np.concatenate(ends), np.concatenate(rows))

@@ -13,12 +13,12 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array
 from shotc_casadi.camera import Given
 from shotc_casadi.conditions import OURS
-from shotc_casadi.frames import LEAST, insides
+from shotc_casadi.frames import LEAST_HALF_FRAMES, insides
 from shotc_casadi.references import Subject, fields_of_view, references
 from shotc_casadi.stages import Stages
 
-STEP = 1e-5  # of the distance to the target, and of half a frame, over which slopes are measured
-SLIGHT = 1e-7  # half frames lost over a way as long as the distance, which are none
+STEP_SHARE = 1e-5  # of the distance to the target, and of half a frame, over which slopes are measured
+SLIGHT_HALF_FRAMES = 1e-7  # half frames lost over a way as long as the distance, which are none
 
 
 def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Given) -> Given:
@@ -32,14 +32,14 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
     away = np.linalg.norm(wanted.centre - q[:, :3], axis=1)
     half = fields_of_view(subject, s)[1]
     rate, found = camera.derivative()(s), []
-    for k in np.flatnonzero((wanted.whole > 0) & (inside.min(axis=1) < LEAST)):
-        touches = inside[k] < LEAST
-        slope = _along(subject, camera, float(s[k]), STEP * float(away[k]))[touches]
+    for k in np.flatnonzero((wanted.whole > 0) & (inside.min(axis=1) < LEAST_HALF_FRAMES)):
+        touches = inside[k] < LEAST_HALF_FRAMES
+        slope = _along(subject, camera, float(s[k]), STEP_SHARE * float(away[k]))[touches]
         # What it gains before the first keyframe, or after the last, nobody sees.
         lost = slope if 0 < k < len(s) - 1 else np.minimum(slope, 0.0) if k == 0 else np.maximum(slope, 0.0)
-        if np.abs(lost).max() * away[k] > SLIGHT:
+        if np.abs(lost).max() * away[k] > SLIGHT_HALF_FRAMES:
             unit = np.array([*[away[k]] * 3, half[k], half[k]])
-            by = _by_pose(subject, float(s[k]), q[k], STEP * unit)[touches] / STEP
+            by = _by_pose(subject, float(s[k]), q[k], STEP_SHARE * unit)[touches] / STEP_SHARE
             rate[k] -= unit * np.linalg.lstsq(by, lost, rcond=None)[0]
             found.append(int(k))
     return given._replace(through=s[found], slopes=rate[found])

@@ -16,7 +16,7 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
-    ROUNDING,
+    ROUNDING_M,
     Array,
     Mask,
     View,
@@ -27,15 +27,11 @@ from shotc_casadi.conditions import OURS
 from shotc_casadi.references import References, Subject, fields_of_view, references
 from shotc_casadi.stages import Stages
 
-SAMPLES = 6  # a piece
-INSIDE = 0.03  # half frames kept from the edge at first: a squared hinge alone stops slightly outside
-LEAST = (
-    2e-3  # half frames kept from the edge, at least, where the nodes ask for more after a look between them
-)
-OPENING = (
-    0.1  # half frames that are asked for more, per length of path over the distance, away from a keyframe
-)
-MOST = 0.5  # half frames asked for at most
+SAMPLES_PER_PIECE = 6  # a piece
+INSIDE_HALF_FRAMES = 0.03  # kept from the edge at first: a squared hinge alone stops slightly outside
+LEAST_HALF_FRAMES = 2e-3  # kept from the edge where the nodes ask for more after a look between them
+OPENING_HALF_FRAMES = 0.1  # asked for more, per length of path over the distance, away from a keyframe
+MOST_HALF_FRAMES = 0.5  # half frames asked for at most
 
 
 def insides(subject: Subject, wanted: References, s: Array, q: Array) -> Array:
@@ -51,13 +47,13 @@ def insides(subject: Subject, wanted: References, s: Array, q: Array) -> Array:
     metres = frustum_margins(view, (offset[0], offset[1], offset[2]), wanted.radius, wanted.height)
     away = np.linalg.norm(offset, axis=0)
     halves = (wide, wide, tall, tall)
-    rows = [(m + ROUNDING) * np.hypot(1.0, h) / (h * away) for m, h in zip(metres, halves, strict=True)]
+    rows = [(m + ROUNDING_M) * np.hypot(1.0, h) / (h * away) for m, h in zip(metres, halves, strict=True)]
     return np.column_stack(rows)
 
 
 def asked_at_first(subject: Subject, nodes: Stages, wanted: References) -> References:
     """Return references that ask for the target inside the frame by as much as a first solve takes."""
-    return replace(wanted, inside=np.minimum(INSIDE, _allowed(subject, nodes, nodes.s)))
+    return replace(wanted, inside=np.minimum(INSIDE_HALF_FRAMES, _allowed(subject, nodes, nodes.s)))
 
 
 def asked_again(subject: Subject, nodes: Stages, wanted: References, camera: Piecewise) -> References:
@@ -67,13 +63,15 @@ def asked_again(subject: Subject, nodes: Stages, wanted: References, camera: Pie
     edge than it should be on either side of a node, the node asks for as much more.
     """
     s, inside, whole = between_nodes(subject, camera)
-    lacks = np.minimum(LEAST, _allowed(subject, nodes, s)) - inside
+    lacks = np.minimum(LEAST_HALF_FRAMES, _allowed(subject, nodes, s)) - inside
     lacks[~whole] = 0.0
     cell = np.clip(np.searchsorted(nodes.s, s) - 1, 0, len(nodes.s) - 2)
     most = np.zeros((len(nodes.s) - 1, 4))
     np.maximum.at(most, cell, lacks)
     more = np.maximum(np.vstack([most[:1], most]), np.vstack([most, most[-1:]]))
-    return replace(wanted, inside=np.minimum(wanted.inside + more, np.maximum(MOST, wanted.inside)))
+    return replace(
+        wanted, inside=np.minimum(wanted.inside + more, np.maximum(MOST_HALF_FRAMES, wanted.inside))
+    )
 
 
 def cropped(subject: Subject, camera: Piecewise) -> float:
@@ -95,7 +93,7 @@ class Looked(NamedTuple):
 
 def between_nodes(subject: Subject, camera: Piecewise) -> Looked:
     """Look at the target of a camera that holds its composition, at dense places."""
-    s: Array = subdivide(camera.breaks, SAMPLES)
+    s: Array = subdivide(camera.breaks, SAMPLES_PER_PIECE)
     wanted = references(subject, OURS, s)
     return Looked(s, insides(subject, wanted, s, camera(s)), wanted.whole > 0)
 
@@ -112,6 +110,6 @@ def _allowed(subject: Subject, nodes: Stages, s: Array) -> Array:
     at = references(subject, OURS, pins)
     own = insides(subject, at, pins, q[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])
     away = np.linalg.norm(at.centre - q[:, :3], axis=1)
-    opened = own + OPENING * (np.abs(s[:, None] - pins) / away)[:, :, None]
+    opened = own + OPENING_HALF_FRAMES * (np.abs(s[:, None] - pins) / away)[:, :, None]
     opened[:, at.whole == 0] = np.inf
     return np.asarray(opened.min(axis=1))

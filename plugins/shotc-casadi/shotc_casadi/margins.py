@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-REACH, FAR = 8.0, 200.0  # metres beyond its clearance within which an obstacle counts, at first and then
-SLIGHT = 0.2  # metres lacking that are a bend between the nodes, no obstacle that the problem did not know
-CLEARANCE_STEP = 0.02  # metres added to what was missing
-LIMIT_STEP = 1.2  # times what was missing
-LITTLE = 0.02  # share of the room beyond the clearances that is kept where the picture needs the rest
-GAIN = 0.9  # of what was open before; a round that leaves more has helped nothing
-HOLD = 1e5  # more than the picture is worth
+REACH_M, FAR_M = 8.0, 200.0  # metres beyond its clearance within which an obstacle counts, at first and then
+SLIGHT_M = 0.2  # metres lacking that are a bend between the nodes, no obstacle that the problem did not know
+CLEARANCE_STEP_M = 0.02  # metres added to what was missing
+LIMIT_STEP_RATIO = 1.2  # times what was missing
+LITTLE_SHARE = 0.02  # share of the room beyond the clearances that is kept where the picture needs the rest
+GAIN_SHARE = 0.9  # of what was open before; a round that leaves more has helped nothing
+HOLD_WEIGHT = 1e5  # more than the picture is worth
 
 
 class Check(NamedTuple):
@@ -33,7 +33,7 @@ class Check(NamedTuple):
 
     def helped(self, before: Check) -> bool:
         """Tell whether anything that was open has become notably better."""
-        return any(now < GAIN * then for now, then in zip(self, before, strict=True))
+        return any(now < GAIN_SHARE * then for now, then in zip(self, before, strict=True))
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Margins:
     """
 
     clearance: float = 0.0
-    reach: float = REACH
+    reach: float = REACH_M
     limits: float = 1.0
     comfort: float = 0.5
     hold: float = 1.0
@@ -57,11 +57,11 @@ class Margins:
 def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
     """Return margins that make up for what a check found; hold : keep to the convex path."""
     lacks = check.lack > 0
-    known = margins.reach == FAR or check.lack < SLIGHT
+    known = margins.reach == FAR_M or check.lack < SLIGHT_M
     return Margins(
-        clearance=margins.clearance + (check.lack + CLEARANCE_STEP if lacks and known else 0.0),
-        reach=FAR if lacks else margins.reach,
-        limits=margins.limits / (1.0 + LIMIT_STEP * check.late),
-        comfort=LITTLE if check.cropped > 0 else margins.comfort,
-        hold=HOLD if hold and lacks else margins.hold,
+        clearance=margins.clearance + (check.lack + CLEARANCE_STEP_M if lacks and known else 0.0),
+        reach=FAR_M if lacks else margins.reach,
+        limits=margins.limits / (1.0 + LIMIT_STEP_RATIO * check.late),
+        comfort=LITTLE_SHARE if check.cropped > 0 else margins.comfort,
+        hold=HOLD_WEIGHT if hold and lacks else margins.hold,
     )

@@ -12,7 +12,7 @@ from shotc.plugin_api import (
     stopped_early,
 )
 from shotc_casadi.solving import Solution
-from shotc_casadi.timeout import TIMEOUT
+from shotc_casadi.timeout import TIMEOUT_S
 
 UNITS = {
     "speed": "m^2/s^2",
@@ -27,7 +27,7 @@ def word(solution: Solution) -> str:
     """Return why a solver ended without a solution."""
     if solution.status == "nan":
         return "numbers that are none"
-    return f"{solution.iterations} iterations" if solution.iterations else f"{TIMEOUT:.0f} s without an end"
+    return f"{solution.iterations} iterations" if solution.iterations else f"{TIMEOUT_S:.0f} s without an end"
 
 
 def fallen_back(path: PathIR, shot: str, first: Solution | None, solution: Solution) -> Diagnostic | None:

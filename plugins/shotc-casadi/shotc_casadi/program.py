@@ -14,7 +14,7 @@ from shotc_casadi.solving import Array, Instance, Solution, solved
 
 TOLERANCE = 1e-4
 FEASIBLE = 1e-3  # of a constraint's residual, each in its own unit
-NARROW = 1e-3  # least width of a state's bounds: without an interior fatrop does not end
+NARROW_WIDTH = 1e-3  # least width of a state's bounds: without an interior fatrop does not end
 ROWS = ("speed", "acceleration")
 
 
@@ -57,7 +57,7 @@ def solve(problem: Problem, solver: Solver) -> Solution:
 def instance(problem: Problem) -> Instance:
     """Return a problem as the solvers take it.
 
-    State bounds narrower than NARROW are opened to that about their middle.
+    State bounds narrower than NARROW_WIDTH are opened to that about their middle.
     """
     return Instance(
         kind=derived(problem.visibility, problem.planes),
@@ -82,5 +82,5 @@ def _named(planes: int, row: int) -> str:
 
 
 def _opened(low: Array, high: Array) -> tuple[Array, Array]:
-    short = np.where(low <= high, np.maximum(0.0, 0.5 * (NARROW - (high - low))), 0.0)
+    short = np.where(low <= high, np.maximum(0.0, 0.5 * (NARROW_WIDTH - (high - low))), 0.0)
     return low - short, high + short

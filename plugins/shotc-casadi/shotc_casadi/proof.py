@@ -15,9 +15,9 @@ from shotc_casadi.frames import cropped
 from shotc_casadi.margins import Check
 from shotc_casadi.references import Subject
 
-PROVED = 1e-6  # metres that a proof may lack
-HOPELESS = 1.1  # times what is asked that a rough profile takes for no bend of the path to make up for it
-AMPLE = 0.8  # share of what is asked that a rough profile may take for it to be met without a closer look
+PROVED_M = 1e-6  # metres that a proof may lack
+HOPELESS_RATIO = 1.1  # of what is asked: no bend of the path makes up for a rough profile that takes so long
+AMPLE_SHARE = 0.8  # of what is asked: a rough profile that takes no longer needs no closer look
 
 
 def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
@@ -30,13 +30,13 @@ def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
 def hopeless(subject: Subject) -> bool:
     """Tell whether a shot's convex path is far from meeting the times asked for."""
     leg = subject.leg
-    return due(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS - 1.0
+    return due(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS_RATIO - 1.0
 
 
 def _late(subject: Subject, camera: Piecewise) -> float:
     """Return by which share of a time asked for the fastest flight of this camera misses it."""
     drone, leg = subject.drone, with_camera(subject.drone, subject.leg, camera)
     asked = due(leg)
-    if not asked or asked.lateness(*rough_times(drone, leg, 1.0)) < AMPLE - 1.0:
+    if not asked or asked.lateness(*rough_times(drone, leg, 1.0)) < AMPLE_SHARE - 1.0:
         return 0.0
     return lateness(drone, leg)

@@ -33,7 +33,7 @@ from shotc_casadi.conditions import Condition
 from shotc_casadi.sight import sight_point
 from shotc_casadi.walls import NodePlanes
 
-FAR = 1.0  # metres ahead of the camera that a target nobody asked for is put
+AHEAD_M = 1.0  # metres ahead of the camera that a target nobody asked for is put
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,7 +144,7 @@ def _unframed(subject: Subject, s: Array) -> References:
     )
     n = len(s)
     return References(
-        centre=q[:, :3] + FAR * ahead,
+        centre=q[:, :3] + AHEAD_M * ahead,
         radius=np.zeros(n),
         height=np.zeros(n),
         place=np.zeros((n, 2)),

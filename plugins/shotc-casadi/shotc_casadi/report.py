@@ -13,7 +13,7 @@ from shotc_casadi.rounds import Gap, Refined
 from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME
 
-NOTICE = 0.1  # metres off the convex path that are worth telling
+NOTICE_M = 0.1  # metres off the convex path that are worth telling
 
 
 def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
@@ -65,7 +65,7 @@ def deviation(path: PathIR, refined: Refined) -> list[PathDeviation]:
         (refined.camera(refined.nodes.s) - leg.curve(refined.nodes.s)[:, :5])[:, :3], axis=1
     )
     k = int(away.argmax())
-    if away[k] < NOTICE:
+    if away[k] < NOTICE_M:
         return []
     return [
         PathDeviation(

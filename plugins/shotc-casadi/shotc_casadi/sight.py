@@ -8,7 +8,7 @@ from shotc.plugin_api import MissionIR
 from shotc.plugin_api.refiner import Array, FreeSpace, PlacedKeyframe, distances
 
 STEPS = 2000
-HORIZON = 1000.0  # metres: how far a ray is followed
+HORIZON_M = 1000.0  # metres: how far a ray is followed
 NEAR = 1e-3
 
 
@@ -25,7 +25,7 @@ def sight_point(
     hits = [_march(o.part, eye, ray) for o in space.obstacles]
     if ray[2] < 0:
         hits.append(float(-eye[2] / ray[2]))
-    met = [h for h in hits if h is not None and 0.0 < h <= HORIZON]
+    met = [h for h in hits if h is not None and 0.0 < h <= HORIZON_M]
     if met:
         return np.asarray(eye + min(met) * ray)
     away = 50.0
@@ -42,6 +42,6 @@ def _march(part: object, eye: Array, ray: Array) -> float | None:
         if gap < NEAR:
             return along
         along += gap
-        if along > HORIZON:
+        if along > HORIZON_M:
             return None
     return along

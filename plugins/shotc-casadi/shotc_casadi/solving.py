@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from shotc_casadi.derivatives import Derived
 from shotc_casadi.horizon import Solver, built
-from shotc_casadi.timeout import TIMEOUT, TimedOut, within
+from shotc_casadi.timeout import TIMEOUT_S, TimedOut, within
 
 Array = NDArray[np.float64]
 Status = Literal["solved", "stopped", "infeasible", "nan"]
@@ -118,7 +118,7 @@ def solved(task: Instance, solver: Solver) -> Solution:
     }
     began = time.perf_counter()
     try:
-        out = within(TIMEOUT, lambda: programme(**given))
+        out = within(TIMEOUT_S, lambda: programme(**given))
     except RuntimeError:
         # CasADi raises where a solver gives up inside; there is no iterate to look at then.
         return _nothing("nan", task, solver, time.perf_counter() - began)

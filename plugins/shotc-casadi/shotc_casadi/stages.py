@@ -11,10 +11,10 @@ from shotc.plugin_api import MovingLeg
 from shotc.plugin_api.refiner import Array, Drone, PlacedShot, rough_times
 from shotc_casadi.due import due
 
-STAGES = 100
-PER_INTERVAL = 12
-MOST = 400
-APART = 1e-9  # of a path: places nearer to each other are one
+USUAL_STAGES = 100
+STAGES_PER_INTERVAL = 12
+MOST_STAGES = 400
+APART_SHARE = 1e-9  # of a path: places nearer to each other are one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,7 +38,7 @@ def stages(leg: MovingLeg, placed: PlacedShot, drone: Drone, count: int | None) 
     curve = leg.curve
     assert curve is not None
     pins = _pins(leg, placed)
-    count = count or int(np.clip(PER_INTERVAL * (len(pins) - 1), STAGES, MOST))
+    count = count or int(np.clip(STAGES_PER_INTERVAL * (len(pins) - 1), USUAL_STAGES, MOST_STAGES))
     asked = due(leg)
     fine, t = rough_times(drone, leg, 1.0 if asked else leg.pace)
     if asked:
@@ -58,7 +58,7 @@ def stages(leg: MovingLeg, placed: PlacedShot, drone: Drone, count: int | None) 
 def _pins(leg: MovingLeg, placed: PlacedShot) -> Array:
     put = {m.s for m in leg.marks if placed.keyframes[m.index].placed}
     every = sorted(put | {stop.s for stop in leg.stops} | {leg.curve.start, leg.curve.end})
-    apart = APART * (every[-1] - every[0])
+    apart = APART_SHARE * (every[-1] - every[0])
     return np.array([s for i, s in enumerate(every) if i == 0 or s > every[i - 1] + apart])
 
 

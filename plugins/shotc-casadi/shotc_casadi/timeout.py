@@ -11,7 +11,7 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any
 
-TIMEOUT = 30.0  # seconds: ten times what the largest problems take
+TIMEOUT_S = 30.0  # seconds: ten times what the largest problems take
 
 
 class TimedOut(Exception):

@@ -13,7 +13,7 @@ from shotc_casadi.stages import Stages
 
 POINTS = 5  # of the reference, whose hull stands for a node and its neighbourhood
 COUNTS = (0, 2, 4, 8, 16)  # how many half-spaces a programme may have, so that few are built
-FREE = -1.0  # slack in metres of a half-space that means nothing
+FREE_M = -1.0  # slack in metres of a half-space that means nothing
 
 
 class NodePlanes(NamedTuple):
@@ -52,7 +52,7 @@ def half_spaces(
     most = max(len(found) for found in nodes)
     count = next((c for c in COUNTS if c >= most), COUNTS[-1])
     out = np.zeros((len(s), count, 4))
-    out[:, :, 3] = FREE
+    out[:, :, 3] = FREE_M
     for k, found in enumerate(nodes):
         nearest = sorted(found, key=lambda f: f[0])[:count]
         for j, (_, row) in enumerate(nearest):

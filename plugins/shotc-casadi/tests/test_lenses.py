@@ -10,7 +10,14 @@ from shotc_casadi import frames
 from shotc_casadi.camera import Given, camera
 from shotc_casadi.conditions import OURS
 from shotc_casadi.edges import level_beside
-from shotc_casadi.frames import LEAST, asked_again, asked_at_first, between_nodes, cropped, insides
+from shotc_casadi.frames import (
+    LEAST_HALF_FRAMES,
+    asked_again,
+    asked_at_first,
+    between_nodes,
+    cropped,
+    insides,
+)
 from shotc_casadi.margins import Margins
 from shotc_casadi.problem import problem
 from shotc_casadi.references import references
@@ -105,9 +112,11 @@ def test_nodes_ask_for_as_much_more_as_was_cropped_beside_them():
     assert lack > 0.01
     again = asked_again(of, nodes, first, out)
     more = again.inside - first.inside
-    assert more.max() == pytest.approx(min(lack + LEAST, frames.MOST - first.inside.max()), rel=1e-6)
+    assert more.max() == pytest.approx(
+        min(lack + LEAST_HALF_FRAMES, frames.MOST_HALF_FRAMES - first.inside.max()), rel=1e-6
+    )
     dense = between_nodes(of, out)
-    assert (more[:, dense.inside.min(axis=0) > LEAST] == 0.0).all()
+    assert (more[:, dense.inside.min(axis=0) > LEAST_HALF_FRAMES] == 0.0).all()
 
 
 def touching(of):
@@ -156,5 +165,5 @@ def test_beside_a_keyframe_at_the_edge_nodes_ask_for_what_backing_off_can_give()
     asked = asked_at_first(near, nodes, references(near, OURS, nodes.s)).inside
     own = insides(near, references(near, OURS, nodes.s), nodes.s, turned(near, 0.0)(nodes.s))
     pins = nodes.pins
-    assert asked[pins] == pytest.approx(np.minimum(own[pins], frames.INSIDE))
+    assert asked[pins] == pytest.approx(np.minimum(own[pins], frames.INSIDE_HALF_FRAMES))
     assert (np.diff(asked[pins[0] : pins[0] + 3, 2]) > 0).all()

@@ -15,7 +15,7 @@ from shotc_casadi import solving
 from shotc_casadi.conditions import LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.derivatives import derived
 from shotc_casadi.horizon import built
-from shotc_casadi.program import FEASIBLE, NARROW, TOLERANCE, instance, solve
+from shotc_casadi.program import FEASIBLE, NARROW_WIDTH, TOLERANCE, instance, solve
 from shotc_casadi.symbols import INPUTS, LENGTH, PITCH, PITCH_RATE, STATES, TIME, size, stage
 from shotc_casadi.timeout import TimedOut, within
 
@@ -154,7 +154,7 @@ def test_a_state_that_may_not_move_is_held(solver, width, which, middle):
     low[:, which], high[:, which] = middle - width / 2, middle + width / 2
     solution = solve(replace(made, state_bounds=(low, high)), solver)
     assert solution.status == "solved"
-    assert np.abs(solution.states[:, which] - middle).max() < NARROW
+    assert np.abs(solution.states[:, which] - middle).max() < NARROW_WIDTH
 
 
 @pytest.mark.slow
@@ -195,7 +195,7 @@ def test_a_call_may_return_raise_or_be_left_behind():
 
 def test_a_solver_that_does_not_end_is_left_behind(monkeypatch):
     slow = lru_cache(lambda *_: lambda **_: time.sleep(0.5))
-    monkeypatch.setattr(solving, "TIMEOUT", 0.05)
+    monkeypatch.setattr(solving, "TIMEOUT_S", 0.05)
     monkeypatch.setattr(solving, "built", slow)
     solution = solve(task(walled()), "fatrop")
     assert (solution.status, solution.iterations) == ("stopped", 0)

@@ -8,7 +8,7 @@ from math import atan, hypot, sin, tan
 import numpy as np
 import pytest
 from shotc_casadi.conditions import OURS, OURS_4PT
-from shotc_casadi.margins import FAR, Check, Margins, tighter
+from shotc_casadi.margins import FAR_M, Check, Margins, tighter
 from shotc_casadi.proof import checked, hopeless
 
 from shotc.geom.bernstein import Piecewise
@@ -79,7 +79,7 @@ def test_margins_make_up_for_what_was_open():
     assert margins.hold > 1.0
     # What lacks a metre has met an obstacle that the nodes did not know: it counts before more room is kept.
     unseen = tighter(Margins(), Check(1.0, 0.0, 0.0), hold=False)
-    assert (unseen.reach, unseen.clearance) == (FAR, 0.0)
+    assert (unseen.reach, unseen.clearance) == (FAR_M, 0.0)
     assert tighter(unseen, Check(1.0, 0.0, 0.0), hold=False).clearance > 1.0
     assert tighter(Margins(), Check(0.0, 0.0, 0.0), hold=True) == Margins()
     assert Check(0, 0, 0).holds

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from shotc_casadi.stages import MOST, STAGES
+from shotc_casadi.stages import MOST_STAGES, USUAL_STAGES
 
 from shotc.ir.limits import Timing
 from tests.support.path_scenes import TOWER, circle, mission, shot
@@ -41,9 +41,9 @@ def test_nodes_are_even_in_time_between_keyframes():
 
 
 def test_many_keyframes_get_more_stages():
-    assert len(nodes_of(arc(), None).s) == STAGES + 1
+    assert len(nodes_of(arc(), None).s) == USUAL_STAGES + 1
     many = subject(mission(targets=(TOWER,)), shot(circle(TOWER, 13, 45.0, 20.0, sweep=2.0)))
-    assert STAGES < len(nodes_of(many, None).s) - 1 <= MOST
+    assert USUAL_STAGES < len(nodes_of(many, None).s) - 1 <= MOST_STAGES
 
 
 def test_a_duration_stretches_the_guess_to_it_less_the_holds():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from shotc_casadi.margins import Margins
-from shotc_casadi.walls import COUNTS, FREE, half_spaces
+from shotc_casadi.walls import COUNTS, FREE_M, half_spaces
 
 from shotc.geom.solid_arrays.points import support
 from tests.support.path_scenes import free, mission, shot
@@ -23,7 +23,7 @@ def test_every_half_space_holds_at_its_node_and_parts_it_from_something():
     assert np.linalg.norm(planes[real][:, :3], axis=1) == pytest.approx(1.0)
     slack = np.einsum("kmd,kd->km", planes[:, :, :3], p) - planes[:, :, 3]
     assert slack.min() >= 0.0
-    assert (slack[~real] == -FREE).all()
+    assert (slack[~real] == -FREE_M).all()
     for k, row in zip(*np.nonzero(real), strict=True):
         n, b = planes[k, row, :3], planes[k, row, 3]
         beyond = [b - float(support(o.part, n[None])[0]) - o.clearance for o in of.space.obstacles]

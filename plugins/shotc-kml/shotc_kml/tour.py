@@ -28,7 +28,7 @@ from shotc.plugin_api import (
 
 KML = "http://www.opengis.net/kml/2.2"
 GX = "http://www.google.com/kml/ext/2.2"
-STEP = 0.5
+STEP_S = 0.5
 """Seconds between two cameras of the tour."""
 
 register_namespace("", KML)
@@ -78,7 +78,7 @@ def document(mission: MissionIR, drone: DroneTrajectory) -> bytes:
 
 
 def _path(folder: Element, mission: MissionIR, drone: DroneTrajectory) -> None:
-    times = np.arange(drone.curve.start, drone.curve.end + STEP, STEP)
+    times = np.arange(drone.curve.start, drone.curve.end + STEP_S, STEP_S)
     mark = SubElement(folder, f"{{{KML}}}Placemark")
     _text(mark, KML, "name", "flight path")
     line = SubElement(mark, f"{{{KML}}}LineString")
@@ -90,7 +90,7 @@ def _path(folder: Element, mission: MissionIR, drone: DroneTrajectory) -> None:
 def _tour(
     folder: Element, mission: MissionIR, drone: DroneTrajectory, shot: str, span: tuple[float, float]
 ) -> None:
-    count = max(2, round((span[1] - span[0]) / STEP) + 1)
+    count = max(2, round((span[1] - span[0]) / STEP_S) + 1)
     times = np.linspace(*span, count)
     states = drone.curve(times)
     playlist = SubElement(SubElement(folder, f"{{{GX}}}Tour"), f"{{{GX}}}Playlist")

@@ -18,7 +18,7 @@ WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)
 TOUCHES_M = 1e-9
 """Distance from a solid at which a point is in it."""
 
-CLOSE = 1e-3
+CLOSE_SHARE = 1e-3
 """Share of a distance that a gap may fall short of it to be as wide as any."""
 
 
@@ -43,7 +43,7 @@ def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]
         n, far = _away(part, at)
         best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
         # No plane has a wider gap than the distance of two points; from one inside no way leads on.
-        if ((best_gap >= (1.0 - CLOSE) * far) | (far <= TOUCHES_M)).all():
+        if ((best_gap >= (1.0 - CLOSE_SHARE) * far) | (far <= TOUCHES_M)).all():
             break
         # Frank-Wolfe step: towards the point of the hull that lies deepest along the normal.
         deepest = np.einsum("nmd,nd->nm", hulls, n).argmin(axis=1)

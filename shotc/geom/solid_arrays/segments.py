@@ -15,7 +15,7 @@ SEAM_M = 1e-9
 """How far prisms reach beyond their walls against a sight line: above the rounding of a flight's
 coordinates, so that no line slips between two convex parts of one solid."""
 
-SETTLED = 1e-7
+SETTLED_SHARE = 1e-7
 """Share of a segment's length to which its nearest point is found."""
 
 ROUNDS = 60
@@ -25,7 +25,7 @@ ROUNDS = 60
 def segment_distances(part: Solid, a: Array, b: Array) -> Array:
     """Return the distance of segments a-b, shapes (N, 3), to the convex solid; shape (N,), metres.
 
-    Good to the square of SETTLED of their length, and to SETTLED of it where they meet the solid.
+    Good to the square of SETTLED_SHARE of their length, and to SETTLED_SHARE of it where they meet the solid.
     """
     near = distances(part, nearest_on_segments(part, a, b))
     return np.asarray(np.minimum.reduce([near, distances(part, a), distances(part, b)]))
@@ -45,7 +45,7 @@ def nearest_on_segments(part: Solid, a: Array, b: Array) -> Array:
 
     low, high = np.zeros(len(a)), np.ones(len(a))
     falls, rises = np.minimum(slope(low), 0.0), np.maximum(slope(high), 0.0)
-    level = SETTLED**2 * np.einsum("nd,nd->n", side, side) + NO_AREA_M2
+    level = SETTLED_SHARE**2 * np.einsum("nd,nd->n", side, side) + NO_AREA_M2
     before, at = np.zeros(len(a)), low
     for _ in range(ROUNDS):
         at = low - falls / np.maximum(rises - falls, NO_AREA_M2) * (high - low)
@@ -55,7 +55,7 @@ def nearest_on_segments(part: Solid, a: Array, b: Array) -> Array:
         falls = np.where(beyond, np.where(before > 0.0, 0.5 * falls, falls), now)
         rises = np.where(beyond, now, np.where(before < 0.0, 0.5 * rises, rises))
         before = np.where(beyond, 1.0, -1.0)
-        if ((high - low <= SETTLED) | (np.abs(now) <= level)).all():
+        if ((high - low <= SETTLED_SHARE) | (np.abs(now) <= level)).all():
             break
     return np.asarray(a + at[:, None] * side)
 

@@ -16,7 +16,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces, join
-from shotc.geom.proof import OPEN_LIMIT, ROUNDS, Bound
+from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS, Bound
 from shotc.geom.surface.near import nearest, some_distance
 from shotc.geom.surface.tree import Pairs, Surface, TooMany, box_distances, search
 from shotc.geom.surface.triangles import closest, dot, highest, lowest
@@ -138,7 +138,7 @@ def run(problem: Problem, parts: Numbered) -> None:
     while rest:
         parts = rest.pop()
         try:
-            problem.close(parts, problem.pairs(parts, OPEN_LIMIT if len(parts) > 1 else None))
+            problem.close(parts, problem.pairs(parts, OPEN_PIECES_LIMIT if len(parts) > 1 else None))
             closed = min(closed, problem.known.rest)
         except TooMany:
             rest += _fewer(problem, parts)
@@ -207,7 +207,7 @@ class _Distances:
         for _ in range(ROUNDS):
             lower = np.maximum(lower, self._boxes_apart(parts, pairs))
             pairs, lower = self.known.keep_open(pairs, lower, self.gap)
-            if not len(pairs) or len(pairs) > OPEN_LIMIT:
+            if not len(pairs) or len(pairs) > OPEN_PIECES_LIMIT:
                 break
             lower = np.maximum(lower, self._bounds(parts, pairs))
             pairs, lower = self.known.keep_open(pairs, lower, self.gap)

@@ -14,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces
-from shotc.geom.proof import OPEN_LIMIT, ROUNDS
+from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS
 from shotc.geom.surface.distance import Gap, Numbered, Search, SurfaceBound, halve, middles, run
 from shotc.geom.surface.ground import Ground, NoGround, heights, leaves, under
 from shotc.geom.surface.tree import Pairs, plan_boxes_meet, search
@@ -101,7 +101,7 @@ class _Heights:
             lower = np.maximum(lower, self._bounds(parts, pairs, triangles))
             self._take_middles(parts, pairs, triangles)
             pairs, lower = self.known.keep_open(pairs, lower, self.gap)
-            if not len(pairs) or len(pairs) > OPEN_LIMIT:
+            if not len(pairs) or len(pairs) > OPEN_PIECES_LIMIT:
                 break
             parts, pairs = halve(parts, pairs)
             lower = np.concatenate([lower, lower])

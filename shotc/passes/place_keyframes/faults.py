@@ -16,7 +16,7 @@ from shotc.ir.origin import KeyPath
 from shotc.passes.labels import framing_label
 from shotc.passes.place_keyframes.farther import Fits, farther, least, parameter_label
 from shotc.planning.framing.candidates import (
-    TOUCH,
+    TOUCH_M,
     Setting,
     has_candidate,
     nearest_candidate,
@@ -106,7 +106,7 @@ def cropped_or_beyond(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
 
 def _wider(setting: Setting, aim: Vec2) -> str:
     """Say how wide a lens shows the target whole to a camera that looks as it does."""
-    wide = least(lambda a: setting._replace(hfov=a).margin(aim) >= -TOUCH, setting.hfov, WIDEST)
+    wide = least(lambda a: setting._replace(hfov=a).margin(aim) >= -TOUCH_M, setting.hfov, WIDEST)
     return "widen `hfov`" if wide is None else f"widen `hfov` to {at_least(degrees(wide), 1)} deg"
 
 
@@ -170,7 +170,7 @@ def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: S
 
     return (
         options(lambda s: has_candidate(s, composition))
-        or options(lambda s: roomiest(s, composition) >= -TOUCH)
+        or options(lambda s: roomiest(s, composition) >= -TOUCH_M)
         or "point the camera from lower or farther away, or make the target smaller"
     )
 

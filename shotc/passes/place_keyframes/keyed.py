@@ -13,7 +13,7 @@ from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.place_keyframes.faults import report
 from shotc.passes.place_keyframes.turns import while_following
 from shotc.planning.framing.moments import is_sure, moments
-from shotc.planning.framing.placing import NORTH, Unmet, explicit_aim, place_shot, setting_of
+from shotc.planning.framing.placing import NORTH_RAD, Unmet, explicit_aim, place_shot, setting_of
 from shotc.rounding import at_least
 
 
@@ -63,13 +63,13 @@ def _is_unseen(moment: MissionIR, shot: Shot, keyframe: Keyframe) -> bool:
     """Tell whether no part of a keyframe's target is in the picture as the author framed it."""
     if keyframe.aim is None or keyframe.target is None:
         return False
-    setting = setting_of(moment, moment.drone(shot.drone), keyframe, NORTH)
-    return not setting.shows(explicit_aim(keyframe.at, keyframe.aim, NORTH))
+    setting = setting_of(moment, moment.drone(shot.drone), keyframe, NORTH_RAD)
+    return not setting.shows(explicit_aim(keyframe.at, keyframe.aim, NORTH_RAD))
 
 
 def _unseen(moment: MissionIR, shot: Shot, keyframe: Keyframe, start: float) -> Diagnostic:
-    setting = setting_of(moment, moment.drone(shot.drone), keyframe, NORTH)
-    straight = setting.aim((0.0, 0.0)) or (NORTH, 0.0)
+    setting = setting_of(moment, moment.drone(shot.drone), keyframe, NORTH_RAD)
+    straight = setting.aim((0.0, 0.0)) or (NORTH_RAD, 0.0)
     right = f"heading: {degrees(heading_of(straight[0])):.0f} deg, pitch: {degrees(straight[1]):.0f} deg"
     key = "look_at" if keyframe.heading is None else "heading"
     return Diagnostic(

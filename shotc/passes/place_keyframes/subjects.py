@@ -16,7 +16,7 @@ from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject
 from shotc.passes.place_keyframes.farther import least
 from shotc.passes.place_keyframes.faults import WIDEST
-from shotc.planning.framing.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
+from shotc.planning.framing.candidates import TOUCH_M, Setting, nearest_candidate, nearest_on_verticals
 from shotc.rounding import at_least
 
 MIDDLE = (0.0, 0.0)
@@ -46,7 +46,7 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
         # Where it stands is settled, and the camera goes where it has its place.
         settled = composition.points[0]
         whole = subject.size is None or subject.size <= 1.0
-        cropped = len(shot.subjects) == 1 and whole and setting.slack(settled) < -TOUCH
+        cropped = len(shot.subjects) == 1 and whole and setting.slack(settled) < -TOUCH_M
         return settled, [_cropped(mission, shot, subject, settled, None)] if cropped else []
     if subject.size is not None and subject.size > 1.0:
         # Cropped on purpose: its centre has the place, whatever of it is out of the frame.

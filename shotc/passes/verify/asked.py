@@ -11,10 +11,10 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.records import field_names
 from shotc.units import clip
 
-SAME = 1e-9
+SAME_SHARE = 1e-9
 """Share of a number (at least of one) by which it may differ: machines round sines in their own way."""
 
-FOUND = 1e-6
+ITERATED_SHARE = 1e-6
 """The same for places that are found by iteration, from how subjects are to appear."""
 
 APART = frozenset({"origins", "source", "files"})
@@ -43,7 +43,7 @@ class _Place(NamedTuple):
     words: str
     path: KeyPath
     passed: frozenset[str]
-    near: float = SAME
+    near: float = SAME_SHARE
 
     def field(self, name: str) -> "_Place":
         """Return the place of a field."""
@@ -106,7 +106,7 @@ def _walk(written: Any, asked: Any, at: _Place) -> Iterator[Difference]:
     elif type(written) is not type(asked):
         yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
     elif names := field_names(asked):
-        near = FOUND if getattr(asked, "framed", False) is True else at.near
+        near = ITERATED_SHARE if getattr(asked, "framed", False) is True else at.near
         here = at._replace(path=getattr(asked, "path", at.path), near=near)
         for name in names:
             if name not in at.passed:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import ROUNDING
+from shotc.geom.camera import ROUNDING_M
 from shotc.geom.framing import margin_rate
 from shotc.geom.pieces import Mask, Pieces, cut
 from shotc.geom.proof import inf_channel, norm, sup_convex, sup_norm
@@ -75,8 +75,8 @@ def margins_close(flight: Flight, target: str, times: Array) -> bool:
     return _closes(
         _Interval(times, flight.mission.rate),
         sample,
-        lambda a, b, dt: np.asarray(a[:, 0] + b[:, 0] + 2 * ROUNDING >= fastest * dt),
-        lambda m: np.asarray(m[:, 0] >= -ROUNDING),
+        lambda a, b, dt: np.asarray(a[:, 0] + b[:, 0] + 2 * ROUNDING_M >= fastest * dt),
+        lambda m: np.asarray(m[:, 0] >= -ROUNDING_M),
     )
 
 

@@ -24,31 +24,39 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, gap
-from shotc.passes.verify.explained import ASIDE, NEAR, Way, believed, farthest, for_the_picture, in_the_way
-from shotc.passes.verify.shots import ON_TIME
+from shotc.passes.verify.explained import (
+    NEAR_M,
+    PICTURE_SHARE,
+    Way,
+    believed,
+    farthest,
+    for_the_picture,
+    in_the_way,
+)
+from shotc.passes.verify.shots import ON_TIME_S
 
-UNTOLD = 0.25
+UNREPORTED_M = 0.25
 """Metres that a path may leave generated keyframes without a word: planning tells from 0.1 m on, twice."""
 
-BOW = 0.25
+BOW_SHARE = 0.25
 """Share of the way between two generated keyframes that a path may bow out between them."""
 
-SWING = 0.5
+SWING_SHARE = 0.5
 """Share of the way between two placed keyframes, or of a longer one beside it, by which it may be left."""
 
-PER_CHORD = 50
+PLACES_PER_CHORD = 50
 """Places on the straight way between two keyframes at which it is asked what stands there."""
 
-AT_ENDS = 0.5
+AT_ENDS_M = 0.5
 """Metres within which a generated path begins and ends, where it could."""
 
-LENS = 1e-3
+LENS_RAD = 1e-3
 """Radians within which the field of view at a keyframe is met."""
 
-TURNED = 0.2
+TURNED_RAD = 0.2
 """Radians by which a camera that frames nothing may look elsewhere at a keyframe."""
 
-AROUND = pi / 2
+AROUND_RAD = pi / 2
 """Radians by which a turn may differ from the one asked for: a whole one more or less is another shot."""
 
 
@@ -76,7 +84,7 @@ def _told(flight: Flight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> flo
 
 def _chords(at: Array) -> Way:
     """Return the straight way through places (K, 3), finely."""
-    share = np.linspace(0.0, 1.0, PER_CHORD)[:, None]
+    share = np.linspace(0.0, 1.0, PLACES_PER_CHORD)[:, None]
     parts = [a + share * (b - a) for a, b in pairwise(at)]
     return Way(np.concatenate(parts) if parts else at, None)
 
@@ -101,7 +109,7 @@ def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
         beyond = spans[-1][1] - phase.end
         ends.append(abs(beyond) if keyframes[-1].time is None else beyond)
     worst = max([*late, *ends]) if len(entries) == len(keyframes) else inf
-    limit = Limit("keyframes out of order", ON_TIME, "s", placed.shot.path, shot=placed.shot.id)
+    limit = Limit("keyframes out of order", ON_TIME_S, "s", placed.shot.path, shot=placed.shot.id)
     return claim(flight, limit, Worst(max(worst, 0.0), None, "exact"))
 
 
@@ -119,17 +127,17 @@ def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> It
     for i in range(len(t) - 1):
         between = _between(flight, (t[i], t[i + 1]), (at[i], at[i + 1]))
         worst = between if between.value > worst.value else worst
-    path = Limit("distance from its path", said + UNTOLD, "m", shot.path, shot=shot.id)
+    path = Limit("distance from its path", said + UNREPORTED_M, "m", shot.path, shot=shot.id)
     yield claim(flight, path, worst)
     free = np.array([_is_free(flight, keyframe) for keyframe in keyframes])
     ends = [i for i in (0, len(t) - 1) if free[i]]
     if ends:
         k = max(ends, key=lambda i: float(away[i]))
-        limit = Limit("distance from its ends", AT_ENDS, "m", shot.path, shot=shot.id)
+        limit = Limit("distance from its ends", AT_ENDS_M, "m", shot.path, shot=shot.id)
         yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "exact"))
     share = np.where(free, away / np.maximum(_distances(flight.mission, keyframes), 1e-9), 0.0)
     k = int(share.argmax())
-    limit = Limit("detour where it is free", ASIDE, "of the distance", shot.path, shot=shot.id)
+    limit = Limit("detour where it is free", PICTURE_SHARE, "of the distance", shot.path, shot=shot.id)
     yield claim(flight, limit, Worst(float(share[k]), float(t[k]), "exact"))
 
 
@@ -142,7 +150,7 @@ def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
     for i, (start, end) in enumerate(pairwise(t)):
         times, ends = (float(start) + keyframes[i].hold, float(end)), (at[i], at[i + 1])
         longest = float(lengths[max(i - 1, 0) : i + 2].max())
-        most = SWING * longest + UNTOLD + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
+        most = SWING_SHARE * longest + UNREPORTED_M + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
         worst = _off_chord(flight, times, ends, most)
         found.append((worst.value / most, most, worst))
     if found:
@@ -153,8 +161,8 @@ def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
 
 def _between(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array]) -> Worst:
     """Return how far the flight is from the line between two keyframes, less what it may bow out."""
-    bow = BOW * float(np.linalg.norm(ends[1] - ends[0]))
-    found = _off_chord(flight, times, ends, bow + UNTOLD)
+    bow = BOW_SHARE * float(np.linalg.norm(ends[1] - ends[0]))
+    found = _off_chord(flight, times, ends, bow + UNREPORTED_M)
     return replace(found, value=max(found.value - bow, 0.0))
 
 
@@ -186,7 +194,7 @@ def _distances(mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...]) -> Arr
 
 def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
     """Tell whether nothing stands near a keyframe, so that nothing explains why it is left."""
-    mission, at, body = flight.mission, keyframe.at, flight.drone.radius + NEAR
+    mission, at, body = flight.mission, keyframe.at, flight.drone.radius + NEAR_M
     rules = mission.rules
     if at[2] < rules.ground_clearance + body:
         return False
@@ -203,15 +211,15 @@ def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
     keyframes, shot = placed.keyframes, placed.shot
     pose = flight.track.curve(t)
     lens = np.abs(pose[:, HFOV] - [k.hfov for k in keyframes])
-    yield _largest(flight, ("lens off its keyframes", LENS, "rad"), shot, (lens, t))
+    yield _largest(flight, ("lens off its keyframes", LENS_RAD, "rad"), shot, (lens, t))
     unframed = np.array([k.reference is None for k in keyframes])
     yaw = wrapped(pose[:, CAM_YAW] - [k.yaw for k in keyframes])
     pitch = pose[:, CAM_PITCH] - [k.pitch for k in keyframes]
     aside = np.where(unframed, np.hypot(yaw * np.cos(pose[:, CAM_PITCH]), pitch), 0.0)
-    yield _largest(flight, ("direction off its keyframes", TURNED, "rad"), shot, (aside, t))
+    yield _largest(flight, ("direction off its keyframes", TURNED_RAD, "rad"), shot, (aside, t))
     wanted = np.array([np.nan if k.turn is None else k.turn for k in keyframes])
     turned = np.abs(np.diff(pose[:, CAM_YAW], prepend=pose[0, CAM_YAW]) - wanted)
-    yield _largest(flight, ("turn off its keyframes", AROUND, "rad"), shot, (np.nan_to_num(turned), t))
+    yield _largest(flight, ("turn off its keyframes", AROUND_RAD, "rad"), shot, (np.nan_to_num(turned), t))
 
 
 def _largest(flight: Flight, what: tuple[str, float, str], shot: Shot, values: tuple[Array, Array]) -> Claim:

@@ -26,10 +26,10 @@ from shotc.ir.path import Deviation
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
 from shotc.passes.verify.claims import Flight
 
-NEAR = 1.0
+NEAR_M = 1.0
 """Metres beyond its clearances within which something stands in the way."""
 
-ASIDE = 0.5
+PICTURE_SHARE = 0.5
 """Share of the distance to its target by which a shot may be left for its picture."""
 
 THINGS = ("zone ", "target ", "drone ", "ground")
@@ -65,10 +65,10 @@ def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> flo
     placed : whether the author gave the place, which only the pictures of other drones may move
     """
     if not placed:
-        return ASIDE * distance
+        return PICTURE_SHARE * distance
     if mission.rules.visibility == "off" or len(mission.drones) == 1:
         return 0.0
-    return (ASIDE if mission.rules.visibility == "require" else MOST_MOVED) * distance
+    return (PICTURE_SHARE if mission.rules.visibility == "require" else MOST_MOVED) * distance
 
 
 def for_its_limits(flight: Flight, way: Way) -> float:
@@ -99,7 +99,7 @@ def _centre(target: Target, times: Array | None) -> Array:
 
 
 def _zones(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
-    mission, body = flight.mission, flight.drone.radius + NEAR
+    mission, body = flight.mission, flight.drone.radius + NEAR_M
     for zone in mission.zones:
         apart = signed_distance(zone.solid, way.places)
         if zone.keep == "in":
@@ -110,7 +110,7 @@ def _zones(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
 
 
 def _targets(flight: Flight, way: Way, *, placed: bool) -> Iterator[tuple[str, float]]:
-    near = flight.mission.rules.target_clearance + flight.drone.radius + NEAR
+    near = flight.mission.rules.target_clearance + flight.drone.radius + NEAR_M
     for target in flight.mission.targets:
         if (placed and target.track is None) or (way.times is None and target.track is not None):
             continue
@@ -122,7 +122,7 @@ def _targets(flight: Flight, way: Way, *, placed: bool) -> Iterator[tuple[str, f
 def _drones(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
     if way.times is None:
         return
-    near = flight.mission.rules.separation + NEAR
+    near = flight.mission.rules.separation + NEAR_M
     for other in flight.others:
         if np.linalg.norm(flying(other.curve, way.times) - way.places, axis=1).min() < near:
             yield f"drone {other.drone}", 2.0 * near

@@ -17,7 +17,7 @@ from shotc.passes.verify.meeting import filming, put_off
 from shotc.passes.verify.sight import Sight, ticks
 from shotc.rounding import at_least
 
-BEYOND = 0.5  # degrees that a camera is turned more than it must
+BEYOND_DEG = 0.5  # degrees that a camera is turned more than it must
 
 
 def kept_out(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
@@ -74,7 +74,7 @@ def _turned(sight: Sight, times: Array, phase: Phase) -> str:
     edge = half + np.arcsin(radius / far)
     # Turned to the right, what is ahead goes to the left, and the other way round.
     right, left = float((edge - off).max()), float((edge + off).max())
-    by = float(at_least(degrees(min(right, left)) + BEYOND, 0))
+    by = float(at_least(degrees(min(right, left)) + BEYOND_DEG, 0))
     way = "right" if right <= left else "left"
     said = f"turn the camera of `{shot.id}` {by:.0f} deg to the {way}"
     if len(shot.keyframes) > 1:

@@ -21,16 +21,16 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.promises import bends
 
-NOTICE = 0.05
+NOTICE_HALF_FRAMES = 0.05
 """Half frames off its place that are worth telling."""
 
-FULL = 0.98
+FULL_SHARE = 0.98
 """Share of a rate or acceleration from which on it counts as being at its limit."""
 
-AT_END = 0.01
+AT_END_RAD = 0.01
 """Radians from the end of a gimbal's range that still are at it."""
 
-AT_EDGE = 0.1
+AT_EDGE_M = 0.1
 """Metres beyond a clearance that still are at it: the path keeps half of that for later stages."""
 
 _END = " screen error"
@@ -40,7 +40,12 @@ def losses(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
     """Report for every shot the target that is farthest from its place, where that is far and unpromised."""
     worst: dict[str, Claim] = {}
     for claim in claims:
-        if claim.shot is None or claim.hard or not claim.constraint.endswith(_END) or claim.worst <= NOTICE:
+        if (
+            claim.shot is None
+            or claim.hard
+            or not claim.constraint.endswith(_END)
+            or claim.worst <= NOTICE_HALF_FRAMES
+        ):
             continue
         if claim.shot not in worst or claim.worst > worst[claim.shot].worst:
             worst[claim.shot] = claim
@@ -91,13 +96,13 @@ def _gimbal(drone: Drone, track: DroneTrajectory, time: float) -> Iterator[str]:
     yaw -= 2 * pi * round((yaw - 0.5 * (low + high)) / (2 * pi))
     for axis, angle, reach in (("pitch", float(pose[CAM_PITCH]), gimbal.pitch), ("yaw", yaw, gimbal.yaw)):
         end = min(reach, key=lambda limit: abs(limit - angle))
-        if abs(end - angle) < AT_END:
+        if abs(end - angle) < AT_END_RAD:
             yield f"gimbal {axis} ({degrees(end):.1f} deg)"
     for name, limit, moves in (("rate", gimbal.rate, rate), ("acceleration", gimbal.acceleration, bend)):
         speeds = {"pitch": moves[CAM_PITCH], "yaw": moves[CAM_YAW] - moves[BODY_YAW]}
         unit = "rad/s" if name == "rate" else "rad/s^2"
         for axis, value in speeds.items():
-            if abs(value) > FULL * limit:
+            if abs(value) > FULL_SHARE * limit:
                 yield f"gimbal {axis} {name} ({measure(limit, unit)})"
 
 
@@ -107,14 +112,14 @@ def _space(mission: MissionIR, drone: Drone, track: DroneTrajectory, time: float
     rules = mission.rules
     for zone in mission.zones:
         room = distance(zone.solid, p) if zone.keep == "out" else depth(zone.solid, p)
-        if room < drone.radius + AT_EDGE:
+        if room < drone.radius + AT_EDGE_M:
             yield f"zone `{zone.name}`"
     for target in mission.targets:
         away = moved(target, np.array([time]))[0]
         if (
             distance(target.solid, (x - away[0], y - away[1], z - away[2]))
-            < drone.radius + rules.target_clearance + AT_EDGE
+            < drone.radius + rules.target_clearance + AT_EDGE_M
         ):
             yield f"the clearance of target `{target.name}` ({measure(rules.target_clearance, 'm')})"
-    if z < drone.radius + rules.ground_clearance + AT_EDGE:
+    if z < drone.radius + rules.ground_clearance + AT_EDGE_M:
         yield f"ground clearance ({measure(rules.ground_clearance, 'm')})"

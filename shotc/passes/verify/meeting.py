@@ -17,7 +17,7 @@ from shotc.rounding import at_least
 
 SEPARATION = "separation from "
 PATH = ("rules", "separation")
-MOVES = 0.01  # m/s, below which a drone stands
+MOVES_M_S = 0.01  # m/s, below which a drone stands
 
 
 def meeting(ir: TrajectoryIR, claim: Claim) -> Diagnostic | None:
@@ -60,7 +60,7 @@ def _under_way(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> floa
     t = clock(mission.rate, phase.start)
     t = t[t >= began]
     rates = np.linalg.norm(track.curve.derivative()(t)[:, :3], axis=1)
-    return float((rates > MOVES).sum()) / mission.rate
+    return float((rates > MOVES_M_S).sum()) / mission.rate
 
 
 def _labels(

@@ -15,7 +15,7 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
-HFOV_RANGE = (radians(1.0), radians(170.0))
+HFOV_RANGE_RAD = (radians(1.0), radians(170.0))
 """Fields of view that a pinhole camera can be asked for."""
 
 
@@ -26,7 +26,7 @@ def motion(flight: Flight) -> Iterator[Claim]:
     yield from _body_yaw(flight, whole.channels(BODY_YAW))
     yield from _gimbal(flight, "pitch", whole.channels(CAM_PITCH))
     yield from _gimbal(flight, "yaw", _against_body(flight, whole))
-    yield from _range(flight, "field of view", whole.channels(HFOV), HFOV_RANGE)
+    yield from _range(flight, "field of view", whole.channels(HFOV), HFOV_RANGE_RAD)
 
 
 def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:

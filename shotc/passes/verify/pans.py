@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
-from shotc.geom.pan import WINDOW, slowest, whose
+from shotc.geom.pan import WINDOW_S, slowest, whose
 from shotc.ir.allow import FAST_PAN
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
@@ -17,11 +17,11 @@ from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.rounding import at_least
 
-STEP = 0.1  # seconds between the moments at which a turn is judged
-ROUNDING = 1e-6  # seconds
-PEAK = 2.1  # of the mean rate: 15 / 8 from rest to rest with least jerk, more where it turns unevenly
-RESHAPED = 1.05  # of a free time: a given one stretches the profile at full limits, which differs
-NEARLY = 0.99  # of the seconds that a frame width takes at least; less is told
+STEP_S = 0.1  # seconds between the moments at which a turn is judged
+ROUNDING_S = 1e-6  # seconds
+PEAK_RATIO = 2.1  # of the mean rate: 15 / 8 from rest to rest with least jerk, more where it turns unevenly
+RESHAPED_RATIO = 1.05  # of a free time: a given one stretches the profile at full limits, which differs
+NEARLY_SHARE = 0.99  # of the seconds that a frame width takes at least; less is told
 
 
 class Pan(NamedTuple):
@@ -51,7 +51,7 @@ def pans(ir: TrajectoryIR) -> Iterator[Diagnostic]:
             if shot is None or FAST_PAN in shot.allow:
                 continue
             found = fastest(track, phase)
-            if found is not None and found.pace * NEARLY > 1.0:
+            if found is not None and found.pace * NEARLY_SHARE > 1.0:
                 yield _told(mission, track, phase, found)
 
 
@@ -60,8 +60,8 @@ def fastest(track: DroneTrajectory, phase: Phase) -> Pan | None:
     lasts = phase.end - phase.start
     if lasts <= 0.0:
         return None
-    window = min(WINDOW, lasts)
-    starts = np.linspace(phase.start, phase.end - window, max(1, round((lasts - window) / STEP)) + 1)
+    window = min(WINDOW_S, lasts)
+    starts = np.linspace(phase.start, phase.end - window, max(1, round((lasts - window) / STEP_S)) + 1)
     names = tuple(dict.fromkeys(f.target for f in track.framing if f.shot == phase.shot))
     followed: list[str | None] = [_followed(track, phase, names, float(t), window) for t in starts]
     least = np.array([slowest(name) for name in followed])
@@ -79,7 +79,7 @@ def _followed(
     for name in names:
         for span in track.framing:
             held = span.shot == phase.shot and span.target == name and span.reference is not None
-            if held and span.start <= start + ROUNDING and start + window <= span.end + ROUNDING:
+            if held and span.start <= start + ROUNDING_S and start + window <= span.end + ROUNDING_S:
                 return name
     return None
 
@@ -104,10 +104,10 @@ def _enough(track: DroneTrajectory, phase: Phase, pan: Pan, free: bool) -> float
     free : whether the mission leaves its time free
     """
     lasts = phase.end - phase.start
-    times = np.linspace(phase.start, phase.end, max(2, round(lasts / STEP)) + 1)
+    times = np.linspace(phase.start, phase.end, max(2, round(lasts / STEP_S)) + 1)
     turned = float(_widths(track, times[:-1], float(times[1] - times[0])).sum())
-    longer = lasts * pan.pace * (RESHAPED if free else 1.0)
-    return max(longer, PEAK * turned * slowest(pan.followed))
+    longer = lasts * pan.pace * (RESHAPED_RATIO if free else 1.0)
+    return max(longer, PEAK_RATIO * turned * slowest(pan.followed))
 
 
 def _told(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: Pan) -> Diagnostic:

@@ -23,8 +23,8 @@ from shotc.passes.verify.transits import ENDING, on_way, taper_of
 from shotc.rounding import at_most
 
 HARD, SOFT = "V035", "V034"
-WORTH = 0.1  # of a clearance that nobody wrote down; what lacks less is in summary and certificate alone
-PLAY = 0.1  # metres that a clearance is told below what is kept: planning keeps a little more than is asked
+WORTH_SHARE = 0.1  # of a clearance that nobody wrote down; less is in summary and certificate alone
+PLAY_M = 0.1  # metres that a clearance is told below what is kept: planning keeps a little more than is asked
 
 
 class Pass(NamedTuple):
@@ -55,7 +55,7 @@ def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnos
         if claim.hard:
             yield _refused(ir, claim, found[0])
             continue
-        for one in (p for p in found if p.needs - p.has > WORTH * p.needs):
+        for one in (p for p in found if p.needs - p.has > WORTH_SHARE * p.needs):
             soft.setdefault((claim.subject, one.way), []).append((claim, one))
     for together in soft.values():
         yield _told(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))
@@ -110,7 +110,7 @@ def _accepted(claim: Claim, together: list[tuple[Claim, Pass]]) -> str:
 
 def _held(least: float) -> str:
     """Return a clearance that ways keep which come so near, with the play that planning takes, metres."""
-    return at_most(max(least - PLAY, 0.0))
+    return at_most(max(least - PLAY_M, 0.0))
 
 
 def _refused(ir: TrajectoryIR, claim: Claim, found: Pass) -> Diagnostic:

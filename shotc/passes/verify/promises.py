@@ -15,7 +15,7 @@ from shotc.rounding import at_least, away
 PROMISES = frozenset({"V019", "V020", "V021"})
 """Codes of broken promises."""
 
-FARTHEST = 3.0
+FARTHEST_HALF_FRAMES = 3.0
 """Half frames: the largest error on screen that can be promised."""
 
 _DIGITS = 3
@@ -89,7 +89,7 @@ def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -
     if code == "V021":
         return _size(shot, certificate)
     error = away(claim.worst, upper=True, digits=_DIGITS)
-    return f"screen_error: {error:.{_DIGITS}g}" if error <= FARTHEST else ""
+    return f"screen_error: {error:.{_DIGITS}g}" if error <= FARTHEST_HALF_FRAMES else ""
 
 
 def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:

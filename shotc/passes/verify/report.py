@@ -96,7 +96,7 @@ UNKNOWN = {
 
 SOFT = {" in frame": "V030", " visible": "V031"}
 
-MOST = 0.5
+HIDDEN_SHARE = 0.5
 """Share of a shot's frames; a target that is seen in fewer is hidden in most, which is an error."""
 
 _MOSTLY = {"V031": "V050"}
@@ -120,7 +120,7 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
         else:
             code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)
             if code is not None and not _on_purpose(ir.keyframes.mission, claim, code):
-                yield _lost(ir, claim, _MOSTLY.get(code, code) if claim.worst < MOST else code)
+                yield _lost(ir, claim, _MOSTLY.get(code, code) if claim.worst < HIDDEN_SHARE else code)
 
 
 def _seen_with(claim: Claim, claims: tuple[Claim, ...]) -> tuple[Claim, ...]:

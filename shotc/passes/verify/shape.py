@@ -21,13 +21,13 @@ from shotc.ir.tolerances import AT_REST
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Flight, Limit, Worst, claim
 
-AT_HOME = 1e-3
+AT_HOME_M = 1e-3
 """Metres from home within which a flight begins and ends."""
 
-LARGEST = 1e6
+LARGEST_M = 1e6
 """Metres or radians beyond which nothing is a flight; within it doubles resolve a nanometre."""
 
-SHORTEST = 1e-5
+SHORTEST_S = 1e-5
 """Seconds of the shortest piece; below it third derivatives drown in rounding."""
 
 
@@ -91,10 +91,10 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
     if curve.ctrl.shape[2] != len(CHANNELS):
         yield f"its curve has {curve.ctrl.shape[2]} channels, not {len(CHANNELS)}"
         return
-    if np.abs(curve.ctrl).max() > LARGEST:
+    if np.abs(curve.ctrl).max() > LARGEST_M:
         yield f"its curve reaches {np.abs(curve.ctrl).max():.3g}, beyond any flight"
         return
-    if np.diff(curve.breaks).min() < SHORTEST:
+    if np.diff(curve.breaks).min() < SHORTEST_S:
         yield f"a piece of its curve lasts only {np.diff(curve.breaks).min():.3g} s"
         return
     times = [t for p in phases for t in (p.start, p.end)] + [k.time for k in track.keyframes]
@@ -143,7 +143,7 @@ def shape(flight: Flight) -> Iterator[Claim]:
     ends = np.array([curve.start, curve.end])
     away = np.linalg.norm(curve(ends)[:, :3] - np.array(drone.home), axis=1)
     k = int(np.argmax(away))
-    home = Limit("distance from home", AT_HOME, "m", (*drone.path, "home"))
+    home = Limit("distance from home", AT_HOME_M, "m", (*drone.path, "home"))
     yield claim(flight, home, Worst(float(away[k]), float(ends[k]), "exact"))
     still = np.max([np.abs(curve.derivative(n)(ends)).max(axis=1) for n in (1, 2)], axis=0)
     k = int(np.argmax(still))

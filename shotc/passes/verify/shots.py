@@ -30,13 +30,13 @@ from shotc.passes.verify.explained import (
 )
 from shotc.planning.framing.moments import placed_at
 
-ON_TIME = 1e-3
+ON_TIME_S = 1e-3
 """Seconds within which a duration, a start or a keyframe's time is met."""
 
-UNTOLD = 1.0
+UNREPORTED_M = 1.0
 """Metres that a shot on its own clock may leave its ideal without a word: planning tells from 0.5 m on."""
 
-IN_PLACE = 0.01
+IN_PLACE_M = 0.01
 """Metres within which a camera stands that the author placed, while it follows what moves."""
 
 
@@ -59,13 +59,13 @@ def _timing(flight: Flight, shot: Shot, phase: Phase, ends: dict[str, float]) ->
     timing, path = shot.timing, (*shot.path, "timing")
     if timing.duration is not None:
         off = abs(phase.end - phase.start - timing.duration)
-        limit = Limit("error of duration", ON_TIME, "s", (*path, "duration"), shot=shot.id)
+        limit = Limit("error of duration", ON_TIME_S, "s", (*path, "duration"), shot=shot.id)
         yield claim(flight, limit, Worst(off, phase.end, "exact"))
     if timing.start is not None:
-        limit = Limit("error of start", ON_TIME, "s", (*path, "start"), shot=shot.id)
+        limit = Limit("error of start", ON_TIME_S, "s", (*path, "start"), shot=shot.id)
         yield claim(flight, limit, Worst(abs(phase.start - timing.start), phase.start, "exact"))
     if timing.after is not None and timing.after in ends:
-        limit = Limit("start too early", ON_TIME, "s", (*path, "after"), shot=shot.id)
+        limit = Limit("start too early", ON_TIME_S, "s", (*path, "after"), shot=shot.id)
         yield claim(flight, limit, Worst(ends[timing.after] - phase.start, phase.start, "exact"))
 
 
@@ -86,7 +86,7 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
             yield _still(flight, keyframe, (time, until), (placed.shot, index, phase))
     for name, unit, limit, found in (
         ("distance from keyframes", "m", ON_PLACE, met),
-        ("delay of keyframes", "s", ON_TIME, late),
+        ("delay of keyframes", "s", ON_TIME_S, late),
     ):
         if found:
             worst, keyframe = max(found, key=lambda pair: pair[0].value)
@@ -118,9 +118,9 @@ def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
     explained = sum(blocks.values()) + for_the_picture(flight.mission, far, placed=placed)
     explained += for_its_limits(flight, way)
     said = max(believed((d for d in ir.deviations if d.shot == shot.id), blocks), default=0.0)
-    told = min(said, explained) + UNTOLD
+    told = min(said, explained) + UNREPORTED_M
     stands = placed and not np.ptp(way.places, axis=0).any()
-    return min(told, max(explained, IN_PLACE)) if stands else told
+    return min(told, max(explained, IN_PLACE_M)) if stands else told
 
 
 def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | None, ...]:
@@ -132,7 +132,7 @@ def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | 
 
 
 def _miss(flight: Flight, which: tuple[PlacedShot, int], phase: Phase, time: float | None) -> Worst:
-    if time is None or not phase.start - ON_TIME <= time <= phase.end + ON_TIME:
+    if time is None or not phase.start - ON_TIME_S <= time <= phase.end + ON_TIME_S:
         return Worst(inf, None, "exact")
     placed, index = which
     asked = placed.shot.keyframes[index]
@@ -150,7 +150,7 @@ def _still(
     shot, index, phase = where
     start, end = span
     limit = Limit(f"drift at keyframe {index + 1}", ON_PLACE, "m", keyframe.path, shot=shot.id)
-    if start is None or start < phase.start - ON_TIME or end > phase.end + ON_TIME:
+    if start is None or start < phase.start - ON_TIME_S or end > phase.end + ON_TIME_S:
         return claim(flight, limit, Worst(inf, start, "exact"))
     # A camera that follows what moves turns while it rests.
     curve = flight.track.curve.channels(*range(Z + 1 if is_keyed(shot) else HFOV + 1))

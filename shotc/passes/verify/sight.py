@@ -16,7 +16,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import cut
 from shotc.geom.proof import Bound, norm, sup_convex
-from shotc.geom.sight import WITHIN, off_axis, outside
+from shotc.geom.sight import WITHIN_RAD, off_axis, outside
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
@@ -29,13 +29,13 @@ OUT_OF_PICTURE = " out of the picture"
 
 PATH = ("rules", "mutual_visibility")
 
-NARROW = 1e-3
+NARROW_SHARE = 1e-3
 """Share of the distance from the limit to which the worst value is closed."""
 
 ROUNDS = 40
 """Halvings of the time between two samples."""
 
-OPEN_LIMIT = 200_000
+OPEN_INTERVALS_LIMIT = 200_000
 """Intervals halved at once; where there are more the worst value is left as sampled."""
 
 
@@ -127,7 +127,7 @@ def infimum(sight: Sight, times: Array, limit: float) -> Bound:
         is_open = lower < best - _gap(best, limit)
         closed = min(closed, float(lower[~is_open].min(initial=inf)))
         rest = float(lower[is_open].min(initial=inf))
-        if not is_open.any() or is_open.sum() > OPEN_LIMIT:
+        if not is_open.any() or is_open.sum() > OPEN_INTERVALS_LIMIT:
             break
         low, high, a, b = low[is_open], high[is_open], a[is_open], b[is_open]
         middle = 0.5 * (low + high)
@@ -141,7 +141,7 @@ def infimum(sight: Sight, times: Array, limit: float) -> Bound:
 
 
 def _gap(best: float, limit: float) -> float:
-    return max(0.5 * slack(limit), NARROW * abs(best - limit))
+    return max(0.5 * slack(limit), NARROW_SHARE * abs(best - limit))
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,4 +199,4 @@ def _lower(sight: Sight, fastest: _Fastest, a: Array, b: Array, dt: Array) -> Ar
     apart = near > radius
     reach = np.sqrt(np.where(apart, near**2 - radius**2, 1.0))
     angle = 0.5 * (a[:, 0] + b[:, 0] - (turn + speed / reach) * dt)
-    return np.where(apart, np.maximum(angle, WITHIN), WITHIN)
+    return np.where(apart, np.maximum(angle, WITHIN_RAD), WITHIN_RAD)

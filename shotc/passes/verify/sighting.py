@@ -19,7 +19,7 @@ from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight, ticks
 from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"
-NOTICE = 0.1  # metres that a shot would have been moved by, that are worth telling
+NOTICE_M = 0.1  # metres that a shot would have been moved by, that are worth telling
 
 _DOING = {
     "takeoff": "taking off",
@@ -69,7 +69,7 @@ def _given_up(ir: TrajectoryIR, phase: Phase, others: list[DroneTrajectory]) -> 
 
 
 def _price(price: Price) -> str:
-    if price.moved < NOTICE:
+    if price.moved < NOTICE_M:
         return "no place near its own keeps the drones' pictures free"
     far = f"{at_least(price.moved)} m, {100 * price.share:.0f} % of its distance from what it films"
     if not price.suffices:

@@ -20,7 +20,7 @@ from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
-DRIFT = 1e-6
+DRIFT_M = 1e-6
 """Metres that take-off and landing may leave the vertical."""
 
 
@@ -93,7 +93,7 @@ def less(bound: Bound, radius: float) -> Bound:
 
 def _vertical(flight: Flight, upright: Pieces) -> Iterator[Claim]:
     home, path = np.array(flight.drone.home), (*flight.drone.path, "home")
-    drift = sup_convex(upright, lambda c: norm(c[..., :2] - home[:2]), gap(DRIFT))
-    yield bounded(flight, Limit("drift from the vertical", DRIFT, "m", path), drift)
+    drift = sup_convex(upright, lambda c: norm(c[..., :2] - home[:2]), gap(DRIFT_M))
+    yield bounded(flight, Limit("drift from the vertical", DRIFT_M, "m", path), drift)
     sunk = sup_convex(upright, lambda c: home[2] - c[..., 2], gap(0.0))
     yield bounded(flight, Limit("depth below home", 0.0, "m", path), sunk)

@@ -13,7 +13,7 @@ from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.taper import SLOPE, Taper
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, relative_to, sides
-from shotc.planning.free_space import STEEPER, HalfSpaces
+from shotc.planning.free_space import STEEPER_RATIO, HalfSpaces
 
 STEP = 0.05  # seconds between the places that are compared
 STAND = 1.0  # seconds that a drone stands at least where it has come from far, or leaves for there
@@ -97,7 +97,7 @@ def standing_apart(
 
 
 def _standing(motion: LinearMotion, course: Piecewise, film: float, stands: Array) -> LinearMotion:
-    taper = _taper(motion.what, course, film, STEEPER * SLOPE)
+    taper = _taper(motion.what, course, film, STEEPER_RATIO * SLOPE)
     if taper is None:
         return motion
     return replace(motion, wide=np.maximum(taper.needs(relative_to(motion, stands)), motion.what.clearance))
@@ -108,7 +108,7 @@ def _widened(motion: LinearMotion, course: Piecewise, parts: tuple[Span, Mask, M
     what, points = motion.what, course.ctrl[:, :, :3]
     relative, wide = relative_to(motion, points), np.full(points.shape[:2], what.clearance)
     for film, which in ((span[0], ~filmed & before), (span[1], ~filmed & ~before)):
-        taper = _taper(what, course, film, STEEPER * SLOPE)
+        taper = _taper(what, course, film, STEEPER_RATIO * SLOPE)
         if taper is not None and which.any():
             wide[which] = np.maximum(taper.needs(relative[which]), what.clearance)
     return replace(motion, wide=wide)

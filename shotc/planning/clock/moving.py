@@ -23,7 +23,7 @@ from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import Owner, target_owner
 from shotc.ir.transits import from_target
 from shotc.planning.corridor import rows_of
-from shotc.planning.free_space import MARGIN, NO_HALF_SPACES, HalfSpaces, six
+from shotc.planning.free_space import MARGIN_M, NO_HALF_SPACES, HalfSpaces, six
 from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.spline_problem import HalfSpaceRows
 
@@ -93,7 +93,7 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
             half = target.height / 2
             name, part = target_owner(target), Cylinder((0.0, 0.0), target.radius, -half, half)
             kept = from_target(mission, target.name)
-            apart = clearance if kept is None else drone.radius + kept.metres + MARGIN
+            apart = clearance if kept is None else drone.radius + kept.metres + MARGIN_M
             required = kept is not None and kept.required
             at = partial(places, target.track)
             found.append(Moving(name, part, clearance, at, apart=apart, required=required))

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
 from shotc.planning.clock.moving import COMFORT, Moving
-from shotc.planning.free_space import MARGIN, FreeSpace, bounds_slack
+from shotc.planning.free_space import MARGIN_M, FreeSpace, bounds_slack
 
 LONG = 20.0  # seconds before a film, or after it, for which nothing comes near
 STEP = 0.1  # seconds between the moments that are looked at
@@ -37,7 +37,7 @@ def aside_of_what_passes(
     for ring in np.arange(0.0, FARTHEST + RING, RING):
         shifts = ring * directions(TURNS, RISES) if ring else np.zeros((1, 3))
         places = rest + shifts
-        fine = bounds_slack(space, places) >= MARGIN
+        fine = bounds_slack(space, places) >= MARGIN_M
         for what, at in tracks:
             needs = max(what.apart, what.clearance) + COMFORT
             away = distances(what.part, (places[:, None] - at[None]).reshape(-1, 3))

@@ -9,15 +9,15 @@ from collections.abc import Iterable
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
-from shotc.geom.camera import ROUNDING, aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import ROUNDING_M, aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
 from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import Range
 from shotc.ir.mission import Composition
 
 # Metres out of the frame, or past the gimbal's stop at the target: half of what verification lets pass.
-TOUCH = 0.5 * ROUNDING
-TIE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first
-STEPS = 32  # samples of a line where its nearest point is no candidate
+TOUCH_M = 0.5 * ROUNDING_M
+TIE_DISTANCE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first
+LINE_SAMPLES = 32  # samples of a line where its nearest point is no candidate
 HALVINGS = 40
 GOLDEN = (sqrt(5) - 1) / 2
 
@@ -113,10 +113,10 @@ class Line(NamedTuple):
 
 def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
     """Return the place of the set nearest to ``asked`` that is a candidate, or None."""
-    points = [p for p in composition.points if setting.slack(p) >= -TOUCH]
+    points = [p for p in composition.points if setting.slack(p) >= -TOUCH_M]
     lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
     place = _nearest(setting, asked, (*points, *(_along(setting, line, asked) for line in lines)))
-    return place or _nearest(setting, asked, (p for p in composition.last if setting.slack(p) >= -TOUCH))
+    return place or _nearest(setting, asked, (p for p in composition.last if setting.slack(p) >= -TOUCH_M))
 
 
 def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
@@ -139,8 +139,8 @@ def roomiest(setting: Setting, composition: Composition) -> float:
 def has_candidate(setting: Setting, composition: Composition) -> bool:
     """Tell whether the target can stand somewhere on the set itself."""
     lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
-    return any(setting.slack(p) >= -TOUCH for p in (*composition.points, *composition.last)) or any(
-        setting.slack(line.point(_best(setting, line))) >= -TOUCH for line in lines
+    return any(setting.slack(p) >= -TOUCH_M for p in (*composition.points, *composition.last)) or any(
+        setting.slack(line.point(_best(setting, line))) >= -TOUCH_M for line in lines
     )
 
 
@@ -149,7 +149,7 @@ def _nearest(setting: Setting, asked: Vec2, places: Iterable[Vec2 | None]) -> Ve
     for place in places:
         if place is None:
             continue
-        if best is None or setting.apart(asked, place) < setting.apart(asked, best) - TIE:
+        if best is None or setting.apart(asked, place) < setting.apart(asked, best) - TIE_DISTANCE:
             best = place
     return best
 
@@ -161,10 +161,10 @@ def _along(setting: Setting, line: Line, asked: Vec2) -> Vec2 | None:
     side's nearest.
     """
     foot = line.foot(setting, asked)
-    if setting.slack(line.point(foot)) >= -TOUCH:
+    if setting.slack(line.point(foot)) >= -TOUCH_M:
         return line.point(foot)
     peaks = _peaks(setting, line)
-    if all(setting.slack(line.point(t)) < -TOUCH for t in peaks):
+    if all(setting.slack(line.point(t)) < -TOUCH_M for t in peaks):
         return None
     ends = [_first(setting, line, (foot, end), peaks) for end in (-1.0, 1.0)]
     return _nearest(setting, asked, (line.point(t) for t in ends if t is not None))
@@ -180,7 +180,7 @@ def _peaks(setting: Setting, line: Line) -> list[float]:
 
     Slack may have several, of equal height on a level line: each is a stretch where the target may fit.
     """
-    steps = [-1.0 + 2.0 * i / STEPS for i in range(STEPS + 1)]
+    steps = [-1.0 + 2.0 * i / LINE_SAMPLES for i in range(LINE_SAMPLES + 1)]
     slacks = [-inf, *(setting.slack(line.point(t)) for t in steps), -inf]
     tops = [
         t
@@ -196,7 +196,7 @@ def _summit(setting: Setting, line: Line, middle: float) -> float:
     def slack(t: float) -> float:
         return setting.slack(line.point(t))
 
-    low, high = max(-1.0, middle - 2.0 / STEPS), min(1.0, middle + 2.0 / STEPS)
+    low, high = max(-1.0, middle - 2.0 / LINE_SAMPLES), min(1.0, middle + 2.0 / LINE_SAMPLES)
     left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_left, at_right = slack(left), slack(right)
     for _ in range(HALVINGS):
@@ -214,13 +214,13 @@ def _summit(setting: Setting, line: Line, middle: float) -> float:
 def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float | None:
     """Walk the way from the foot to one end of the line; where candidates begin, bisect their border."""
     foot, end = way
-    steps = [foot + (end - foot) * i / STEPS for i in range(1, STEPS + 1)]
+    steps = [foot + (end - foot) * i / LINE_SAMPLES for i in range(1, LINE_SAMPLES + 1)]
     # A stretch of candidates too short for the sample is found at its peak.
     steps += [t for t in peaks if (t - foot) * (end - foot) > 0]
     steps.sort(key=lambda t: abs(t - foot))
     outside = foot
     for step in steps:
-        if setting.slack(line.point(step)) >= -TOUCH:
+        if setting.slack(line.point(step)) >= -TOUCH_M:
             return _border(setting, line, outside, step)
         outside = step
     return None
@@ -228,7 +228,7 @@ def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float
 
 def _border(setting: Setting, line: Line, outside: float, inside: float) -> float:
     """Bisect for where candidates begin; the whole target is inside the frame there if it can be."""
-    least = min(TOUCH, setting.slack(line.point(inside)))
+    least = min(TOUCH_M, setting.slack(line.point(inside)))
     for _ in range(HALVINGS):
         middle = (outside + inside) / 2
         if setting.slack(line.point(middle)) >= least:

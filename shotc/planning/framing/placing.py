@@ -10,10 +10,10 @@ from shotc.geom.vec import Vec2, Vec3, direction, minus
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
-from shotc.planning.framing.candidates import TOUCH, Setting, nearest_candidate, nearest_on_verticals
+from shotc.planning.framing.candidates import TOUCH_M, Setting, nearest_candidate, nearest_on_verticals
 from shotc.planning.framing.turns import with_turns
 
-NORTH = pi / 2
+NORTH_RAD = pi / 2
 
 
 class Unmet(NamedTuple):
@@ -41,7 +41,7 @@ def place_shot(
     placed: list[PlacedKeyframe] = []
     misses: list[Unmet] = []
     for index, keyframe in enumerate(shot.keyframes):
-        course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH)
+        course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH_RAD)
         done, miss = _place(moments[index] if moments else mission, shot, keyframe, course)
         placed.append(done)
         if miss is not None:
@@ -64,7 +64,7 @@ def _place(
     asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
     composition = keyframe.composition
     if asked is None or composition.keep or composition.watches:
-        crops = not reaches(setting.pitch, aim[1]) or -setting.margin(aim) > TOUCH
+        crops = not reaches(setting.pitch, aim[1]) or -setting.margin(aim) > TOUCH_M
         unmet = Unmet(keyframe, setting, aim, None, None) if crops else None
         return _placed(keyframe, aim, asked, None if composition.watches else asked), unmet
     place, missed = nearest_candidate(setting, composition, asked), None

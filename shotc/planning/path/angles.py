@@ -20,23 +20,21 @@ from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import FramingSpan
-from shotc.planning.path.lines import SAME_PLACE
+from shotc.planning.path.lines import SAME_PLACE_M
 from shotc.planning.path.turns import steady
 from shotc.planning.path.unwrapping import Known, shifts, turning
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 from shotc.solvers.spline_fit import Fit, fit, within
 
-PIECES = 3  # per stretch between keyframes, at least
-SAMPLES = 6  # per piece
+PIECES_PER_STRETCH = 3  # per stretch between keyframes, at least
+SAMPLES_PER_PIECE = 6  # per piece
 FINER = (1, 2, 4, 8)
-CLOSE = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
-STIFF = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
-FAINT = 1e-2  # weight of samples where nothing is framed against those where something is
-NEAR = (
-    1e-3  # of a piece: a keyframe that the path only passes by may be so near to a break that it is the same
-)
-NOTICE = 5e-3  # rad beyond the gimbal's range that are worth a warning
+CLOSE_RAD = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
+STIFF_WEIGHT = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
+FAINT_WEIGHT = 1e-2  # weight of samples where nothing is framed against those where something is
+NEAR_SHARE = 1e-3  # of a piece: a keyframe that the path only passes by may be so near to a break
+NOTICE_RAD = 5e-3  # rad beyond the gimbal's range that are worth a warning
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -133,7 +131,7 @@ def camera_line(mission: MissionIR, drone: Drone, keyed: KeyedPath) -> CameraLin
         if status not in {Status.SOLVED, Status.INACCURATE}:
             continue
         fitted = _line(curve, samples, hfov, status)
-        if fitted.error < CLOSE:
+        if fitted.error < CLOSE_RAD:
             break
     return best if fitted is None or best.error < fitted.error else fitted
 
@@ -203,14 +201,14 @@ def _watched(keyed: KeyedPath, i: int) -> list[FramingSpan]:
 def _grid(keyed: KeyedPath) -> Array:
     """Return breaks that hold the position's and the keyframes', several to a keyframe interval."""
     merged = [float(b) for b in keyed.position.breaks]
-    near = NEAR * float(np.diff(merged).min())
+    near = NEAR_SHARE * float(np.diff(merged).min())
     for s in keyed.s:
         if min(abs(s - b) for b in merged) > near:
             merged.append(float(s))
     breaks = np.array(sorted(merged))
     keys = np.unique(keyed.s)
     inside = np.histogram(0.5 * (breaks[:-1] + breaks[1:]), keys)[0] if len(keys) > 1 else np.array([1])
-    parts = int(np.ceil(PIECES / max(1, int(inside[inside > 0].min()))))
+    parts = int(np.ceil(PIECES_PER_STRETCH / max(1, int(inside[inside > 0].min()))))
     return subdivide(breaks, parts) if parts > 1 else breaks
 
 
@@ -225,12 +223,12 @@ def _hfov(keyed: KeyedPath) -> Piecewise:
 def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> tuple[Status, Piecewise]:
     """Return yaw and pitch near the samples, and where there are none near the steady turn."""
     spacing = float(breaks[-1] - breaks[0]) / max(len(turn.breaks) - 1, 1)
-    density = (breaks[-1] - breaks[0]) / (len(breaks) - 1) / SAMPLES / spacing
-    stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
+    density = (breaks[-1] - breaks[0]) / (len(breaks) - 1) / SAMPLES_PER_PIECE / spacing
+    stiff = (1e-3 * STIFF_WEIGHT * spacing, STIFF_WEIGHT * spacing**5)
     loose = _untracked(samples.s, breaks)
     at = np.concatenate([samples.s, loose])
     yaw, pitch = (np.concatenate(p) for p in zip((samples.yaw, samples.pitch), turn(loose).T, strict=True))
-    weight = density * np.where(np.arange(len(at)) < len(samples.s), 1.0, FAINT)
+    weight = density * np.where(np.arange(len(at)) < len(samples.s), 1.0, FAINT_WEIGHT)
     low, high = drone.gimbal.pitch
     shape = (len(breaks) - 1, 6)
     bounds = np.full(shape, low), np.full(shape, high)
@@ -247,8 +245,8 @@ def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> 
 def _untracked(tracked: Array, breaks: Array) -> Array:
     """Return sample parameters on the pieces where no sample speaks."""
     silent = np.histogram(tracked, breaks)[0] == 0
-    every = subdivide(breaks, SAMPLES)[:-1].reshape(-1, SAMPLES)
-    half = 0.5 * np.diff(breaks)[:, None] / SAMPLES
+    every = subdivide(breaks, SAMPLES_PER_PIECE)[:-1].reshape(-1, SAMPLES_PER_PIECE)
+    half = 0.5 * np.diff(breaks)[:, None] / SAMPLES_PER_PIECE
     return np.asarray((every + half)[silent].ravel())
 
 
@@ -304,14 +302,14 @@ def _rests(keyed: KeyedPath, i: int) -> bool:
     ways = [
         np.linalg.norm(keyed.position(float(keyed.s[j])) - keyed.position(float(keyed.s[i]))) for j in near
     ]
-    return keyed.keyframes[i].hold > 0 or any(way < SAME_PLACE for way in ways)
+    return keyed.keyframes[i].hold > 0 or any(way < SAME_PLACE_M for way in ways)
 
 
 def _inner(breaks: Array, start: float, end: float) -> Array:
     """Return sample parameters in a stretch, evenly on each of its pieces."""
     eps = 1e-9 * (breaks[-1] - breaks[0])
     inside = breaks[(breaks >= start - eps) & (breaks <= end + eps)]
-    return subdivide(inside, SAMPLES)[1:-1] if len(inside) > 1 else np.empty(0)
+    return subdivide(inside, SAMPLES_PER_PIECE)[1:-1] if len(inside) > 1 else np.empty(0)
 
 
 def _anchor(mission: MissionIR, drone: Drone, keyed: KeyedPath, i: int) -> tuple[float, float] | None:
@@ -352,7 +350,7 @@ def _aims(
             a.yaw,
         )
         excess = None if aim is None else max(low - aim[1], aim[1] - high)
-        if excess is None or excess > NOTICE:
+        if excess is None or excess > NOTICE_RAD:
             worst = _worse(worst, Cut(i, float(s), excess))
         aims.append(None if aim is None else (aim[0], min(max(aim[1], low), high)))
     return aims, worst

@@ -17,11 +17,11 @@ from shotc.ir.mission import Drone
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
 
-SAMPLES = 3  # per piece
-FAINT = 1e-4  # weight that keeps a body in place where nothing else does
-FREE_PULL = 1e-8  # 1/m: picks one of the headings that need no turn at all
-UPRIGHT = 0.02  # metres sideways for each metre of path, below which a flight has no course to point along
-SWITCH = 1.0  # rad^2: what it costs to change over from one gimbal stop to the other
+SAMPLES_PER_PIECE = 3  # per piece
+FAINT_WEIGHT = 1e-4  # weight that keeps a body in place where nothing else does
+FREE_PULL_PER_M = 1e-8  # 1/m: picks one of the headings that need no turn at all
+UPRIGHT_SLOPE = 0.02  # sideways for each metre of path, below which a flight has no course to point along
+SWITCH_RAD2 = 1.0  # rad^2: what it costs to change over from one gimbal stop to the other
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,9 +49,9 @@ def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
     length = min(max(0.5 * task.speed / drone.limits.yaw_rate, 1e-3), float(breaks[-1] - breaks[0]))
     if drone.body == "forward":
         value, weight = _forward(drone, task, at, cam)
-        stiff = (FAINT * length**2, length**6)
+        stiff = (FAINT_WEIGHT * length**2, length**6)
     else:
-        value, weight = cam - _clip(0.0, drone.gimbal.yaw), np.full(len(at), FREE_PULL)
+        value, weight = cam - _clip(0.0, drone.gimbal.yaw), np.full(len(at), FREE_PULL_PER_M)
         stiff = (1.0, length**4)
     step = float(breaks[-1] - breaks[0]) / len(at)
     low, high = drone.gimbal.yaw
@@ -94,8 +94,8 @@ def _relatives(drone: Drone, wanted: float) -> list[tuple[float, float]]:
 def _forward(drone: Drone, task: BodyTask, at: Array, cam: Array) -> tuple[Array, Array]:
     rate = task.position.derivative()(at)[:, :2]
     flat = np.linalg.norm(rate, axis=1)
-    weight = np.minimum(flat, 1.0) ** 2 + FAINT
-    course = np.where(flat > UPRIGHT, np.arctan2(rate[:, 1], rate[:, 0]), cam)
+    weight = np.minimum(flat, 1.0) ** 2 + FAINT_WEIGHT
+    course = np.where(flat > UPRIGHT_SLOPE, np.arctan2(rate[:, 1], rate[:, 0]), cam)
     options = [_relatives(drone, float(c - t)) for c, t in zip(cam, course, strict=True)]
     first = None if task.start is None else float(cam[0]) - task.start
     return cam - _best_windings(options, weight, first), weight
@@ -107,10 +107,10 @@ def _best_windings(options: list[list[tuple[float, float]]], weight: Array, firs
     value = np.array([[o[min(k, len(o) - 1)][0] for k in range(width)] for o in options])
     price = np.array([[o[min(k, len(o) - 1)][1] for k in range(width)] for o in options])
     price = price**2 * weight[:, None]
-    total = price[0] + (0.0 if first is None else SWITCH * (value[0] - first) ** 2)
+    total = price[0] + (0.0 if first is None else SWITCH_RAD2 * (value[0] - first) ** 2)
     back = np.zeros(value.shape, dtype=np.intp)
     for k in range(1, len(value)):
-        jump = SWITCH * len(value) ** 0.5 * (value[k][:, None] - value[k - 1][None, :]) ** 2
+        jump = SWITCH_RAD2 * len(value) ** 0.5 * (value[k][:, None] - value[k - 1][None, :]) ** 2
         through = total[None, :] + jump
         back[k] = through.argmin(axis=1)
         total = through.min(axis=1) + price[k]
@@ -121,7 +121,7 @@ def _best_windings(options: list[list[tuple[float, float]]], weight: Array, firs
 
 
 def _samples(breaks: Array) -> Array:
-    x = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    x = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
     return np.asarray((breaks[:-1, None] + np.diff(breaks)[:, None] * x).ravel())
 
 

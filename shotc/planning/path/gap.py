@@ -11,13 +11,13 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import closest_points, support
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner
-from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, Wall
+from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, Wall
 from shotc.planning.obstacles import flight_space
 from shotc.planning.path.route import find_route
 from shotc.rounding import down
 
 HALVINGS = 7
-MOST = 0.8  # of the body's radius that a smaller drone may lack
+LACK_SHARE = 0.8  # of the body's radius that a smaller drone may lack
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,13 +64,14 @@ def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner,
     (first, second), gap, needed = pair
     return Gap(
         f"the gap between {first.words} and {second.words} is {gap:.2f} m; the drone needs {needed:.2f} m",
-        f"widen the gap by {needed - gap + MARGIN:.2f} m, or use a drone with a radius {lent:.2f} m smaller",
+        f"widen the gap by {needed - gap + MARGIN_M:.2f} m, "
+        f"or use a drone with a radius {lent:.2f} m smaller",
     )
 
 
 def _least_loan(space: FreeSpace, start: Array, end: Array) -> float | None:
     """Return the least clearance to give up everywhere so that a way opens, by bisection."""
-    most = MOST * min((o.clearance for o in space.obstacles), default=0.0)
+    most = LACK_SHARE * min((o.clearance for o in space.obstacles), default=0.0)
     if most <= 0.0 or find_route(space.lent(most), start, end) is None:
         return None
     low, high = 0.0, most

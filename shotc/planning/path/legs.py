@@ -31,13 +31,13 @@ from shotc.ir.phases import PhaseName
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 from shotc.planning.obstacles import FreeSpaces, pad_space
 from shotc.planning.path.body import BodyTask, allowed_body, body_line
-from shotc.planning.path.lines import SAME_PLACE, TURN_LENGTH
+from shotc.planning.path.lines import SAME_PLACE_M, TURN_LENGTH_M_RAD
 from shotc.planning.path.shots import AngleFailure, Failure, PlannedShot, stack
 from shotc.planning.path.transit import transit_curve
 from shotc.solvers.conic import Status
 
 SAME_ANGLE = 1e-6
-ROUNDING = 1e-9  # metres
+ROUNDING_M = 1e-9  # metres
 PIECES = 4
 
 CurveLeg = TypeVar("CurveLeg", MovingLeg, ClockLeg)
@@ -95,7 +95,7 @@ def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
     home, pad = np.array(flight.drone.home), pad_space(mission, flight.drone)
     free = bounds_slack(pad, top[None])[0] >= 0.0 and not breaches(flight.space, top)
     above = (segment_distances(o.part, home[None], top[None])[0] - o.clearance for o in pad.obstacles)
-    return replace(flight, top=top) if free and min(above, default=0.0) >= -ROUNDING else None
+    return replace(flight, top=top) if free and min(above, default=0.0) >= -ROUNDING_M else None
 
 
 def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[MovingLeg] | Failure:
@@ -178,10 +178,10 @@ def _transit(
     """Return the leg from one pose to another; none where they are the same."""
     a, b = np.array(start[:3]), np.array(goal[:3])
     turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
-    if np.linalg.norm(b - a) < SAME_PLACE:
+    if np.linalg.norm(b - a) < SAME_PLACE_M:
         if turn < SAME_ANGLE and np.array_equal(a, b):
             return []
-        breaks = np.array([0.0, TURN_LENGTH * max(turn, SAME_ANGLE)])
+        breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE)])
         position = Piecewise(breaks, np.linspace(a, b, 6)[None])
     else:
         found = transit_curve(flight.spaces, flight.drone, a, b)

@@ -15,11 +15,11 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import FAR_M, support
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
-from shotc.planning.free_space import MARGIN, Breach, FreeSpace, blocked, bounds_slack, breaches
-from shotc.planning.path.route import NODE_MARGIN, find_route
+from shotc.planning.free_space import MARGIN_M, Breach, FreeSpace, blocked, bounds_slack, breaches
+from shotc.planning.path.route import NODE_MARGIN_M, find_route
 
-TURN_LENGTH = 2.0  # metres of path parameter for each radian turned on the spot
-SAME_PLACE = 1e-3  # metres
+TURN_LENGTH_M_RAD = 2.0  # metres of path parameter for each radian turned on the spot
+SAME_PLACE_M = 1e-3  # metres
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -120,7 +120,7 @@ def _joined(
     corners, s, of = [points[kept[0]]], [0.0], [kept[0]]
     for k, way in enumerate(ways):
         i, j = kept[k], kept[k + 1]
-        if len(way) == 2 and np.linalg.norm(way[1] - way[0]) < SAME_PLACE:
+        if len(way) == 2 and np.linalg.norm(way[1] - way[0]) < SAME_PLACE_M:
             steps = np.array([_turn_length(keyframes[i], keyframes[j])])
             corners.append(corners[-1])
         else:
@@ -133,15 +133,15 @@ def _joined(
 
 def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:
     turn = abs(wrapped(b.yaw - a.yaw) if b.turn is None else b.turn)
-    length = TURN_LENGTH * max(turn, abs(b.pitch - a.pitch), abs(b.hfov - a.hfov))
-    return length if length >= SAME_PLACE else 0.0
+    length = TURN_LENGTH_M_RAD * max(turn, abs(b.pitch - a.pitch), abs(b.hfov - a.hfov))
+    return length if length >= SAME_PLACE_M else 0.0
 
 
 def _nearest_free(space: FreeSpace, p: Array) -> Array | None:
     """Return a free point near one that is not: pushed sideways or up out of each obstacle it is in."""
     tries = [p]
     for o in space.obstacles:
-        reach = o.clearance + NODE_MARGIN
+        reach = o.clearance + NODE_MARGIN_M
         angle = np.linspace(0.0, 2 * pi, 32, endpoint=False)
         rays = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(32)])
         # The way out along each ray: the support of the solid seen from p, and the clearance.
@@ -150,7 +150,7 @@ def _nearest_free(space: FreeSpace, p: Array) -> Array | None:
         if o.part.top < FAR_M:
             tries.append(np.array([p[0], p[1], o.part.top + reach]))
     for wall in space.walls:
-        lack = wall.offset + MARGIN - float(p @ np.array(wall.normal))
+        lack = wall.offset + MARGIN_M - float(p @ np.array(wall.normal))
         if lack > 0:
             tries += [q + lack * np.array(wall.normal) for q in list(tries)]
     candidates = np.array(tries)

@@ -14,9 +14,9 @@ from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 
-PAD_MARGIN = 0.1  # metres that the transit altitude keeps beyond what clearances ask
-LIFT = 1.0  # metres above the pad at least
-CUSTOM = 3.0  # metres above the pad where nothing forbids it: below, PX4 refuses a mission's take-off
+PAD_MARGIN_M = 0.1  # metres that the transit altitude keeps beyond what clearances ask
+LEAST_LIFT_M = 1.0  # metres above the pad at least
+CUSTOM_LIFT_M = 3.0  # metres above the pad where nothing forbids it: below, PX4 refuses a mission's take-off
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,12 +46,12 @@ def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | Pa
     if outside:
         return PadBlocked(outside[0].owner, "outside", outside[0].lack, 0.0)
     half_spaces = [w.offset for w in flight.walls if w.normal[2] > 0.5]
-    lowest = max([home[2] + LIFT, *(f + PAD_MARGIN for f in half_spaces)])
+    lowest = max([home[2] + LEAST_LIFT_M, *(f + PAD_MARGIN_M for f in half_spaces)])
     ceiling = min(((-w.offset, w.owner) for w in pad.walls if w.normal[2] < -0.5), default=None)
     if ceiling is not None and ceiling[0] < lowest:
         return PadBlocked(ceiling[1], "ceiling", lowest, ceiling[0])
-    tops = [o.part.top + o.clearance + PAD_MARGIN for o in flight.obstacles if o.part.top < FAR_M]
-    usual = max(lowest, home[2] + CUSTOM)
+    tops = [o.part.top + o.clearance + PAD_MARGIN_M for o in flight.obstacles if o.part.top < FAR_M]
+    usual = max(lowest, home[2] + CUSTOM_LIFT_M)
     heights = [*sorted({usual, *(t for t in tops if t > usual)}), lowest]
     points = np.array([[home[0], home[1], z] for z in heights])
     inside = bounds_slack(flight, points) >= 0

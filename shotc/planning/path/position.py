@@ -32,15 +32,15 @@ from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
-PIECES = 3  # per straight stretch of the polyline
-PULL = 100.0  # weight of a generated keyframe that does not bind, against the energy in m^2
+PIECES_PER_CHORD = 3  # per straight stretch of the polyline
+PULL_WEIGHT = 100.0  # weight of a generated keyframe that does not bind, against the energy in m^2
 EXCESS_PRICE = 10.0  # of speed and acceleration above nominal, against the energy in m^2
 ROUNDS = 4
 FIRST_SHARE = 0.5  # of its distance from an obstacle a chord may give up half
 LATER_SHARE = 0.95  # a solved curve hardly any, or the margins would melt away round by round
 FINER = (1, 2, 4)
-STRAIGHT = 1e-9  # metres
-GAIN = 0.01  # a round that improves the objective by less ends the iteration
+STRAIGHT_M = 1e-9  # metres
+GAIN_SHARE = 0.01  # a round that improves the objective by less ends the iteration
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,7 +67,7 @@ class Stretch:
             return False
         way = self.corners[-1] - self.corners[0]
         share = (self.s - self.s[0]) / (self.s[-1] - self.s[0])
-        return bool(np.abs(self.corners - self.corners[0] - share[:, None] * way).max() < STRAIGHT)
+        return bool(np.abs(self.corners - self.corners[0] - share[:, None] * way).max() < STRAIGHT_M)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,7 +99,7 @@ def solve_stretch(
     rounds = 0
     status, problem = Status.FAILED, None
     for finer in FINER:
-        breaks = subdivide(stretch.s, PIECES * finer)
+        breaks = subdivide(stretch.s, PIECES_PER_CHORD * finer)
         problem, best, used = _iterate((space, wide or space), stretch, limits, breaks)
         rounds += used
         if isinstance(best, SplineSolution):
@@ -148,7 +148,7 @@ def _iterate(
             hulls, share = chords, FIRST_SHARE
             continue
         total = solution.objective + solution.excess
-        done = best is not None and total > (1 - GAIN) * (best.objective + best.excess)
+        done = best is not None and total > (1 - GAIN_SHARE) * (best.objective + best.excess)
         best = solution if best is None or not done else best
         if done or not problem.half_spaces:
             break
@@ -168,8 +168,8 @@ def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProb
         unit = slope.apply(greville(breaks)[:, None])
         goals.append(Goal(slope, unit * direction[slope.piece]))
     if len(stretch.pulled_at):
-        rows = _scaled(value_rows(breaks, stretch.pulled_at), PULL**0.5)
-        goals.append(Goal(rows, PULL**0.5 * stretch.pulled))
+        rows = _scaled(value_rows(breaks, stretch.pulled_at), PULL_WEIGHT**0.5)
+        goals.append(Goal(rows, PULL_WEIGHT**0.5 * stretch.pulled))
     bound = list(stretch.bound)
     equalities = Equalities(value_rows(breaks, s[bound]), corners[bound])
     cones = _soft_limits(breaks, speed, limits, scale)

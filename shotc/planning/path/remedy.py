@@ -14,7 +14,7 @@ from shotc.planning.path.shots import PlannedShot, Stuck, shot_curve
 from shotc.planning.path.transit import smooth
 from shotc.rounding import up
 
-LEAST = 5e-3  # metres of give-way that count as part of a conflict: less is printed as nothing
+LEAST_M = 5e-3  # metres of give-way that count as part of a conflict: less is printed as nothing
 FACTORS = (1, 2, 4)  # of the least give-way: with more room the way leads along other corners
 
 Gives = Mapping[Owner, float]
@@ -38,9 +38,9 @@ def conflict(what: Stuck) -> Conflict:
     if relaxation is None:
         return Conflict((), ())
     owners = [
-        (n, float(x)) for n, x in zip(what.solved.owners, relaxation.owner_lack, strict=False) if x > LEAST
+        (n, float(x)) for n, x in zip(what.solved.owners, relaxation.owner_lack, strict=False) if x > LEAST_M
     ]
-    points = [(k, float(x)) for k, x in enumerate(relaxation.point_shift) if x > LEAST]
+    points = [(k, float(x)) for k, x in enumerate(relaxation.point_shift) if x > LEAST_M]
     return Conflict(tuple(sorted(owners, key=lambda item: -item[1])), tuple(points))
 
 

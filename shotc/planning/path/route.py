@@ -20,14 +20,14 @@ from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import FAR_M, distances
 from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Solid
-from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, blocked, bounds_slack
+from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, blocked, bounds_slack
 
-ROUTE_MARGIN = 2 * MARGIN  # the route leaves the corridor some play
-NODE_MARGIN = 2.4 * MARGIN  # nodes stand clear of the prisms that edges are tested against
-ROOMY = 10.0  # times these margins where there is room for it
-DETOUR = 1.15  # how much longer a roomy way may be than one that scrapes past
-SAME_PLACE = 1e-6  # metres
-NARROW = (0.2, 0.05)  # of these margins, tried in turn: a narrow gap is better than no way
+ROUTE_MARGIN_M = 2 * MARGIN_M  # the route leaves the corridor some play
+NODE_MARGIN_M = 2.4 * MARGIN_M  # nodes stand clear of the prisms that edges are tested against
+ROOMY_RATIO = 10.0  # times these margins where there is room for it
+DETOUR_RATIO = 1.15  # how much longer a roomy way may be than one that scrapes past
+SAME_PLACE_M = 1e-6  # metres
+NARROW_SHARES = (0.2, 0.05)  # of these margins, tried in turn: a narrow gap is better than no way
 CLIMB_PRICE = 0.3  # extra length for each metre up or down
 OVERFLIGHT_PRICE = 0.3  # extra length for each metre above an obstacle
 
@@ -49,17 +49,17 @@ def find_route(space: FreeSpace, start: Array, end: Array) -> Array | None:
     Both points must themselves be free. Nodes come from the obstacles in the way; more obstacles join
     as they turn out to block, so far ones cost nothing.
     """
-    first = blocked(space, start[None], end[None], MARGIN)[0]
+    first = blocked(space, start[None], end[None], MARGIN_M)[0]
     if not first.any():
         return np.stack([start, end])
     grown = [_grow(o) for o in space.obstacles]
     near = _search(_Scene(space, grown, 1.0), first, start, end)
     if near is not None:
-        roomy = _search(_Scene(space, grown, ROOMY), first, start, end)
-        if roomy is not None and length(roomy) <= DETOUR * length(near):
+        roomy = _search(_Scene(space, grown, ROOMY_RATIO), first, start, end)
+        if roomy is not None and length(roomy) <= DETOUR_RATIO * length(near):
             near = roomy
         return _level(space, near)
-    for share in NARROW:
+    for share in NARROW_SHARES:
         narrow = _search(_Scene(space, grown, share), first, start, end)
         if narrow is not None:
             return narrow
@@ -81,11 +81,11 @@ class _Scene:
 
     def reach(self, j: int) -> float:
         """Return how far obstacle j is grown for testing edges, metres."""
-        return self.grown[j].clearance + self.share * ROUTE_MARGIN
+        return self.grown[j].clearance + self.share * ROUTE_MARGIN_M
 
     def node_reach(self, j: int) -> float:
         """Return how far obstacle j is grown for placing nodes, metres."""
-        return self.grown[j].clearance + self.share * NODE_MARGIN
+        return self.grown[j].clearance + self.share * NODE_MARGIN_M
 
 
 def _search(scene: _Scene, first: Mask, start: Array, end: Array) -> Array | None:
@@ -107,7 +107,7 @@ class _Graph:
         self.scene = scene
         corners = [_nodes(scene, j, active, start, end) for j in active]
         nodes = np.concatenate([np.stack([start, end]), *corners])
-        free = bounds_slack(scene.space, nodes) >= scene.share * MARGIN
+        free = bounds_slack(scene.space, nodes) >= scene.share * MARGIN_M
         for j, g in enumerate(scene.grown):
             free &= ~_inside(g, nodes, scene.reach(j))
         free[:2] = True
@@ -178,7 +178,7 @@ class _Graph:
     def _near(self, j: int, a: Array, b: Array) -> Mask:
         o = self.scene.space.obstacles[j]
         own = np.minimum(distances(o.part, a), distances(o.part, b)) - o.clearance
-        need = o.clearance + np.minimum(self.scene.share * MARGIN, 0.5 * np.maximum(own, 0.0))
+        need = o.clearance + np.minimum(self.scene.share * MARGIN_M, 0.5 * np.maximum(own, 0.0))
         return np.asarray(segment_distances(o.part, a, b) < need - 1e-9)
 
 
@@ -284,12 +284,12 @@ def _level(space: FreeSpace, path: Array) -> Array:
         return path
     even = path.copy()
     even[:, 2] = path[0, 2] + along / along[-1] * (path[-1, 2] - path[0, 2])
-    inside = bounds_slack(space, even[1:-1]) >= MARGIN
-    free = not blocked(space, even[:-1], even[1:], ROUTE_MARGIN).any()
+    inside = bounds_slack(space, even[1:-1]) >= MARGIN_M
+    free = not blocked(space, even[:-1], even[1:], ROUTE_MARGIN_M).any()
     return _apart(even) if inside.all() and free else path
 
 
 def _apart(path: Array) -> Array:
     """Leave out corners that stand where the next one does: corners above one another that were levelled."""
     steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
-    return np.asarray(path[np.append(steps > SAME_PLACE, True)])
+    return np.asarray(path[np.append(steps > SAME_PLACE_M, True)])

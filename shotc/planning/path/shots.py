@@ -15,14 +15,14 @@ from shotc.ir.path import FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, 
 from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
-from shotc.planning.path.lines import SAME_PLACE, Line, NoWay, TooNear, shot_line
+from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, shot_line
 from shotc.planning.path.position import Solved, Stretch, solve_stretch
 from shotc.planning.path.swings import Swing, worst_swing
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 
-NOTICE = 0.1  # metres off a generated keyframe that are worth telling
-LEFT = 0.02  # metres off that belong to a stretch worth telling
+NOTICE_M = 0.1  # metres off a generated keyframe that are worth telling
+LEFT_M = 0.02  # metres off that belong to a stretch worth telling
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,7 +154,7 @@ def _position(
     solved: list[Solved] = []
     for first, last in _sections(line):
         s = line.s[first : last + 1]
-        if last == first + 1 and np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE:
+        if last == first + 1 and np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE_M:
             still = np.tile(line.corners[first], (1, 6, 1))
             curves.append(Piecewise(s, still))
             continue
@@ -169,7 +169,7 @@ def _position(
 
 def _sections(line: Line) -> list[tuple[int, int]]:
     """Cut the polyline where the camera turns on the spot; repeated keyframes fall out."""
-    moving = np.linalg.norm(np.diff(line.corners, axis=0), axis=1) >= SAME_PLACE
+    moving = np.linalg.norm(np.diff(line.corners, axis=0), axis=1) >= SAME_PLACE_M
     sections: list[tuple[int, int]] = []
     for i, moves in enumerate(moving):
         if line.s[i + 1] <= line.s[i]:
@@ -234,7 +234,7 @@ def _nearest(curve: Piecewise, keyframe: PlacedKeyframe, low: float, high: float
 def _stops(keyframes: tuple[PlacedKeyframe, ...], keyed: KeyedPath, line: Line) -> tuple[Stop, ...]:
     holds = {float(line.s[0]): 0.0, float(line.s[-1]): 0.0}
     for first, last in _sections(line):
-        if np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE and last == first + 1:
+        if np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE_M and last == first + 1:
             holds.setdefault(float(line.s[first]), 0.0)
             holds.setdefault(float(line.s[last]), 0.0)
     for keyframe, s in zip(keyframes, keyed.s, strict=True):
@@ -256,7 +256,7 @@ def _deviations(space: FreeSpace, placed: PlacedShot, keyed: KeyedPath) -> tuple
     away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
     return tuple(
         PathDeviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(space, points[i]))
-        for i in worst_of_runs(away, LEFT, NOTICE)
+        for i in worst_of_runs(away, LEFT_M, NOTICE_M)
     )
 
 

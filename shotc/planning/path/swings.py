@@ -10,12 +10,12 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import subdivide
 from shotc.ir.mission import MissionIR
-from shotc.planning.path.angles import NOTICE, CameraLine, KeyedPath
+from shotc.planning.path.angles import NOTICE_RAD, CameraLine, KeyedPath
 
-SAMPLES = 6  # per piece
-STEEP = radians(75)  # beyond this pitch a turn of the camera is a turn of the picture
-ROUND = radians(60)  # turns of the picture that are worth a warning
-SLOW = 0.05  # metres flown sideways for each metre of path, below which there is no course
+SAMPLES_PER_PIECE = 6  # per piece
+STEEP_RAD = radians(75)  # beyond this pitch a turn of the camera is a turn of the picture
+ROUND_RAD = radians(60)  # turns of the picture that are worth a warning
+SLOW_SLOPE = 0.05  # metres flown sideways for each metre of path, below which there is no course
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,16 +42,16 @@ def worst_swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine) -> Swi
 
     Turning along with the course is expected: a narrow orbit far above its target turns all the time.
     """
-    at = subdivide(camera.angles.breaks, SAMPLES)
+    at = subdivide(camera.angles.breaks, SAMPLES_PER_PIECE)
     yaw, pitch, _ = camera.angles(at).T
     turned = yaw - _course(keyed.position, at)
     found = []
-    for run in _runs((np.abs(pitch) > STEEP) & _followed(keyed, at)):
+    for run in _runs((np.abs(pitch) > STEEP_RAD) & _followed(keyed, at)):
         turn = min(float(np.ptp(yaw[run])), float(np.ptp(turned[run])))
-        if turn > ROUND:
+        if turn > ROUND_RAD:
             steepest = run.start + int(np.abs(pitch[run]).argmax())
             found.append(_swing(mission, keyed, camera, float(at[steepest]), turn))
-    if not found and camera.error > NOTICE and not camera.cuts:
+    if not found and camera.error > NOTICE_RAD and not camera.cuts:
         return _swing(mission, keyed, camera, camera.worst, 0.0)
     return max(found, key=lambda swing: swing.turn, default=None)
 
@@ -62,7 +62,7 @@ def _swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine, s: float, t
     assert name is not None
     height = abs(mission.target(name).centre[2] - float(keyed.position(s)[2]))
     pitch = float(camera.angles(s)[1])
-    return Swing(index, s, name, turn, pitch, height / tan(STEEP), camera.error)
+    return Swing(index, s, name, turn, pitch, height / tan(STEEP_RAD), camera.error)
 
 
 def _followed(keyed: KeyedPath, at: Array) -> np.ndarray:
@@ -75,7 +75,7 @@ def _followed(keyed: KeyedPath, at: Array) -> np.ndarray:
 def _course(position: Piecewise, at: Array) -> Array:
     """Return the direction of flight, unwrapped; where there is none, the last one."""
     rate = position.derivative()(at)[:, :2]
-    moves = np.linalg.norm(rate, axis=1) > SLOW
+    moves = np.linalg.norm(rate, axis=1) > SLOW_SLOPE
     if not moves.any():
         return np.zeros(len(at))
     last = np.maximum.accumulate(np.where(moves, np.arange(len(at)), int(moves.argmax())))

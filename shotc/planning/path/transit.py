@@ -23,21 +23,24 @@ from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
-from shotc.planning.free_space import MARGIN, FreeSpace, Obstacle, bounds_slack, taper
+from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, bounds_slack, taper
 from shotc.planning.obstacles import FreeSpaces
 from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
 from shotc.planning.path.position import Stretch, solve_stretch
 from shotc.planning.path.route import find_route, length
 from shotc.planning.path.shots import Stuck
 
-TIMES_LONGER, MORE = 1.5, 20.0  # how much longer than without the clearances a way may be, times and metres
+LONGER_RATIO, LONGER_M = (
+    1.5,
+    20.0,
+)  # how much longer than without the clearances a way may be, times and metres
 HALVINGS = 4  # of the share to which clearances are lessened where there is no way with all of them
-STEP = 0.2  # metres between the places of a ray that are compared
-TURNS = 24  # rays around an end
-RISES = (0.0, 0.6, 1.2, -0.6)  # rad that rays point upwards
-TRIED = 60  # places beside a short way that it may lead over
-PLAY = 3.0 * MARGIN  # metres beyond the clearances at which a way out of an end is at its end
-ROUNDING = 1e-6  # metres
+STEP_M = 0.2  # metres between the places of a ray that are compared
+RAYS = 24  # rays around an end
+RISES_RAD = (0.0, 0.6, 1.2, -0.6)  # rad that rays point upwards
+PLACES_TRIED = 60  # places beside a short way that it may lead over
+PLAY_M = 3.0 * MARGIN_M  # metres beyond the clearances at which a way out of an end is at its end
+ROUNDING_M = 1e-6  # metres
 
 
 def transit_curve(
@@ -139,13 +142,13 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Line | None:
     if route is not None:
         found.append(_joined(a, route, b))
     best = min(found, key=length, default=None)
-    most = inf if spaces.required else TIMES_LONGER * length(near) + MORE
+    most = inf if spaces.required else LONGER_RATIO * length(near) + LONGER_M
     return None if best is None or length(best) > most else _of(best)
 
 
 def _joined(a: Array, route: Array, b: Array) -> Array:
     """Return a route with its ends a and b; what is an end but for rounding is that end."""
-    between = [p for p in route if min(np.linalg.norm(p - a), np.linalg.norm(p - b)) > ROUNDING]
+    between = [p for p in route if min(np.linalg.norm(p - a), np.linalg.norm(p - b)) > ROUNDING_M]
     return np.array([a, *between, b])
 
 
@@ -154,7 +157,7 @@ def _settled(space: FreeSpace, ends: Array) -> FreeSpace:
 
     def settled(o: Obstacle) -> Obstacle:
         gap = float(distances(o.part, ends).min())
-        return replace(o, clearance=gap) if o.clearance - PLAY <= gap < o.clearance else o
+        return replace(o, clearance=gap) if o.clearance - PLAY_M <= gap < o.clearance else o
 
     return replace(space, obstacles=tuple(map(settled, space.obstacles)))
 
@@ -171,15 +174,15 @@ def _kept(space: FreeSpace, corners: Array) -> bool:
 
 
 def _along(corners: Array) -> Array:
-    """Return places along a polyline, at most STEP apart."""
+    """Return places along a polyline, at most STEP_M apart."""
     parts = [
-        p + np.linspace(0.0, 1.0, 1 + int(np.ceil(np.linalg.norm(q - p) / STEP)) + 1)[:, None] * (q - p)
+        p + np.linspace(0.0, 1.0, 1 + int(np.ceil(np.linalg.norm(q - p) / STEP_M)) + 1)[:, None] * (q - p)
         for p, q in pairwise(corners)
     ]
     return np.concatenate(parts)
 
 
-def _keeps(space: FreeSpace, points: Array, more: float = -ROUNDING) -> Mask:
+def _keeps(space: FreeSpace, points: Array, more: float = -ROUNDING_M) -> Mask:
     """Tell which places (..., 3) are as far from everything as is needed there, and so much more."""
     fine = np.ones(points.shape[:-1], dtype=np.bool_)
     for o in space.obstacles:
@@ -196,11 +199,11 @@ def _outside(flight: FreeSpace, wide: FreeSpace, end: Array, goal: Array) -> Arr
     if lack <= 0.0:
         return end
     # What is needed grows by the slope at least until it is had.
-    reach = np.arange(STEP, (lack + PLAY) / SLOPE + 2.0 * STEP, STEP)
-    points = end + reach[:, None] * directions(TURNS, RISES)[:, None, :]
+    reach = np.arange(STEP_M, (lack + PLAY_M) / SLOPE + 2.0 * STEP_M, STEP_M)
+    points = end + reach[:, None] * directions(RAYS, RISES_RAD)[:, None, :]
     fine = _keeps(wide, points)
-    inside = bounds_slack(flight, points.reshape(-1, 3)).reshape(fine.shape) >= MARGIN
-    there = np.logical_and.accumulate(fine & inside, axis=1) & _keeps(replace(wide, ends=()), points, PLAY)
+    inside = bounds_slack(flight, points.reshape(-1, 3)).reshape(fine.shape) >= MARGIN_M
+    there = np.logical_and.accumulate(fine & inside, axis=1) & _keeps(replace(wide, ends=()), points, PLAY_M)
     first = points[np.arange(len(there)), there.argmax(axis=1)][there.any(axis=1)]
     return _shortest(end, first, goal)
 
@@ -211,11 +214,11 @@ def _bent(flight: FreeSpace, wide: FreeSpace, a: Array, b: Array) -> Array | Non
     Between two near ends the clearances do not grow to the full ones, so that no way has to lead out so far.
     """
     apart = float(np.linalg.norm(b - a))
-    reach = np.arange(STEP, 0.5 * apart + 2.0 * STEP, STEP)
-    places = (0.5 * (a + b) + reach[:, None] * directions(TURNS, RISES)[:, None, :]).reshape(-1, 3)
-    places = places[_keeps(wide, places) & (bounds_slack(flight, places) >= MARGIN)]
+    reach = np.arange(STEP_M, 0.5 * apart + 2.0 * STEP_M, STEP_M)
+    places = (0.5 * (a + b) + reach[:, None] * directions(RAYS, RISES_RAD)[:, None, :]).reshape(-1, 3)
+    places = places[_keeps(wide, places) & (bounds_slack(flight, places) >= MARGIN_M)]
     order = np.argsort(np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1), kind="stable")
-    ways = (np.stack([a, place, b]) for place in places[order[:TRIED]])
+    ways = (np.stack([a, place, b]) for place in places[order[:PLACES_TRIED]])
     return next((corners for corners in ways if _kept(wide, corners)), None)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 
-STEEPEST = 1.25  # times the chord's slope, with which a quintic without curvature at its ends still rises
+STEEPEST_RATIO = 1.25  # of the chord's slope, with which a quintic without curvature at its ends still rises
 
 
 def steady(at: Array, value: Array) -> Piecewise:
@@ -33,11 +33,13 @@ def _slopes(h: Array, chord: Array) -> Array:
     agree = d0 * d1 > 0
     safe0, safe1 = np.where(agree, np.abs(d0), 1.0), np.where(agree, np.abs(d1), 1.0)
     mean = 3 * (h0 + h1) / ((2 * h1 + h0) / safe0 + (h1 + 2 * h0) / safe1)
-    inner = np.where(agree, np.sign(d0) * np.minimum(mean, STEEPEST * least), 0.0)
+    inner = np.where(agree, np.sign(d0) * np.minimum(mean, STEEPEST_RATIO * least), 0.0)
     ends = (_end(chord[0], inner[0]), _end(chord[-1], inner[-1]))
     return np.concatenate([ends[:1], inner, ends[1:]])
 
 
 def _end(chord: float, inner: float) -> float:
     """Return the slope at an outer end: that of a turn which changes its rate evenly, if it may be."""
-    return float(np.sign(chord) * np.clip((3 * abs(chord) - abs(inner)) / 2, 0.0, STEEPEST * abs(chord)))
+    return float(
+        np.sign(chord) * np.clip((3 * abs(chord) - abs(inner)) / 2, 0.0, STEEPEST_RATIO * abs(chord))
+    )

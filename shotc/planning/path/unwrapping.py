@@ -21,8 +21,8 @@ from shotc.solvers.headings import DEFAULT
 from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import HeadingTask, nearest_turns
 
-EASE = 1.3  # times the shortest turn from rest to rest, which an interval takes at least
-LONGEST = 24  # keyframes that are decided together
+EASE_RATIO = 1.3  # times the shortest turn from rest to rest, which an interval takes at least
+LONGEST_KEYFRAMES = 24  # keyframes that are decided together
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ def shifts(known: list[Known], how: Turning) -> list[float]:
     found = [0.0] * (known[-1].group + 1)
     angle, start = known[0].yaw, 0
     for i in range(1, len(known)):
-        if not (known[i].rest or i == len(known) - 1 or i - start == LONGEST):
+        if not (known[i].rest or i == len(known) - 1 or i - start == LONGEST_KEYFRAMES):
             continue
         turns = np.diff(_chosen(known[start : i + 1], how))
         for one, turn in zip(known[start + 1 : i + 1], turns, strict=True):
@@ -85,7 +85,7 @@ def _chosen(known: list[Known], how: Turning) -> Array:
     stated = tuple(_fixed(a, b) for a, b in pairwise(known))
     turns = np.abs([n if t is None else t for t, n in zip(stated, nearest_turns(yaw), strict=True)])
     flown = np.diff([k.s for k in known]) / how.speed
-    at = np.concatenate([[0.0], np.cumsum(np.maximum(flown, EASE * _shortest(turns, how)))])
+    at = np.concatenate([[0.0], np.cumsum(np.maximum(flown, EASE_RATIO * _shortest(turns, how)))])
     task = HeadingTask(at, yaw, stated, rate=how.rate, acceleration=how.acceleration)
     # Without a solution the first choice is as good: the time pass gives the turn the time that it needs.
     return solve_headings(task, how.method).angles

@@ -15,7 +15,7 @@ from shotc.planning.timing.leg import LegMotion, Plan, assemble, fastest_moves, 
 from shotc.planning.timing.limits import Ceiling, ceiling_of
 from shotc.planning.timing.move import Move, axes_of
 
-LEAST_SPEED = 1e-3  # m/s along the path, at rest
+LEAST_SPEED_M_S = 1e-3  # m/s along the path, at rest
 
 
 def rough_times(drone: Drone, leg: MovingLeg, pace: float) -> tuple[Array, Array]:
@@ -28,7 +28,7 @@ def rough_times(drone: Drone, leg: MovingLeg, pace: float) -> tuple[Array, Array
     for start, end in plan_of(leg).spans:
         s, b = rough_profile(leg.curve, start, end, axes_of(leg.curve, (start, end), ceiling))
         speed = np.sqrt(evened(b))
-        steps = 2 * np.diff(s) / np.maximum(speed[1:] + speed[:-1], LEAST_SPEED)
+        steps = 2 * np.diff(s) / np.maximum(speed[1:] + speed[:-1], LEAST_SPEED_M_S)
         places.append(s[1:])
         times.append(times[-1][-1] + np.cumsum(steps))
     return np.concatenate(places), np.concatenate(times)

@@ -18,7 +18,7 @@ from shotc.show.assignment.order import Cast, Scene
 from shotc.show.assignment.score import Score
 from shotc.show.solvers.move import Move, fastest
 
-TINY = 1e-6
+TINY_S = 1e-6
 """A time missed by less is met, seconds."""
 
 
@@ -95,7 +95,7 @@ class Director:
         start = display.timing.start
         if start is None:
             return max(0.0, ready - earliest)
-        if start < max(earliest, ready) - TINY and not self._found:
+        if start < max(earliest, ready) - TINY_S and not self._found:
             self._found.append(faults.too_early(self.mission, display, max(earliest, ready)))
         return max(0.0, start - earliest)
 
@@ -126,7 +126,7 @@ class Director:
         if picture.transition is None:
             return move.duration
         full = fastest(there - here, self.fleet.limits, 1.0)
-        if picture.transition >= full.duration - TINY:
+        if picture.transition >= full.duration - TINY_S:
             return max(picture.transition, full.duration)
         way = float(np.linalg.norm((there - here)[full.drone]))
         self._found.append(faults.too_fast(self.mission, self.fleet, picture, full, way))

@@ -17,7 +17,7 @@ from shotc.geom.bernstein import Array
 
 Labels = NDArray[np.intp]
 
-MOST = 100
+MOST_STEPS = 100
 """Steps after which the goals are taken as they are."""
 GAIN, LARGEST, PATIENCE = 3e-6, 3e-3, 3
 """Share of the cost, for every goal and at most, that so many steps have to gain, or else they end. Of many
@@ -115,7 +115,7 @@ def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clust
     near = _Nearest(points, goals)
     costs: list[float] = []
     enough = min(LARGEST, GAIN * len(goals))
-    for _ in range(MOST):
+    for _ in range(MOST_STEPS):
         # Not a product of BLAS: its threads cost more than a sum this short.
         cost = float(np.einsum("m,m->", near.own, near.own) + anchor * np.sum((goals - start) ** 2))
         if costs and cost > costs[-1]:

@@ -16,7 +16,7 @@ from shotc.geom.bernstein import Array
 
 Numbers = NDArray[np.intp]
 
-CHUNK = 1_000_000
+CHUNK_FACES = 1_000_000
 """Faces and columns that are brought together at a time: some hundred megabytes."""
 
 
@@ -152,7 +152,7 @@ def _chunks(columns: Columns, corners: Array) -> Iterator[tuple[Numbers, Numbers
     width = len(columns.counts)
     first, across = candidates(columns, corners)
     each = across.prod(axis=1)
-    bounds = np.searchsorted(np.cumsum(each), np.arange(CHUNK, each.sum() + CHUNK, CHUNK))
+    bounds = np.searchsorted(np.cumsum(each), np.arange(CHUNK_FACES, each.sum() + CHUNK_FACES, CHUNK_FACES))
     begin = 0
     for end in np.unique(np.append(np.minimum(bounds + 1, len(each)), len(each))):
         faces = np.repeat(np.arange(begin, end), each[begin:end])

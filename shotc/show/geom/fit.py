@@ -13,14 +13,14 @@ from shotc.geom.apart import spacing, stretch
 from shotc.ir.show import Apart, Box, Picture, Sphere, Torus
 from shotc.show.geom.sizes import resized
 
-MOST_DARK = 0.95
+MOST_DARK_SHARE = 0.95
 """Share of a fleet that may stay dark in a picture, since it has no room for more."""
 ROGERS = 0.7797
 """Most of a truncated Voronoi cell that its ball fills, in space (Rogers 1958)."""
 TRUNCATED = sqrt(1.5)
 """Radius at which the cells are truncated in that theorem, in radii of the ball."""
 ROUNDING = 1e-9
-STEP = 0.01  # to which a growth is found
+GROWTH_STEP = 0.01  # to which a growth is found
 
 
 def most_drones(picture: Picture, apart: Apart) -> float:
@@ -39,7 +39,7 @@ def growth(picture: Picture, apart: Apart, count: int) -> float:
     low, high = 1.0, 2.0
     while most_drones(_scaled(picture, high), apart) < count:
         low, high = high, 2.0 * high
-    while high - low > STEP:
+    while high - low > GROWTH_STEP:
         middle = 0.5 * (low + high)
         fits = most_drones(_scaled(picture, middle), apart) >= count
         low, high = (low, middle) if fits else (middle, high)

@@ -20,7 +20,7 @@ CURVE = 16
 """Lines that a Bezier curve becomes."""
 ARC = 48
 """Lines that an elliptic arc becomes: a circle is off by a five-hundredth of its radius at most."""
-MOST = 100_000
+MOST_ELEMENTS = 100_000
 """Elements, with those that `use` repeats, and lines in all."""
 
 DARK = 32
@@ -56,8 +56,10 @@ def drawing_body(source: Drawing, data: bytes) -> FlatBody | SourceFault:
         return _fault(source, "cannot be read", reason, "save it as plain SVG")
     if not shapes:
         return _fault(source, "has nothing to draw", "no path, no shape", "draw paths that are filled")
-    if sum(len(shape.edges) for shape in shapes) > 10 * MOST:
-        return _fault(source, "is too large", f"its curves are more than {10 * MOST} lines", "simplify it")
+    if sum(len(shape.edges) for shape in shapes) > 10 * MOST_ELEMENTS:
+        return _fault(
+            source, "is too large", f"its curves are more than {10 * MOST_ELEMENTS} lines", "simplify it"
+        )
     return _scaled(source, shapes)
 
 
@@ -102,22 +104,22 @@ def _repeated(root: Node) -> tuple[str, str] | None:
 
     def size(node: Node, depth: int) -> int:
         if depth > _DEEPEST:
-            return MOST + 1
+            return MOST_ELEMENTS + 1
         if id(node) in sizes:
             known = sizes[id(node)]
-            return MOST + 1 if known is None else known  # None: it is inside itself
+            return MOST_ELEMENTS + 1 if known is None else known  # None: it is inside itself
         sizes[id(node)] = None
         total = 1 + sum(size(child, depth + 1) for child in node.children)
         if _name(node.tag) == "use":
             name = next((v for k, v in node.attributes.items() if _name(k) == "href"), "").strip()[1:]
             total += size(by_id[name], depth + 1) if name in by_id else 0
-        sizes[id(node)] = min(total, MOST + 1)
-        return min(total, MOST + 1)
+        sizes[id(node)] = min(total, MOST_ELEMENTS + 1)
+        return min(total, MOST_ELEMENTS + 1)
 
-    if size(root, 0) <= MOST:
+    if size(root, 0) <= MOST_ELEMENTS:
         return None
     return (
-        f"with all that its `use` repeats it has more than {MOST} elements, or goes on for ever",
+        f"with all that its `use` repeats it has more than {MOST_ELEMENTS} elements, or goes on for ever",
         "simplify it",
     )
 

@@ -12,7 +12,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import wrapped
 
-TURN = np.radians(40.0)
+CORNER_RAD = np.radians(40.0)
 """Change of direction from which a place is a corner, which a letter without a light there loses."""
 RING = 3
 """Lights that a closed line without corners takes at least."""
@@ -86,7 +86,7 @@ def _parts(line: Array, least: float, metric: Array) -> list[_Part]:
     if not closed:
         turn[-1] = 0.0
     kept: list[int] = []
-    for k in np.argsort(-turn, kind="stable")[: int((turn > TURN).sum())] + 1:
+    for k in np.argsort(-turn, kind="stable")[: int((turn > CORNER_RAD).sum())] + 1:
         if (np.linalg.norm((line[kept] - line[k]) * metric, axis=1) >= least).all():
             kept.append(int(k))
     if not kept:

@@ -11,7 +11,7 @@ from shotc.geom.apart import spacing, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
-from shotc.planning.clearances import ROUNDING, Clearance
+from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.rounding import at_least, at_most
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.remedies import Remedies
@@ -139,7 +139,7 @@ def in_the_way(
 ) -> list[Diagnostic]:
     """Return one fault for each obstacle in which goals of a picture's frames are, and for the ground."""
     goals = np.concatenate(frames)
-    if not (room.lack(goals) > ROUNDING).any():
+    if not (room.lack(goals) > ROUNDING_M).any():
         return []
     # Where something stands between its goals, drones would have to come by it on their way.
     shift = least_shift(_whole(goals), room)
@@ -148,8 +148,8 @@ def in_the_way(
     label = place_of(mission, picture, "center")
     found: list[Diagnostic] = []
     low = float(goals[:, 2].min())
-    if low < room.lowest - ROUNDING:
-        count = int((goals[:, 2] < room.lowest - ROUNDING).sum()) // len(frames) or 1
+    if low < room.lowest - ROUNDING_M:
+        count = int((goals[:, 2] < room.lowest - ROUNDING_M).sum()) // len(frames) or 1
         note = (
             f"its lowest goal is {low:.2f} m up; `rules.ground_clearance` and the body radius of "
             f"{fleet.radius:.2f} m ask for {room.lowest:.2f} m"
@@ -174,11 +174,11 @@ def _at_obstacle(
 ) -> list[Diagnostic]:
     mission, fleet, label, help_, frames = about
     lack = lack_of(obstacle, goals)
-    if not (lack > ROUNDING).any():
+    if not (lack > ROUNDING_M).any():
         return []
     worst = goals[int(lack.argmax())]
     place = (float(worst[0]), float(worst[1]), float(worst[2]))
-    count = int((lack > ROUNDING).sum()) // frames or 1
+    count = int((lack > ROUNDING_M).sum()) // frames or 1
     message = f"the picture {obstacle.relation(place)}: {_of(count, fleet)}"
     note = f"the worst is at [{place[0]:.2f}, {place[1]:.2f}, {place[2]:.2f}]: "
     labels = (label, mission.origins.key(obstacle.owner.path, "the obstacle"))

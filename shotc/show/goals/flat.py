@@ -24,10 +24,10 @@ from shotc.show.geom.columns import (
 )
 from shotc.show.goals.body import Fill, upright_axes
 
-COLUMNS = 0.25
+COLUMNS_PER_POINT = 0.25
 """Columns drawn for each point: most of them carry several, and thin strokes are hit often enough."""
 
-FINE, MOST = 2000, 200_000
+FINE_COLUMNS, MOST_POINTS = 2000, 200_000
 """Columns, and points of each shape's edges and of all, by which it is told what is seen at a place."""
 UNPAINTED: Color = (255, 255, 255)
 
@@ -91,13 +91,13 @@ class FlatBody:
     @property
     def stroke(self) -> float:
         """Width that strokes of this area and these edges have, metres."""
-        columns, inside = self._inside(FINE, np.random.default_rng(0))
+        columns, inside = self._inside(FINE_COLUMNS, np.random.default_rng(0))
         return 2.0 * volume(columns, inside) / self.outlines
 
     def _inside(self, count: int, rng: np.random.Generator) -> tuple[Columns, Spans]:
         corners = np.concatenate([s.edges.reshape(-1, 2) for s in self.shapes])
         low, high = corners[:, :1].min(axis=0), corners[:, :1].max(axis=0)
-        columns = columns_below(low, high, max(50, round(COLUMNS * count)), rng)
+        columns = columns_below(low, high, max(50, round(COLUMNS_PER_POINT * count)), rng)
         found = [spans(through_edges(columns, s.edges), s.parity) for s in self.shapes if s.filled]
         return columns, united(found)
 
@@ -141,12 +141,12 @@ def _along(edges: Array, count: int, rng: np.random.Generator) -> Array:
 def _seen(shapes: Sequence[Shape], places: Array) -> Numbers:
     """Return which shape is seen at places (n, 2): of the filled ones there the last, or else the nearest."""
     rng = np.random.default_rng(0)
-    count = max(4, min(FINE, MOST // len(shapes)))
+    count = max(4, min(FINE_COLUMNS, MOST_POINTS // len(shapes)))
     points = np.concatenate([_along(s.edges, count, rng) for s in shapes])
     found: Numbers = np.asarray(cKDTree(points).query(places)[1], dtype=np.intp) // count
     corners = np.concatenate([places, *(s.edges.reshape(-1, 2) for s in shapes)])
     low, high = corners.min(axis=0), corners.max(axis=0)
-    columns = columns_below(low[:1], high[:1], FINE, rng)
+    columns = columns_below(low[:1], high[:1], FINE_COLUMNS, rng)
     column = np.clip((places[:, 0] - low[0]) / columns.cell[0], 0, len(columns.places) - 1).astype(np.intp)
     tall = 2.0 * float(high[1] - low[1])
     for k, shape in enumerate(shapes):

@@ -14,12 +14,12 @@ from shotc.show.goals.body import Body, Fill, SourceFault, upright_axes
 from shotc.show.goals.model import mesh_body, open_edges
 from shotc.show.goals.model_file import Mesh, Unreadable, read_model
 
-LARGEST = 1000.0
+LARGEST_M = 1000.0
 """Extent of a picture, metres, beyond which its file is in another unit."""
 UNITS = (("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254), ("ft", 0.3048))
-LIKELY = 20.0
+LIKELY_M = 20.0
 """Extent that pictures tend to have, metres: of the units that make sense, the nearest to it is named."""
-LEAP = 5.0
+LEAP_RATIO = 5.0
 """Factor between the extents of one frame and the next beyond which they cannot be in one unit."""
 
 
@@ -73,7 +73,7 @@ def _uneven(source: Model, meshes: list[Mesh]) -> SourceFault | None:
     sizes = [float(np.linalg.norm(np.ptp(m.corners, axis=0))) for m in meshes]
     for k, (one, other) in enumerate(pairwise(sizes)):
         factor = max(one, other) / min(one, other)
-        if factor > LEAP:
+        if factor > LEAP_RATIO:
             names = source.files[k : k + 2]
             message = f"frames `{names[0]}` and `{names[1]}` differ in size by a factor of {factor:.3g}"
             note = f"their bounding boxes are {one:.4g} and {other:.4g} across, corner to corner"
@@ -84,9 +84,9 @@ def _uneven(source: Model, meshes: list[Mesh]) -> SourceFault | None:
 def _out_of_scale(source: Model, mesh: Mesh) -> SourceFault | None:
     size = source.unit * np.ptp(mesh.corners, axis=0)
     largest = float(size.max())
-    if source.height is not None or largest <= LARGEST:
+    if source.height is not None or largest <= LARGEST_M:
         return None
-    unit, factor = min(UNITS, key=lambda u: abs(log10(u[1] / source.unit * largest / LIKELY)))
+    unit, factor = min(UNITS, key=lambda u: abs(log10(u[1] / source.unit * largest / LIKELY_M)))
     message = f"model `{source.files[0]}` is {largest:.5g} m large"
     likely = factor / source.unit
     note = f"were it in {unit}, it would be {largest * likely:.3g} m large"

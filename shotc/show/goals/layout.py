@@ -12,7 +12,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Lettering, Picture
-from shotc.show.geom.fit import MOST_DARK
+from shotc.show.geom.fit import MOST_DARK_SHARE
 from shotc.show.goals.body import Body, Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.faults import no_points, too_few_points, viewpoint_inside
@@ -104,7 +104,7 @@ def _partly_lit(
     """Return the goals of as many drones as find room in every frame, the others dark behind it, or None."""
     fill, goals = what
     number = min(what_fits(setting, frame).number for frame in goals)
-    while number >= max(1.0, (1.0 - MOST_DARK) * setting.number):
+    while number >= max(1.0, (1.0 - MOST_DARK_SHARE) * setting.number):
         few = replace(setting, number=number)
         shown = _placed(task, few, bodies, fill)
         layout = None if isinstance(shown, Diagnostic) else _apart(few, bodies, (fill, shown), dark=False)

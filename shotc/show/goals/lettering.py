@@ -15,7 +15,7 @@ from shotc.show.goals.body import SourceFault
 from shotc.show.goals.flat import FlatBody, Shape, closed, standing
 from shotc.spec.words import closest
 
-PIXELS = 200.0
+OUTLINE_PX = 200.0
 """Size at which letters are outlined: curves become lines of a pixel or so, less than a hundredth of them."""
 
 
@@ -82,7 +82,7 @@ def _reason(error: Exception) -> str:
 
 
 def _sized(font: Any) -> Any:
-    font.set_size(PIXELS, 72)
+    font.set_size(OUTLINE_PX, 72)
     return font
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.show.geom.centroids import centroids
-from shotc.show.geom.fit import MOST_DARK
+from shotc.show.geom.fit import MOST_DARK_SHARE
 from shotc.show.geom.push_along import push_along, thinned
 from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places
@@ -17,10 +17,10 @@ from shotc.show.goals.edges import along_edges
 from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.spaced import Placed, Setting
 
-SLACKS = (0.1, 0.2)
+SLACK_SHARES = (0.1, 0.2)
 """Shares of the spacing by which a light may be off its stroke. The second, at which letters look uneven,
 is for where it gives all lights room."""
-NEARLY = 50
+ONE_IN = 50
 """One in so many lights more is not looked for."""
 
 
@@ -40,7 +40,7 @@ def on_strokes(body: FlatBody, fill: Fill, goals: Placed, setting: Setting) -> P
 
 def all_lit(strokes: Strokes) -> Lit | None:
     """Return goals apart on the picture's strokes, or None where they do not hold all."""
-    tries = (strokes.all_of(strokes.setting.number, slack) for slack in SLACKS)
+    tries = (strokes.all_of(strokes.setting.number, slack) for slack in SLACK_SHARES)
     found = next((goals for goals in tries if goals is not None), None)
     return None if found is None else Lit(strokes.placed(found), len(found))
 
@@ -48,14 +48,14 @@ def all_lit(strokes: Strokes) -> Lit | None:
 def lit(strokes: Strokes) -> Lit | None:
     """Return goals apart on the picture's strokes, as many as find room there, the others behind it.
 
-    None : for more than ``MOST_DARK`` of them there is none, or none behind either
+    None : for more than ``MOST_DARK_SHARE`` of them there is none, or none behind either
     """
     found = all_lit(strokes)
     if found is not None:
         return found
     shown = strokes.placed(strokes.most())
     spare = strokes.setting.number - len(shown)
-    if spare > MOST_DARK * strokes.setting.number:
+    if spare > MOST_DARK_SHARE * strokes.setting.number:
         return None
     dark = dark_places(shown, spare, strokes.setting, strokes.body.axes[1])
     return None if dark is None else Lit(np.concatenate([shown, dark]), len(shown))
@@ -94,7 +94,7 @@ class Strokes:
     def most(self) -> Array:
         """Return as many goals as are found to fit: the worst placed taken out, then placed anew."""
         number = self.setting.number
-        slack = SLACKS[0] * self.setting.least
+        slack = SLACK_SHARES[0] * self.setting.least
         best = max(
             (
                 thinned(start, self._shape, self.setting.least, slack, self._held)
@@ -103,9 +103,9 @@ class Strokes:
             key=len,
         )
         low, high = len(best), number
-        while high - low > max(1, number // NEARLY):
+        while high - low > max(1, number // ONE_IN):
             middle = (low + high) // 2
-            found = self.all_of(middle, SLACKS[0])
+            found = self.all_of(middle, SLACK_SHARES[0])
             low, high, best = (low, middle, best) if found is None else (middle, high, found)
         return best
 

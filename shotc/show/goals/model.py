@@ -21,9 +21,9 @@ from shotc.show.geom.columns import (
 from shotc.show.goals.body import Fill
 from shotc.show.goals.model_file import Mesh
 
-COLUMNS = 0.25
+COLUMNS_PER_POINT = 0.25
 """Columns drawn for each point."""
-MOST = 20_000_000
+MOST_PAIRS = 20_000_000
 """Pairs of a column and a face below whose box it runs, beyond which fewer columns are taken."""
 
 
@@ -63,7 +63,7 @@ class MeshBody:
         corners = self.mesh.corners[self.mesh.triangles]
         if fill == "surface":
             return _on_surface(corners, count, rng)
-        columns = _affordable(corners, round(COLUMNS * count), rng)
+        columns = _affordable(corners, round(COLUMNS_PER_POINT * count), rng)
         inside = spans(through_triangles(columns, corners), self.parity)
         if not len(inside.low) or not (inside.high - inside.low).sum() > 0:
             return None
@@ -103,9 +103,9 @@ def _affordable(corners: Array, count: int, rng: np.random.Generator) -> Columns
     low, high = flat.min(axis=0), flat.max(axis=0)
     columns = columns_below(low, high, max(100, count), rng)
     work = int(candidates(columns, corners)[1].prod(axis=1).sum())
-    if work <= MOST:
+    if work <= MOST_PAIRS:
         return columns
-    return columns_below(low, high, max(100, count * MOST // work), rng)
+    return columns_below(low, high, max(100, count * MOST_PAIRS // work), rng)
 
 
 def _on_surface(corners: Array, count: int, rng: np.random.Generator) -> Array | None:

@@ -10,11 +10,11 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet
-from shotc.planning.clearances import ROUNDING, Clearance, clearances_of, outward
+from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of, outward
 
-FAR = 1000.0
+FAR_M = 1000.0
 """Metres beyond which no shift is looked for."""
-STEPS = 60
+SHIFT_ROUNDS = 60
 DIRECTIONS = 16
 
 
@@ -57,21 +57,21 @@ def least_shift(goals: Array, room: Room) -> Array | None:
     """
     best: Array | None = None
     for way in _ways():
-        most = FAR if best is None else float(np.linalg.norm(best))
+        most = FAR_M if best is None else float(np.linalg.norm(best))
         length = _along(goals, room, way, most)
         if length is not None and length < most:
             x, y, z = way * length
             shift = np.array(outward((0.0, 0.0, 0.0), (x, y, z)))
-            if (room.lack(goals + shift) <= ROUNDING).all():
+            if (room.lack(goals + shift) <= ROUNDING_M).all():
                 best = shift
     return best
 
 
 def _along(goals: Array, room: Room, way: Array, most: float) -> float | None:
     length = 0.0
-    for _ in range(STEPS):
+    for _ in range(SHIFT_ROUNDS):
         missing = float(room.lack(goals + length * way).max())
-        if missing <= ROUNDING:
+        if missing <= ROUNDING_M:
             return length
         length += max(missing, 0.005)
         if length >= most:

@@ -16,11 +16,11 @@ from shotc.show.goals.room import Room
 
 NEIGHBOURS = 12
 """Points that tell how a surface lies near a goal."""
-LOWEST = 0.02
+LOWEST_SHARE = 0.02
 """Share of the spacing below which no fit is looked for."""
 ENOUGH = 12
 """Points a goal with which the searches do."""
-CLOSE = 1.04
+CLOSE_RATIO = 1.04
 """Factor between what fits and what does not at which the searches end."""
 
 
@@ -105,7 +105,7 @@ def what_fits(setting: Setting, goals: Placed) -> Fit:
         start = even if number == full else centroids(few, number).goals
         return push_apart(start, shape, setting.least * share, _anywhere) is not None
 
-    share = _most(lambda s: fits(full, s), LOWEST, 1.0)
+    share = _most(lambda s: fits(full, s), LOWEST_SHARE, 1.0)
     # In a volume the number goes with the third power of the share, along a line with the first.
     low = max(1.0, 0.7 * full * share**3)
     while low > 1.0 and not fits(round(low), 1.0):
@@ -119,7 +119,7 @@ def _anywhere(_: Array, after: Array) -> Array:
 
 def _most(fits: Callable[[float], bool], low: float, high: float) -> float:
     """Return about the most that fits, between ``low``, which does, and ``high``, which does not."""
-    while high > CLOSE * low:
+    while high > CLOSE_RATIO * low:
         middle = (low * high) ** 0.5
         low, high = (middle, high) if fits(middle) else (low, middle)
     return low

@@ -25,7 +25,7 @@ from shotc.show.separation.off_goals import farthest
 from shotc.show.separation.pushed import kept
 from shotc.show.separation.repair import Keeper
 
-MUCH = 0.5
+MUCH_SHARE = 0.5
 """Share of the goals' spacing beyond which being off a goal is told: the picture is not the one asked for."""
 
 
@@ -49,7 +49,7 @@ class KeepApart:
             stats += keeper.stats()
             off = farthest(fleets[-1], wanted)
             stats += off.stats(flight.fleet)
-            if off.distance > MUCH * spacing(keeper.fleet.apart):
+            if off.distance > MUCH_SHARE * spacing(keeper.fleet.apart):
                 warnings.append(bent(mission, keeper.fleet, off))
         for one, other in combinations(fleets, 2):
             found += _meeting(mission, one, other)

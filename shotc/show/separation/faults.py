@@ -20,7 +20,7 @@ from shotc.show.labels import wider
 from shotc.show.separation.longer import Stretch
 from shotc.show.separation.off_goals import Off
 
-STILL = 1e-6
+STILL_M = 1e-6
 """Metres by which a drone on its pad moves at most."""
 DEGREE = 3
 """Of the splines: a control point acts from so many breaks before its own on."""
@@ -106,7 +106,7 @@ def _in_turn(first: FleetTrajectory, second: FleetTrajectory) -> str:
     """Say when the fleet that shows later could begin, to leave its pads once the other has landed."""
     if second.shown[0].start < first.shown[0].start:
         first, second = second, first
-    moved = np.abs(second.coef - second.coef[:, :1]).max(axis=(0, 2)) > STILL
+    moved = np.abs(second.coef - second.coef[:, :1]).max(axis=(0, 2)) > STILL_M
     lead = second.shown[0].start - float(second.breaks[max(int(np.argmax(moved)) - DEGREE, 0)])
     start = ceil(first.phases[-1].end + lead)
     return (

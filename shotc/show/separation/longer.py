@@ -27,7 +27,7 @@ FACTORS = (1.5, 2.5, 4.0)
 HALVINGS = 4
 """Times that are tried between one that is not enough and one that is."""
 
-MOST = 3 * ROUNDS
+MOST_ROUNDS = 3 * ROUNDS
 """Rounds of all tries together: what three failures cost. Where there is room a try takes few of them."""
 
 
@@ -97,7 +97,7 @@ class _Trial:
 
     def __init__(self, stretch: Stretch, fleet: Fleet, ctx: PassContext) -> None:
         self.stretch, self.fleet, self.ctx = stretch, fleet, ctx
-        self.left = MOST
+        self.left = MOST_ROUNDS
 
     def enough(self, seconds: float) -> bool:
         """Tell whether the drones are kept apart when the stretch takes so long."""

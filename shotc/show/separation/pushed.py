@@ -17,20 +17,20 @@ GROWTH = 1.8
 """By which the weight of being apart grows from round to round."""
 
 WEIGHT = 10.0
-MARGIN = (0.02, 0.004)
+MARGIN_SHARES = (0.02, 0.004)
 """Share of the distance that is asked for beyond it: in the first round, and more in each that follows."""
 
-NOISE = 0.01
+NOISE_M = 0.01
 """Shift by which two that fly at each other head-on are given a side, metres."""
 
 DIGITS = 6
 """Decimals of a metre that control points keep, as in ``assign-goals``."""
 
-SLACK = 1e-6
+SLACK_SHARE = 1e-6
 """What the proof may fall short of, a share of the distance and of a metre at least, as in verification."""
 
 
-HOPELESS = 0.05
+HOPELESS_SHARE = 0.05
 """Share of the distance that is lacking when nobody asks for the limits yet, which takes longest."""
 
 
@@ -49,7 +49,7 @@ class Pushed:
 
 def kept(proven: float, across: float) -> bool:
     """Tell whether a proved distance is the one to be kept, metres."""
-    return proven >= across - SLACK * max(1.0, across)
+    return proven >= across - SLACK_SHARE * max(1.0, across)
 
 
 def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS) -> Pushed:
@@ -63,11 +63,11 @@ def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = 
     rng = np.random.default_rng(seed)
     coef, movable, reached = wanted, np.zeros(0, dtype=np.intp), 0.0
     for k in range(rounds):
-        distance = fleet.apart.across * (1.0 + MARGIN[0] + k * MARGIN[1])
+        distance = fleet.apart.across * (1.0 + MARGIN_SHARES[0] + k * MARGIN_SHARES[1])
         crowded = np.setdiff1d(pusher.crowded(coef, distance), movable)
         coef, movable = _shaken(coef, crowded, rng), np.union1d(movable, crowded)
         coef = pusher.push(coef, wanted, movable, Push(distance, WEIGHT * GROWTH**k))
-        if len(pusher.crowded(coef, (1.0 - HOPELESS) * fleet.apart.across)):
+        if len(pusher.crowded(coef, (1.0 - HOPELESS_SHARE) * fleet.apart.across)):
             continue
         done = bounded(breaks, np.round(coef, DIGITS), bounds)
         if len(done.failed):
@@ -81,5 +81,5 @@ def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = 
 def _shaken(coef: Array, rows: Index, rng: np.random.Generator) -> Array:
     """Shift the inner control points of some drones a little, so that those head-on have a side to pass."""
     coef = coef.copy()
-    coef[rows, 3:-3] += rng.normal(scale=NOISE, size=(len(rows), coef.shape[1] - 6, 3))
+    coef[rows, 3:-3] += rng.normal(scale=NOISE_M, size=(len(rows), coef.shape[1] - 6, 3))
     return coef

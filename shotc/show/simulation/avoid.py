@@ -18,9 +18,9 @@ from shotc.geom.bernstein import Array
 
 NEIGHBOURS = 15
 """Nearest drones that one looks at."""
-SIGHT = 8.0
+SIGHT_M = 8.0
 """Metres within which it looks for them: two at 3.5 m/s close 7 m within the horizon."""
-HORIZON = 1.0
+HORIZON_S = 1.0
 """Seconds ahead for which what is flown is free of conflict.
 
 Who looks farther gives way to those who are about to turn off anyhow, and strays by metres."""
@@ -55,7 +55,7 @@ class Avoidance:
 
     def _filled(self, position: Array) -> Any:
         radius = 0.5 * ball(self.apart)
-        world = PyRVOSimulator(self.period, SIGHT, NEIGHBOURS, HORIZON, radius, self.speed)
+        world = PyRVOSimulator(self.period, SIGHT_M, NEIGHBOURS, HORIZON_S, radius, self.speed)
         for at in position.tolist():
             world.addAgent(tuple(at))
         return world

@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.show.simulation.follow import Gains, Reference, preferred
 from shotc.show.simulation.vehicle import Gusts, State, Vehicle, moved, within
 
-PERIOD = 0.05
+PERIOD_S = 0.05
 """Seconds between commands."""
 
 Avoid = Callable[[Array, Array, Array], Array]
@@ -30,7 +30,7 @@ class Conditions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flown:
-    """What came of it, every ``PERIOD``; times : (T,), the rest (n, T, 3).
+    """What came of it, every ``PERIOD_S``; times : (T,), the rest (n, T, 3).
 
     position, velocity : of the drones over ground; wanted : where they should be
     preferred : velocity that the controller asks for, before avoidance
@@ -76,14 +76,14 @@ def flying(
     position = reference.together(breaks[:1])[:, 0]
     still = np.zeros_like(position)
     state = State(position, still, still, conditions.gusts.at_first(len(position), rng))
-    for now in (np.arange(round((breaks[-1] - breaks[0]) / PERIOD) + 1) * PERIOD + breaks[0]).tolist():
+    for now in (np.arange(round((breaks[-1] - breaks[0]) / PERIOD_S) + 1) * PERIOD_S + breaks[0]).tolist():
         ask = preferred(reference, conditions.gains, now, state.position, state.over_ground)
         wanted = reference.together(np.array([now]))[:, 0]
         yield Moment(now, state.position, state.over_ground, wanted, ask)
         if avoid is not None:
             ask = avoid(state.position, state.over_ground, within(ask, conditions.vehicle.speed))
-        state = moved(conditions.vehicle, state, ask, PERIOD)
-        state = replace(state, gust=conditions.gusts.after(state.gust, PERIOD, rng))
+        state = moved(conditions.vehicle, state, ask, PERIOD_S)
+        state = replace(state, gust=conditions.gusts.after(state.gust, PERIOD_S, rng))
 
 
 def fly(breaks: Array, coef: Array, conditions: Conditions, avoid: Avoid | None = None) -> Flown:

@@ -17,9 +17,9 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import pieces, places
 
-SPACING = 0.05
+SPACING_S = 0.05
 """Seconds between the points of the path among which the nearest is looked for first."""
-SLOW = 0.02
+SLOW_M_S = 0.02
 """m/s below which a path has no tangent worth following."""
 TINY = 1e-9
 
@@ -87,7 +87,7 @@ def preferred(reference: Reference, gains: Gains, now: float, position: Array, v
     place, rate, bend = reference.each(_nearest(reference, gains, now, position))
     goal = reference.together(np.array([now + gains.ahead]))[:, 0] - position
     speed = _size(rate)
-    tangent = np.where(speed > SLOW, rate / np.maximum(speed, TINY), _unit(goal))
+    tangent = np.where(speed > SLOW_M_S, rate / np.maximum(speed, TINY), _unit(goal))
     off = place - position
     normal = _unit(off - _dot(off, tangent) * tangent)
     along = gains.along[0] * _dot(goal, tangent) + gains.along[1] * (speed - _dot(velocity, tangent))
@@ -100,13 +100,13 @@ def _nearest(reference: Reference, gains: Gains, now: float, position: Array) ->
     first, last = reference.breaks[0], reference.breaks[-1]
     low, high = (first, last) if gains.as_printed else (now - gains.reach, now + gains.reach)
     low, high = np.clip([low, high], first, last)
-    times = np.linspace(low, high, max(2, int(np.ceil((high - low) / SPACING)) + 1))
+    times = np.linspace(low, high, max(2, int(np.ceil((high - low) / SPACING_S)) + 1))
     away = reference.together(times) - position[:, None]
     found = times[np.argmin(np.einsum("ntd,ntd->nt", away, away), axis=1)]
     # One Newton step leads from the sample to the foot of the perpendicular.
     place, rate, _ = reference.each(found)
-    step = _dot(position - place, rate) / np.maximum(_dot(rate, rate), SLOW**2)
-    return np.asarray(np.clip(found + np.clip(step[:, 0], -SPACING, SPACING), low, high))
+    step = _dot(position - place, rate) / np.maximum(_dot(rate, rate), SLOW_M_S**2)
+    return np.asarray(np.clip(found + np.clip(step[:, 0], -SPACING_S, SPACING_S), low, high))
 
 
 def _dot(one: Array, other: Array) -> Array:

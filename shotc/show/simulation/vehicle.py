@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 
-STEP = 0.01
+STEP_S = 0.01
 """Longest step of integration, seconds: a fifteenth of the fastest lag."""
 
 
@@ -74,7 +74,7 @@ def moved(vehicle: Vehicle, state: State, command: Array, step: float) -> State:
 
     The loop holds the velocity over ground; the acceleration follows what it asks with the lag.
     """
-    parts = max(1, round(step / STEP))
+    parts = max(1, round(step / STEP_S))
     h = step / parts
     command = within(command, vehicle.speed)
     position, velocity, acceleration = state.position, state.velocity, state.acceleration

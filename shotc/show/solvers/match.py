@@ -3,7 +3,7 @@
 Two drones whose straight moves start at x_i, x_j and end at g_i, g_j never come nearer than sqrt(1/2) of
 the lesser of their first and last distances if (x_i - x_j).(g_i - g_j) >= 0 (``geom.apart``). The least sum
 of squares has that for all pairs, for a negative one would do better swapped; so has any matching in which
-no pair would. Up to ``EXACT`` drones the sum is the least (``scipy.optimize.linear_sum_assignment``); more
+no pair would. Up to ``EXACT_DRONES`` the sum is the least (``scipy.optimize.linear_sum_assignment``); more
 are halved again and again, drones and goals alike, matched exactly within the parts, and then swapped until
 no pair of all is left.
 """
@@ -20,14 +20,14 @@ from shotc.geom.bernstein import Array
 
 Index = NDArray[np.intp]
 
-EXACT = 1000
+EXACT_DRONES = 1000
 """Drones up to which the sum of squares is the least there is: 0.3 s for lattices of as many, 2 s for twice
 as many, where swaps take 0.2 s and end 0.05 to 3.4 per cent above."""
 
-PART = 500
+PART_DRONES = 500
 """Drones in a part of a larger fleet, at most."""
 
-BLOCK = 256
+BLOCK_DRONES = 256
 """Drones whose pairs with all others are looked at together."""
 
 TOLERANCE = 1e-9
@@ -43,7 +43,7 @@ def matched(starts: Array, goals: Array) -> Index:
     near = np.asarray(cKDTree(goals).query(starts)[1])
     if len(np.unique(near)) == len(near):
         return near  # Each has the nearest of all: nothing is less.
-    if len(starts) <= EXACT:
+    if len(starts) <= EXACT_DRONES:
         return _least(starts, goals)
     order = np.empty(len(starts), dtype=np.intp)
     everything = np.arange(len(starts))
@@ -69,7 +69,7 @@ def _least(starts: Array, goals: Array) -> Index:
 
 def _parts(starts: Array, goals: Array, drones: Index, places: Index) -> list[tuple[Index, Index]]:
     """Halve drones and goals alike, across the way in which they are widest, into parts that match."""
-    if len(drones) <= PART:
+    if len(drones) <= PART_DRONES:
         return [(drones, places)]
     x, g = starts[drones] - starts[drones].mean(axis=0), goals[places] - goals[places].mean(axis=0)
     widest = np.linalg.eigh(x.T @ x + g.T @ g)[1][:, -1]
@@ -108,10 +108,10 @@ def _least_products(starts: Array, goals: Array, rows: Index) -> tuple[Array, In
     """Return for some drones the least product with any other drone, and which that is."""
     own = np.einsum("nd,nd->n", starts, goals)
     least, other = np.empty(len(rows)), np.empty(len(rows), dtype=np.intp)
-    for at in range(0, len(rows), BLOCK):
-        some = rows[at : at + BLOCK]
+    for at in range(0, len(rows), BLOCK_DRONES):
+        some = rows[at : at + BLOCK_DRONES]
         products = own[some, None] + own - starts[some] @ goals.T - goals[some] @ starts.T
         products[np.arange(len(some)), some] = np.inf
-        other[at : at + BLOCK] = products.argmin(axis=1)
-        least[at : at + BLOCK] = products.min(axis=1)
+        other[at : at + BLOCK_DRONES] = products.argmin(axis=1)
+        least[at : at + BLOCK_DRONES] = products.min(axis=1)
     return least, other

@@ -21,16 +21,16 @@ from shotc.ir.limits import Limits
 PIECES = (8, 12, 16, 20, 32)
 """Numbers of pieces that a move may have."""
 
-WORTH = 1.02
+WORTH_RATIO = 1.02
 """A move of more pieces has to be faster by this factor."""
 
-LEAST_PIECE = 0.1
+LEAST_PIECE_S = 0.1
 """Shortest piece, seconds: below it control points rounded to a micrometre would show in the jerk."""
 
-SHARE = 0.999
+LIMIT_SHARE = 0.999
 """Share of the limits that is used, so that rounding breaks none."""
 
-TICK = 1e-6
+TICK_S = 1e-6
 """Lengths of pieces are whole numbers of it, seconds, where nobody asked for a length."""
 
 
@@ -74,7 +74,7 @@ class _Ceilings:
                     limits.descent / np.maximum(-ways[:, 2], 0.0),
                 ]
             )
-            scale = SHARE * pace
+            scale = LIMIT_SHARE * pace
             named = ("speed", "climb", "descent")
             return _Ceilings(
                 scale * rates.min(axis=0),
@@ -90,11 +90,11 @@ def fastest(ways: Array, limits: Limits, pace: float) -> Move:
     best: tuple[float, Array] | None = None
     for pieces in PIECES:
         shapes, steps = _family(pieces)
-        least = np.maximum(_least_pieces(steps, ceilings), LEAST_PIECE)
+        least = np.maximum(_least_pieces(steps, ceilings), LEAST_PIECE_S)
         # Of those that are as fast, the smoothest.
         k = int(np.where(least <= 1.001 * least.min(), steps[:, 2], inf).argmin())
-        if best is None or pieces * least[k] * WORTH < best[0] * (len(best[1]) - 3):
-            best = float(np.ceil(least[k] / TICK) * TICK), shapes[k]
+        if best is None or pieces * least[k] * WORTH_RATIO < best[0] * (len(best[1]) - 3):
+            best = float(np.ceil(least[k] / TICK_S) * TICK_S), shapes[k]
     assert best is not None
     return _named(best[1], best[0], ceilings)
 

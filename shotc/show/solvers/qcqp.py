@@ -30,22 +30,22 @@ Index = NDArray[np.intp]
 FIXED = 3
 """Control points at each end that stay."""
 
-SHARE = 0.9998
-"""Share of the limits that the iteration aims at: its last violation, ``EXACT`` of it, then breaks none."""
+LIMIT_SHARE = 0.9998
+"""Of the limits, what the iteration aims at: its last violation, ``EXACT_SHARE`` of it, then breaks none."""
 
-EXACT = 1.5e-4
-STATIONARY = 5e-4
+EXACT_SHARE = 1.5e-4
+STATIONARY_SHARE = 5e-4
 """Largest share of the objective's slope that may be left."""
 
 RELAXATION = 1.7
-STEPS = 4.0 ** np.arange(-5, 6)
+STEP_RATIOS = 4.0 ** np.arange(-5, 6)
 """Step lengths relative to the mean curvature of the objective over that of the rows."""
 
 ROUND = 20
 """Iterations between two looks at the residuals."""
 
 ROUNDS = 60
-BLOCK = 128
+BLOCK_DRONES = 128
 """Drones solved together: their rows fit the processor's cache."""
 
 
@@ -106,9 +106,9 @@ def bounded(breaks: Array, wanted: Array, bounds: Bounds) -> Bounded:
     coef, failed, exact, most = wanted.copy(), [], 0, 0
     if not len(bad):
         return Bounded(coef, bad, 0, 0, 0)
-    programme = Programme(breaks, bounds.scaled(SHARE))
-    for at in range(0, len(bad), BLOCK):
-        rows = bad[at : at + BLOCK]
+    programme = Programme(breaks, bounds.scaled(LIMIT_SHARE))
+    for at in range(0, len(bad), BLOCK_DRONES):
+        rows = bad[at : at + BLOCK_DRONES]
         coef[rows], done, iterations = programme.solve(wanted[rows])
         most = max(most, iterations)
         for row in rows[~done | (overdraft(breaks, coef[rows], bounds) > 0.0)]:
@@ -185,7 +185,7 @@ class Programme:
         self.ends = csr_array(np.concatenate([whole[:, :FIXED], whole[:, -FIXED:]], axis=1))
         self.inner = self.weight[FIXED:-FIXED, FIXED:-FIXED]
         gram = np.asarray(whole[:, FIXED:-FIXED].T @ whole[:, FIXED:-FIXED])
-        self.steps = STEPS * float(np.trace(self.inner) / np.trace(gram))
+        self.steps = STEP_RATIOS * float(np.trace(self.inner) / np.trace(gram))
         self.inverses = [np.linalg.inv(self.inner + step * gram) for step in self.steps]
 
     def solve(self, wanted: Array) -> tuple[Array, NDArray[np.bool_], int]:
@@ -193,7 +193,7 @@ class Programme:
         state = _State.of(self, wanted)
         done = np.zeros(len(wanted), dtype=bool)
         result, active, rounds = wanted.copy(), np.arange(len(wanted)), 0
-        levels = np.full(len(wanted), len(STEPS) // 2)
+        levels = np.full(len(wanted), len(STEP_RATIOS) // 2)
         while len(active) and rounds < ROUNDS:
             rounds += 1
             for level in np.unique(levels[active]):
@@ -202,8 +202,8 @@ class Programme:
                 finished = (primal < 1.0) & (dual < 1.0)
                 done[some[finished]] = True
                 ratio = np.sqrt(primal.clip(1e-3) / dual.clip(1e-3))
-                change = np.rint(np.log(ratio) / np.log(STEPS[1] / STEPS[0])).astype(int)
-                levels[some] = np.clip(level + change, 0, len(STEPS) - 1)
+                change = np.rint(np.log(ratio) / np.log(STEP_RATIOS[1] / STEP_RATIOS[0])).astype(int)
+                levels[some] = np.clip(level + change, 0, len(STEP_RATIOS) - 1)
             active = np.flatnonzero(~done)
         result[:, FIXED:-FIXED] = state.points()
         return result, done, rounds * ROUND
@@ -331,7 +331,7 @@ class _State:
         for part in self.programme.rows:
             gap = np.abs(rows[part.span] - z[part.span]) / part.scale[:, None, None]
             worst = np.maximum(worst, gap.max(axis=(0, 2), initial=0.0) / least[part.order - 1])
-        return worst / EXACT
+        return worst / EXACT_SHARE
 
     def _slope(self, x: Array, forces: Array, some: Index) -> Array:
         flat = (len(x), -1)
@@ -339,4 +339,4 @@ class _State:
         left = slope + (self.programme.back @ forces.reshape(len(forces), -1)).reshape(x.shape)
         size = np.sqrt(np.einsum("knd,knd->n", slope, slope))
         rest = np.sqrt(np.einsum("knd,knd->n", left, left))
-        return np.asarray(rest / (STATIONARY * np.maximum(size, 1e-9)))
+        return np.asarray(rest / (STATIONARY_SHARE * np.maximum(size, 1e-9)))

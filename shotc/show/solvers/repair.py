@@ -24,13 +24,13 @@ from shotc.show.solvers.qcqp import FIXED, Bounds, Programme
 
 Index = NDArray[np.intp]
 
-STEP = 0.35
+STEP_SHARE = 0.35
 """Largest way of two drones relative to each other between samples, as a share of their distance."""
 
-LONGEST = 0.25
+LONGEST_S = 0.25
 """Longest time between samples, seconds."""
 
-NEAR = 0.15
+NEAR_SHARE = 0.15
 """Pairs that are no nearer than this beyond what is wanted are not looked at, as a share of the distance."""
 
 ITERATIONS = 60
@@ -59,7 +59,7 @@ class Pusher:
         """Return times so close that nobody gets far between two of them."""
         velocity = np.diff(places(self.breaks, coef, self.breaks), axis=1) / np.diff(self.breaks)[:, None]
         fastest = 2.0 * float(np.linalg.norm((velocity - velocity.mean(axis=0)) * self.scale, axis=2).max())
-        step = min(LONGEST, STEP * self.apart.across / max(fastest, 1e-9))
+        step = min(LONGEST_S, STEP_SHARE * self.apart.across / max(fastest, 1e-9))
         count = int(np.ceil((self.breaks[-1] - self.breaks[0]) / step))
         return np.linspace(self.breaks[0], self.breaks[-1], count + 1)
 
@@ -138,7 +138,7 @@ class _Cost:
         self.offset = (basis @ self.ends.reshape(len(self.ends), -1)).reshape(-1, *self.shape[1:])
         self.step = float(times[1] - times[0])
         at = places(pusher.breaks, start, times) * pusher.scale
-        reach = self.push.wanted + NEAR * pusher.apart.across
+        reach = self.push.wanted + NEAR_SHARE * pusher.apart.across
         # Rows of the movable drones; minus one is somebody who stays.
         row = np.full(len(start), -1, dtype=np.intp)
         row[movable] = np.arange(len(movable))

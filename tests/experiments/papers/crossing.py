@@ -18,7 +18,7 @@ from shotc.geom.separation import closest
 from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.simulation.fly import PERIOD, Conditions, Flown, fly
+from shotc.show.simulation.fly import PERIOD_S, Conditions, Flown, fly
 from shotc.show.simulation.near import nearest
 from shotc.show.simulation.vehicle import Gusts, Vehicle
 from shotc.show.solvers.match import matched
@@ -112,7 +112,7 @@ def flight(breaks: Array, coef: Array, case: Case) -> Flown:
         room = NEEDED._replace(horizontal=0.7 + ROOM, vertical=(0.7 + ROOM) / stretch(NEEDED))
         from shotc.show.simulation.avoid import Avoidance  # its library has few wheels
 
-        avoid = Avoidance(room, SPEED, PERIOD)
+        avoid = Avoidance(room, SPEED, PERIOD_S)
     return fly(breaks, coef, Conditions(case.vehicle, gusts=Gusts(case.gusts), seed=6), avoid)
 
 

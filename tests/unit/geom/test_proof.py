@@ -268,7 +268,7 @@ def test_a_sight_line_that_only_touches_is_free() -> None:
 def test_a_bound_that_is_left_coarse_is_still_a_bound(halted: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     # Whether it need not be any closer, or too many pieces are open: what was not looked into counts.
     if halted:
-        monkeypatch.setattr(proof, "OPEN_LIMIT", 0)
+        monkeypatch.setattr(proof, "OPEN_PIECES_LIMIT", 0)
     gap = 1e-6 if halted else 100.0
     hill = Piecewise(np.array([0.0, 1.0]), np.array([[[0.0, 0.0, 0.0], [0.0, 8.0, 9.0], [0.0, 0.0, 0.0]]]))
     highest = sup_norm(pieces(hill), lambda _: gap)

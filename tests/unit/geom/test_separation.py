@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import centres, places
-from shotc.geom.separation import GAP, closest, closest_between
+from shotc.geom.separation import GAP_M, closest, closest_between
 from shotc.ir.show import Apart
 
 BALL = Apart("ellipsoid", 0.9, 1.9, 0.1)
@@ -42,7 +42,7 @@ def test_two_that_cross_are_nearest_where_arithmetic_says() -> None:
     found = closest(breaks, coef, BALL)
     expected = hypot(1.5 * sqrt(2), 0.8 * 0.5)
     assert found.attained == pytest.approx(expected, abs=1e-6)
-    assert expected - 2 * GAP * expected < found.proven <= expected
+    assert expected - 2 * GAP_M * expected < found.proven <= expected
     assert found.time == pytest.approx(1.5, abs=1e-3)
     assert (found.first, found.second) == (0, 1)
     assert found.position == pytest.approx((0.75, -0.75, 10.4), abs=1e-3)
@@ -76,8 +76,8 @@ def test_the_bound_is_below_every_sample_and_close_to_one(seed: int, apart: Apar
     found = closest(breaks, coef, apart)
     sampled = dense(breaks, coef, apart)
     assert found.proven <= sampled
-    assert found.attained <= sampled + 2 * GAP * max(1.0, sampled)
-    assert found.proven > found.attained - 2 * GAP * max(1.0, found.attained)
+    assert found.attained <= sampled + 2 * GAP_M * max(1.0, sampled)
+    assert found.proven > found.attained - 2 * GAP_M * max(1.0, found.attained)
     pair = places(breaks, coef[[found.first, found.second]], np.array([found.time]))[:, 0]
     r = (pair[0] - pair[1]) * [1.0, 1.0, apart.across / apart.upright]
     size = np.linalg.norm(r) if apart.shape == "ellipsoid" else max(hypot(r[0], r[1]), abs(r[2]))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from shotc.geom.camera import nearest_depth, silhouette_bounds, view
 from shotc.geom.framing import Cameras
 from shotc.geom.silhouette import (
-    NEAR,
+    NEAR_PLANE_M,
     cylinder_contour,
     cylinder_outline,
     edge_strips,
@@ -97,7 +97,7 @@ def test_what_is_in_front_of_a_cut_cylinder_is_inside_its_outline(
     x, y = away * cos(yaw + bearing), away * sin(yaw + bearing)
     points = surface(np.random.default_rng(2), radius, height) + np.array([x, y, z])
     u, v, depth = camera.project((points[:, 0], points[:, 1], points[:, 2]))
-    on_screen = (depth > NEAR) & (abs(u) < 1) & (abs(v) < 1)
+    on_screen = (depth > NEAR_PLANE_M) & (abs(u) < 1) & (abs(v) < 1)
     outline = cylinder_outline(camera, (x, y, z), radius, height, count=400)
     if on_screen.any():
         assert overshoot(outline, np.stack([u, v], axis=-1)[on_screen]) < 5e-3
@@ -138,7 +138,7 @@ def test_prism_outline_contains_its_points_even_when_cut(
     xy = weights @ np.array(prism.points)
     points = np.column_stack([xy, rng.uniform(0, 12, 300)]) - np.array(eye)
     u, v, depth = camera.project((points[:, 0], points[:, 1], points[:, 2]))
-    inside = (depth > NEAR) & (abs(u) < 3) & (abs(v) < 3)
+    inside = (depth > NEAR_PLANE_M) & (abs(u) < 3) & (abs(v) < 3)
     if inside.any():
         (outline,) = solid_outlines(camera, eye, prism)
         assert overshoot(outline, np.stack([u, v], axis=-1)[inside]) < 1e-9

@@ -15,7 +15,7 @@ from shotc.geom.solid_arrays.points import bounded, closest_points, distances, s
 from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Prism, box, convex_parts, distance
 from shotc.planning.free_space import (
-    COMFORT,
+    COMFORT_M,
     Disc,
     FreeSpace,
     Obstacle,
@@ -112,7 +112,7 @@ def test_control_points_beyond_the_plane_keep_the_curve_clear(solid, chord, ctrl
 def test_a_piece_keeps_half_of_what_there_is_but_no_more_than_comfort():
     solid = Cylinder((0.0, 0.0), 2.0, 0.0, 10.0)
     space = FreeSpace((Obstacle(owner("zone z"), solid, 1.0),), (), ())
-    for distance_, kept in ((1.2, 1.1), (9.0, 1.0 + COMFORT)):
+    for distance_, kept in ((1.2, 1.1), (9.0, 1.0 + COMFORT_M)):
         chord = np.array([[[2 + distance_, -1.0, 5.0], [2 + distance_, 1.0, 5.0]]])
         planes = corridor(space, chord, 100.0)
         assert planes.offset[0, 0] - support(solid, planes.normal)[0] == pytest.approx(kept, abs=0.02)

@@ -57,7 +57,7 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     far = ca.sqrt(ca.sumsqr(away) + TINY)
     flat = ca.sqrt(ca.sumsqr(away[:2]) + (STEEP * far) ** 2)
     seen = outline(camera, away, far, (radius, height))
-    edges = ca.vertcat(-seen.left, seen.right, -seen.low, seen.high) - viewpoint.EDGE
+    edges = ca.vertcat(-seen.left, seen.right, -seen.low, seen.high) - viewpoint.EDGE_SHARE
     return ca.vertcat(
         given["placed"] * (seen.place - given["uv"]),
         given["sized"] * ca.log(0.5 * (seen.high - seen.low) / given["size"]),

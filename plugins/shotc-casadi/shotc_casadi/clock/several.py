@@ -44,21 +44,21 @@ def _asked(mission: MissionIR, subject: PlacedSubject, sized: bool) -> list[floa
     azimuth, elevation = subject.view or (None, None)
     both = azimuth is not None and elevation is not None
     toward = viewpoint.direction(azimuth or 0.0, (elevation or 0.0) if both else 0.0)
-    silent = 0.0 if sized else viewpoint.FAINT
+    silent = 0.0 if sized else viewpoint.FAINT_WEIGHT
     return [
         target.radius,
         target.height,
         *(subject.reference or (0.0, 0.0)),
-        viewpoint.LONG if subject.size is None else subject.size,
+        viewpoint.WHOLE_SIZE if subject.size is None else subject.size,
         *toward,
         elevation or 0.0,
-        viewpoint.FAINT if subject.reference is None else 1.0,
+        viewpoint.FAINT_WEIGHT if subject.reference is None else 1.0,
         silent if subject.size is None else 1.0,
-        viewpoint.STEEP if subject.size is None or subject.size <= 1.0 else 0.0,
+        viewpoint.HARD_WEIGHT if subject.size is None or subject.size <= 1.0 else 0.0,
         float(both),
         float(azimuth is not None and not both),
         float(elevation is not None and not both),
-        viewpoint.FAINT if elevation is None else 0.0,
+        viewpoint.FAINT_WEIGHT if elevation is None else 0.0,
     ]
 
 
@@ -76,7 +76,7 @@ def where_it_fits(rows: Array, drone: Drone, ideal: Array, reach: Array) -> Arra
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)
     there = (offset[:, 0], offset[:, 1], offset[:, 2])
     left, right, low, high = silhouette_bounds(camera, there, radius, height)
-    fits = np.maximum(right - left, high - low) <= 2.0 * viewpoint.EDGE
+    fits = np.maximum(right - left, high - low) <= 2.0 * viewpoint.EDGE_SHARE
     kept = rows.copy()
     kept[:, 0, WHOLE] *= fits & (np.linalg.norm(offset, axis=1) > np.hypot(radius, height / 2))
     return kept

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
-from shotc.planning.clearances import ROUNDING, clearances_of
+from shotc.planning.clearances import ROUNDING_M, clearances_of
 from shotc.planning.framing.placing import place_shot
 
 STEP = 1.0  # metres between the values that are tried
@@ -60,9 +60,9 @@ def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator
     around, floor = clearances_of(mission, drone), mission.rules.over_ground(drone.radius)
 
     def blocked(k: Keyframe) -> bool:
-        if k.at[2] < floor - ROUNDING:
+        if k.at[2] < floor - ROUNDING_M:
             return True
-        met = next((i for i, o in enumerate(around) if o.lack(k.at) > ROUNDING), None)
+        met = next((i for i, o in enumerate(around) if o.lack(k.at) > ROUNDING_M), None)
         if met is not None:
             around.insert(0, around.pop(met))
         return met is not None

@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
-from shotc.planning.clearances import NUDGE, ROUNDING, Clearance, clearances_of, move, outward
+from shotc.planning.clearances import NUDGE_M, ROUNDING_M, Clearance, clearances_of, move, outward
 from shotc.rounding import at_least
 
 ROUND = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
@@ -26,7 +26,7 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
     faults: list[Diagnostic] = []
     for drone in mission.drones:
         label = mission.origins.value((*drone.path, "home"))
-        if drone.home[2] < -ROUNDING:
+        if drone.home[2] < -ROUNDING_M:
             note = f"it is {-drone.home[2]:.2f} m under z = 0, the ground"
             help_ = f"raise it by {at_least(-drone.home[2])} m, to z = 0"
             message = f"the home of `{drone.name}` is underground"
@@ -51,7 +51,7 @@ def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
     least = mission.rules.separation
     for one, other in combinations(mission.drones, 2):
         away = dist(one.home, other.home)
-        if away >= least - ROUNDING or not filming & {one.name, other.name}:
+        if away >= least - ROUNDING_M or not filming & {one.name, other.name}:
             continue
         labels = (
             mission.origins.value((*other.path, "home")),
@@ -70,7 +70,7 @@ def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
     """
     least, (x, y, z) = mission.rules.separation, standing.home
     straight = atan2(moved.home[1] - y, moved.home[0] - x)
-    reach = sqrt(max(0.0, least**2 - (moved.home[2] - z) ** 2)) + NUDGE
+    reach = sqrt(max(0.0, least**2 - (moved.home[2] - z) ** 2)) + NUDGE_M
     for turn in ROUND:
         way = straight + radians(turn)
         place = outward(standing.home, (x + reach * cos(way), y + reach * sin(way), z))
@@ -83,7 +83,7 @@ def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
 def stands_free(mission: MissionIR, drone: Drone) -> bool:
     """Tell whether a home is clear of what stands, on it and above it, and apart from the other homes."""
     others = (other.home for other in mission.drones if other.name != drone.name)
-    apart = all(dist(drone.home, home) >= mission.rules.separation - ROUNDING for home in others)
+    apart = all(dist(drone.home, home) >= mission.rules.separation - ROUNDING_M for home in others)
     return apart and all(_obstructed(mission, drone, o) is None for o in clearances_of(mission, drone))
 
 
@@ -91,7 +91,7 @@ def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[
     """Return what stands against a home, and the numbers; None where nothing does."""
     top = max(drone.home[2], mission.rules.over_ground(drone.radius))
     room = take_off_room(drone.home, top, obstacle)
-    if room >= drone.radius - ROUNDING:
+    if room >= drone.radius - ROUNDING_M:
         return None
     if obstacle.inside:
         where = f"{room:.2f} m from its border" if room > 0 else f"{abs(room):.2f} m outside"

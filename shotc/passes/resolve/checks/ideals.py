@@ -16,7 +16,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.framing import beyond_gimbal
 from shotc.passes.resolve.checks.keeping_up import check_speed
 from shotc.passes.resolve.checks.timing import timing_label
-from shotc.planning.clearances import ROUNDING
+from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import at_least, down, up
 
 
@@ -45,7 +45,7 @@ def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         if track is None:
             continue
         begins = max(known or 0.0, track.since) if start is None else start
-        if begins >= track.since - ROUNDING and begins + duration <= track.until + ROUNDING:
+        if begins >= track.since - ROUNDING_M and begins + duration <= track.until + ROUNDING_M:
             continue
         beside = mission.origins.value((*mission.target(name).path, "track"), "the track")
         until = f"to {track.until:.2f} s" if track.until < inf else "on"
@@ -82,7 +82,7 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         return
     need = mission.rules.over_ground(mission.drone(shot.drone).radius)
     lowest = min(offset[2] for _, offset in ideal.points)
-    if lowest >= need - ROUNDING:
+    if lowest >= need - ROUNDING_M:
         return
     key = "altitude" if (*shot.path, "altitude") in mission.origins.values else "kind"
     yield Diagnostic(

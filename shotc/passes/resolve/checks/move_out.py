@@ -7,7 +7,7 @@ from math import dist
 
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.planning.clearances import ROUNDING, Clearance, clearances_of, free_place, move, outward
+from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of, free_place, move, outward
 from shotc.planning.framing.placing import place_shot
 
 STEP = 1.1  # times the distance to the target, from one place that is tried to the next
@@ -32,7 +32,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
     for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:WAYS]:
         for q in _farther(centre, way):
             place = outward(p, q)
-            if place[2] < floor - ROUNDING or any(o.lack(place) > ROUNDING for o in around):
+            if place[2] < floor - ROUNDING_M or any(o.lack(place) > ROUNDING_M for o in around):
                 continue
             if _shown(mission, shot, keyframe, place):
                 found.append(place)

@@ -10,7 +10,7 @@ from shotc.geom.solids import point
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.owners import drone_owner
 from shotc.passes.resolve.lower.names import AUTO
-from shotc.planning.clearances import ROUNDING, Clearance, free_move
+from shotc.planning.clearances import ROUNDING_M, Clearance, free_move
 from shotc.spec.mission import MissionSpec
 
 
@@ -25,7 +25,7 @@ def check_parked(spec: MissionSpec, mission: MissionIR) -> Iterator[Diagnostic]:
     standing = [drone for drone in mission.drones if drone.name not in filming]
     for shot in mission.shots if standing else ():
         for keyframe in shot.keyframes:
-            near = [d for d in standing if dist(keyframe.at, d.home) < mission.rules.separation - ROUNDING]
+            near = [d for d in standing if dist(keyframe.at, d.home) < mission.rules.separation - ROUNDING_M]
             if near and keyframe.placed:
                 yield _too_near(mission, shot, keyframe, min(near, key=lambda d: dist(keyframe.at, d.home)))
 

@@ -16,7 +16,7 @@ from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.clear_path import Change, clear_path
 from shotc.passes.resolve.checks.move_out import move_out
-from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
+from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
 from shotc.rounding import at_least
 
 
@@ -54,7 +54,7 @@ def too_low(
     lowest = min(keyframes, key=lambda k: k.at[2])
     floor = mission.rules.over_ground(drone.radius)
     z = lowest.at[2]
-    if z >= floor - ROUNDING:
+    if z >= floor - ROUNDING_M:
         return
     where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
     note = (
@@ -107,7 +107,7 @@ def blocked(
 ) -> Iterator[Diagnostic]:
     """Yield the fault of a line whose keyframes an obstacle blocks; ``clear`` finds what frees a path."""
     drone = mission.drone(shot.drone)
-    lacking = [k for k in keyframes if obstacle.lack(k.at) > ROUNDING]
+    lacking = [k for k in keyframes if obstacle.lack(k.at) > ROUNDING_M]
     if not lacking:
         return
     worst = max(lacking, key=lambda k: obstacle.lack(k.at))

@@ -16,7 +16,7 @@ from shotc.ir.owners import GROUND, Owner, owner_of
 from shotc.ir.path import PathDeviation
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import flight_space, pad_space
-from shotc.planning.path.angles import NOTICE, Cut
+from shotc.planning.path.angles import NOTICE_RAD, Cut
 from shotc.planning.path.gap import lower_clearance, narrow_gap, opening
 from shotc.planning.path.lines import NoWay, TooNear
 from shotc.planning.path.pad import PadBlocked, transit_point
@@ -164,7 +164,7 @@ def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
             f"and the picture turns by {degrees(swing.turn):.0f} deg there"
         )
         notes = [f"{where}, the camera looks {degrees(abs(swing.pitch)):.0f} deg {_WAY[over]}"]
-        notes += [f"meanwhile {off}"] if swing.miss > NOTICE else []
+        notes += [f"meanwhile {off}"] if swing.miss > NOTICE_RAD else []
         help_ = f"pass at least {swing.aside:.1f} m to one side of it, or give `heading` and `pitch`"
     else:
         message = f"the camera of shot `{shot.shot.id}` cannot keep target `{swing.target}` in its place"

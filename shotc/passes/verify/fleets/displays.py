@@ -21,7 +21,7 @@ from shotc.ir.tolerances import ON_PLACE
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Limit, Worst, gap, held
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
-from shotc.passes.verify.shots import ON_TIME
+from shotc.passes.verify.shots import ON_TIME_S
 
 
 def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
@@ -51,7 +51,7 @@ def _timing(flight: FleetFlight, display: Display, phase: Phase, ends: dict[str,
     ]
     for name, key, off, time in asked:
         if off is not None:
-            limit = Limit(name, ON_TIME, "s", (*path, key), shot=display.id)
+            limit = Limit(name, ON_TIME_S, "s", (*path, key), shot=display.id)
             yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
 
 
@@ -80,7 +80,7 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
     lack, at = max(short, key=lambda found: found[0], default=(-inf, None))
     if at is not None:
         path = (*display.pictures[at.picture].path, "hold")
-        limit = Limit("lack of hold", ON_TIME, "s", path, shot=display.id)
+        limit = Limit("lack of hold", ON_TIME_S, "s", path, shot=display.id)
         yield held(name, limit, Worst(max(lack, 0.0), at.start, "exact"))
 
 
@@ -95,7 +95,7 @@ def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) 
                 found.append((off, other.start, (*picture.path, "transition")))
     if found:
         off, time, path = max(found, key=lambda item: item[0])
-        limit = Limit("error of transition", ON_TIME, "s", path, shot=display.id)
+        limit = Limit("error of transition", ON_TIME_S, "s", path, shot=display.id)
         yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
 
 

@@ -20,7 +20,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN
 from shotc.passes.verify.claims import TOLERANCE, Limit
 from shotc.passes.verify.fleets.flight import FleetFlight, of_drone
-from shotc.passes.verify.shape import AT_HOME, LARGEST, SHORTEST, first_few, gaps
+from shotc.passes.verify.shape import AT_HOME_M, LARGEST_M, SHORTEST_S, first_few, gaps
 
 
 def fleet_structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
@@ -44,10 +44,10 @@ def _faults(mission: MissionIR, track: FleetTrajectory) -> Iterator[str]:
     if breaks.ndim != 1 or len(breaks) < 2 or coef.shape != wanted:
         yield f"it has control points of shape {coef.shape} for {len(pads)} pads and {len(breaks)} breaks"
         return
-    if not (np.isfinite(breaks).all() and np.isfinite(coef).all()) or np.abs(coef).max() > LARGEST:
+    if not (np.isfinite(breaks).all() and np.isfinite(coef).all()) or np.abs(coef).max() > LARGEST_M:
         yield "its curves reach beyond any flight"
         return
-    if np.diff(breaks).min() < SHORTEST:
+    if np.diff(breaks).min() < SHORTEST_S:
         yield f"a piece of its curves lasts {np.diff(breaks).min():.3g} s"
         return
     times = [t for p in track.phases for t in (p.start, p.end)]
@@ -73,7 +73,7 @@ def shape(flight: FleetFlight) -> Iterator[Claim]:
     away = norm(
         np.stack([flight.at(float(t)) for t in ends], axis=1) - np.stack([flight.pads, flight.ends], 1)
     )
-    home = Limit("distance from home", AT_HOME, "m", flight.key("layout"))
+    home = Limit("distance from home", AT_HOME_M, "m", flight.key("layout"))
     yield _farthest(flight, home, away, ends)
     still = np.stack([np.abs(flight.at(float(t), n)).max(axis=1) for n in (1, 2) for t in ends], axis=1)
     rest = Limit("rate at start and end", AT_REST, "m/s", flight.fleet.path)

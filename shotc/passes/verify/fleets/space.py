@@ -24,12 +24,12 @@ from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap
 from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone
-from shotc.passes.verify.space import DRIFT, less
+from shotc.passes.verify.space import DRIFT_M, less
 
-SEEDS = 256
+SEED_PIECES = 256
 """Pieces, the nearest by their boxes, of which the nearest place is found first."""
 
-BATCH = 50_000
+BATCH_PIECES = 50_000
 """Pieces that are held against a keep-in zone at once; its footprint may have a thousand corners."""
 
 Gap = Callable[[float], float]
@@ -105,10 +105,10 @@ def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetP
 
 def nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
     """Bound the infimum of the distance from a solid along many pieces, as ``inf_distance`` does."""
-    if len(pieces) > SEEDS:
+    if len(pieces) > SEED_PIECES:
         apart = box_gap(pieces.ctrl, solid)
         seeds = np.zeros(len(pieces), dtype=bool)
-        seeds[np.argpartition(apart, SEEDS)[:SEEDS]] = True
+        seeds[np.argpartition(apart, SEED_PIECES)[:SEED_PIECES]] = True
         reached = inf_distance(pieces.pick(seeds), solid, gap).attained
         pieces = pieces.pick(apart <= max(reached, 0.0))
     return inf_distance(pieces, solid, gap)
@@ -185,14 +185,14 @@ def _keep_in(flight: FleetFlight, zone: Zone, free: FleetPieces, upright: list[F
 
 
 def _batches(pieces: Pieces) -> Iterator[Pieces]:
-    for k in range(0, len(pieces), BATCH):
-        part = slice(k, k + BATCH)
+    for k in range(0, len(pieces), BATCH_PIECES):
+        part = slice(k, k + BATCH_PIECES)
         yield Pieces(pieces.low[part], pieces.high[part], pieces.ctrl[part])
 
 
 def _vertical(flight: FleetFlight, upright: Upright) -> Iterator[Claim]:
     path = flight.key("layout")
-    aside = Limit("drift from the vertical", DRIFT, "m", path)
+    aside = Limit("drift from the vertical", DRIFT_M, "m", path)
     below = Limit("depth below home", 0.0, "m", path)
     yield _worse(aside, [_drift(flight, aside, part) for part in upright])
     yield _worse(below, [_sunk(flight, below, part) for part in upright])
@@ -200,7 +200,7 @@ def _vertical(flight: FleetFlight, upright: Upright) -> Iterator[Claim]:
 
 def _drift(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:
     pads = part[1]
-    found = sup_convex(_from_pads(*part).channels(0, 1), norm, gap(DRIFT))
+    found = sup_convex(_from_pads(*part).channels(0, 1), norm, gap(DRIFT_M))
     return bounded(flight, limit, found, lambda p: norm((p - pads)[:, :2]))
 
 

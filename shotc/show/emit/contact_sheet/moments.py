@@ -12,7 +12,7 @@ from shotc.ir.sampling import light_colors
 from shotc.ir.show import Display
 from shotc.ir.trajectory import VerifiedIR
 
-MOST = 12
+MOST_MOMENTS = 12
 """Pictures of one display on a sheet; of more, they are chosen evenly."""
 
 MOST_FRAMES = 4
@@ -72,7 +72,7 @@ def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> t
         if (frames := [s for s in shown if s.picture == picture])
         for i in _evenly(len(frames), MOST_FRAMES)
     ]
-    chosen = [chosen[i] for i in _evenly(len(chosen), MOST)]
+    chosen = [chosen[i] for i in _evenly(len(chosen), MOST_MOMENTS)]
     before = max((p.end for p in flight.phases if p.shot is None and p.end <= chosen[0].start), default=0.0)
     left = max((p.start for p in flight.phases if p.start < chosen[0].start), default=before)
     moments, since = [], min(left, before)

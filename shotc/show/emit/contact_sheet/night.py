@@ -18,10 +18,10 @@ ZENITH, HORIZON = (0.012, 0.018, 0.045), (0.060, 0.078, 0.130)
 EARTH, FAR = (0.022, 0.026, 0.028), (0.050, 0.056, 0.058)
 LINE = (0.20, 0.23, 0.27)
 
-UNLIT = 26.0
+UNLIT_GREY = 26.0
 """Grey of a drone whose light is off, of 255: it is there, though nobody would see it."""
 
-SIZE = 0.35
+GLOW_M = 0.35
 """Radius of the glow of a light, metres."""
 
 SMALLEST, LARGEST = 0.0022, 0.011
@@ -64,11 +64,11 @@ def _lights(at: Array, colors: Colors, seen: Audience, size: tuple[int, int]) ->
     view = seen.view(columns / rows)
     u, v, depth = view.project((away[:, 0], away[:, 1], away[:, 2]))
     shown = (depth > 0.5) & (np.abs(u) < 1.1) & (np.abs(v) < 1.1)
-    share = SIZE / (depth * 2.0 * float(view.half_width))
+    share = GLOW_M / (depth * 2.0 * float(view.half_width))
     for i in np.flatnonzero(shown):
         x, y = (u[i] + 1.0) / 2.0 * columns - 0.5, (1.0 - v[i]) / 2.0 * rows - 0.5
         radius = columns * float(np.clip(share[i], SMALLEST, LARGEST))
-        _spot(picture, (x, y), radius, np.maximum(colors[i] / 255.0, UNLIT / 255.0))
+        _spot(picture, (x, y), radius, np.maximum(colors[i] / 255.0, UNLIT_GREY / 255.0))
     return picture
 
 

@@ -17,18 +17,18 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.contact_sheet.ground import draw_ground, map_height
 from shotc.show.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
 from shotc.show.emit.contact_sheet.night import night
-from shotc.show.emit.contact_sheet.stands import NUMBER, number
+from shotc.show.emit.contact_sheet.stands import NUMBER_IN, number
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.34
 HEADING, FOOTING, BAND, CAPTION = 1.30, 0.35, 0.60, 0.46
 MAP, COLUMNS = 3.9, 2
-SLIT = 0.05
+SLIT_IN = 0.05
 """Between small frames, and between them and the large one, inches."""
 
 CELL = (WIDTH - 2 * MARGIN - MAP - 0.35 + GAP) / COLUMNS - GAP
-BIG = (CELL - SLIT + 2 * SLIT / BETWEEN * ASPECT * (BETWEEN - 1) / 2) / (1 + 1 / BETWEEN)
+BIG = (CELL - SLIT_IN + 2 * SLIT_IN / BETWEEN * ASPECT * (BETWEEN - 1) / 2) / (1 + 1 / BETWEEN)
 HEIGHT = BIG / ASPECT
-SMALL = (HEIGHT - (BETWEEN - 1) * SLIT) / BETWEEN
+SMALL = (HEIGHT - (BETWEEN - 1) * SLIT_IN) / BETWEEN
 LEAST_MAP = 3.2
 
 
@@ -128,17 +128,17 @@ def _cell(
     (x, y), (board, moment), (seen, wide) = at, what, how[0]
     width = SMALL * ASPECT
     for i, time in enumerate(moment.way):
-        box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT), width, SMALL)
+        box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT_IN), width, SMALL)
         _sky(canvas, box, (board.flight, time), (wide, how[1]))
         canvas.text(box.x + 0.05, box.y + 0.05, clock(time), Type(7.5, WHITE))
-    box = Box(x + width + SLIT, y, BIG, HEIGHT)
+    box = Box(x + width + SLIT_IN, y, BIG, HEIGHT)
     _sky(canvas, box, (board.flight, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
     name = (
         moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"
     )
-    number(canvas, (box.x + NUMBER, y - 0.15), board.moments.index(moment))
-    canvas.write(box.x + 2 * NUMBER + 0.07, y - 0.19, name, Type(10, INK, bold=True), 0.55 * BIG - 0.26)
+    number(canvas, (box.x + NUMBER_IN, y - 0.15), board.moments.index(moment))
+    canvas.write(box.x + 2 * NUMBER_IN + 0.07, y - 0.19, name, Type(10, INK, bold=True), 0.55 * BIG - 0.26)
     stands = clock(moment.start)
     if moment.end - moment.start >= 1.0:
         stands = f"{clock(moment.start)} to {clock(moment.end)}"

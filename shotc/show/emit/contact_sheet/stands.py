@@ -19,22 +19,22 @@ from shotc.geom.solids import convex_hull
 from shotc.ir.sampling import light_colors
 from shotc.show.emit.contact_sheet.moments import Board
 
-NUMBER = 0.095
+NUMBER_IN = 0.095
 """Radius of a picture's number, inches."""
 
-BODY = 0.03
+BODY_IN = 0.03
 """How far an outline is from the lights, so that flat pictures have one, too, inches."""
 
-FINE = 0.04
+FINE_IN = 0.04
 """Between two points of an outline, inches."""
 
-APART = 0.25
+APART_IN = 0.25
 """Distance from all other outlines beyond which a place on an outline is as good as any, inches."""
 
-FACE = 0.28
+FACE_SHARE = 0.28
 """How much of its colour the insides of all outlines have together, of 1."""
 
-CELL = 0.12
+CELL_IN = 0.12
 """Width of the squares of which an outline's inside is made, inches."""
 
 
@@ -45,7 +45,7 @@ def color_of(index: int) -> Rgb:
 
 def number(canvas: Canvas, at: tuple[float, float], index: int) -> None:
     """Draw the number of a picture, by its place on the sheet, on a disc of its colour."""
-    canvas.disc(at, NUMBER, color_of(index), WHITE, 0.8)
+    canvas.disc(at, NUMBER_IN, color_of(index), WHITE, 0.8)
     canvas.text(*at, str(index + 1), Type(7.5, WHITE, True, "center", "center_baseline"))
 
 
@@ -54,7 +54,7 @@ def outlines(board: Board, sheet: Sheet) -> list[Array]:
     times = np.array([moment.time for moment in board.moments])
     at = sheet.place(places(board.flight.breaks, board.flight.coef, times))
     lit = light_colors(board.flight.lights, times).max(axis=-1) > 0
-    corners = BODY * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    corners = BODY_IN * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     found = []
     for k in range(len(times)):
         shown = at[lit[:, k], k] if lit[:, k].any() else at[:, k]
@@ -69,25 +69,25 @@ def draw_stands(canvas: Canvas, sheet: Sheet, shapes: Sequence[Array], taken: Se
     taken : where no number may stand; it stands outside all outlines where there is room
     """
     for k, shape in enumerate(shapes):
-        canvas.polygons([shape], (*color_of(k), FACE / max(len(shapes), 4)), clip=sheet.box)
+        canvas.polygons([shape], (*color_of(k), FACE_SHARE / max(len(shapes), 4)), clip=sheet.box)
     # The longest first: what coincides with a part of it stays to be seen.
     closed = [np.concatenate([shape, shape[:1]]) for shape in shapes]
     for k in sorted(range(len(shapes)), key=lambda k: -_length(closed[k])):
         canvas.lines([closed[k]], color_of(k), 1.3, sheet.box)
-    rims = _squares([_fine(shape) for shape in shapes], FINE)
-    inside = _squares([_inside(shape) for shape in shapes], CELL)
+    rims = _squares([_fine(shape) for shape in shapes], FINE_IN)
+    inside = _squares([_inside(shape) for shape in shapes], CELL_IN)
     box, rooms = sheet.box, list[Box]()
     inner = Box(box.x + 0.03, box.y + 0.03, box.width - 0.06, box.height - 0.06)
-    size = (2 * NUMBER, 2 * NUMBER)
+    size = (2 * NUMBER_IN, 2 * NUMBER_IN)
     for k, anchor in enumerate(anchors(shapes)):
         thing = _square(anchor, 0.0)
         tries = ([*taken, *rooms, *rims, *inside], [*taken, *rooms, *rims], rooms)
         found = (nearest_room(size, inner, thing, full, 0.02) for full in tries)
-        spot = next((one for one in found if one is not None), _square(anchor, NUMBER))
+        spot = next((one for one in found if one is not None), _square(anchor, NUMBER_IN))
         leader(canvas, spot, thing, color_of(k))
         rooms.append(spot)
     for k, spot in enumerate(rooms):
-        number(canvas, (spot.x + NUMBER, spot.y + NUMBER), k)
+        number(canvas, (spot.x + NUMBER_IN, spot.y + NUMBER_IN), k)
     return rooms
 
 
@@ -98,19 +98,19 @@ def anchors(shapes: Sequence[Array]) -> list[Array]:
     middle = np.concatenate(edges).mean(axis=0)
     for k, edge in enumerate(edges):
         others = [other for i, other in enumerate(edges) if i != k]
-        away = cKDTree(np.concatenate(others)).query(edge)[0] if others else np.full(len(edge), APART)
+        away = cKDTree(np.concatenate(others)).query(edge)[0] if others else np.full(len(edge), APART_IN)
         out = edge - middle
         turn = 2.0 * pi * k / len(edges)
         towards = (out @ [np.sin(turn), np.cos(turn)]) / max(float(np.linalg.norm(out, axis=1).max()), 1e-9)
-        found.append(edge[int(np.argmax(np.minimum(away, APART) / APART + 0.1 * towards))])
+        found.append(edge[int(np.argmax(np.minimum(away, APART_IN) / APART_IN + 0.1 * towards))])
     return found
 
 
 def _fine(shape: Array) -> Array:
-    """Return points along a closed outline, ``FINE`` apart."""
+    """Return points along a closed outline, ``FINE_IN`` apart."""
     parts = []
     for start, end in zip(shape, np.roll(shape, -1, axis=0), strict=True):
-        count = max(1, int(np.linalg.norm(end - start) / FINE))
+        count = max(1, int(np.linalg.norm(end - start) / FINE_IN))
         parts.append(start + np.arange(count)[:, None] / count * (end - start))
     return np.concatenate(parts)
 
@@ -120,9 +120,9 @@ def _length(line: Array) -> float:
 
 
 def _inside(shape: Array) -> Array:
-    """Return points in a convex outline, counter-clockwise, ``CELL`` apart along both axes."""
+    """Return points in a convex outline, counter-clockwise, ``CELL_IN`` apart along both axes."""
     low, high = shape.min(axis=0), shape.max(axis=0)
-    x, y = (np.arange(low[i] + CELL / 2, high[i], CELL) for i in (0, 1))
+    x, y = (np.arange(low[i] + CELL_IN / 2, high[i], CELL_IN) for i in (0, 1))
     at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     return at[in_convex(shape, at)]
 

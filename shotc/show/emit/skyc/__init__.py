@@ -9,7 +9,7 @@ from shotc.emit.base import Artifact, Emission
 from shotc.filenames import file_name
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.skyc.archive import archive, left_out, no_origin, too_large
-from shotc.show.emit.skyc.show import MOST, show_of
+from shotc.show.emit.skyc.show import MOST_DRONES, show_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class SkycEmitter:
         count = sum(len(flight.coef) for flight in plan.trajectory.fleets)
         if count == 0:
             return Emission((), notes=("no .skyc is written: it holds the show of a fleet, here is none",))
-        if count > MOST:
+        if count > MOST_DRONES:
             return Emission((), (too_large(mission, count),))
         show = show_of(plan)
         faults = [left_out(mission, zone) for zone in show.left_out]

@@ -12,7 +12,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Zone
-from shotc.show.emit.skyc.show import MOST
+from shotc.show.emit.skyc.show import MOST_DRONES
 
 EPOCH = (1980, 1, 1, 0, 0, 0)
 """The date that every archive bears: the earliest there is."""
@@ -47,10 +47,10 @@ def too_large(mission: MissionIR, count: int) -> Diagnostic:
     """Say that no show file is written."""
     return Diagnostic(
         "E112",
-        f"the show file is skipped: {count} drones are more than the {MOST} that one may have",
+        f"the show file is skipped: {count} drones are more than the {MOST_DRONES} that one may have",
         tuple(mission.origins.key(fleet.path) for fleet in mission.fleets),
         (),
-        f"fly fleets of no more than {MOST} drones together, each from a mission of its own",
+        f"fly fleets of no more than {MOST_DRONES} drones together, each from a mission of its own",
     )
 
 

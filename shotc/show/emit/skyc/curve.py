@@ -15,16 +15,16 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 
-TOLERANCE = 5e-4
+TOLERANCE_M = 5e-4
 """How far key points may be off for there to be fewer of them, metres."""
 
 DECIMALS = 4
 """Of coordinates, metres: a tenth of a millimetre."""
 
-LONGEST = 32
+LONGEST_PIECES = 32
 """Pieces of a spline that one of a file may stand for, which bounds the work of trying."""
 
-MOVES = 1e-6
+MOVES_M = 1e-6
 """How far a drone that stands is from where it stood, at most, metres."""
 
 
@@ -63,8 +63,8 @@ def curves(flight: FleetTrajectory) -> Curves:
 
 def _moving(at: Array) -> tuple[int, int]:
     """Return the last break before anything has moved and the first one after which nothing does."""
-    away = np.linalg.norm(at - at[:, :1], axis=-1).max(axis=0) > MOVES
-    back = np.linalg.norm(at - at[:, -1:], axis=-1).max(axis=0) > MOVES
+    away = np.linalg.norm(at - at[:, :1], axis=-1).max(axis=0) > MOVES_M
+    back = np.linalg.norm(at - at[:, -1:], axis=-1).max(axis=0) > MOVES_M
     if not away.any():
         return 0, len(away) - 1
     return max(int(np.argmax(away)) - 1, 0), int(np.flatnonzero(back)[-1]) + 1
@@ -76,7 +76,7 @@ def _thinned(times: Array, at: Array, rate: Array, span: tuple[int, int]) -> tup
     for k in range(span[0] + 1, last + 1):
         if k - keys[-1] > 1:
             error = _error(times, at, rate, (keys[-1], k))
-            if error > TOLERANCE or k - keys[-1] > LONGEST:
+            if error > TOLERANCE_M or k - keys[-1] > LONGEST_PIECES:
                 keys.append(k - 1)
                 worst, error = max(worst, reached), 0.0
             reached = error

@@ -23,11 +23,11 @@ from shotc.show.emit.skyc.curve import DECIMALS, Curves, curves
 
 Json = dict[str, Any]
 
-MOST = 5000
+MOST_DRONES = 5000
 """Drones that a show file may have."""
 
 
-STRAIGHT = 1.5e-4
+STRAIGHT_M = 1.5e-4
 """How far inner control points may be from thirds of a chord that stands for them, metres."""
 
 
@@ -73,7 +73,7 @@ def show_of(plan: VerifiedIR) -> Show:
         "swarm": {"drones": drones},
     }
     # Inner control points of a chord are moved by no more than this.
-    return Show(content, max(found.error for found in flown) + STRAIGHT, left)
+    return Show(content, max(found.error for found in flown) + STRAIGHT_M, left)
 
 
 def _turned(points: Array) -> list[list[float]]:
@@ -87,7 +87,7 @@ def _drones(fleet: Fleet, flight: FleetTrajectory, found: Curves) -> Iterator[Js
     times = ((found.millis - takeoff) / 1e3).tolist()
     third = (found.control[:, :, 3] - found.control[:, :, 0]) / 3.0
     chord = np.stack([found.control[:, :, 0] + third, found.control[:, :, 3] - third], axis=2)
-    straight = np.linalg.norm(found.control[:, :, 1:3] - chord, axis=-1).max(axis=-1) < STRAIGHT
+    straight = np.linalg.norm(found.control[:, :, 1:3] - chord, axis=-1).max(axis=-1) < STRAIGHT_M
     for name, control, lines, code in zip(
         drone_names(fleet), found.control, straight.tolist(), programs(flight.lights), strict=True
     ):
@@ -213,7 +213,7 @@ def fence(solid: Solid) -> Array:
 # Lights are a program of bytes that fades and sets colours, in steps of 20 ms. Opcodes: 0 end, 4 set a colour
 # for a time, 8 fade to a colour over a time; a time is a variable-length number of steps, seven bits a byte,
 # the low ones first. A program begins at the show's first instant.
-STEP = 0.02
+STEP_S = 0.02
 """Seconds of one step."""
 
 END, SET, FADE = 0x00, 0x04, 0x08
@@ -221,7 +221,7 @@ END, SET, FADE = 0x00, 0x04, 0x08
 
 def programs(lights: Lights) -> Iterator[bytes]:
     """Yield the program of every drone's light, in the order of their numbers."""
-    steps = np.maximum(np.round(lights.times / STEP).astype(int), 0).tolist()
+    steps = np.maximum(np.round(lights.times / STEP_S).astype(int), 0).tolist()
     for colors in lights.colors.tolist():
         yield program(steps, [bytes(color) for color in colors])
 

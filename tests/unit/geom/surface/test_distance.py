@@ -88,7 +88,7 @@ def test_what_meets_too_many_boxes_at_once_is_bound_as_tight(monkeypatch: pytest
         surface_of(grid(np.random.default_rng(3).normal(size=(64, 64)) * 0.3).triangles),
     )
     free = [inf_distance(pieces(c), s, fine) for c, s in ((centre, around), (long, rough))]
-    monkeypatch.setattr(distance, "OPEN_LIMIT", 4000)
+    monkeypatch.setattr(distance, "OPEN_PIECES_LIMIT", 4000)
     tight = [inf_distance(pieces(c), s, fine) for c, s in ((centre, around), (long, rough))]
     for one, other in zip(free, tight, strict=True):
         assert abs(one.attained - other.attained) <= GAP

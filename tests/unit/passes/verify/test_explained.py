@@ -14,7 +14,7 @@ from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.path import PathDeviation
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.explained import (
-    NEAR,
+    NEAR_M,
     Way,
     believed,
     farthest,
@@ -42,14 +42,14 @@ def mast(y: float, keep: str = "out", radius: float = 3.0) -> Zone:
 
 def test_what_stands_there_explains_as_much_as_it_takes_to_go_round_it() -> None:
     one = flight(mast(2.0))
-    assert in_the_way(one, EAST) == {"zone mast": 40.0 + 2.0 * (one.drone.radius + NEAR)}
-    assert in_the_way(flight(mast(3.0 + one.drone.radius + NEAR + 0.1)), EAST) == {}
+    assert in_the_way(one, EAST) == {"zone mast": 40.0 + 2.0 * (one.drone.radius + NEAR_M)}
+    assert in_the_way(flight(mast(3.0 + one.drone.radius + NEAR_M + 0.1)), EAST) == {}
     assert in_the_way(one, EAST, placed=True) == {}
 
 
 def test_a_fence_and_the_ground_explain_what_the_way_is_beyond_them() -> None:
     one = flight(mast(0.0, "in", 20.0), ground_clearance=29.0)
-    body = one.drone.radius + NEAR
+    body = one.drone.radius + NEAR_M
     found = in_the_way(one, EAST)
     assert found["zone mast"] == pytest.approx(30.0 + body)
     assert found["ground"] == pytest.approx(29.0 + body - 30.0)

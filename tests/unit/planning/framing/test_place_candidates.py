@@ -12,7 +12,7 @@ from shotc.geom.camera import silhouette_bounds, view
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.planning.framing.candidates import (
-    TOUCH,
+    TOUCH_M,
     Line,
     Setting,
     nearest_candidate,
@@ -85,7 +85,7 @@ def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Se
     if chosen is None:
         assert not good
         return
-    assert setting.slack(chosen) >= -TOUCH
+    assert setting.slack(chosen) >= -TOUCH_M
     assert any(abs(chosen[0] - c) < 1e-12 for c in LINES.u_lines) or any(
         abs(chosen[1] - c) < 1e-12 for c in LINES.v_lines
     )
@@ -97,7 +97,7 @@ def test_a_target_moved_until_it_fits_is_whole_and_not_only_but_for_rounding() -
     near = Setting((10.627, -6.247, -0.99), 3.84, 4.02, radians(50), 16 / 9, (radians(-90), radians(30)))
     chosen = nearest_on_verticals(near, THIRDS, (0.0, -0.9))
     assert chosen is not None
-    assert 0.0 <= near.slack(chosen) <= 2 * TOUCH
+    assert 0.0 <= near.slack(chosen) <= 2 * TOUCH_M
 
 
 @pytest.mark.slow
@@ -110,7 +110,7 @@ def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting: S
         assert not good
         assert roomiest(setting, THIRDS) < 0
         return
-    assert setting.slack(chosen) >= -TOUCH
+    assert setting.slack(chosen) >= -TOUCH_M
     assert all(setting.apart(asked, chosen) <= setting.apart(asked, p) + 1e-7 for p in good)
 
 

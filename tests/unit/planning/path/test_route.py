@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.planning.free_space import FreeSpace, Obstacle, Wall, breaches
-from shotc.planning.path.route import DETOUR, find_route, length
+from shotc.planning.path.route import DETOUR_RATIO, find_route, length
 from tests.support.owners import owner
 
 GROUND = Wall(owner("ground"), (0.0, 0.0, 1.0), 2.6)
@@ -104,7 +104,7 @@ def test_a_roomy_way_is_taken_only_where_it_is_hardly_longer():
     assert np.abs(through[1:-1, 1]).max() < 0.8
     alone = way(space(block((-1, 1), (-4, 4), (0, 60))), (-20, 0, 8), (20, 0, 8))
     assert np.abs(alone[1:-1, 1]).max() > 4 + 0.6 + 0.9  # there is room: keep a metre off
-    assert DETOUR > 1
+    assert DETOUR_RATIO > 1
 
 
 def test_ends_close_to_a_face_find_their_way_out():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.planning.path.unwrapping import LONGEST, Known, Turning, shifts
+from shotc.planning.path.unwrapping import LONGEST_KEYFRAMES, Known, Turning, shifts
 from shotc.solvers.headings import METHODS
 
 HOW = Turning("winding", 6.0, 1.0, 1.5)
@@ -41,7 +41,7 @@ def test_stated_turns_move_all_that_follows() -> None:
 
 
 def test_more_keyframes_than_are_decided_together_are_still_joined() -> None:
-    yaws = np.cumsum(np.full(3 * LONGEST, 0.7))
+    yaws = np.cumsum(np.full(3 * LONGEST_KEYFRAMES, 0.7))
     wrapped = (yaws + pi) % (2 * pi) - pi
     found = wrapped + shifts(known(wrapped.tolist()), HOW)
     assert np.diff(found) == pytest.approx(np.full(len(yaws) - 1, 0.7))

@@ -16,7 +16,7 @@ from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Shown
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.contact_sheet import EMITTER
-from shotc.show.emit.contact_sheet.moments import MOST, boards, lights
+from shotc.show.emit.contact_sheet.moments import MOST_MOMENTS, boards, lights
 from shotc.show.emit.contact_sheet.night import night
 from shotc.show.emit.contact_sheet.page import MAP, MARGIN
 from shotc.show.emit.contact_sheet.stands import anchors, outlines
@@ -99,7 +99,7 @@ def test_many_pictures_are_thinned() -> None:
     plan = show_flights.plan(show_flights.mission(displays=(many,)))
     shown = tuple(Shown("shapes", i, 0, 26.0 + 0.4 * i, 26.2 + 0.4 * i) for i in range(40))
     (board,) = boards(with_shown(plan, shown))
-    assert len(board.moments) == MOST
+    assert len(board.moments) == MOST_MOMENTS
     assert (board.moments[0].start, board.moments[-1].start) == (shown[0].start, shown[-1].start)
 
 

@@ -183,7 +183,7 @@ def test_without_an_origin_the_show_has_no_place() -> None:
 
 
 def test_a_show_may_be_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shotc.show.emit.skyc.MOST", 59)
+    monkeypatch.setattr("shotc.show.emit.skyc.MOST_DRONES", 59)
     emission = EMITTER.emit(show_flights.plan())
     assert emission.artifacts == ()
     assert [d.code for d in emission.diagnostics] == ["E112"]

@@ -77,7 +77,7 @@ def test_spans_that_overlap_unite() -> None:
 
 def test_many_faces_in_parts_are_the_same_as_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = inside_of(sphere_mesh(3.0))[1]
-    monkeypatch.setattr("shotc.show.geom.columns.CHUNK", 500)
+    monkeypatch.setattr("shotc.show.geom.columns.CHUNK_FACES", 500)
     assert np.array_equal(inside_of(sphere_mesh(3.0))[1].high, whole.high)
 
 

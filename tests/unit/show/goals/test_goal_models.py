@@ -138,7 +138,7 @@ def test_the_bad_frame_is_named() -> None:
 
 def test_a_mesh_of_faces_over_each_other_gets_fewer_columns(monkeypatch: pytest.MonkeyPatch) -> None:
     # Each face lies over all columns: a file of thousands of them would take all the memory there is.
-    monkeypatch.setattr("shotc.show.goals.model.MOST", 20_000)
+    monkeypatch.setattr("shotc.show.goals.model.MOST_PAIRS", 20_000)
     sheets = np.concatenate([box_mesh((0, 0, 3.0 * k), (50, 50, 1)) for k in range(20)])
     (body,) = frames({"a.stl": stl(sheets)}, height=100.0)
     points = body.draw("volume", 4000, np.random.default_rng(0))

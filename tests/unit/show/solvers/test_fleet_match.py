@@ -38,8 +38,8 @@ def test_a_large_fleet_has_no_crossing_pair_and_nearly_the_least_sum(
     rng = np.random.default_rng(count)
     starts, goals = formation(rng, count), rng.normal(size=(count, 3)) * 5.0
     exact = matched(starts, goals)
-    monkeypatch.setattr(fleet_match, "EXACT", 10)
-    monkeypatch.setattr(fleet_match, "PART", 50)
+    monkeypatch.setattr(fleet_match, "EXACT_DRONES", 10)
+    monkeypatch.setattr(fleet_match, "PART_DRONES", 50)
     order = matched(starts, goals)
     assert sorted(order) == list(range(count))
     assert crossing(starts, goals[order])[0] > -1e-6
@@ -55,8 +55,8 @@ def test_straight_moves_keep_the_distance_that_is_promised(seed: int, count: int
     starts, goals = formation(rng, count), formation(rng, count) + rng.normal(size=3) * 20.0
     with pytest.MonkeyPatch.context() as patch:
         if large:
-            patch.setattr(fleet_match, "EXACT", 1)
-            patch.setattr(fleet_match, "PART", 5)
+            patch.setattr(fleet_match, "EXACT_DRONES", 1)
+            patch.setattr(fleet_match, "PART_DRONES", 5)
         ends = goals[matched(starts, goals)]
     spaced = min(np.linalg.norm(a[i] - a[j]) for a in (starts, ends) for i in range(count) for j in range(i))
     for s in np.linspace(0.0, 1.0, 41):

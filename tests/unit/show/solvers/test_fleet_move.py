@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.show.solvers.move import PIECES, SHARE, WORTH, fastest, least_piece, least_pieces
+from shotc.show.solvers.move import LIMIT_SHARE, PIECES, WORTH_RATIO, fastest, least_piece, least_pieces
 from tests.support.fleet_scenes import LIMITS
 
 
@@ -23,5 +23,5 @@ def test_a_move_takes_hardly_longer_than_any_shape_of_any_number_of_pieces(far: 
     ways = np.array([[far, 0.0, 0.0], [0.0, 0.3 * far, 0.1 * far]])
     move = fastest(ways, LIMITS, 1.0)
     shortest = min(pieces * least_piece(pieces, ways, LIMITS) for pieces in PIECES)
-    assert move.duration <= 1.002 * WORTH * shortest
-    assert move.duration >= far / (SHARE * LIMITS.speed)
+    assert move.duration <= 1.002 * WORTH_RATIO * shortest
+    assert move.duration >= far / (LIMIT_SHARE * LIMITS.speed)

@@ -58,7 +58,7 @@ def test_the_deviation_is_the_least_there_is(size: float, period: float, per_axi
     reached = cost(breaks, done.coef, wanted)
     for k in range(len(wanted)):
         # Clarabel solves it for the limits that the iteration aims at.
-        least = optimum(breaks, wanted[k], bounds.scaled(fleet_qcqp.SHARE))
+        least = optimum(breaks, wanted[k], bounds.scaled(fleet_qcqp.LIMIT_SHARE))
         assert reached[k] == pytest.approx(least, rel=1e-3, abs=1e-6)
     assert (overdraft(breaks, done.coef, bounds) <= 0.0).all()
 

@@ -6,7 +6,7 @@ from math import acos, ceil, cos, hypot, pi, tan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.pan import WINDOW, slowest, whose
+from shotc.geom.pan import WINDOW_S, slowest, whose
 from shotc.geom.vec import TURN, minus, wrapped
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
@@ -87,7 +87,7 @@ def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
     if shot.keyframes and _followed(shot.keyframes) is None:
         return
     pieces = max(2, min(STEPS, ceil(4 * duration)))
-    ahead = min(pieces, max(1, round(WINDOW * pieces / duration)))
+    ahead = min(pieces, max(1, round(WINDOW_S * pieces / duration)))
     looks: list[Vec3 | None] = []
     for i in range(pieces + 1):
         seen = sight(mission, shot, i / pieces)

@@ -13,7 +13,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet
 from shotc.passes.resolve.checks.home import take_off_room
-from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
+from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
 from shotc.rounding import at_least, up
 from shotc.show.geom.pads import first_nearer, nearest_pair
 from shotc.show.labels import wider
@@ -151,7 +151,7 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
 def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnostic | None:
     """Say how many pads have an obstacle in or over them, and which has least room."""
     rooms = [take_off_room(pad, pad[2] + fleet.rise, obstacle) for pad in fleet.pads]
-    lacking = [i for i, room in enumerate(rooms) if room < fleet.radius - ROUNDING]
+    lacking = [i for i, room in enumerate(rooms) if room < fleet.radius - ROUNDING_M]
     if not lacking:
         return None
     worst = min(lacking, key=lambda i: rooms[i])
@@ -186,7 +186,7 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
 
 def _rises(mission: MissionIR, fleet: Fleet) -> bool:
     """Tell whether all drones of a fleet can rise from their pads."""
-    least = fleet.radius - ROUNDING
+    least = fleet.radius - ROUNDING_M
     around = clearances_of(mission, fleet)
     return all(take_off_room(p, p[2] + fleet.rise, o) >= least for o in around for p in fleet.pads)
 
@@ -219,7 +219,7 @@ def _low_rise(
     floors += [(o.solid.bottom, f"the floor of {o.owner.words}", o.owner.path) for o in obstacles if o.inside]
     floor_, what, path = max(floors, key=lambda found: found[0])
     lacks = floor_ + fleet.radius - lowest - fleet.rise
-    if lacks <= ROUNDING:
+    if lacks <= ROUNDING_M:
         return
     label = mission.origins.value((*fleet.path, "rise"))
     note = (

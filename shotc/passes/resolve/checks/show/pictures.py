@@ -11,9 +11,9 @@ from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture
-from shotc.planning.clearances import ROUNDING, Clearance, clearances_of
+from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
 from shotc.rounding import at_least, down
-from shotc.show.geom.fit import MOST_DARK, growth, most_drones
+from shotc.show.geom.fit import MOST_DARK_SHARE, growth, most_drones
 from shotc.show.geom.shape import Ball, balls, depth_in, highest, lowest
 from shotc.show.geom.sizes import enlarged, resized, size_words
 from shotc.show.labels import centre_label, key_of, word_of
@@ -65,7 +65,7 @@ def _viewed(mission: MissionIR, display: Display, fleet: Fleet, picture: Picture
 def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Diagnostic]:
     """Refuse a shape that cannot hold the fleet at its spacing, however the drones are put into it."""
     most, count = most_drones(picture, fleet.apart), len(fleet.pads)
-    if (1.0 - MOST_DARK) * count <= most + ROUNDING:
+    if (1.0 - MOST_DARK_SHARE) * count <= most + ROUNDING_M:
         return  # those for which there is no room stay dark; planning tells how many
     where = "on" if picture.fill == "surface" else "in"
     word = word_of(picture)
@@ -92,7 +92,7 @@ def _too_low(
 ) -> Iterator[Diagnostic]:
     low = lowest(shape)
     floor_ = mission.rules.over_ground(fleet.radius)
-    if low >= floor_ - ROUNDING:
+    if low >= floor_ - ROUNDING_M:
         return
     where = f"{-low:.2f} m under the ground" if low < 0 else f"{low:.2f} m over the ground"
     note = (
@@ -115,7 +115,7 @@ def _against(
     gaps = [signed_distance(obstacle.solid, ball.centre) for ball in shape]
     swallowed = all(gap <= -ball.radius for gap, ball in zip(gaps, shape, strict=True))
     reach = max(obstacle.metres + ball.radius - gap for gap, ball in zip(gaps, shape, strict=True))
-    if reach <= ROUNDING:
+    if reach <= ROUNDING_M:
         return
     labels = (centre_label(mission, picture), mission.origins.key(obstacle.owner.path, "the obstacle"))
     what = obstacle.owner.words
@@ -140,7 +140,7 @@ def _inside(
     low = max(lowest(shape), mission.rules.over_ground(fleet.radius))
     high = highest(shape)
     bottom, top = zone.solid.bottom + fleet.radius, zone.solid.top - fleet.radius
-    if low < bottom - ROUNDING or high > top + ROUNDING:
+    if low < bottom - ROUNDING_M or high > top + ROUNDING_M:
         note = (
             f"it reaches from z = {low:.2f} to {high:.2f}; the zone, less the body radius of "
             f"{fleet.radius:.2f} m, from {bottom:.2f} to {top:.2f}"
@@ -152,7 +152,7 @@ def _inside(
     rooms = [-signed_distance(walls, ball.centre) - ball.radius for ball in shape]
     outside = all(room + 2 * ball.radius <= 0 for room, ball in zip(rooms, shape, strict=True))
     lacks = fleet.radius - min(rooms)
-    if lacks <= ROUNDING:
+    if lacks <= ROUNDING_M:
         return
     if outside:
         message = f"this {word} is outside keep-in zone `{zone.owner.name}`"
@@ -185,8 +185,10 @@ def _is_clear(shape: tuple[Ball, ...], obstacle: Clearance, radius: float) -> bo
     """Tell whether a shape is all out of a zone or target, or within a keep-in zone."""
     gaps = (signed_distance(obstacle.solid, ball.centre) for ball in shape)
     if obstacle.inside:
-        return all(-gap - ball.radius >= radius - ROUNDING for gap, ball in zip(gaps, shape, strict=True))
-    return all(gap - ball.radius >= obstacle.metres - ROUNDING for gap, ball in zip(gaps, shape, strict=True))
+        return all(-gap - ball.radius >= radius - ROUNDING_M for gap, ball in zip(gaps, shape, strict=True))
+    return all(
+        gap - ball.radius >= obstacle.metres - ROUNDING_M for gap, ball in zip(gaps, shape, strict=True)
+    )
 
 
 def _plus(p: Vec3, by: Vec3) -> Vec3:
