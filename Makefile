@@ -7,7 +7,8 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 STAMP := $(VENV)/.installed
 PLUGINS := $(wildcard plugins/*/pyproject.toml)
 UV := $(shell command -v uv 2>/dev/null)
-PYTEST := $(BIN)/pytest -n 2 --dist loadgroup --no-loadscope-reorder
+# Two tests at once need no threads of BLAS beside them.
+PYTEST := OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadgroup --no-loadscope-reorder
 # Tests start many processes: all but the first find the modules compiled.
 unexport PYTHONDONTWRITEBYTECODE
 
@@ -41,7 +42,7 @@ test-fast: $(STAMP) ## Run the tests that are not marked slow, in a minute
 	$(PYTEST) -m "not slow and not fuzz"
 
 fuzz: $(STAMP) ## Plan 300 drawn missions, and run every property test with new random numbers
-	CI= FUZZ=1 OMP_NUM_THREADS=1 $(PYTEST) -m "fuzz or hypothesis"
+	CI= FUZZ=1 $(PYTEST) -m "fuzz or hypothesis"
 
 check: lint type layers gen-check platforms test build ## Everything, as CI runs it
 

@@ -7,6 +7,7 @@ hold enters as a steep hinge (the target whole in the frame, its clearance, the 
 """
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
 from operator import mul
 from typing import NamedTuple
@@ -27,6 +28,7 @@ ROUNDS = 100
 DAMPINGS = 12
 SETTLED_SHARE = 1e-6  # share of the cost by which a round has to lower it
 STEEPEST_RAD = 1.5  # rad of elevation that a free view is raised to
+WHOLE_SIZE = 0.4  # size of a subject that is asked none: the whole of it, in its surroundings
 
 
 class Lens(NamedTuple):
@@ -238,8 +240,9 @@ class _Found(NamedTuple):
     damping: float
 
 
+@lru_cache(maxsize=4096)  # every pass that looks at a framing asks again, and for standing subjects the same
 def viewpoint(
-    subjects: Sequence[Wanted], lens: Lens, room: Room, start: Pose, since: Since | None = None
+    subjects: tuple[Wanted, ...], lens: Lens, room: Room, start: Pose, since: Since | None = None
 ) -> tuple[Pose, float]:
     """Return the pose nearest to all that is wanted, from a first guess, and its cost (Levenberg-Marquardt).
 
@@ -344,9 +347,6 @@ def _residuals(
         found += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
         found.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, since.eye)) - since.way))
     return found
-
-
-WHOLE_SIZE = 0.4  # size of a subject that is asked none: the whole of it, in its surroundings
 
 
 def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:

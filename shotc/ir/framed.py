@@ -125,9 +125,9 @@ class _Scene:
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
         self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
 
-    def wanted(self, subjects: Sequence[Subject], t: float) -> list[Wanted]:
+    def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[Wanted, ...]:
         """Return all subjects as they are wanted at a time."""
-        return [wanted_at(self.mission, s, t) for s in subjects]
+        return tuple(wanted_at(self.mission, s, t) for s in subjects)
 
     def comes_from(self, subject: Vec3) -> float:
         """Return the bearing from a subject to where the drone was before the shot."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import tee
+
 from tests.support.second_opinion import asked, framing, measures, reflight, rules, sight, tables
 from tests.support.second_opinion.case import Case, Finding, Findings
 
@@ -12,11 +14,9 @@ def judge(case: Case) -> list[Finding]:
 
 
 def findings(case: Case) -> Findings:
-    """Yield what is wrong as it is found."""
-    worst = tuple(measures.all_measures(case))
+    """Yield what is wrong as it is found; what takes long to look for comes last."""
+    kept, claimed = tee(measures.all_measures(case))
     checks = [
-        rules.limits_kept(worst),
-        rules.claimed(case, worst),
         rules.claims_hold(case),
         rules.joints(case),
         rules.phases_in_order(case),
@@ -26,9 +26,11 @@ def findings(case: Case) -> Findings:
         tables.trajectory(case),
         framing.framing_table(case),
         framing.picture_claims(case),
+        sight.company(case),
+        rules.limits_kept(kept),
         framing.promises(case),
         framing.frames_asked(case),
-        sight.company(case),
+        rules.claimed(case, claimed),
         reflight.reflights(case),
     ]
     for check in checks:

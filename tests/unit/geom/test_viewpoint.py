@@ -108,7 +108,9 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
         assume(seen is not None and seen.out == 0.0 and abs(u) < 0.8 and abs(v) < 0.7)
         subjects.append(bare._replace(uv=(u, v), size=seen.size))
     guesses = [first_pose(subjects, LENS, ROOM, k * pi / 6) for k in range(12)]
-    found, _ = min((viewpoint(subjects, LENS, ROOM, guess) for guess in guesses), key=lambda pair: pair[1])
+    found, _ = min(
+        (viewpoint(tuple(subjects), LENS, ROOM, guess) for guess in guesses), key=lambda pair: pair[1]
+    )
     for subject in subjects:
         seen = judged(found, LENS, subject)
         assert seen is not None
@@ -120,7 +122,7 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
 def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
     """Subjects at random, more asked than can be had: the cost is a minimum, within the bounds."""
     rng = np.random.default_rng(seed)
-    subjects = [
+    subjects = tuple(
         Wanted(
             (*rng.uniform(-8, 8, 2), 0.9),
             0.4,
@@ -130,7 +132,7 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
             azimuth=float(rng.uniform(0, 2 * pi)) if k == 0 else None,
         )
         for k in range(2)
-    ]
+    )
     pose, cost = viewpoint(subjects, LENS, ROOM, first_pose(subjects, LENS, ROOM, 0.5))
 
     def residuals(x: np.ndarray) -> np.ndarray:
@@ -145,7 +147,7 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
 
 
 def test_a_camera_goes_no_farther_than_its_way() -> None:
-    subjects = [MAN._replace(uv=(-0.3, 0.0), size=0.3), Wanted((3.0, 0.0, 20.0), 0.4, 1.8, (0.3, 0.0))]
+    subjects = (MAN._replace(uv=(-0.3, 0.0), size=0.3), Wanted((3.0, 0.0, 20.0), 0.4, 1.8, (0.3, 0.0)))
     start = first_pose(subjects, LENS, ROOM, 0.0)
     free, _ = viewpoint(subjects, LENS, ROOM, start)
     since = Since(start[:3], start[:3], 1.0)

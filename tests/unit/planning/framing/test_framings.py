@@ -13,7 +13,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.viewpoint import judged
+from shotc.geom.viewpoint import judged, viewpoint
 from shotc.ir.framed import at_start, course_of, hides, lens_of, wanted_at
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import KeyframeIR
@@ -133,6 +133,15 @@ def test_two_subjects_are_seen_from_where_a_wall_does_not_hide_them() -> None:
     assert course_of(walled.mission, plain.mission.shots[0], 15.0).poses == course.poses
     for t, pose in zip(course.times, course.poses, strict=True):
         assert all(hides(walled.mission, name, pose[:3], t) is None for name in ("runner", "rider"))
+
+
+def test_what_a_course_has_found_is_not_searched_again() -> None:
+    ir, _ = placed(text("target: runner, frame: [-0.27, 0]", "target: rider, frame: [0.27, 0]"))
+    assert ir is not None
+    first = course_of(ir.mission, ir.mission.shots[0], 15.0)
+    searched = viewpoint.cache_info().misses
+    assert course_of(ir.mission, ir.mission.shots[0], 15.0) == first
+    assert viewpoint.cache_info().misses == searched
 
 
 def test_silence_on_screen_is_the_middle_of_the_composition_or_where_it_is_whole() -> None:
