@@ -71,6 +71,7 @@ gen-check: $(STAMP) ## Fail where a generated file is out of date
 
 bless: $(STAMP) ## Rewrite the golden files of the tests; read the diff before you commit it
 	$(PYTEST) --bless tests
+	$(PYTEST) --bless -m fuzz tests/golden
 
 bench: $(STAMP) ## Measure: ratios to bare imports, growth, memory
 	$(BIN)/python -m tests.experiments.bench

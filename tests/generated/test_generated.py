@@ -11,6 +11,7 @@ import pytest
 
 from shotc.checking import check_source
 from shotc.diag.registry import has_errors
+from tests.support.few import few
 from tests.support.generated.judge import judge, write
 from tests.support.generated.missions import Mission, mission
 
@@ -32,7 +33,7 @@ def small(seed: int) -> Mission:
     return mission(seed, most_drones=2, most_takes=1)
 
 
-@pytest.mark.parametrize("seed", FEW)
+@pytest.mark.parametrize("seed", few(FEW, (1, 12, 41)))
 def test_a_small_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> None:
     assert_planned_and_whole(small(seed))
 

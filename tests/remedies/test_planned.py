@@ -1,4 +1,4 @@
-"""The examples of every code that `plan` finds, under the refiner that it uses by itself, and their help.
+"""The examples of every code that `plan` finds, on convex paths (`make fuzz`: refined, too), and their help.
 
 The failing one raises its code alone, the passing one nothing, and each remedy that the help names is
 written into the failing one and planned.
@@ -33,6 +33,12 @@ UNREFINED = ("Q007",)
 """Codes of the convex path alone: a refiner leads the path aside, and verification tells what is left."""
 
 
+REFINED = ("M008", "Q009")
+"""Codes of which a refiner is asked: on its convex path the example has another, too."""
+
+OTHERS = [info for info in PLANNED if info.code not in (*REFINED, *UNREFINED)]
+
+
 @cache
 def planned(text: str, refiner: str | None = None) -> list[Diagnostic]:
     """Return all that planning a mission tells, and writing its outputs where it names some."""
@@ -43,7 +49,17 @@ def planned(text: str, refiner: str | None = None) -> list[Diagnostic]:
 
 @pytest.mark.parametrize("info", PLANNED, ids=[info.code for info in PLANNED])
 def test_an_example_shows_its_code_alone_and_its_help_does(info: CodeInfo) -> None:
-    judged = partial(planned, refiner="none" if info.code in UNREFINED else None)
+    assert_shown_and_mended(info, None if info.code in REFINED else "none")
+
+
+@pytest.mark.fuzz
+@pytest.mark.parametrize("info", OTHERS, ids=[info.code for info in OTHERS])
+def test_an_example_does_so_when_it_is_refined(info: CodeInfo) -> None:
+    assert_shown_and_mended(info, None)
+
+
+def assert_shown_and_mended(info: CodeInfo, refiner: str | None) -> None:
+    judged = partial(planned, refiner=refiner)
     assert {d.code for d in judged(info.failing)} == {info.code}
     assert judged(info.passing) == []
     found, wrong = failed(info.failing, judged)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from tests.support.few import few
 from tests.support.generated.missions import mission
 from tests.support.second_opinion.case import Case
 from tests.support.second_opinion.compiled import case_of
@@ -16,8 +17,11 @@ from tests.support.second_opinion.reflight import reflights
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
+FUZZ = {False: (), True: (pytest.mark.fuzz,)}
+LONG = ("courtyard", "pisa-campanile", "rooftop-survey", "westerhever-lighthouse")
+"""Missions that take minutes to fly: `make fuzz` judges them."""
 FILMED = [
-    pytest.param(path, id=path.stem, marks=pytest.mark.xdist_group(path.stem))
+    pytest.param(path, id=path.stem, marks=[pytest.mark.xdist_group(path.stem), *FUZZ[path.stem in LONG]])
     for path in sorted(ROOT.glob("specs/*.yaml"))
     if "fleets" not in yaml.safe_load(path.read_text(encoding="utf-8"))
 ]
@@ -34,7 +38,7 @@ def test_the_refined_flight_is_as_it_says() -> None:
     assert judge(case_of(ROOT / "specs/tower-fly-past.yaml")) == []
 
 
-@pytest.mark.parametrize("name", ["tower-fly-past", "runner-three-cameras"])
+@pytest.mark.parametrize("name", few(["tower-fly-past", "runner-three-cameras"], ["tower-fly-past"]))
 def test_the_files_of_an_ardupilot_fly_as_they_say(name: str) -> None:
     case = case_of(ROOT / f"specs/{name}.yaml", "none", "ardupilot")
     assert "cam1.waypoints" in case.files

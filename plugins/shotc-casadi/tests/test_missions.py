@@ -18,6 +18,7 @@ from shotc.ir.path import MovingLeg
 from shotc.planning.free_space import shortfall
 from shotc.planning.timing.leg import fastest_moves, plan_of
 from shotc.planning.timing.limits import ceiling_of
+from tests.support.few import few
 from tests.support.path_scenes import assert_continuous, least_room
 from tests.support.refiner_scenes import ARC, HEAD, compiled, keyed, leg_named, path_of, seen
 
@@ -208,7 +209,7 @@ def test_a_duration_that_is_too_short_is_told_by_the_time_pass_alone():
     assert any("14" in d.message for d in done.diagnostics)
 
 
-@pytest.mark.parametrize("share", [1.02, 1.1, 1.3, 2.5])
+@pytest.mark.parametrize("share", few([1.02, 1.1, 1.3, 2.5], [1.1, 2.5]))
 @pytest.mark.parametrize("index", [1, 2])
 def test_a_keyframe_is_reached_at_its_time(index, share):
     asked = round(share * earliest()[index - 1], 2)

@@ -33,6 +33,7 @@ def test_four_setpoints_are_had_as_asked() -> None:
         assert whole == "100.0 %"
 
 
+@pytest.mark.fuzz
 def test_who_stops_in_the_line_of_sight_is_looked_past() -> None:
     walks = crossing(2)
     guide, ours = (planned(portrait(walks), refiner, walks)[0] for refiner in ("none", "ours"))

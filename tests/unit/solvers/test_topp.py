@@ -15,6 +15,7 @@ from shotc.planning.timing.move import axes_of, topp_limits
 from shotc.solvers import topp, topp_lp, topp_ra
 from shotc.solvers.conic import Status
 from shotc.solvers.topp_problem import FastestProfile, LinearLimits
+from tests.support.few import few
 from tests.support.timing_paths import CEILING, smooth
 
 SPECS = Path(__file__).parents[3] / "specs"
@@ -104,7 +105,7 @@ def test_on_random_paths_the_linear_programme_keeps_every_row_and_is_no_slower(s
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", FILMS)
+@pytest.mark.parametrize("name", few(FILMS, ["pisa-campanile", "river-path", "tower-reveal"]))
 def test_missions_are_planned_without_toppra(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[LinearLimits] = []
 

@@ -9,6 +9,7 @@ from shotc.diag.codes import units as unit_codes
 from shotc.source.yaml_tree import parse
 from shotc.spec.load import load
 from shotc.spec.schema import json_schema
+from tests.support.few import few
 
 CODES = (*schema_codes.CODES, *unit_codes.CODES)
 # What shape alone does not tell: the order of a range's ends, and that there is something to film.
@@ -128,8 +129,11 @@ def test_adding_a_key_anywhere_is_refused_by_both(accepts, kinds, whole_language
                 assert verdicts(mutant, accepts, kinds) == (False, False), path
 
 
+JUNK = [None, True, [], {}, "7 parsecs", -7, 1e300, [[0]]]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("junk", [None, True, [], {}, "7 parsecs", -7, 1e300, [[0]]], ids=repr)
+@pytest.mark.parametrize("junk", few(JUNK, [None, {}, "7 parsecs", -7]), ids=repr)
 def test_any_value_replaced_by_junk_is_judged_alike(junk, accepts, kinds, whole_language):
     for piece in pieces(tree_of(whole_language)):
         for path, _ in places(piece):

@@ -21,6 +21,7 @@ from shotc.ir.sampling import seen
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
+from tests.support.few import few
 from tests.support.front_passes import clean, placed
 from tests.support.remedies.apply import remedies
 
@@ -254,8 +255,11 @@ def test_what_no_camera_can_have_is_told_at_its_line(
 
 
 @pytest.mark.parametrize("rules", ["", "rules: {target_clearance: 3}\n"])
-@pytest.mark.parametrize("view", ["", ", view: {elevation: 0 deg}", ", view: {azimuth: 30 deg}"])
-@pytest.mark.parametrize("size", ["close-up", "1", "0.7"])
+@pytest.mark.parametrize(
+    "view",
+    few(["", ", view: {elevation: 0 deg}", ", view: {azimuth: 30 deg}"], [", view: {elevation: 0 deg}"]),
+)
+@pytest.mark.parametrize("size", few(["close-up", "1", "0.7"], ["close-up", "0.7"]))
 def test_what_lets_a_framing_be_had_does_when_it_is_written(rules: str, view: str, size: str) -> None:
     """Each remedy of M031 and M032 is written in: no error is left, whatever else the first one hid."""
     mission = text(f"target: runner, size: {size}{view}").replace("shots:", f"{rules}shots:")

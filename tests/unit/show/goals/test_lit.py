@@ -86,7 +86,7 @@ CASES = [
     (text("LOVE", 14.0), "volume", 60),
     (text("LOVE", 18.0), "outline", 60),
     (text("LOVE", 18.0), "outline", 74),
-    (text("LOVE", 22.2), "volume", 200),
+    pytest.param(text("LOVE", 22.2), "volume", 200, marks=pytest.mark.fuzz),
     (text("GO", 22.0), "outline", 60),
     (heart(33.6), "outline", 60),
     (heart(40.0), "volume", 150),

@@ -1,0 +1,16 @@
+"""Parameters of which ``make test`` tries a few, and ``make fuzz`` the others."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from typing import Any
+
+import pytest
+
+
+def few(values: Iterable[Any], kept: Collection[Any]) -> list[Any]:
+    """Return the values as parameters, those that are not kept marked for ``make fuzz``."""
+    found = list(values)
+    missing = [value for value in kept if value not in found]
+    assert not missing, f"none of the values: {missing}"
+    return [value if value in kept else pytest.param(value, marks=pytest.mark.fuzz) for value in found]
