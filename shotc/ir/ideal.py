@@ -26,12 +26,15 @@ def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
         return offset
     target = mission.target(ideal.target)
     x, y, z = target.at(t)
+    if ideal.frame == "about":
+        return (x + offset[0], y + offset[1], z + offset[2])
+    east, north, up = offset
     if ideal.frame == "heading":
         facing = 0.0 if target.track is None else target.track.heading(t)
         c, s = cos(facing), sin(facing)
-        return (x + c * offset[0] - s * offset[1], y + s * offset[0] + c * offset[1], offset[2])
-    up = z + offset[2] if ideal.frame == "about" else offset[2]
-    return (x + offset[0], y + offset[1], up)
+        east, north = c * east - s * north, s * east + c * north
+    place = (x + east, y + north)
+    return (*place, mission.base(ideal.above, place, target, t) + up)
 
 
 def _offset(points: tuple[tuple[float, Vec3], ...], share: float) -> Vec3:

@@ -39,13 +39,14 @@ def place_of(mission: MissionIR, keyframe: Keyframe, t: float) -> Vec3:
     if beside is None:
         return keyframe.at
     target = mission.target(beside.target)
-    x, y, z = target.at(t)
+    x, y, _ = target.at(t)
     a, b, up = beside.offset
     if beside.turns and target.track is not None:
         facing = target.track.heading(t)
         c, s = cos(facing), sin(facing)
         a, b = c * a - s * b, s * a + c * b
-    return (x + a, y + b, z - target.height / 2 + up)
+    place = (x + a, y + b)
+    return (*place, mission.base(beside.above, place, target, t) + up)
 
 
 def carriers(shot: Shot) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ the mission file (see ``OriginMap``).
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Cylinder, Solid
+from shotc.ir.ground import flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.source import MissionSource
@@ -14,6 +15,9 @@ from shotc.ir.source import MissionSource
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
     from shotc.ir.show import Display, Fleet
+
+Above = Literal["target", "ground", "origin"]
+"""What a camera's height counts from: the target's foot then, the ground below it, or the plane z = 0."""
 
 ViewAngles = tuple[float | None, float | None]
 
@@ -53,6 +57,12 @@ class Target(NamedTuple):
     track: "Track | None" = None
 
     @property
+    def foot(self) -> Vec3:
+        """The lowest point of its axis where it stands, or is at mission time 0."""
+        x, y, z = self.centre
+        return (x, y, z - self.height / 2)
+
+    @property
     def solid(self) -> Cylinder:
         """Its body where it stands, or is at mission time 0."""
         return _upright(self, self.centre)
@@ -60,6 +70,11 @@ class Target(NamedTuple):
     def solid_at(self, t: float) -> Cylinder:
         """Return its body at a mission time."""
         return _upright(self, self.at(t))
+
+    def foot_at(self, t: float) -> Vec3:
+        """Return the lowest point of its axis at a mission time, metres."""
+        x, y, z = self.at(t)
+        return (x, y, z - self.height / 2)
 
     def at(self, t: float) -> Vec3:
         """Return its centre at a mission time, metres."""
@@ -138,11 +153,13 @@ class Beside(NamedTuple):
 
     offset : from its foot, the lowest point of its axis, metres: East, North and Up, or, where it turns with
         the way that the target goes, ahead of it, to the left of it and up
+    above : what Up counts from
     """
 
     target: str
     offset: Vec3
     turns: bool = False
+    above: Above = "target"
 
 
 class Keyframe(NamedTuple):
@@ -176,7 +193,8 @@ class Ideal(NamedTuple):
     """Where the camera of a shot on its own clock would be, if nothing stood against it.
 
     frame : what offsets count from. "world": W's origin. "target": the target's axis, East and North of
-        it, z in W. "heading": the same, ahead of the way the target faces and to the left of it.
+        it, and up from what ``above`` says. "heading": the same, ahead of the way the target faces and to
+        the left of it.
         "about": the target's centre, along W's axes. "keyframes": points are the places of the shot's
         keyframes and when they are reached, and ``ir.keyed`` says where the camera is between them
     target : its name, None in the world and of keyframes
@@ -185,6 +203,7 @@ class Ideal(NamedTuple):
     aim : (yaw, pitch) that the camera keeps, rad, or None where it follows the shot's subjects
     framed : True where the points are found from how the subjects are to appear (``ir.framed``), for the
         time at which the shot begins, as far as that is known
+    above : what up counts from in the frames "target" and "heading"
     """
 
     frame: Literal["world", "target", "heading", "about", "keyframes"]
@@ -193,6 +212,7 @@ class Ideal(NamedTuple):
     placed: bool = False
     aim: Vec2 | None = None
     framed: bool = False
+    above: Above = "target"
 
 
 class Subject(NamedTuple):
@@ -234,6 +254,7 @@ class Shot(NamedTuple):
     subjects : whom it frames then
     size : that its target is to have, as in Subject, or None
     allow : what of ``spec.allow`` it may do untold, by name, by its own word or by that of the rules
+    above : what the altitude of its camera counts from; None where it has none
     """
 
     id: str
@@ -250,6 +271,7 @@ class Shot(NamedTuple):
     subjects: tuple[Subject, ...] = ()
     size: float | None = None
     allow: tuple[str, ...] = ()
+    above: Above | None = None
 
 
 class TransitClearance(NamedTuple):
@@ -272,6 +294,7 @@ class Rules(NamedTuple):
     half_angle : half the opening of the cone about a camera's axis that they keep out of, rad; None for
         the frame itself
     transits : kept on ways between shots
+    max_height : of a drone's centre above the ground; infinite for none, None where the mission is silent
     """
 
     separation: float
@@ -280,6 +303,7 @@ class Rules(NamedTuple):
     visibility: Literal["require", "prefer", "off"] = "prefer"
     half_angle: float | None = None
     transits: TransitClearance = TransitClearance()
+    max_height: float | None = None
 
     def over_ground(self, radius: float) -> float:
         """Return the least height of the centre of a body over flat ground; radius : of the body, metres."""
@@ -333,6 +357,16 @@ class MissionIR(NamedTuple):
         """The drones that film nothing: they stand on their pads all the time."""
         filming = {shot.drone for shot in self.shots}
         return tuple(drone for drone in self.drones if drone.name not in filming)
+
+    def ground(self, x: float, y: float) -> float:
+        """Return z of the ground at a place, metres."""
+        return flat(x, y)
+
+    def base(self, above: Above, place: Vec2, target: Target, t: float) -> float:
+        """Return z of what heights at a place count from where a target is at a mission time, metres."""
+        if above == "origin":
+            return 0.0
+        return self.ground(*place) if above == "ground" else target.foot_at(t)[2]
 
     def drone(self, name: str) -> Drone:
         """Return the drone of that name; KeyError if there is none."""

@@ -5,13 +5,14 @@ from typing import Literal, NamedTuple
 from shotc.ir.mission import Drone, MissionIR, Target, Zone
 from shotc.ir.origin import KeyPath
 
-OwnerKind = Literal["zone", "target", "drone", "ground"]
+OwnerKind = Literal["zone", "target", "drone", "ground", "ceiling"]
 
 
 class Owner(NamedTuple):
-    """What an obstacle, a half-space or a moving body belongs to: a zone, a target, a drone or the ground.
+    """What an obstacle, a half-space or a moving body belongs to: a zone, a target, a drone, the ground, or
+    the greatest height above it.
 
-    path : of its key in the mission; of the ground it is that of the rule for it
+    path : of its key in the mission; of the ground and the ceiling it is that of the rule for it
     As text it is how plans name it: `zone tree`, `ground`.
     """
 
@@ -29,6 +30,7 @@ class Owner(NamedTuple):
 
 
 GROUND = Owner("ground", "", ("rules", "ground_clearance"))
+CEILING = Owner("ceiling", "", ("rules", "max_height"))
 
 
 def zone_owner(zone: Zone) -> Owner:
@@ -50,6 +52,7 @@ def owner_of(mission: MissionIR, text: str) -> Owner | None:
     """Return the owner that a plan names by a text; None for a text that names none."""
     known = (
         GROUND,
+        CEILING,
         *map(zone_owner, mission.zones),
         *map(target_owner, mission.targets),
         *map(drone_owner, mission.drones),

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
 from shotc.geom.geodetic import above_ground
+from shotc.ir.ground import Ground, flat
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import (
+    Above,
     Beside,
     Composition,
     Deferred,
@@ -25,6 +27,8 @@ from shotc.ir.mission import (
 )
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.fields import Geodetic, Relative
+from shotc.spec.heights import AboveGround
+from shotc.spec.places import Spot
 from shotc.spec.shot import ShotBase
 from shotc.spec.words import nearest
 
@@ -55,7 +59,7 @@ OURS = "shotc"
 OWN = "target"  # what a place counts from where that is the target of its shot
 STILL = 5.0  # seconds that a camera which stands still films where the timing gives no duration
 
-Place = Vec3 | Geodetic
+Place = Spot | Geodetic
 
 
 class Stand(NamedTuple):
@@ -106,6 +110,7 @@ class Scene(NamedTuple):
     read : bytes of a file that the mission names under a key path, or what is wrong with it
     match : names of the files that a pattern under a key path stands for, 2 before 10, or what is wrong
     pace : of the mission's rules; fleets : their names
+    ground : z of the ground at x and y, metres
     """
 
     drone: Drone
@@ -119,6 +124,7 @@ class Scene(NamedTuple):
     match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
     pace: float
     fleets: tuple[str, ...] = ()
+    ground: Ground = flat
 
     def subject(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
         """Return the target called ``name``; ``path``, below the shot, is where the name is written."""
@@ -150,12 +156,11 @@ class Scene(NamedTuple):
             return self.fault(
                 "K017", message, "leave `turn` out: the offset is [east, north, up] then", *path, "turn"
             )
-        x, y, z = target.centre
-        east, north, up = at.offset
-        foot = (x + east, y + north, z - target.height / 2 + up)
+        (x, y, z), (east, north, up) = target.foot, at.offset
+        place = (x + east, y + north, z + up)
         if target.track is None:
-            return Stand(foot)
-        return Stand(foot, Beside(name, at.offset, turns=at.turn is not None))
+            return Stand(place)
+        return Stand(place, Beside(name, at.offset, turns=at.turn is not None))
 
     def aim(self, shot: ShotBase, aimed: "Aimed", *path: str | int) -> Aim | Diagnostic | Deferred:
         """Return (aim, target) of a camera that is aimed as ``aimed``, at ``path`` below the shot, says.
@@ -183,7 +188,21 @@ class Scene(NamedTuple):
 
     def place(self, position: Place) -> Vec3:
         """Return a position as a point of W; the mission has an origin wherever one is geodetic."""
-        return placed(self.origin, position)
+        return placed(self.origin, self.ground, position)
+
+    def raised(self, p: Vec3, target: Target, above: Above | None) -> Vec3:
+        """Return a point of W for one whose height counts from a target's foot, or ``above``."""
+        return (p[0], p[1], p[2] + self._base(target, above, p))
+
+    def height_of(self, target: Target, above: Above | None) -> float:
+        """Return the height of a target's centre over what a shot counts heights from, metres."""
+        return target.centre[2] - self._base(target, above, target.centre)
+
+    def _base(self, target: Target, above: Above | None, p: Vec3) -> float:
+        """Return z of what heights count from at a point, metres."""
+        if above == "origin":
+            return 0.0
+        return self.ground(p[0], p[1]) if above == "ground" else target.foot[2]
 
     def keyframe(self, at: Vec3, target: str | None, **changes: Any) -> Keyframe:
         """Return a keyframe of a camera at ``at`` that looks at ``target`` and does not hold.
@@ -249,13 +268,17 @@ class Kind(NamedTuple):
         return self.package != OURS
 
 
-def placed(origin: GeoOrigin | None, position: Place) -> Vec3:
-    """Return a position as a point of W; its height is z, over the ground."""
-    if not isinstance(position, Geodetic):
-        return position
-    assert origin is not None
-    base = (origin.lat_deg, origin.lon_deg, origin.alt)
-    return above_ground((position.lat, position.lon, position.height), base)
+def placed(origin: GeoOrigin | None, ground: Ground, position: Place) -> Vec3:
+    """Return a position as a point of W; its height is z, or counts from the ground there."""
+    if isinstance(position, Geodetic):
+        assert origin is not None
+        base, height = (origin.lat_deg, origin.lon_deg, origin.alt), position.height
+        over = height.height if isinstance(height, AboveGround) else height
+        x, y, z = above_ground((position.lat, position.lon, over), base)
+    else:
+        x, y, height = position
+        z = height.height if isinstance(height, AboveGround) else height
+    return (x, y, z + ground(x, y)) if isinstance(height, AboveGround) else (x, y, z)
 
 
 def unknown_target(origins: OriginMap, path: KeyPath, name: str, known: Mapping[str, object]) -> Diagnostic:

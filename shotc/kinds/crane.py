@@ -7,7 +7,7 @@ from pydantic import Field
 from shotc.ir.mission import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import axis_of, filmed, line
-from shotc.spec.fields import Angle, LengthSpan, Name, PositiveLengthSpan
+from shotc.spec.fields import Angle, CameraAltitudeSpan, Name, PositiveLengthSpan
 from shotc.spec.shot import ShotBase
 
 
@@ -18,7 +18,9 @@ class CraneShot(ShotBase):
     target: Name = Field(description="name of the target that is framed")
     azimuth: Angle = Field(description="compass bearing from the target to the camera")
     distance: PositiveLengthSpan = Field(description="horizontal distance from the target's axis, [from, to]")
-    altitude: LengthSpan = Field(description="z of the camera, [from, to]")
+    altitude: CameraAltitudeSpan = Field(
+        description="height of the camera over the target's foot, [from, to]"
+    )
 
 
 def expand(shot: CraneShot, scene: Scene) -> Expansion:
@@ -26,8 +28,10 @@ def expand(shot: CraneShot, scene: Scene) -> Expansion:
     target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
-    points = line(axis_of(target), shot.azimuth, shot.distance, shot.altitude, target.centre[2])
-    return filmed(shot, scene, target, points)
+    above, span = shot.altitude.above, shot.altitude.span
+    looked_at = scene.height_of(target, above)
+    points = line(axis_of(target), shot.azimuth, shot.distance, span, looked_at)
+    return filmed(shot, scene, target, points, above=above)
 
 
 KIND = Kind("crane", "rise or sink while moving towards the target or away", CraneShot, expand)

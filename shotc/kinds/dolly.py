@@ -7,7 +7,7 @@ from pydantic import Field
 from shotc.ir.mission import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import axis_of, filmed, line
-from shotc.spec.fields import Angle, Length, Name, PositiveLengthSpan
+from shotc.spec.fields import Angle, CameraAltitude, Name, PositiveLengthSpan
 from shotc.spec.shot import ShotBase
 
 
@@ -18,7 +18,7 @@ class DollyShot(ShotBase):
     target: Name = Field(description="name of the target that is framed")
     azimuth: Angle = Field(description="compass bearing from the target to the camera")
     distance: PositiveLengthSpan = Field(description="horizontal distance from the target's axis, [from, to]")
-    altitude: Length = Field(description="z of the camera")
+    altitude: CameraAltitude = Field(description="height of the camera over the target's foot")
 
 
 def expand(shot: DollyShot, scene: Scene) -> Expansion:
@@ -26,10 +26,10 @@ def expand(shot: DollyShot, scene: Scene) -> Expansion:
     target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
-    points = line(
-        axis_of(target), shot.azimuth, shot.distance, (shot.altitude, shot.altitude), target.centre[2]
-    )
-    return filmed(shot, scene, target, points)
+    above, span = shot.altitude.above, shot.altitude.span
+    looked_at = scene.height_of(target, above)
+    points = line(axis_of(target), shot.azimuth, shot.distance, span, looked_at)
+    return filmed(shot, scene, target, points, above=above)
 
 
 KIND = Kind("dolly", "move straight towards the target or away from it", DollyShot, expand)

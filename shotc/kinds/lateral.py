@@ -6,7 +6,7 @@ from pydantic import Field
 
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.moving import along
-from shotc.spec.fields import Length, Name, PositiveLength
+from shotc.spec.fields import CameraAltitude, Name, PositiveLength
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.shot import ShotBase
 
@@ -20,13 +20,13 @@ class LateralShot(ShotBase):
     target: Name = Field(description="name of the target that is accompanied")
     side: Side = Field(description="left or right of the target's motion")
     distance: PositiveLength = Field(description="horizontal distance beside the target")
-    altitude: Length = Field(description="z of the camera")
+    altitude: CameraAltitude = Field(description="height of the camera over the target's foot")
 
 
 def expand(shot: LateralShot, scene: Scene) -> Expansion:
     """Return the place beside the target, carried along by its motion."""
     left = shot.distance if shot.side == "left" else -shot.distance
-    return along(shot, scene, [(0.0, left, shot.altitude)])
+    return along(shot, scene, [(0.0, left, shot.altitude.first)], shot.altitude.above)
 
 
 KIND = Kind("lateral", "accompany a moving target at its side", LateralShot, expand)

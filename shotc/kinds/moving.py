@@ -4,15 +4,16 @@ from collections.abc import Sequence
 
 from shotc.ir.keyed import KEYED
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Ideal, Subject, Target
+from shotc.ir.mission import Above, Ideal, Subject, Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.spec.shot import ShotBase
 
 
-def along(shot: ShotBase, scene: Scene, offsets: Sequence[Vec3]) -> Expansion:
+def along(shot: ShotBase, scene: Scene, offsets: Sequence[Vec3], above: Above | None = None) -> Expansion:
     """Return a way told ahead of and to the left of the shot's target, which has to move.
 
-    offsets : (ahead, left, z in W), passed evenly over the shot's time; one alone is kept
+    offsets : (ahead, left, up), passed evenly over the shot's time; one alone is kept
+    above : what up counts from; the target's foot at that moment where that is None
     """
     assert shot.target is not None
     target = scene.subject(shot.target, "target")
@@ -22,7 +23,7 @@ def along(shot: ShotBase, scene: Scene, offsets: Sequence[Vec3]) -> Expansion:
         message = f"a {shot.kind} follows a motion, but target `{target.name}` stands"
         help_ = f"give `{target.name}` a `track` instead of `at`, or use `static`, `orbit` or `dolly`"
         return Expansion.of([scene.fault("M002", message, help_, "target")])
-    return timed(shot, scene, Ideal("heading", target.name, evenly(offsets)))
+    return timed(shot, scene, Ideal("heading", target.name, evenly(offsets), above=above or "target"))
 
 
 def timed(

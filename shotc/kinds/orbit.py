@@ -9,7 +9,7 @@ from shotc.ir.mission import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import axis_of, filmed, ring
 from shotc.spec.faults import fault
-from shotc.spec.fields import Angle, Length, Name, PositiveLength
+from shotc.spec.fields import Angle, CameraAltitude, Name, PositiveLength
 from shotc.spec.quantities import Quantity
 from shotc.spec.shot import ShotBase
 
@@ -23,7 +23,7 @@ class OrbitShot(ShotBase):
     kind: Literal["orbit"] = Field(description="what sort of shot it is")
     target: Name = Field(description="name of the target that is circled")
     radius: PositiveLength = Field(description="horizontal distance from the target's axis")
-    altitude: Length = Field(description="z of the camera")
+    altitude: CameraAltitude = Field(description="height of the camera over the target's foot")
     sweep: Sweep = Field(default=2 * pi, description="how far to turn; negative is clockwise seen from above")
     start_azimuth: Angle = Field(
         default=0.0, description="compass bearing from the target to the first point"
@@ -43,9 +43,9 @@ def expand(shot: OrbitShot, scene: Scene) -> Expansion:
     target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
-    radius, altitude = (shot.radius, shot.radius), (shot.altitude, shot.altitude)
-    points = ring(axis_of(target), shot.start_azimuth, shot.sweep, radius, altitude)
-    return filmed(shot, scene, target, points, turn="sweep")
+    radius, altitude = (shot.radius, shot.radius), shot.altitude
+    points = ring(axis_of(target), shot.start_azimuth, shot.sweep, radius, altitude.span)
+    return filmed(shot, scene, target, points, turn="sweep", above=altitude.above)
 
 
 KIND = Kind("orbit", "turn about the target at one distance and altitude", OrbitShot, expand)

@@ -1,6 +1,7 @@
 """Ideal paths about an upright axis: rings and straight lines, sampled as keyframe positions.
 
-Azimuth is a compass bearing from the axis (clockwise from North), rad; altitude is z in W.
+Azimuth is a compass bearing from the axis (clockwise from North), rad; altitude is a height over what
+the shot counts it from, and becomes z in W last.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 from math import atan2, ceil, cos, hypot, pi, sin
 
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Ideal, Target
+from shotc.ir.mission import Above, Ideal, Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.kinds.moving import evenly, timed
 from shotc.spec.shot import ShotBase
@@ -41,7 +42,7 @@ def ring(axis: Vec3, start: float, sweep: float, radius: Span, altitude: Span) -
 def line(axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: float) -> list[Vec3]:
     """Return points along a straight line in the upright plane of one azimuth.
 
-    height : z that the camera looks at; the points lie as dense as its view of it turns
+    height : that the camera looks at, counted as altitude is; the points lie as dense as its view of it turns
     """
     first, last = (atan2(z - height, d) for d, z in zip(distance, altitude, strict=True))
     turn = abs(last - first)
@@ -59,18 +60,26 @@ def axis_of(target: Target) -> Vec3:
     return target.centre if target.track is None else (0.0, 0.0, target.centre[2])
 
 
-def filmed(shot: ShotBase, scene: Scene, target: Target, points: list[Vec3], turn: str = "") -> Expansion:
+def filmed(
+    shot: ShotBase,
+    scene: Scene,
+    target: Target,
+    points: list[Vec3],
+    turn: str = "",
+    above: Above | None = None,
+) -> Expansion:
     """Return an ideal path along ``points`` about ``axis_of(target)`` that frames it.
 
     turn : the parameter that makes it move, where that is an angle and no pair [from, to]
+    above : what the points' heights count from; the target's foot where that is None
     """
     if max(hypot(*(a - b for a, b in zip(p, points[0], strict=True))) for p in points) >= 1e-3:
         if target.track is not None:
-            return timed(shot, scene, Ideal("target", target.name, evenly(points)))
-        return Expansion.of(scene.keyframe(p, shot.target) for p in points)
+            return timed(shot, scene, Ideal("target", target.name, evenly(points), above=above or "target"))
+        return Expansion.of(scene.keyframe(scene.raised(p, target, above), shot.target) for p in points)
     how = f"give `{turn}` an angle such as `180 deg`" if turn else "give what is to move as [from, to]"
     if target.track is None:
-        how += f", or {_standing(shot, scene, points[0])}"
+        how += f", or {_standing(shot, scene, scene.raised(points[0], target, above))}"
     return Expansion.of([scene.fault("K010", f"nothing moves in this {shot.kind}", how, turn or "kind")])
 
 

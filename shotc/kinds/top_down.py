@@ -9,7 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Beside, Composition, Target
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.rounding import at_most
-from shotc.spec.fields import Length, Name, Velocity
+from shotc.spec.fields import CameraAltitude, Name, Velocity
 from shotc.spec.shot import ShotBase
 
 WATCH = Composition("top-down")
@@ -21,7 +21,7 @@ class TopDownShot(ShotBase):
 
     kind: Literal["top-down"] = Field(description="what sort of shot it is")
     target: Name = Field(description="name of the target below the camera")
-    altitude: Length = Field(description="z of the camera; over the foot of a target that moves")
+    altitude: CameraAltitude = Field(description="height of the camera over the target's foot")
     drift: Velocity | None = Field(
         default=None, description="velocity of the camera from above the target; needs timing.duration"
     )
@@ -47,19 +47,21 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     if drifts and duration is None:
         return Expansion.of([scene.lasting("K009", "a drift needs a duration", "drift")])
     lasts = duration or STILL
-    end = (east * lasts, north * lasts, shot.altitude + up * lasts)
+    above, high = shot.altitude.above, shot.altitude.first
+    end = (east * lasts, north * lasts, high + up * lasts)
     if target.track is not None:
-        ends = ((0.0, 0.0, shot.altitude), end)
-        beside = (scene.keyframe(p, shot.target, beside=Beside(shot.target, p), **fixed) for p in ends)
+        places = [Beside(shot.target, p, above=above or "target") for p in ((0.0, 0.0, high), end)]
+        beside = (scene.keyframe(b.offset, shot.target, beside=b, **fixed) for b in places)
         return Expansion.of(beside)._replace(lasts=lasts)
-    above = (x, y, shot.altitude)
+    first = scene.raised((x, y, high), target, above)
     if not drifts:
-        return Expansion.of([scene.keyframe(above, shot.target, hold=lasts, **fixed)])
+        return Expansion.of([scene.keyframe(first, shot.target, hold=lasts, **fixed)])
     fault = _too_fast(shot, scene, target, lasts)
     if fault is not None:
         return Expansion.of([fault])
     return Expansion.of(
-        scene.keyframe(at, shot.target, **fixed) for at in (above, (x + end[0], y + end[1], end[2]))
+        scene.keyframe(at, shot.target, **fixed)
+        for at in (first, scene.raised((x + end[0], y + end[1], end[2]), target, above))
     )
 
 
@@ -101,7 +103,8 @@ def _seen(shot: TopDownShot, scene: Scene, target: Target) -> float:
     """
     if shot.composition is not None:
         return inf
-    return max(0.0, shot.altitude - target.centre[2]) * tan(scene.drone.hfov / 2) / scene.drone.aspect
+    high = shot.altitude.first - scene.height_of(target, shot.altitude.above)
+    return max(0.0, high) * tan(scene.drone.hfov / 2) / scene.drone.aspect
 
 
 def _mean_speed(speed: float, acceleration: float, duration: float) -> float:

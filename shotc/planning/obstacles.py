@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from math import hypot, inf
+from math import hypot, inf, isfinite
 from typing import NamedTuple
 
 from shotc.geom.solid_arrays.points import bounded
 from shotc.geom.solids import Cylinder, Prism, convex_parts, edges, hull_and_pockets
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.owners import GROUND, Owner, target_owner, zone_owner
+from shotc.ir.owners import CEILING, GROUND, Owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.free_space import MARGIN_M, Disc, FreeSpace, Obstacle, Wall
@@ -34,6 +34,8 @@ def flight_space(mission: MissionIR, drone: Drone) -> FreeSpace:
     """
     over_ground = mission.rules.over_ground(drone.radius)
     walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
+    if isfinite(most := mission.rules.max_height or inf):
+        walls.append(Wall(CEILING, (0.0, 0.0, -1.0), -most, 0.0))
     return _space((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
 
 

@@ -63,6 +63,8 @@ if TYPE_CHECKING:
     from shotc.spec.faults import fault
     from shotc.spec.fields import (
         Angle,
+        CameraAltitude,
+        CameraAltitudeSpan,
         Count,
         Duration,
         FieldOfView,
@@ -102,6 +104,8 @@ _HOMES = {
     "CHANNELS": "shotc.ir.path",
     "HFOV": "shotc.ir.path",
     "Angle": "shotc.spec.fields",
+    "CameraAltitude": "shotc.spec.fields",
+    "CameraAltitudeSpan": "shotc.spec.fields",
     "Artifact": "shotc.emit.base",
     "Beside": "shotc.ir.mission",
     "Claim": "shotc.ir.trajectory",
@@ -201,6 +205,8 @@ __all__ = [
     "Angle",
     "Artifact",
     "Beside",
+    "CameraAltitude",
+    "CameraAltitudeSpan",
     "Claim",
     "ClockDeviation",
     "Composition",

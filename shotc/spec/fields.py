@@ -9,6 +9,7 @@ from pydantic import StrictBool
 
 from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.fieldtypes import Integer, NamedOr, Text
+from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
 from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position, Relative, Station
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
@@ -23,6 +24,8 @@ __all__ = [
     "AngularAcceleration",
     "AngularRate",
     "Aspect",
+    "CameraAltitude",
+    "CameraAltitudeSpan",
     "CompositionSet",
     "Count",
     "Duration",
@@ -31,6 +34,7 @@ __all__ = [
     "Frequency",
     "Geodetic",
     "Heading",
+    "Heights",
     "Jerk",
     "Length",
     "LengthRange",

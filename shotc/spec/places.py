@@ -8,6 +8,7 @@ from pydantic.json_schema import JsonSchemaValue
 from shotc.ir.limits import Vec3
 from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType, Text
+from shotc.spec.heights import HEIGHT, AboveGround
 from shotc.spec.model import Model
 from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import describe
@@ -15,6 +16,10 @@ from shotc.units import describe
 _LENGTH = Quantity("Length", "length")
 _HINT = "write [x, y, z] in metres, or {lat: ..., lon: ..., height: ...}"
 _POINT3 = Tuple("Point3", (_LENGTH,) * 3, "[x, y, z]", _HINT)
+_SPOT = Tuple("Spot", (_LENGTH, _LENGTH, HEIGHT), "[x, y, z]", _HINT)
+
+Spot = tuple[float, float, float | AboveGround]
+"""x, y and z in metres, or x, y and a height over the ground there."""
 
 # Names become file names and table cells: nothing a shell, a file system or a spreadsheet stumbles on.
 NAME = Text(
@@ -75,32 +80,32 @@ class Geodetic(Model):
 
     lat: Latitude = Field(description="latitude, degrees north")
     lon: Longitude = Field(description="longitude, degrees east")
-    height: Annotated[float, _LENGTH] = Field(
-        default=0.0, description="height over the ground, z in the world"
+    height: Annotated[float | AboveGround, HEIGHT] = Field(
+        default=0.0, description="height over the plane through the origin, or {above: ground, height: ...}"
     )
 
 
 class PositionType(FieldType):
-    """A point of the world: ``[x, y, z]`` or ``{lat, lon, height}``."""
+    """A point of the world: ``[x, y, z]`` or ``{lat, lon, height}``; heights may count from the ground."""
 
     label = "Position"
 
-    def read(self, value: Any) -> Vec3 | Geodetic:
+    def read(self, value: Any) -> Spot | Geodetic:
         """Return a point of W in metres, or a geodetic place."""
         if isinstance(value, dict | Geodetic):
             return Geodetic.model_validate(value)
         if not isinstance(value, list | tuple):
             raise fault("wrong-type", f"expected a position, got {describe(value)}", _HINT)
-        x, y, z = _POINT3.read(value)
+        x, y, z = _SPOT.read(value)
         return (x, y, z)
 
     def schema(self) -> JsonSchemaValue:
         """Return the two ways to write it."""
-        return {"anyOf": [_POINT3.reference(), {"$model": Geodetic}]}
+        return {"anyOf": [_SPOT.reference(), {"$model": Geodetic}]}
 
 
 POSITION = PositionType()
-Position = Annotated[Vec3 | Geodetic, POSITION]
+Position = Annotated[Spot | Geodetic, POSITION]
 
 
 class Relative(Model):
@@ -122,7 +127,7 @@ class StationType(FieldType):
 
     label = "Station"
 
-    def read(self, value: Any) -> Vec3 | Geodetic | Relative:
+    def read(self, value: Any) -> Spot | Geodetic | Relative:
         """Return a point of W in metres, a geodetic place, or one that counts from a target."""
         if isinstance(value, Relative) or (isinstance(value, dict) and value.keys() & Relative.keys().keys()):
             return Relative.model_validate(value)
@@ -136,7 +141,7 @@ class StationType(FieldType):
 
 
 _STATION_HINT = f"{_HINT}, or {{from: a target, offset: [east, north, up]}}"
-Station = Annotated[Vec3 | Geodetic | Relative, StationType()]
+Station = Annotated[Spot | Geodetic | Relative, StationType()]
 
 
 class LookAtType(FieldType):
@@ -144,7 +149,7 @@ class LookAtType(FieldType):
 
     label = "LookAt"
 
-    def read(self, value: Any) -> str | Vec3 | Geodetic:
+    def read(self, value: Any) -> str | Spot | Geodetic:
         """Return a target's name or a position."""
         return NAME.read(value) if isinstance(value, str) else POSITION.read(value)
 
@@ -153,4 +158,4 @@ class LookAtType(FieldType):
         return {"anyOf": [NAME.reference(), POSITION.reference()]}
 
 
-LookAt = Annotated[str | Vec3 | Geodetic, LookAtType()]
+LookAt = Annotated[str | Spot | Geodetic, LookAtType()]

@@ -1,5 +1,6 @@
 """Mission-wide rules and what is written out; silence means the defaults of ``presets``."""
 
+from math import inf
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -8,10 +9,14 @@ from shotc.spec import presets
 from shotc.spec.allow import Allowed
 from shotc.spec.compositions import COMPOSITIONS
 from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace
+from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.model import Model
 from shotc.spec.quantities import Quantity
 from shotc.units import SMALLEST
 
+_MAX_HEIGHT = NamedOr(
+    "MaxHeight", {"off": inf}, "height", Quantity("PositiveLength", "length", SMALLEST["length"])
+)
 _HALF_ANGLE = Quantity("HalfAngle", "angle", SMALLEST["angle"], 1.5707963267948966)
 
 
@@ -52,6 +57,10 @@ class RulesSpec(Model):
     )
     ground_clearance: NonNegativeLength = Field(
         default=presets.GROUND_CLEARANCE, description="least distance from a drone's body to the ground"
+    )
+    max_height: Annotated[float, _MAX_HEIGHT] | None = Field(
+        default=None,
+        description="greatest height of a drone above the ground, or off; a warning above 120 m if silent",
     )
     target_clearance: NonNegativeLength = Field(
         default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from shotc.spec.fields import (
     Angle,
-    LengthRange,
+    Heights,
     Name,
     NonNegativeDuration,
     NonNegativeSpeed,
@@ -35,7 +35,7 @@ class CylinderSpec(Model):
 
     center: Point2 = Field(description="axis, [x, y]")
     radius: PositiveLength = Field(description="radius")
-    height: LengthRange = Field(description="[bottom, top], z in the world")
+    height: Heights = Field(description="[bottom, top], z in the world, or above ground")
 
 
 class PolygonSpec(Model):
@@ -44,7 +44,7 @@ class PolygonSpec(Model):
     points: tuple[Point2, ...] = Field(
         min_length=3, max_length=200, description="corners in order, [[x, y], ...]"
     )
-    height: LengthRange = Field(description="[bottom, top], z in the world")
+    height: Heights = Field(description="[bottom, top], z in the world, or above ground")
 
 
 class BoxSpec(Model):

@@ -35,12 +35,25 @@ _ON_EARTH = _PASSING.replace("world:\n", "world:\n  origin: {lat: 47.3769, lon: 
 )
 
 
+_ROOF = """\
+shotc: 1
+mission: roof
+targets:
+  roof: {at: [0, 0, 14], radius: 4, height: 4}
+drones:
+  cam1: {model: x500, home: [0, -60, 0]}
+rules: {max_height: 60}
+shots:
+  - {id: round, kind: orbit, drone: cam1, target: roof, radius: 40, altitude: {above: target, height: 12}}
+"""
+
+
 _TWO = _PASSING.replace(
     "home: [0, -60, 0]}\n", "home: [0, -60, 0]}\n  cam2: {model: x500, home: [8, -60, 0]}\n"
 ).replace("kind: orbit, drone: cam1", "kind: orbit, drone: cam2")
 
 
-_WARNINGS = {11, 12, 16, 18, 23}
+_WARNINGS = {11, 12, 16, 18, 20, 21, 23, 24}
 
 
 def _code(
@@ -220,6 +233,37 @@ CODES: tuple[CodeInfo, ...] = (
         base=_TWO,
     ),
     _code(
+        20,
+        "altitude-from-foot",
+        "the altitude of a shot counts from the foot of its target, not from z = 0",
+        "The `altitude` of a shot with a target counts from the target's foot at that moment: a roof is filmed from "
+        "above the roof, a cyclist on a climb from above the road. Up to version 0.1 it counted from the plane z = 0. "
+        "Where the two differ this tells both, once: write `altitude: {above: target, height: ...}` to say that the "
+        "foot is meant, or `{above: origin, height: ...}` for z, or `{above: ground, height: ...}` for the height "
+        "over the ground below the camera.",
+        ("altitude: {above: target, height: 12}", "altitude: 12"),
+        base=_ROOF,
+    ),
+    _code(
+        21,
+        "below-foot",
+        "a camera is below the foot of its target, though its height counts from target or ground",
+        "A height over the target's foot is negative, or the ground below the camera lies lower than the target "
+        "stands, so that the picture looks up at it from below. Raise the altitude. A camera that is to be so low, "
+        "as on the sea before a cliff, says so by `above: origin`.",
+        ("height: 12", "height: -2"),
+        base=_ROOF,
+    ),
+    _code(
+        22,
+        "above-max-height",
+        "a camera is higher above the ground than the mission allows",
+        "`rules.max_height` is the greatest height of a drone's centre above the ground, in every phase. A place "
+        "of the mission that is higher can never be flown. Lower it, or raise the rule.",
+        ("max_height: 60", "max_height: 15"),
+        base=_ROOF,
+    ),
+    _code(
         23,
         "target-in-zone",
         "a target stands in a keep-out zone, or comes into it",
@@ -230,5 +274,17 @@ CODES: tuple[CodeInfo, ...] = (
         "other reasons and can be looked through, write `allow: [hidden-subject]` in the shots that film the "
         "target, or under `rules`. See V050.",
         ("center: [-30, 20], radius: 3, height: [0, 12]", "center: [1, 0], radius: 8, height: [0, 26]"),
+    ),
+    _code(
+        24,
+        "above-legal-height",
+        "a camera is higher above the ground than most countries allow",
+        "Without a permit, drones are flown at most 120 m (400 ft) above the ground in most countries. Lower the "
+        "shot; or write `max_height` under `rules`: a number is kept and proved, `off` is none.",
+        (
+            "radius: 40, altitude: {above: target, height: 12}",
+            "radius: 150, altitude: {above: target, height: 130}",
+        ),
+        base=_ROOF.replace("rules: {max_height: 60}\n", ""),
     ),
 )

@@ -124,6 +124,14 @@ _SPACE = (
         ),
     ),
     verified(
+        47,
+        "too-high",
+        (
+            "the flight is higher above the ground than the mission allows",
+            "`rules.max_height` is the greatest height of a drone's centre above the ground, from take-off to landing.",
+        ),
+    ),
+    verified(
         10,
         "too-near-a-target",
         (

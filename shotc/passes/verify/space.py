@@ -7,7 +7,7 @@ apply, and the body may stand as near to a solid as its pad does, but no nearer.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
+from math import inf, isfinite
 
 import numpy as np
 
@@ -40,6 +40,11 @@ def space(flight: Flight) -> Iterator[Claim]:
     low = inf_channel(free, 2, gap(aim))
     if len(free):
         yield bounded(flight, ground, less(low, flight.drone.radius))
+    if rules.max_height is not None and isfinite(rules.max_height):
+        limit = Limit("height above ground", rules.max_height, "m", ("rules", "max_height"))
+        whole = flight.track.curve.channels(0, 1, 2)
+        high = sup_convex(cut(whole, whole.start, whole.end), lambda c: c[..., 2], gap(rules.max_height))
+        yield bounded(flight, limit, high)
     for target in flight.mission.targets:
         near = (free, upright) if target.track is None else _split(flight, target)
         parts = (*near, rules.target_clearance)

@@ -29,5 +29,12 @@ def ideal_places(mission: MissionIR, shot: Shot, start: float, times: Array) -> 
         facing = headings(target.track, times)
         c, s = np.cos(facing), np.sin(facing)
         east, north = c * east - s * north, s * east + c * north
-    high = centre[:, 2] + up if ideal.frame == "about" else up
-    return np.column_stack([centre[:, 0] + east, centre[:, 1] + north, high])
+    x, y, z = centre[:, 0] + east, centre[:, 1] + north, centre[:, 2]
+    if ideal.frame == "about":
+        return np.column_stack([x, y, z + up])
+    if ideal.above == "origin":
+        return np.column_stack([x, y, up])
+    if ideal.above == "ground":
+        ground = np.array([mission.ground(*place) for place in zip(x.tolist(), y.tolist(), strict=True)])
+        return np.column_stack([x, y, ground + up])
+    return np.column_stack([x, y, z - target.height / 2 + up])

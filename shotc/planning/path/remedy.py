@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.owners import GROUND, Owner, zone_owner
+from shotc.ir.owners import CEILING, GROUND, Owner, zone_owner
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.path.lines import Line, straight_line
 from shotc.planning.path.shots import PlannedShot, Stuck, shot_curve
@@ -62,6 +62,8 @@ def needed(mission: MissionIR, owner: Owner, metres: float) -> str:
     """Say by how much an owner would have to give way."""
     if owner == GROUND:
         return f"rules.ground_clearance would have to be {metres:.2f} m lower"
+    if owner == CEILING:
+        return f"rules.max_height would have to be {metres:.2f} m higher"
     change = "wider" if _holds_in(mission, owner) else "smaller"
     return f"{owner.words} would have to be {metres:.2f} m {change} on every side"
 
@@ -69,6 +71,8 @@ def needed(mission: MissionIR, owner: Owner, metres: float) -> str:
 def _asked(mission: MissionIR, owner: Owner, metres: float) -> str:
     if owner == GROUND:
         return f"lower rules.ground_clearance by {metres:.2f} m"
+    if owner == CEILING:
+        return f"raise rules.max_height by {metres:.2f} m"
     verb = "widen" if _holds_in(mission, owner) else "shrink"
     return f"{verb} {owner.words} by {metres:.2f} m on every side"
 

@@ -11,6 +11,7 @@ from shotc.passes.resolve.checks.covered import covered
 from shotc.passes.resolve.checks.framing import check_framing
 from shotc.passes.resolve.checks.framings import check_course
 from shotc.passes.resolve.checks.grammar import allowed, check_grammar
+from shotc.passes.resolve.checks.heights import check_heights, check_reference
 from shotc.passes.resolve.checks.home import check_homes
 from shotc.passes.resolve.checks.ideals import check_ideal
 from shotc.passes.resolve.checks.keyed import check_carried
@@ -56,10 +57,13 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     homes = [*check_homes(mission), *ideals, *passers_of(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
-    faults = [*homes, *(d for _, _, d in places), *check_framing(mission, {path for _, path in wrong})]
+    misplaced = {shot.path for shot, _ in wrong}
+    sound = [shot for shot in mission.shots if shot.path not in misplaced]
+    faults = [*homes, *(d for shot in mission.shots for d in check_reference(mission, shot))]
+    faults += [d for _, _, d in places]
+    faults += [d for shot in sound for d in check_heights(mission, shot)]
+    faults += check_framing(mission, {path for _, path in wrong})
     if timing:
-        misplaced = {shot.path for shot, _ in wrong}
-        sound = [shot for shot in mission.shots if shot.path not in misplaced]
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
     return faults
 

@@ -35,7 +35,8 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
     """
     if shot.kind not in DISTANCES or shot.subject is None or not shot.keyframes:
         return []
-    centre = mission.target(shot.subject).centre
+    target = mission.target(shot.subject)
+    centre = target.centre
 
     def aside(k: Keyframe, by: float) -> Keyframe:
         return at_distance(centre, k, distance_of(centre, k) + by)
@@ -43,14 +44,19 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
     def above(k: Keyframe, by: float) -> Keyframe:
         return k._replace(at=(k.at[0], k.at[1], k.at[2] + by))
 
+    def altitude(k: Keyframe) -> float:
+        return k.at[2] - mission.base(shot.above or "origin", k.at[:2], target, 0.0)
+
     nearest = min(distance_of(centre, k) for k in shot.keyframes)
     ends = (shot.keyframes[0], shot.keyframes[-1])
     found: list[Change] = []
     for key, move, least in ((DISTANCES[shot.kind], aside, STEP - nearest), ("altitude", above, -MOST)):
         by = next(_free(mission, shot, move, least), None)
         if by is not None:
-            now = [distance_of(centre, k) if move is aside else k.at[2] for k in ends]
-            found.append(Change(key, span(now[0] + by, now[1] + by)))
+            now = [distance_of(centre, k) if move is aside else altitude(k) for k in ends]
+            value = span(now[0] + by, now[1] + by)
+            counted = move is above and (*shot.path, key, "above") in mission.origins.values
+            found.append(Change(key, f"{{above: {shot.above}, height: {value}}}" if counted else value))
     return found
 
 

@@ -14,6 +14,7 @@ from shotc.ir.begins import known_start
 from shotc.ir.keyed import carriers, in_order, is_keyed
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.framing import beyond_gimbal
+from shotc.passes.resolve.checks.heights import moments
 from shotc.passes.resolve.checks.keeping_up import check_speed
 from shotc.passes.resolve.checks.timing import timing_label
 from shotc.planning.clearances import ROUNDING_M
@@ -81,7 +82,7 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     if ideal is None or ideal.frame in ("about", "keyframes"):
         return
     need = mission.rules.over_ground(mission.drone(shot.drone).radius)
-    lowest = min(offset[2] for _, offset in ideal.points)
+    lowest = min(z - mission.ground(x, y) for (x, y, z), _ in moments(mission, shot))
     if lowest >= need - ROUNDING_M:
         return
     key = "altitude" if (*shot.path, "altitude") in mission.origins.values else "kind"
@@ -90,7 +91,7 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` is too low: {lowest:.2f} m over the ground",
         (mission.origins.value((*shot.path, key)),),
         (f"the ground clearance and the body radius need {need:.2f} m",),
-        f"raise it to z = {at_least(need)}",
+        f"raise it by {at_least(need - lowest)} m",
     )
 
 

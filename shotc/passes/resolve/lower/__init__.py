@@ -7,6 +7,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.framed import Course
+from shotc.ir.ground import flat
 from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, TransitClearance, Zone
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
@@ -97,7 +98,7 @@ def _world(ir: LoadedMission) -> _World:
     spec, origins = ir.spec, ir.origins
     astray = check_earth(spec, origins)
     origin = geo_origin(spec)
-    put = partial(placed, origin or ANYWHERE)
+    put = partial(placed, origin or ANYWHERE, flat)
     read = Reader(ir.folder, origins)
     ground = Ground(origin, origins, read)
     found_zones, zone_faults = zones(spec, put, origins)
@@ -144,7 +145,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
 
 def _rules(spec: RulesSpec) -> Rules:
     rules = Rules(spec.separation, spec.ground_clearance, spec.target_clearance)
-    rules = rules._replace(transits=_transits(spec))
+    rules = rules._replace(transits=_transits(spec), max_height=spec.max_height)
     visibility = spec.mutual_visibility
     if visibility is None:
         return rules

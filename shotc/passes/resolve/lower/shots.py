@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Rules, Shot, Target
+from shotc.ir.mission import Above, Deferred, Drone, GeoOrigin, Keyframe, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.lower.foreign import expanded
+from shotc.spec.heights import Altitude
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import ShotBase
 
@@ -109,7 +110,14 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         subjects=expansion.subjects,
         size=shot.size,
         allow=tuple(dict.fromkeys((*spec.rules.allow, *shot.allow))),
+        above=_above(shot),
     )
+
+
+def _above(shot: ShotBase) -> Above | None:
+    """Return what the altitude of a shot's camera counts from, where its kind has one."""
+    altitude = getattr(shot, "altitude", None)
+    return (altitude.above or "target") if isinstance(altitude, Altitude) else None
 
 
 def _promise(written: "RequireSpec | None") -> Promise:

@@ -16,6 +16,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic
 from shotc.spec.mission import MissionSpec
+from shotc.spec.places import Spot
 from shotc.spec.presets import PRESETS, Preset
 from shotc.spec.world import ZoneSpec
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Fleet
     from shotc.spec.fleets import FleetSpec
 
-Put = Callable[[Vec3 | Geodetic], Vec3]
+Put = Callable[[Spot | Geodetic], Vec3]
 LEAST_AREA = 1e-4  # m^2
 BURIED = 0.25  # share of a target's height under the ground that is no rounding of its place
 BEYOND = 2.0  # times a preset's figure; presets stay at half of what makers publish, or more
@@ -52,7 +53,7 @@ def _solid(zone: ZoneSpec, put: Put) -> Solid | str:
     """Return the solid of a zone, or what its polygon does wrong."""
     if zone.cylinder is not None:
         c = zone.cylinder
-        return Cylinder(c.center, c.radius, *c.height)
+        return Cylinder(c.center, c.radius, c.height.low, c.height.high)
     if zone.box is not None:
         return box(put(zone.box.center), zone.box.size, zone.box.heading)
     assert zone.polygon is not None
@@ -64,7 +65,8 @@ def _solid(zone: ZoneSpec, put: Put) -> Solid | str:
     area = signed_area(ring)
     if abs(area) < LEAST_AREA:
         return "encloses no area"
-    return Prism(ring if area > 0 else ring[::-1], *zone.polygon.height)
+    height = zone.polygon.height
+    return Prism(ring if area > 0 else ring[::-1], height.low, height.high)
 
 
 def _ring(points: tuple[Vec2, ...]) -> tuple[Vec2, ...]:

@@ -7,7 +7,7 @@ farther away than the nearest drone found so far is not looked at again.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import inf
+from math import inf, isfinite
 
 import numpy as np
 
@@ -68,6 +68,12 @@ def _ground(flight: FleetFlight, free: FleetPieces) -> Iterator[Claim]:
     if len(free.low):
         low = inf_channel(free.bag(), 2, gap(clearance + radius))
         yield bounded(flight, limit, less(low, radius), lambda p: p[:, 2])
+    most = flight.mission.rules.max_height
+    if most is not None and isfinite(most) and len(free.low):
+        high = sup_convex(free.bag(), lambda c: c[..., 2], gap(most))
+        yield bounded(
+            flight, Limit("height above ground", most, "m", ("rules", "max_height")), high, lambda p: p[:, 2]
+        )
 
 
 def _keep_out(

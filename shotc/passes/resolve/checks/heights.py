@@ -1,0 +1,122 @@
+"""How high cameras are: over the foot of what they film, and over the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import ceil, inf
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.begins import first_start
+from shotc.ir.ideal import ideal_place
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.lower.world import BURIED
+from shotc.planning.clearances import ROUNDING_M
+
+STEP_S = 0.5  # between the moments of a shot on its own clock that are looked at
+MOMENTS = 400  # of one shot, at most
+STANDS_M = 0.1  # a target whose foot is nearer to z = 0 stands there
+LEGAL_M = 120.0  # above ground, the limit of the open category in Europe; 400 ft in the United States
+
+
+class Moment(NamedTuple):
+    """Where a camera is, metres of W, and the z of the foot of its shot's target then, if it has one."""
+
+    at: Vec3
+    foot: float | None
+
+
+def check_heights(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Yield the faults of a camera that is too low beside its target, or too high over the ground."""
+    way = moments(mission, shot)
+    yield from _below_foot(mission, shot, way)
+    yield from _too_high(mission, shot, way)
+
+
+def moments(mission: MissionIR, shot: Shot) -> list[Moment]:
+    """Return where a shot's camera is to be: at keyframes, or along the ideal of one on its own clock."""
+    target = next((t for t in mission.targets if t.name == shot.subject), None)  # None of a name that is told
+    duration = shot.timing.duration
+    if shot.ideal is None or duration is None:
+        foot = None if target is None else target.foot[2]
+        return [Moment(k.at, foot) for k in shot.keyframes]
+    start, pieces = first_start(mission, shot), max(1, min(MOMENTS, ceil(duration / STEP_S)))
+    times = [start + duration * i / pieces for i in range(pieces + 1)]
+    return [
+        Moment(ideal_place(mission, shot, start, t), None if target is None else target.foot_at(t)[2])
+        for t in times
+    ]
+
+
+def check_reference(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+    """Tell a height that counts from a target's foot, where version 0.1 counted it from z = 0."""
+    key, way = (*shot.path, "altitude"), moments(mission, shot)
+    feet = [moment.foot for moment in way if moment.foot is not None]
+    if shot.above != "target" or (*key, "above") in mission.origins.values or not feet:
+        return
+    buried = min(feet) < -BURIED * mission.target(shot.subject or "").height  # which is told by itself
+    if buried or max(map(abs, feet)) < STANDS_M:
+        return
+    now = [moment.at[2] for moment in way]
+    before = [z - foot for z, foot in zip(now, feet, strict=True)]
+    written = _written(before)
+    yield Diagnostic(
+        "G020",
+        f"the altitude of shot `{shot.id}` counts from the foot of target `{shot.subject}`",
+        (mission.origins.value(key),),
+        (f"its foot is at z = {_span(feet)}; the camera is at z = {_span(now)}, it was at {_span(before)}",),
+        f"write `altitude: {{above: target, height: {written}}}` if that is meant, "
+        f"or `altitude: {{above: origin, height: {written}}}` to keep the camera where it was",
+    )
+
+
+def _below_foot(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[Diagnostic]:
+    """Warn of a camera below the foot of its target, though its height counts from target or ground."""
+    key = (*shot.path, "altitude")
+    if shot.above in (None, "origin") or key not in mission.origins.values:
+        return
+    deepest = max(way, key=lambda moment: -inf if moment.foot is None else moment.foot - moment.at[2])
+    if deepest.foot is None or deepest.foot - deepest.at[2] <= ROUNDING_M:
+        return
+    yield Diagnostic(
+        "G021",
+        f"the camera of shot `{shot.id}` is below the foot of target `{shot.subject}`",
+        (mission.origins.value(key),),
+        (f"it is at z = {deepest.at[2]:.2f} m, the target's foot at z = {deepest.foot:.2f} m",),
+        "raise it, or write `above: origin` with a height over the plane z = 0 if it is to be that low",
+    )
+
+
+def _too_high(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[Diagnostic]:
+    """Tell a camera above the rule of the mission; where that is silent, above what most countries allow."""
+    rule = mission.rules.max_height
+    most = LEGAL_M if rule is None else rule
+    high = max((m.at[2] - mission.ground(*m.at[:2]) for m in way), default=-inf)
+    if high <= most + ROUNDING_M:
+        return
+    key = next((k for k in ("altitude", "at") if (*shot.path, k) in mission.origins.values), "kind")
+    label = mission.origins.value((*shot.path, key))
+    message = f"the camera of shot `{shot.id}` is {high:.2f} m above the ground"
+    if rule is None:
+        note = f"most countries allow {LEGAL_M:.0f} m without a permit"
+        allow = f"write `max_height: {ceil(high)}` or `max_height: off` under `rules`"
+        help_ = f"lower it by {high - LEGAL_M:.2f} m, or {allow}"
+        yield Diagnostic("G024", message, (label,), (note,), help_)
+        return
+    beside = mission.origins.value(("rules", "max_height"), "the rule")
+    yield Diagnostic(
+        "G022", message, (label, beside), (), f"lower it by {high - most:.2f} m, or raise the rule"
+    )
+
+
+def _span(values: list[float]) -> str:
+    """Write metres, or from where to where they go."""
+    low, high = f"{min(values) + 0.0:.2f}", f"{max(values) + 0.0:.2f}"
+    return f"{low} m" if low == high else f"{low} to {high} m"
+
+
+def _written(heights: list[float]) -> str:
+    """Write the heights of a shot as `altitude` has them."""
+    first, last = (f"{round(heights[i], 2) + 0.0:g}" for i in (0, -1))
+    return first if first == last else f"[{first}, {last}]"
