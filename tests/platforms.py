@@ -8,6 +8,7 @@ index must have no wheel of it. A platform that the index has no wheels for at a
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import tomllib
@@ -31,6 +32,8 @@ NO_WHEELS = {
 """Packages that some platforms do without, and why they can."""
 PROBE = "numpy"
 """A package of which every whole index has wheels for every platform."""
+MACOS = "14.0"
+"""The oldest macOS that is asked for: pyproj has no wheels for older ones on Apple's own processors."""
 MOST_SAID = 200
 """Characters of a line on what is skipped: uv says the same of every platform."""
 AT_ONCE = 8
@@ -167,7 +170,12 @@ def ask_uv(uv: str, question: Question) -> Reply:
     command += [] if question.deep else ["--no-deps"]
     # Nothing but the index counts: neither a lock nor the project around.
     done = subprocess.run(
-        command, input="\n".join(question.requirements), capture_output=True, text=True, check=False
+        command,
+        input="\n".join(question.requirements),
+        env={**os.environ, "MACOSX_DEPLOYMENT_TARGET": MACOS},
+        capture_output=True,
+        text=True,
+        check=False,
     )
     if done.returncode == 0:
         return Reply(Answer.WHEELS)

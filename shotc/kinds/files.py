@@ -36,11 +36,11 @@ class Table(NamedTuple):
     lines: tuple[int, ...]
 
 
-def read_table(data: bytes, layouts: Sequence[tuple[str, ...]]) -> Table | FileFault:
+def read_table(data: bytes, layouts: Sequence[tuple[str, ...]], most: int = MOST_ROWS) -> Table | FileFault:
     """Read a CSV file whose header is one of ``layouts``.
 
     A file without a header is read in the order of the first layout that has as many columns.
-    Empty lines and lines that begin with # are passed over.
+    Empty lines and lines that begin with # are passed over. most : rows
     """
     text = _text(data)
     if isinstance(text, FileFault):
@@ -57,8 +57,8 @@ def read_table(data: bytes, layouts: Sequence[tuple[str, ...]]) -> Table | FileF
     if isinstance(columns, FileFault):
         return columns
     body = lines if _is_number(cells[0]) else lines[1:]
-    if len(body) > MOST_ROWS:
-        return FileFault(f"the file has {len(body)} rows; at most {MOST_ROWS} are read", help="thin it")
+    if len(body) > most:
+        return FileFault(f"the file has {len(body)} rows; at most {most} are read", help="thin it")
     rows = _rows(body, columns)
     return rows if isinstance(rows, FileFault) else Table(columns, rows, tuple(n for n, _ in body))
 

@@ -1,0 +1,145 @@
+"""ASCII grids (.asc) of Esri: a header of names and numbers, then rows of heights from the north."""
+
+from __future__ import annotations
+
+import io
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
+from shotc.kinds.elevation.srtm import WGS84
+
+NEEDED = ("ncols", "nrows")
+CORNERS = (("xllcorner", "xllcenter"), ("yllcorner", "yllcenter"))
+STEPS = ("dx", "dy")
+NAMES = {*NEEDED, "cellsize", *STEPS, "nodata_value", *(name for both in CORNERS for name in both)}
+NO_HEIGHT = -9999.0  # where the header names no other
+DEGREES = 0.1
+"""Smaller cells, at places that may be degrees, are in degrees: no grid has them in metres."""
+
+
+class Header(NamedTuple):
+    """Names and numbers, and how many lines they take."""
+
+    values: dict[str, float]
+    lines: int
+
+
+class Steps(NamedTuple):
+    """From post to post, East and North, and the number of columns and rows."""
+
+    x: float
+    y: float
+    columns: int
+    rows: int
+
+
+def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFault:
+    """Return the posts of a grid: the middles of its cells. Grids that look like degrees are in WGS84."""
+    try:
+        lines = data.decode("ascii").splitlines()
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        return TerrainFault("format", "the file is no ASCII text", line)
+    header = _header(lines)
+    if isinstance(header, TerrainFault):
+        return header
+    steps = _steps(header.values)
+    if isinstance(steps, TerrainFault):
+        return steps
+    heights = _heights(lines, header.lines, (steps.rows, steps.columns))
+    if isinstance(heights, TerrainFault):
+        return heights
+    heights[heights == header.values.get("nodata_value", NO_HEIGHT)] = np.nan
+    x = np.asarray(_first(header.values, 0, steps.x) + steps.x * np.arange(steps.columns))
+    y = np.asarray(_first(header.values, 1, steps.y) + steps.y * np.arange(steps.rows)[::-1])
+    if system is None and steps.x < DEGREES and abs(x).max() <= 360.0 and abs(y).max() <= 90.0:
+        system = WGS84
+    if system is None:
+        help_ = "give its `system`, such as EPSG:32632; the .prj file beside it tells"
+        return TerrainFault(
+            "system", "the file does not say in which system of coordinates it is", None, help_
+        )
+    return posts_of(heights, x, y, system)
+
+
+def _header(lines: list[str]) -> Header | TerrainFault:
+    values: dict[str, float] = {}
+    for number, line in enumerate(lines, 1):
+        words = line.split()
+        name = words[0].lower() if words else ""
+        if name not in NAMES:
+            return _complete(values, number)
+        if name in values:
+            return TerrainFault("format", f"`{words[0]}` stands twice in the header", number)
+        value = _number(words[1]) if len(words) == 2 else None
+        if value is None:
+            return TerrainFault("format", f"`{line.strip()[:40]}` is not a name and a number", number)
+        values[name] = value
+    return _complete(values, len(lines) + 1)
+
+
+def _complete(values: dict[str, float], line: int) -> Header | TerrainFault:
+    step = ("cellsize",) if "cellsize" in values else STEPS
+    corners = [next((name for name in both if name in values), both[0]) for both in CORNERS]
+    lacking = [name for name in (*NEEDED, *corners, *step) if name not in values]
+    if lacking:
+        names = ", ".join(f"`{name}`" for name in lacking)
+        return TerrainFault("format", f"its header lacks {names}", line)
+    return Header(values, line - 1)
+
+
+def _steps(values: dict[str, float]) -> Steps | TerrainFault:
+    columns, rows = values["ncols"], values["nrows"]
+    if columns % 1 or rows % 1 or min(columns, rows) < 1:
+        return TerrainFault("format", f"its header says {columns:g} columns and {rows:g} rows")
+    if columns * rows > MOST_POSTS:
+        return TerrainFault(
+            "size", f"it has {columns * rows:.0f} posts; {MOST_POSTS} are the most", None, "thin it"
+        )
+    x, y = values.get("cellsize", values.get("dx", 0.0)), values.get("cellsize", values.get("dy", 0.0))
+    if min(x, y) <= 0.0:
+        return TerrainFault("format", f"its header says cells of {x:g} by {y:g}")
+    return Steps(x, y, int(columns), int(rows))
+
+
+def _first(values: dict[str, float], axis: int, step: float) -> float:
+    corner, centre = CORNERS[axis]
+    return values[centre] if centre in values else values[corner] + 0.5 * step
+
+
+def _heights(lines: list[str], skipped: int, shape: tuple[int, int]) -> Array | TerrainFault:
+    body = lines[skipped:]
+    try:  # the short way: a line a row, and numbers alone
+        found = np.loadtxt(io.StringIO("\n".join(body)), dtype=np.float64, ndmin=2, comments=None)
+    except ValueError:
+        found = np.zeros((0, 0))
+    if found.shape == shape and np.isfinite(found).all():
+        return found
+    return _word_by_word(body, skipped, shape)
+
+
+def _word_by_word(body: list[str], skipped: int, shape: tuple[int, int]) -> Array | TerrainFault:
+    """Return heights whose lines are broken anywhere, or the first fault and its line."""
+    values: list[float] = []
+    for number, line in enumerate(body, skipped + 1):
+        for word in line.split():
+            value = _number(word)
+            if value is None:
+                help_ = "decimals have a point"
+                return TerrainFault("number", f"`{word[:30]}` is not a height", number, help_)
+            values.append(value)
+    if len(values) != shape[0] * shape[1]:
+        message = f"it has {len(values)} heights; its header says {shape[0]} rows of {shape[1]}"
+        return TerrainFault("truncated", message)
+    return np.array(values).reshape(shape)
+
+
+def _number(word: str) -> float | None:
+    try:
+        value = float(word)
+    except ValueError:
+        return None
+    return value if np.isfinite(value) and "_" not in word else None

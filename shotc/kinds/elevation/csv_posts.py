@@ -1,0 +1,58 @@
+"""Posts as a table (.csv): x, y, z in metres of W, or lat, lon, alt; a row a post, in any order."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
+from shotc.geom.terrain.systems import GEOGRAPHIC
+from shotc.kinds.elevation.srtm import WGS84
+from shotc.kinds.files import FileFault, read_table
+
+LAYOUTS = (("x", "y", "z"), ("lat", "lon", "alt"))
+MOST_ROWS = 1_000_000
+FULL = 0.5
+"""Share of a grid's places that have a post, at least: fewer are points that lie anywhere."""
+SAME = 1e-6
+"""Share of an axis's extent within which places are one: tables are rounded."""
+
+
+def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFault:
+    """Return the posts of a table; places of its grid that it leaves out have no height."""
+    table = read_table(data, LAYOUTS, most=MOST_ROWS)
+    if isinstance(table, FileFault):
+        return TerrainFault("format", *table)
+    columns = {name: i for i, name in enumerate(table.columns)}
+    on_earth = "lat" in columns
+    if system is not None and not (on_earth and system in GEOGRAPHIC):
+        message = f"its columns say where its posts are, not EPSG:{system}"
+        return TerrainFault("system", message, None, "leave the system out")
+    rows = np.array(table.rows)
+    names = ("lon", "lat", "alt") if on_earth else LAYOUTS[0]
+    x, y, z = (rows[:, columns[name]] for name in names)
+    (x_places, column), (y_places, row) = _places(x), _places(y)
+    shape = (len(y_places), len(x_places))
+    if shape[0] * shape[1] > MOST_POSTS or len(rows) < FULL * shape[0] * shape[1]:
+        message = f"its {len(rows)} points lie on {shape[0]} rows and {shape[1]} columns"
+        help_ = "export a grid: every row of it has a point on every column"
+        return TerrainFault("grid", f"{message}, so that they are no grid", None, help_)
+    place = row * shape[1] + column
+    _, first, count = np.unique(place, return_index=True, return_counts=True)
+    if (count > 1).any():
+        again = int(np.setdiff1d(np.arange(len(place)), first)[0])
+        return TerrainFault("grid", "a point lies where another does", table.lines[again])
+    heights = np.full(shape, np.nan)
+    heights[row, column] = z
+    return posts_of(heights, x_places, y_places, WGS84 if on_earth else None)
+
+
+def _places(values: Array) -> tuple[Array, IntArray]:
+    """Return the places along an axis, increasing, and of which each value is."""
+    order = np.argsort(values, kind="stable")
+    ordered = values[order]
+    begins = np.concatenate([[True], np.diff(ordered) > SAME * (ordered[-1] - ordered[0])])
+    number = np.empty(len(values), dtype=np.intp)
+    number[order] = np.cumsum(begins) - 1
+    return ordered[begins], number
