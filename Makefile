@@ -41,7 +41,7 @@ test: $(STAMP) ## Run every test
 test-fast: $(STAMP) ## Run the tests that are not marked slow, in a minute
 	$(PYTEST) -m "not slow and not fuzz"
 
-fuzz: $(STAMP) ## Plan 300 drawn missions, and run every property test with new random numbers
+fuzz: $(STAMP) ## Plan 300 drawn missions, run the long cases, and every property test with new random numbers
 	CI= FUZZ=1 $(PYTEST) -m "fuzz or hypothesis"
 
 check: lint type layers gen-check platforms test build ## Everything, as CI runs it

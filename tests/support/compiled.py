@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Literal
 
@@ -27,7 +27,7 @@ def freshly_compiled(
 _kept = cache(freshly_compiled)
 
 
-@cache
+@lru_cache(maxsize=64)
 def compiled_text(text: str, refiner: str | None = None, name: str = "mission.yaml") -> Compilation:
     """Compile a text that names no files."""
     return compile_source(text.encode(), name, None, PlanOptions(refiner=refiner))

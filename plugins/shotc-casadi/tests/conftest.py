@@ -7,6 +7,6 @@ import os
 from hypothesis import settings
 
 settings.register_profile(
-    "shotc-casadi", deadline=None, derandomize=bool(os.environ.get("CI")), print_blob=True
+    "shotc-casadi", deadline=None, derandomize=not os.environ.get("FUZZ"), print_blob=True
 )
 settings.load_profile("shotc-casadi")

@@ -203,6 +203,7 @@ shots:
 """
 
 
+@pytest.mark.fuzz
 def test_a_shot_that_needs_more_time_than_its_convex_path_gets_it_where_its_time_is_free() -> None:
     """Round the mast it backs off from the barn, which takes half a second more."""
     assert "R014" not in codes(MAST)

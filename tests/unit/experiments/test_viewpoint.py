@@ -57,6 +57,7 @@ def test_who_walks_at_the_camera_is_kept_clear_of() -> None:
     assert found.whole.all()
 
 
+@pytest.mark.fuzz
 def test_three_subjects_stand_on_one_line_of_the_picture() -> None:
     table = viewpoint.several()
     assert "middle" in text(table)

@@ -10,11 +10,12 @@ from typing import Any
 
 import pytest
 
-from shotc.api import Compilation, PlanOptions, compile_source, verify_plan
+from shotc.api import Compilation, verify_plan
 from shotc.cli.summary import summary
 from shotc.diag.model import Diagnostic
 from shotc.ir.path import CAM_YAW
 from shotc.planfile.write import document
+from tests.support.compiled import compiled_text
 
 pytestmark = pytest.mark.slow
 
@@ -38,7 +39,7 @@ REQUIRE = "rules: {mutual_visibility: {strength: require}}"
 @cache
 def planned(where: tuple[str, str], rules: str = "") -> Compilation:
     text = PAIR.replace("RULES", rules).replace("PLACE", where[0]).replace("HEADING", where[1])
-    return compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    return compiled_text(text, "none", "m.yaml")
 
 
 def told(found: Compilation) -> list[Diagnostic]:
@@ -74,7 +75,7 @@ def test_all_who_are_preferred_not_to_be_seen_in_a_shot_are_told_in_one() -> Non
     text = PAIR.replace("RULES", third).replace("PLACE", "0, 30").replace("HEADING", "0")
     seen = "  - {id: more, kind: static, drone: three, at: [4, 25, 9], heading: 0 deg, pitch: 0 deg,\n"
     text = text.replace("RULES", "") + seen + "     timing: {start: 40, duration: 5}}\n"
-    found = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    found = compiled_text(text, "none", "m.yaml")
     said = told(found)
     assert said[0].message == "three and two are in the picture of one in shot `look`"
     assert {note.split()[0] for note in said[0].notes} >= {"two", "three"}

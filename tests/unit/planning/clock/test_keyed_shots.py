@@ -17,6 +17,7 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.planfile.layout import text
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import document
+from tests.support.compiled import compiled_text
 from tests.support.few import few
 from tests.support.front_passes import resolved
 
@@ -66,7 +67,7 @@ Planned = tuple[MissionIR, DroneTrajectory, VerifiedIR]
 
 @cache
 def compiled(shot: str, timing: str = GOING, refiner: str = "none") -> Compilation:
-    return compile_source(mission(shot, timing).encode(), "walk.yaml", None, PlanOptions(refiner=refiner))
+    return compiled_text(mission(shot, timing), refiner, "walk.yaml")
 
 
 def assert_planned(shot: str, timing: str = GOING, refiner: str = "none") -> Planned:

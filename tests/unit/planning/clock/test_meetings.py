@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from shotc.api import PlanOptions, compile_source
+from tests.support.compiled import compiled_text
 
 pytestmark = pytest.mark.slow
 
@@ -27,7 +27,7 @@ shots:
 
 def planned(place: str, strength: str = "off", start: str = "40"):
     text = PAIR.replace("STRENGTH", strength).replace("PLACE", place).replace("START", start)
-    return compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    return compiled_text(text, "none", "m.yaml")
 
 
 def only(place: str, strength: str = "off"):
@@ -62,7 +62,7 @@ def test_the_start_that_is_told_keeps_them_apart(place, strength):
 def test_a_drone_whose_pad_is_in_the_picture_is_not_told_another_time():
     text = PAIR.replace("STRENGTH", "require").replace("PLACE", "0, -10").replace("START", "40")
     text = text.replace("home: [12, -60, 0]", "home: [0, 40, 0]").replace("pitch: 10 deg", "pitch: 0 deg")
-    found = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none")).diagnostics
+    found = compiled_text(text, "none", "m.yaml").diagnostics
     (fault,) = (d for d in found if d.message.startswith("two is in the picture"))
     assert "move the home of `two`, which is in the picture, too" in fault.help
     assert "start shot" not in fault.help

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
 from shotc.ir.trajectory import Claim, VerifiedIR
+from tests.support.compiled import compiled_text
 
 PADS = """\
 shotc: 1
@@ -43,7 +43,7 @@ AT_ONCE = "{start: [0.3, 0.3, 0.9], velocity: [0, 1.5, 0]}"
 
 def compiled(mission: str, track: str, start: str = "") -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
     text = mission.replace("TRACK", track).replace("START", start)
-    done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text(text, "none", "m.yaml")
     return done.plan, done.diagnostics
 
 

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Cylinder
@@ -19,6 +18,7 @@ from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.resting import FARTHEST, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.free_space import FreeSpace, Wall
+from tests.support.compiled import compiled_text
 from tests.support.few import few
 from tests.support.owners import owner
 
@@ -99,7 +99,7 @@ shots:
 
 
 def planned(text: str) -> tuple[VerifiedIR, set[str]]:
-    done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text(text, "none", "m.yaml")
     assert done.plan is not None, done.diagnostics
     return done.plan, {d.code for d in done.diagnostics}
 
@@ -175,7 +175,7 @@ def test_a_drone_leads_straight_on_where_aside_it_would_miss_the_next_start(star
 
 
 def test_the_earliest_start_is_the_one_that_straight_on_allows() -> None:
-    done = compile_source(NEXT.replace("START", "48").encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text(NEXT.replace("START", "48"), "none", "m.yaml")
     (late,) = (d for d in done.diagnostics if d.code == "T003")
     earliest = re.search(r"but (\S+) s is the earliest", late.message)
     assert earliest is not None

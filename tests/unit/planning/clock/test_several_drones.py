@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.ir.trajectory import VerifiedIR
+from tests.support.compiled import compiled_text
 
 pytestmark = pytest.mark.slow
 
@@ -50,7 +50,7 @@ ORBITS = """\
 
 
 def planned(shots: str, head: str = HEAD) -> VerifiedIR:
-    done = compile_source((head + shots).encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text((head + shots), "none", "m.yaml")
     assert done.plan is not None, done.diagnostics
     return done.plan
 

@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.track import Track
 from shotc.geom.track_array import places, seen_from
 from shotc.ir.ideal import ideal_place
 from shotc.ir.path import BODY_YAW, CAM_YAW
 from shotc.ir.trajectory import VerifiedIR
+from tests.support.compiled import compiled_text
 from tests.support.front_passes import clean
 
 pytestmark = pytest.mark.slow
@@ -40,13 +40,13 @@ def text(shot: str, *, speed: str = "3 m/s", drone: str = "", world: str = "") -
 
 
 def planned(mission: bytes) -> VerifiedIR:
-    done = compile_source(mission, "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text(mission.decode(), "none", "m.yaml")
     assert done.plan is not None, done.diagnostics
     return done.plan
 
 
 def said(mission: bytes) -> list[str]:
-    return [d.code for d in compile_source(mission, "m.yaml", None, PlanOptions(refiner="none")).diagnostics]
+    return [d.code for d in compiled_text(mission.decode(), "none", "m.yaml").diagnostics]
 
 
 def claim(plan: VerifiedIR, name: str) -> float:
@@ -143,7 +143,7 @@ def test_a_shot_without_a_start_begins_when_its_drone_is_there() -> None:
 
 def test_a_start_that_comes_too_early_is_told_with_the_earliest() -> None:
     early = text(KINDS["chase"]).replace(b"start: 15", b"start: 6")
-    done = compile_source(early, "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text(early.decode(), "none", "m.yaml")
     assert [d.code for d in done.diagnostics if d.code.startswith("T")] == ["T003"]
     assert "earliest possible" in done.diagnostics[-1].message
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -74,9 +76,11 @@ def compiled(mission: str, folder: Path | None = None) -> tuple[VerifiedIR | Non
     return done.plan, done.diagnostics
 
 
-def ride(folder: Path, timing: str, begins: str = "") -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
-    (folder / "rider.csv").write_text(ROWS)
-    return compiled(RIDE.replace("TIMING", timing).replace(" BEGINS", begins), folder)
+@cache
+def ride(timing: str, begins: str = "") -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
+    with TemporaryDirectory() as folder:
+        (Path(folder) / "rider.csv").write_text(ROWS)
+        return compiled(RIDE.replace("TIMING", timing).replace(" BEGINS", begins), Path(folder))
 
 
 def pair() -> MissionIR:
@@ -103,42 +107,42 @@ def test_the_way_to_a_shot_leads_round_who_stands_in_it(size: str, home: str) ->
         assert away.min() >= plan.trajectory.keyframes.mission.rules.target_clearance
 
 
-def test_a_start_put_off_is_one_at_which_the_drone_is_there(tmp_path: Path) -> None:
-    told = only(ride(tmp_path, "start: 0, duration: 6")[1], "T003")
+def test_a_start_put_off_is_one_at_which_the_drone_is_there() -> None:
+    told = only(ride("start: 0, duration: 6")[1], "T003")
     start = re.search(r"`start: ([\d.]+) s` or later", told.help)
     assert start is not None, told
-    assert ride(tmp_path, f"start: {start[1]}, duration: 6")[0] is not None
+    assert ride(f"start: {start[1]}, duration: 6")[0] is not None
 
 
-def test_a_track_that_ends_before_the_later_shot_does_leaves_so_much_of_it(tmp_path: Path) -> None:
-    told = only(ride(tmp_path, "start: 0, duration: 40")[1], "T003")
+def test_a_track_that_ends_before_the_later_shot_does_leaves_so_much_of_it() -> None:
+    told = only(ride("start: 0, duration: 40")[1], "T003")
     numbers = re.search(r"`start: ([\d.]+) s` and `duration: ([\d.]+) s` or less", told.help)
     assert numbers is not None, told
     assert 0.0 <= 40.0 - float(numbers[1]) - float(numbers[2]) < 0.1
-    assert ride(tmp_path, f"start: {numbers[1]}, duration: {numbers[2]}")[0] is not None
+    assert ride(f"start: {numbers[1]}, duration: {numbers[2]}")[0] is not None
 
 
-def test_a_recording_that_begins_later_leaves_the_drone_time_for_the_whole_of_it(tmp_path: Path) -> None:
-    told = only(ride(tmp_path, "start: 0, duration: 40")[1], "T003")
+def test_a_recording_that_begins_later_leaves_the_drone_time_for_the_whole_of_it() -> None:
+    told = only(ride("start: 0, duration: 40")[1], "T003")
     numbers = re.search(r"`begins: ([\d.]+) s` of `rider`\).* `start: ([\d.]+) s`", told.help)
     assert numbers is not None, told
-    plan, found = ride(tmp_path, f"start: {numbers[2]}, duration: 40", f", begins: {numbers[1]}")
+    plan, found = ride(f"start: {numbers[2]}, duration: 40", f", begins: {numbers[1]}")
     assert plan is not None, found
 
 
-def test_what_comes_before_a_shot_adds_up_to_its_earliest_start(tmp_path: Path) -> None:
-    told = only(ride(tmp_path, "start: 0, duration: 6")[1], "T003")
+def test_what_comes_before_a_shot_adds_up_to_its_earliest_start() -> None:
+    told = only(ride("start: 0, duration: 6")[1], "T003")
     parts, total = told.notes[0].removeprefix("before it come ").split(": ")
     told_sum = float(total.split(" s")[0])
     assert sum(float(x) for x in re.findall(r"([\d.]+) s", parts)) == pytest.approx(told_sum, abs=0.11)
     assert f"but {told_sum:.2f} s is the earliest" in told.message
 
 
-def test_a_shot_without_a_start_is_told_how_long_it_can_be(tmp_path: Path) -> None:
-    told = only(ride(tmp_path, "duration: 40")[1], "M010")
+def test_a_shot_without_a_start_is_told_how_long_it_can_be() -> None:
+    told = only(ride("duration: 40")[1], "M010")
     left = re.search(r"`duration: ([\d.]+) s` or less", told.help)
     assert left is not None, told
-    assert ride(tmp_path, f"duration: {left[1]}")[0] is not None
+    assert ride(f"duration: {left[1]}")[0] is not None
 
 
 CAR = """\

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import Phase, assume, example, given, settings
 from hypothesis import strategies as st
 
-from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
@@ -21,6 +20,7 @@ from shotc.ir.sampling import seen
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
+from tests.support.compiled import compiled_text
 from tests.support.few import few
 from tests.support.front_passes import clean, placed
 from tests.support.remedies.apply import remedies
@@ -48,7 +48,7 @@ def text(*subjects: str, world: str = "", require: str = "") -> str:
 
 
 def planned(mission: str) -> VerifiedIR:
-    done = compile_source(mission.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text(mission, "none", "m.yaml")
     assert done.plan is not None, done.diagnostics
     return done.plan
 
@@ -207,7 +207,7 @@ def test_a_promise_holds_a_compromise() -> None:
         "target: rider, frame: [0.27, 0]",
         require="require: {screen_error: 0.02}, ",
     )
-    done = compile_source(mission.encode(), "m.yaml", None, PlanOptions(refiner="none"))
+    done = compiled_text(mission, "none", "m.yaml")
     assert done.plan is None
     assert "V020" in [d.code for d in done.diagnostics]
 

@@ -91,6 +91,7 @@ def test_a_period_that_is_too_short_comes_with_one_that_does() -> None:
     assert any(f"would `period: {period:.2f}` do" in text for text in said)
 
 
+@pytest.mark.fuzz
 @pytest.mark.slow
 def test_a_transition_that_is_too_short_comes_with_one_that_does(monkeypatch: pytest.MonkeyPatch) -> None:
     """All swap sides through the middle, which no matching of ours would have them do."""
