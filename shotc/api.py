@@ -121,28 +121,28 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     kinds = plugins.shot_kinds()
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
     sources = {name: loaded.file}
-    found = [*loaded.diagnostics]
-    stopped = Compilation(None, (), tuple(found), sources, loaded.title)
-    if loaded.mission is None or has_errors(found):
+    diagnostics = [*loaded.diagnostics]
+    stopped = Compilation(None, (), tuple(diagnostics), sources, loaded.title)
+    if loaded.mission is None or has_errors(diagnostics):
         return stopped
     ctx = PassContext(options.seed, options.progress, options.headings)
     missing = _missing_for_choice(loaded.mission)
     if missing:
-        return stopped._replace(diagnostics=(*found, *missing))
+        return stopped._replace(diagnostics=(*diagnostics, *missing))
     setting = Setting(kinds.plugins, plugins.names("emitters"))
     front = run(passes_of((ASSIGN, *FRONT), setting), loaded.mission, ctx, options.stop_after)
-    found += front.diagnostics
-    stopped = stopped._replace(reports=front.reports, diagnostics=tuple(found))
+    diagnostics += front.diagnostics
+    stopped = stopped._replace(reports=front.reports, diagnostics=tuple(diagnostics))
     if front.value is None or not isinstance(front.value, KeyframeIR):
         return stopped
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
-        return stopped._replace(diagnostics=(*found, *refusals))
+        return stopped._replace(diagnostics=(*diagnostics, *refusals))
     back = _lower(front.value, setting, options, ctx)
-    found = [*without_answered(found, back.diagnostics), *back.diagnostics]
+    diagnostics = [*without_answered(diagnostics, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
-    plan = None if options.stop_after or has_errors(found) else back.value
-    return stopped._replace(plan=plan, reports=front.reports + back.reports, diagnostics=tuple(found))
+    plan = None if options.stop_after or has_errors(diagnostics) else back.value
+    return stopped._replace(plan=plan, reports=front.reports + back.reports, diagnostics=tuple(diagnostics))
 
 
 def _lower(checked: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
@@ -187,12 +187,12 @@ def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic,
     """
     from shotc.passes.refine_path import Seat, Unusable
 
-    found = plugins.one("refiners", name)
-    if found.plugin is not None:
-        return Seat(found.plugin, found.package, found.reference), ()
+    source = plugins.one("refiners", name)
+    if source.plugin is not None:
+        return Seat(source.plugin, source.package, source.reference), ()
     if all(shot.refine_optional for shot in mission.shots):
-        return Seat(Unusable(name, found.diagnostics), found.package), ()
-    return None, found.diagnostics
+        return Seat(Unusable(name, source.diagnostics), source.package), ()
+    return None, source.diagnostics
 
 
 def crew(jobs: int | None = None) -> AbstractContextManager[emission.Crew]:
@@ -290,10 +290,10 @@ def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> P
         return report
     # A choice of drones that the mission leaves open is the plan's to make.
     asked = lower(*against, verdict.written.mission.source.chosen)
-    found = differs_from(verdict.written, asked)
-    plan = None if has_errors(found) else report.plan
+    differing = differs_from(verdict.written, asked)
+    plan = None if has_errors(differing) else report.plan
     return PlanReport(
-        plan, report.certificate, (*report.diagnostics, *found), {**sources, against.name: asked.file}
+        plan, report.certificate, (*report.diagnostics, *differing), {**sources, against.name: asked.file}
     )
 
 

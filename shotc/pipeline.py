@@ -174,8 +174,8 @@ def run_refined(
     early = tuple(d for report in done.reports[: k + 1] for d in report.diagnostics)
     if not verdict.convex:
         return Run(None, (*early, *verdict.diagnostics), done.reports)
-    said = (*early, *verdict.diagnostics, *again.diagnostics)
-    flown = Run(again.value, said, (*done.reports[: k + 1], *again.reports))
+    diagnostics = (*early, *verdict.diagnostics, *again.diagnostics)
+    flown = Run(again.value, diagnostics, (*done.reports[: k + 1], *again.reports))
     return _accounted(flown, seat, (convex, convex))
 
 
@@ -191,5 +191,5 @@ def _accounted(done: Run, seat: Any, paths: tuple[Any, Any]) -> Run:
     """Return a run that tells of every shot whether it is refined; paths : as in ``account``."""
     from shotc.passes.refine_path import account
 
-    told = account(seat, paths, done.diagnostics)
-    return done._replace(value=told.noted_in(done.value), diagnostics=(*done.diagnostics, *told.warnings))
+    noted = account(seat, paths, done.diagnostics)
+    return done._replace(value=noted.noted_in(done.value), diagnostics=(*done.diagnostics, *noted.warnings))

@@ -90,13 +90,13 @@ def discover(group: str) -> Found:
 def one(group: str, name: str) -> Source:
     """Load one plugin of a group alone: what is wrong with others does not matter. KeyError: no such name."""
     entries = _by_name(group)[name]
-    found = _prove(group, {name: entries})
+    source = _prove(group, {name: entries})
     owners = " and ".join(dict.fromkeys(map(_owner, entries)))
     missing = tuple(
         not_installed("P004", f"{group.removesuffix('s')} `{name}`", [library])
-        for library in found.lacking.values()
+        for library in source.lacking.values()
     )
-    return Source(found.plugins.get(name), owners, entries[0].value, found.diagnostics + missing)
+    return Source(source.plugins.get(name), owners, entries[0].value, source.diagnostics + missing)
 
 
 def package_of(group: str, name: str) -> str:
@@ -140,9 +140,9 @@ def names(group: str) -> list[str]:
 
 def listing(group: str) -> list[tuple[str, str, str]]:
     """Return (name, summary, package) of every plugin of ``group``, those that lack a library too."""
-    found = discover(group)
-    summaries = {name: plugin.summary for name, plugin in found.plugins.items()}
-    summaries |= {name: f"needs {library}, which is not installed" for name, library in found.lacking.items()}
+    known = discover(group)
+    summaries = {name: plugin.summary for name, plugin in known.plugins.items()}
+    summaries |= {name: f"needs {library}, which is not installed" for name, library in known.lacking.items()}
     return [
         (name, summaries[name], _owner(entries[0]))
         for name, entries in _by_name(group).items()

@@ -77,8 +77,8 @@ def _print(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile],
 
 def _conclusion(gathered: Gathered, *, clean: bool) -> str:
     number = len(gathered.missions)
-    said = f"checked {number} mission{'s' if number > 1 else ''}" + (": no errors" if clean else "")
+    text = f"checked {number} mission{'s' if number > 1 else ''}" + (": no errors" if clean else "")
     if gathered.skipped:
         files = "file" if gathered.skipped == 1 else "files"
-        said += f"; passed over {gathered.skipped} YAML {files} without a top-level key `shotc`"
-    return said
+        text += f"; passed over {gathered.skipped} YAML {files} without a top-level key `shotc`"
+    return text

@@ -88,34 +88,34 @@ def compare(
 
 def _shown(done: Report) -> Comparison:
     """Return a comparison in which there is a plan to show; where there is none, say why and exit."""
-    found = done.comparison
-    if found is not None and any(each.plan is not None for each in found.conditions):
-        return found
-    faults = () if found is None else (fault for each in found.conditions for fault in each.faults)
+    comparison = done.comparison
+    if comparison is not None and any(each.plan is not None for each in comparison.conditions):
+        return comparison
+    faults = () if comparison is None else (fault for each in comparison.conditions for fault in each.faults)
     console.report((*done.diagnostics, *faults), done.sources)
     raise typer.Exit(console.EXIT_REJECTED)
 
 
-def _printed(found: Comparison, format: Format, paths: Sequence[Path]) -> str:
+def _printed(comparison: Comparison, format: Format, paths: Sequence[Path]) -> str:
     from shotc.comparison.document import json_text
     from shotc.comparison.table import markdown
 
     if format is Format.JSON:
-        return json_text(found, seconds=True)
+        return json_text(comparison, seconds=True)
     if format is Format.MARKDOWN:
-        return markdown(found, seconds=True)
-    return "\n".join(_text(found, paths))
+        return markdown(comparison, seconds=True)
+    return "\n".join(_text(comparison, paths))
 
 
-def _text(found: Comparison, paths: Sequence[Path]) -> Iterator[str]:
+def _text(comparison: Comparison, paths: Sequence[Path]) -> Iterator[str]:
     from shotc.comparison.table import LEGEND, counted, remarks, rows
 
-    shots, refiners = len(found.mission.shots), len(found.conditions)
-    yield f"{found.mission.name}: {counted(shots, 'shot')} under {counted(refiners, 'refiner')}"
+    shots, refiners = len(comparison.mission.shots), len(comparison.conditions)
+    yield f"{comparison.mission.name}: {counted(shots, 'shot')} under {counted(refiners, 'refiner')}"
     yield ""
-    yield from (f"  {line}" for line in table(rows(found, seconds=True)))
+    yield from (f"  {line}" for line in table(rows(comparison, seconds=True)))
     yield ""
-    for line in (*remarks(found), *LEGEND):
+    for line in (*remarks(comparison), *LEGEND):
         first, *more = wrap(line, WIDTH - 4, break_long_words=False, break_on_hyphens=False)
         yield f"  {first}"
         yield from (f"    {rest}" for rest in more)

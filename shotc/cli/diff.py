@@ -31,17 +31,17 @@ def diff(old: Old, new: New) -> None:
     """
     from shotc.planfile.compare import compare
 
-    found = compare(proved(old), proved(new))
-    console.out("\n".join(_lines(found)))
+    comparison = compare(proved(old), proved(new))
+    console.out("\n".join(_lines(comparison)))
 
 
-def _lines(found: Comparison) -> Iterator[str]:
-    if found.fleets:
-        yield from table([("fleet", "drones", "lasts"), *map(_fleet, found.fleets)])
+def _lines(comparison: Comparison) -> Iterator[str]:
+    if comparison.fleets:
+        yield from table([("fleet", "drones", "lasts"), *map(_fleet, comparison.fleets)])
         yield ""
-    apart = "drones apart" if found.fleets else "camera apart"
-    yield from table([("shot", "starts", "lasts", apart), *map(_shot, found.shots)])
-    rows = [row for change in found.claims if (row := _claim(change.old, change.new)) is not None]
+    apart = "drones apart" if comparison.fleets else "camera apart"
+    yield from table([("shot", "starts", "lasts", apart), *map(_shot, comparison.shots)])
+    rows = [row for change in comparison.claims if (row := _claim(change.old, change.new)) is not None]
     yield ""
     if rows:
         yield from table([("claim", "asked", "worst"), *rows])

@@ -59,8 +59,8 @@ def _page(info: CodeInfo) -> str:
 def _mended(failing: str, passing: str) -> list[str]:
     """Return how a mission is mended: by the lines that change, or whole where most of it does."""
     before, after = failing.rstrip().splitlines(), passing.rstrip().splitlines()
-    found = list(unified_diff(before, after, n=0, lineterm=""))[2:]
-    changed = [f"    {line[0]} {line[1:]}" for line in found if not line.startswith("@@")]
+    lines = list(unified_diff(before, after, n=0, lineterm=""))[2:]
+    changed = [f"    {line[0]} {line[1:]}" for line in lines if not line.startswith("@@")]
     if 0 < len(changed) < len(after):
         return ["", "Passes with:", "", *changed]
     return ["", "Passes:", "", indent(passing.rstrip(), "    ")]

@@ -45,15 +45,15 @@ def fly(plan: PlanPath, gusts: Gusty = 0.0, seed: Seed = 1, format: FormatOption
     if not trajectory.fleets:
         raise typer.BadParameter("the plan has no fleet; `fly` rehearses shows", param_hint="PLAN")
     fleets = {fleet.name: fleet for fleet in trajectory.keyframes.mission.fleets}
-    found = [
+    rehearsals = [
         (fleets[track.fleet], rehearse(fleets[track.fleet], track, Gusts(gusts), seed))
         for track in trajectory.fleets
     ]
-    console.out(_document(found) if format is Format.JSON else _text(found))
+    console.out(_document(rehearsals) if format is Format.JSON else _text(rehearsals))
 
 
-def _text(found: list[tuple[Fleet, Rehearsal]]) -> str:
-    return "\n".join([*table([HEADING, *(_row(*each) for each in found)]), "", *_remarks(found)])
+def _text(rehearsals: list[tuple[Fleet, Rehearsal]]) -> str:
+    return "\n".join([*table([HEADING, *(_row(*each) for each in rehearsals)]), "", *_remarks(rehearsals)])
 
 
 def _row(fleet: Fleet, came: Rehearsal) -> tuple[str, ...]:
@@ -64,8 +64,8 @@ def _row(fleet: Fleet, came: Rehearsal) -> tuple[str, ...]:
     return (fleet.name, str(len(fleet.pads)), *sizes, f"{apart.horizontal:g} m", f"{apart.margin:g} m")
 
 
-def _remarks(found: list[tuple[Fleet, Rehearsal]]) -> Iterator[str]:
-    for fleet, came in found:
+def _remarks(rehearsals: list[tuple[Fleet, Rehearsal]]) -> Iterator[str]:
+    for fleet, came in rehearsals:
         names, near = drone_names(fleet), came.near
         yield f"{fleet.name}: {names[came.drone]} strays farthest, at {clock(came.time)}"
         if near is not None:
@@ -94,8 +94,9 @@ def _remedy(fleet: Fleet, farthest: float, safe: float) -> str:
     return f"{stray}: plan with `separation: {{margin: {safe:g}}}`, which keeps any two apart in such wind"
 
 
-def _document(found: list[tuple[Fleet, Rehearsal]]) -> str:
+def _document(rehearsals: list[tuple[Fleet, Rehearsal]]) -> str:
     rows = [
-        {"fleet": fleet.name, **asdict(came), "separation": fleet.apart._asdict()} for fleet, came in found
+        {"fleet": fleet.name, **asdict(came), "separation": fleet.apart._asdict()}
+        for fleet, came in rehearsals
     ]
     return json.dumps({"fleets": rows}, indent=2)

@@ -41,10 +41,10 @@ class Gathered:
 
 def read_mission(spec: str, stdin_name: str | None = None) -> MissionText:
     """Return the one mission a command is given; where it cannot be read, say so and exit."""
-    found = _read(spec, stdin_name)
-    if isinstance(found, MissionText):
-        return found
-    console.report([found], {})
+    text = _read(spec, stdin_name)
+    if isinstance(text, MissionText):
+        return text
+    console.report([text], {})
     raise typer.Exit(console.EXIT_REJECTED)
 
 
@@ -71,13 +71,13 @@ def _gather_folder(folder: Path, gathered: Gathered, seen: set[str]) -> None:
     holds_any = False
     errors: list[OSError] = []
     for path in _yaml_files(folder, errors):
-        found = _read(str(path), None)
-        if isinstance(found, MissionText) and not re.search(_MISSION, found.data):
+        text = _read(str(path), None)
+        if isinstance(text, MissionText) and not re.search(_MISSION, text.data):
             gathered.skipped += 1
             continue
         holds_any = True
         if _is_new(str(path), seen):
-            _keep(found, gathered)
+            _keep(text, gathered)
     gathered.diagnostics += [_unreadable("folder", str(error.filename), error) for error in errors]
     if not (holds_any or errors):
         gathered.diagnostics.append(_no_mission(folder))
@@ -104,11 +104,11 @@ def _is_new(spec: str, seen: set[str]) -> bool:
     return True
 
 
-def _keep(found: MissionText | Diagnostic, gathered: Gathered) -> None:
-    if isinstance(found, MissionText):
-        gathered.missions.append(found)
+def _keep(text: MissionText | Diagnostic, gathered: Gathered) -> None:
+    if isinstance(text, MissionText):
+        gathered.missions.append(text)
     else:
-        gathered.diagnostics.append(found)
+        gathered.diagnostics.append(text)
 
 
 def _read(spec: str, stdin_name: str | None) -> MissionText | Diagnostic:

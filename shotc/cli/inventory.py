@@ -71,11 +71,11 @@ def _rows(group: Group) -> list[tuple[str, ...]]:
 
 def _plugins(group: Group) -> list[tuple[str, ...]]:
     """List a plugin group; a plugin of another package bears that package's name."""
-    found = discover(group)
-    if found.diagnostics:
-        console.report(found.diagnostics, {})
+    discovery = discover(group)
+    if discovery.diagnostics:
+        console.report(discovery.diagnostics, {})
     return [
-        (name, summary + _remark(found.plugins.get(name), package))
+        (name, summary + _remark(discovery.plugins.get(name), package))
         for name, summary, package in listing(group)
     ]
 

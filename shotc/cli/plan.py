@@ -156,13 +156,13 @@ def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, 
 
 def _warn_of_earlier(folder: Path) -> None:
     """Say that a folder holds what an earlier run wrote: it could be flown for this mission."""
-    found = earlier(folder)
-    if found is None:
+    files = earlier(folder)
+    if files is None:
         return
-    whose = "" if found.mission is None else f" of mission `{found.mission}`"
+    whose = "" if files.mission is None else f" of mission `{files.mission}`"
     console.complain(
         f"note: {folder}/ still holds the outputs of an earlier run{whose}, not of this one: "
-        f"{', '.join(found.files)}"
+        f"{', '.join(files.files)}"
     )
 
 

@@ -64,8 +64,8 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
         assert phase.shot is not None
         own = (drone, phase.shot, kinds[phase.shot], clock(phase.start), f"{phase.end - phase.start:.2f} s")
         for i, target in enumerate(targets[phase.shot] or ("",)):
-            told = certified(plan.certificate, phase.shot, target)
-            rows.append((*(own if i == 0 else ("",) * len(own)), target or "-", *_framing(told)))
+            summary = certified(plan.certificate, phase.shot, target)
+            rows.append((*(own if i == 0 else ("",) * len(own)), target or "-", *_framing(summary)))
     several = any(len(names) > 1 for names in targets.values())
     in_frame = "in frame" if several else "target in frame"
     head = ("drone", "shot", "kind", "from", "lasts", "target", in_frame, "screen error", "size")
@@ -74,11 +74,11 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     return [tuple(row[k] for k in shown) for row in (head, *rows)]
 
 
-def _framing(told: ScreenSummary) -> tuple[str, str, str]:
+def _framing(summary: ScreenSummary) -> tuple[str, str, str]:
     return (
-        "-" if told.in_frame is None else percent(told.in_frame),
-        "-" if told.error is None else at_least(told.error, 3),
-        "-" if told.size is None else f"{at_most(told.size[0])} to {at_least(told.size[1])}",
+        "-" if summary.in_frame is None else percent(summary.in_frame),
+        "-" if summary.error is None else at_least(summary.error, 3),
+        "-" if summary.size is None else f"{at_most(summary.size[0])} to {at_least(summary.size[1])}",
     )
 
 
@@ -105,9 +105,9 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
 
 def _refined(plan: VerifiedIR) -> list[str]:
     """Tell, where not all shots are refined, how many are, and of each other one why it is not."""
-    told = [(k.removesuffix(REFINED), v) for k, v in plan.trajectory.stats if k.endswith(REFINED)]
-    left = [f"not `{shot}`: {why}" for shot, why in told if why != DONE]
-    return ["; ".join([f"{len(told) - len(left)} of {len(told)} shots", *left])] if left else []
+    reasons = [(k.removesuffix(REFINED), v) for k, v in plan.trajectory.stats if k.endswith(REFINED)]
+    left = [f"not `{shot}`: {why}" for shot, why in reasons if why != DONE]
+    return ["; ".join([f"{len(reasons) - len(left)} of {len(reasons)} shots", *left])] if left else []
 
 
 def _bent(deviations: Iterable[Deviation]) -> list[str]:
@@ -120,11 +120,11 @@ def _bent(deviations: Iterable[Deviation]) -> list[str]:
 
 def _used(certificate: Iterable[Claim]) -> list[str]:
     """Tell how much of each limit is used, by the drone that uses most of it where several fly."""
-    found = [claim for claim in certificate if claim.constraint in LIMITS]
-    several = len({claim.subject for claim in found}) > 1
+    limits = [claim for claim in certificate if claim.constraint in LIMITS]
+    several = len({claim.subject for claim in limits}) > 1
     texts = []
-    for name in dict.fromkeys(claim.constraint for claim in found):
-        most = max((c for c in found if c.constraint == name), key=lambda c: c.worst / c.limit)
+    for name in dict.fromkeys(claim.constraint for claim in limits):
+        most = max((c for c in limits if c.constraint == name), key=lambda c: c.worst / c.limit)
         scale, unit = (
             (degrees(1), most.unit.replace("rad", "deg")) if "rad" in most.unit else (1.0, most.unit)
         )
@@ -266,9 +266,9 @@ def nearest(plan: VerifiedIR) -> Iterator[str]:
 
 
 def _pair(plan: VerifiedIR, claim: Claim) -> str:
-    found, needed = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
+    reached, needed = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
     when = "" if claim.time is None else f", at {clock(claim.time)}"
-    text = f"{' and '.join(claim.drones)} come nearest, {found}, {needed} needed{when}"
+    text = f"{' and '.join(claim.drones)} come nearest, {reached}, {needed} needed{when}"
     if claim.constraint != "separation":
         return text
     apart = plan.trajectory.keyframes.mission.fleet(claim.subject).apart

@@ -24,32 +24,32 @@ KEPT_CONVEX = "R003"
 
 def condition(name: str, path: PathIR, deadline: float | None, ctx: PassContext) -> Condition:
     """Return the mission under the refiner of this name, from its convex path on; deadline as in planning."""
-    found = plugins.one("refiners", name)
-    if found.plugin is None:
-        return Condition(name, found.package, None, found.diagnostics)
-    seat = Seat(found.plugin, found.package, found.reference)
+    source = plugins.one("refiners", name)
+    if source.plugin is None:
+        return Condition(name, source.package, None, source.diagnostics)
+    seat = Seat(source.plugin, source.package, source.reference)
     # To keep a path takes no time, and to watch over it a new process.
     limit = None if name == plugins.NO_REFINER else deadline
     done = run((RefinePath(seat, limit), ParameterizeTime()), path, ctx)
     seconds = done.reports[0].seconds
     if done.value is None or has_errors(done.diagnostics):
-        return Condition(name, found.package, None, _errors(done.diagnostics), seconds=seconds)
-    plan, said = _proved(done.value, ctx)
-    broken = tuple(d for d in said if d.code in PROMISES)
+        return Condition(name, source.package, None, _errors(done.diagnostics), seconds=seconds)
+    plan, faults = _proved(done.value, ctx)
+    broken = tuple(d for d in faults if d.code in PROMISES)
     if plan is None:
-        refused = tuple(d for d in said if d.code not in PROMISES)
-        return Condition(name, found.package, None, refused, broken, seconds=seconds)
+        refused = tuple(d for d in faults if d.code not in PROMISES)
+        return Condition(name, source.package, None, refused, broken, seconds=seconds)
     shots = flown_shots(plan)
     convex = tuple(d for d in done.diagnostics if d.code == KEPT_CONVEX)
-    return Condition(name, found.package, plan, (), broken, convex, shots, total(plan, shots), seconds)
+    return Condition(name, source.package, plan, (), broken, convex, shots, total(plan, shots), seconds)
 
 
 def _proved(ir: TrajectoryIR, ctx: PassContext) -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
     """Return the plan where every limit holds, and what is broken of limits and promises."""
-    said = _errors(judge(ir, ctx).diagnostics)
-    if any(d.code not in PROMISES for d in said):
-        return None, said
-    return Verify().run(unpromised(ir), ctx).value, said
+    faults = _errors(judge(ir, ctx).diagnostics)
+    if any(d.code not in PROMISES for d in faults):
+        return None, faults
+    return Verify().run(unpromised(ir), ctx).value, faults
 
 
 def unpromised(ir: TrajectoryIR) -> TrajectoryIR:

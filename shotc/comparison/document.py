@@ -14,12 +14,12 @@ from shotc.planfile.codec import encode
 FORMAT, VERSION = "shotc-compare", 1
 
 
-def json_text(found: Comparison, *, seconds: bool) -> str:
+def json_text(comparison: Comparison, *, seconds: bool) -> str:
     """Return the document; ``seconds``: with how long each refiner took.
 
     An error on screen is "inf" where it counts frames with the target behind the camera.
     """
-    mission = found.mission
+    mission = comparison.mission
     return layout.text(
         {
             "format": FORMAT,
@@ -27,7 +27,7 @@ def json_text(found: Comparison, *, seconds: bool) -> str:
             "tool": {"name": "shotc", "version": __version__},
             "source": {"file": mission.origins.file, "sha256": mission.source_sha256},
             "mission": mission.name,
-            "refiners": [_condition(each, seconds=seconds) for each in found.conditions],
+            "refiners": [_condition(each, seconds=seconds) for each in comparison.conditions],
         }
     )
 

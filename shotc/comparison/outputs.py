@@ -15,21 +15,21 @@ from shotc.ir.comparison import Comparison
 DPI = 110.0
 
 
-def artifacts(found: Comparison, progress: Callable[[str], None]) -> Emission:
+def artifacts(comparison: Comparison, progress: Callable[[str], None]) -> Emission:
     """Return compare.json, compare.md, compare.png and compare.rrd; all but the last are the same every time.
 
     Where rerun is not installed its recording is left out with a warning.
     """
     made = [
-        Artifact("compare.json", json_text(found, seconds=False).encode("ascii")),
-        Artifact("compare.md", markdown(found, seconds=False).encode("utf-8")),
+        Artifact("compare.json", json_text(comparison, seconds=False).encode("ascii")),
+        Artifact("compare.md", markdown(comparison, seconds=False).encode("utf-8")),
     ]
     progress("drawing compare.png")
-    made.append(Artifact("compare.png", draw_comparison(found, DPI)))
+    made.append(Artifact("compare.png", draw_comparison(comparison, DPI)))
     if find_spec("rerun") is None:
         return Emission(tuple(made), (plugins.not_installed("P005", "output `compare.rrd`", ["rerun"]),))
     from shotc.emit.rerun_log.side_by_side import record_comparison
 
     progress("recording compare.rrd")
-    made.append(Artifact("compare.rrd", record_comparison(found, markdown(found, seconds=False))))
+    made.append(Artifact("compare.rrd", record_comparison(comparison, markdown(comparison, seconds=False))))
     return Emission(tuple(made))

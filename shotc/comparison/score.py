@@ -88,13 +88,13 @@ def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
         if (trace := _trace(plan, track, phase, target)) is not None
     )
     squared = squared_jerk(track.curve, phase.start, phase.end)
-    found = score(traces, squared, phase.end - phase.start)
-    return FlownShot(shot, track.drone, phase.start, phase.end, traces, found, _rounds(plan, shot))
+    scored = score(traces, squared, phase.end - phase.start)
+    return FlownShot(shot, track.drone, phase.start, phase.end, traces, scored, _rounds(plan, shot))
 
 
 def _rounds(plan: VerifiedIR, shot: str) -> int | None:
-    said = dict(plan.trajectory.stats).get(f"{shot}.{ROUNDS}")
-    return int(said) if isinstance(said, (int, float)) and isfinite(said) else None
+    statistic = dict(plan.trajectory.stats).get(f"{shot}.{ROUNDS}")
+    return int(statistic) if isinstance(statistic, (int, float)) and isfinite(statistic) else None
 
 
 def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) -> Trace | None:

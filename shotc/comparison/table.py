@@ -32,19 +32,19 @@ LEGEND = (
 )
 
 
-def rows(found: Comparison, *, seconds: bool) -> list[tuple[str, ...]]:
+def rows(comparison: Comparison, *, seconds: bool) -> list[tuple[str, ...]]:
     """Return the heading and all rows; ``seconds``: with how long each refiner took, by the clock."""
-    several = len(found.mission.shots) > 1
-    table = [HEADING, *(row for each in found.conditions for row in _rows(each, several=several))]
+    several = len(comparison.mission.shots) > 1
+    table = [HEADING, *(row for each in comparison.conditions for row in _rows(each, several=several))]
     keep = [i for i, name in enumerate(HEADING) if (several or name != "shot")]
     keep = keep if seconds else keep[:-1]
     return [tuple(row[i] for i in keep) for row in table]
 
 
-def remarks(found: Comparison) -> list[str]:
+def remarks(comparison: Comparison) -> list[str]:
     """Return a line for every refiner without a plan, broken promise and shot that stayed convex."""
     lines = []
-    for each in found.conditions:
+    for each in comparison.conditions:
         lines += [
             f"{each.refiner} gives no plan, {d.code}: {'; '.join((d.message, *d.notes[:1]))}"
             for d in each.faults
@@ -54,12 +54,12 @@ def remarks(found: Comparison) -> list[str]:
     return lines
 
 
-def markdown(found: Comparison, *, seconds: bool) -> str:
+def markdown(comparison: Comparison, *, seconds: bool) -> str:
     """Return the comparison as a section of Markdown."""
-    heading, *body = rows(found, seconds=seconds)
-    lines = [f"# {found.mission.name} under {counted(len(found.conditions), 'refiner')}", ""]
+    heading, *body = rows(comparison, seconds=seconds)
+    lines = [f"# {comparison.mission.name} under {counted(len(comparison.conditions), 'refiner')}", ""]
     lines += [_piped(heading), _piped(("---",) * len(heading)), *map(_piped, body), ""]
-    lines += [f"- {line}" for line in (*remarks(found), *LEGEND)]
+    lines += [f"- {line}" for line in (*remarks(comparison), *LEGEND)]
     return "\n".join(lines) + "\n"
 
 
@@ -80,8 +80,8 @@ def _rows(each: Condition, *, several: bool) -> Iterator[tuple[str, ...]]:
 
 
 def _rounds(shots: Iterable[FlownShot]) -> str:
-    said = [shot.rounds for shot in shots if shot.rounds is not None]
-    return str(sum(said)) if said else UNKNOWN
+    rounds = [shot.rounds for shot in shots if shot.rounds is not None]
+    return str(sum(rounds)) if rounds else UNKNOWN
 
 
 def _cells(score: Score) -> tuple[str, ...]:

@@ -70,7 +70,7 @@ def stops(diagnostics: Iterable[Diagnostic]) -> bool:
     return any(severity_of(d) is Severity.ERROR and not registry()[d.code].exact for d in diagnostics)
 
 
-def without_answered(found: Iterable[Diagnostic], later: Iterable[Diagnostic]) -> list[Diagnostic]:
+def without_answered(diagnostics: Iterable[Diagnostic], later: Iterable[Diagnostic]) -> list[Diagnostic]:
     """Return what was found, less the bounds to which a later pass has found the exact numbers."""
     answers = {d.code for d in later}
-    return [d for d in found if answers.isdisjoint(registry()[d.code].exact)]
+    return [d for d in diagnostics if answers.isdisjoint(registry()[d.code].exact)]

@@ -66,13 +66,13 @@ def rates(breaks: Array, coef: Array, order: int) -> Array:
     third is even on every piece.
     """
     t = knots(breaks)
-    found = coef
+    slopes = coef
     for k in range(order):
         degree = DEGREE - k
         inner = t[k : len(t) - k]
         widths = inner[degree + 1 : -1] - inner[1 : -degree - 1]
-        found = np.diff(found, axis=1) * (degree / widths)[:, None]
-    return found
+        slopes = np.diff(slopes, axis=1) * (degree / widths)[:, None]
+    return slopes
 
 
 def velocity(breaks: Array, coef: Array) -> FleetPieces:

@@ -194,9 +194,9 @@ def sup_outside(pieces: Pieces, solid: Solid, gap: Callable[[float], float], *, 
     hull, pockets = (solid, ()) if isinstance(solid, Cylinder) else hull_and_pockets(solid)
     worst = sup_convex(pieces, _excess(hull, floor), gap)
     for pocket in pockets:
-        found = inf_distance(pieces, pocket, lambda near: gap(-near))
-        if -found.proven > worst.proven:
-            worst = Bound(-found.proven, -found.attained, found.at)
+        nearest = inf_distance(pieces, pocket, lambda near: gap(-near))
+        if -nearest.proven > worst.proven:
+            worst = Bound(-nearest.proven, -nearest.attained, nearest.at)
     return worst
 
 

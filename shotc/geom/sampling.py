@@ -15,8 +15,8 @@ def worst_of_runs(values: NDArray[np.float64], above: float, notice: float) -> l
 
     values : shape (M,); above, notice : in their unit
     """
-    found = np.flatnonzero(values > above)
-    runs = np.split(found, np.flatnonzero(np.diff(found) > 1) + 1) if found.size else []
+    above_it = np.flatnonzero(values > above)
+    runs = np.split(above_it, np.flatnonzero(np.diff(above_it) > 1) + 1) if above_it.size else []
     worst = [int(run[np.argmax(values[run])]) for run in runs]
     return [i for i in worst if values[i] > notice]
 

@@ -168,14 +168,14 @@ class _Search:
         breaks = self.one.breaks
         if self.other is not None:
             breaks = np.unique(np.concatenate([breaks, self.other.breaks]))
-        found: list[tuple[float, float]] = []
+        slabs: list[tuple[float, float]] = []
         reach = REACH_SHARE * self.apart.across
         for low, high in pairwise(breaks.tolist()):
             _, radius = _balls(_steady(self._ctrl(low, high)))
             parts = max(1, int(np.ceil(radius.max(initial=0.0) / reach)))
             ends = np.linspace(low, high, parts + 1)
-            found += list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
-        return found
+            slabs += list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
+        return slabs
 
     def _ctrl(self, low: float, high: float) -> Array:
         """Return the control points of all drones, of the second fleet after those of the first."""

@@ -134,8 +134,8 @@ def _moving(rows: Same[tuple[Vec3, ...]]) -> tuple[int, ...]:
 
 def unwrapped(angles: list[float]) -> tuple[float, ...]:
     """Return angles shifted by whole turns, so that none is more than half a turn from the one before."""
-    found: list[float] = []
+    turned: list[float] = []
     for angle in angles:
-        turns = round((found[-1] - angle) / (2 * pi)) if found else 0
-        found.append(angle + 2 * pi * turns)
-    return tuple(found)
+        turns = round((turned[-1] - angle) / (2 * pi)) if turned else 0
+        turned.append(angle + 2 * pi * turns)
+    return tuple(turned)

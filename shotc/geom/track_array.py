@@ -21,10 +21,10 @@ def headings(track: Track, t: Array) -> Array:
     if track.headings:
         return np.array([track.heading(float(u)) for u in t])
     moved = places(track, t + HEADING_SPAN_S)[:, :2] - places(track, t - HEADING_SPAN_S)[:, :2]
-    found = np.arctan2(moved[:, 1], moved[:, 0])
+    angles = np.arctan2(moved[:, 1], moved[:, 0])
     for k in np.flatnonzero(np.hypot(moved[:, 0], moved[:, 1]) < MOVES_M):
-        found[k] = track.heading(float(t[k]))
-    return np.asarray(found)
+        angles[k] = track.heading(float(t[k]))
+    return np.asarray(angles)
 
 
 def seen_from(curve: Piecewise, track: Track) -> Piecewise:

@@ -149,11 +149,11 @@ def _weights(bends: _Bends, t: float) -> tuple[Weight, ...]:
         return (Weight(i, 1.0),)
     length = bends.arrive[i + 1] - bends.leave[i]
     x = (t - bends.leave[i]) / length
-    found = {i: (1 - x) ** 2 * (1 + 2 * x), i + 1: x * x * (3 - 2 * x)}
+    weights = {i: (1 - x) ** 2 * (1 + 2 * x), i + 1: x * x * (3 - 2 * x)}
     for end, bend in ((i, x * (1 - x) ** 2), (i + 1, x * x * (x - 1))):
         for number, slope in enumerate(bends.slopes[end], end - 1):
-            found[number] = found.get(number, 0.0) + bend * length * slope
-    return tuple(Weight(number, share) for number, share in found.items() if share != 0.0)
+            weights[number] = weights.get(number, 0.0) + bend * length * slope
+    return tuple(Weight(number, share) for number, share in weights.items() if share != 0.0)
 
 
 def _gaps(shot: Shot) -> range:

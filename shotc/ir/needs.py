@@ -21,9 +21,9 @@ def with_need(path: PathIR, shot: str, seconds: float) -> PathIR:
 
 def needed(path: PathIR) -> dict[str, float]:
     """Return the durations with which shots of a refined path could be refined that are not, by id."""
-    mission, found = path.keyframes.mission, {}
+    mission, needs = path.keyframes.mission, {}
     for name, value in path.stats:
         shot = name.removesuffix(NEEDS)
         if name != shot and isinstance(value, float) and mission.shot(shot).timing.duration is None:
-            found[shot] = MORE * value
-    return found
+            needs[shot] = MORE * value
+    return needs

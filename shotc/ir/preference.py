@@ -47,8 +47,8 @@ def prefers_free_pictures(mission: MissionIR) -> bool:
 
 def given_up(stats: Iterable[tuple[str, float | str]], shot: str) -> Price | None:
     """Return by the statistics of a plan what a shot gives up, None where nothing."""
-    found = dict(stats)
-    values = [found.get(f"{shot}.{name}") for name in (GIVEN_UP, SHARE, SUFFICES)]
+    by_name = dict(stats)
+    values = [by_name.get(f"{shot}.{name}") for name in (GIVEN_UP, SHARE, SUFFICES)]
     if not all(isinstance(value, float) for value in values):
         return None
     moved, share, suffices = (float(value or 0.0) for value in values)

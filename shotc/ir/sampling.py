@@ -45,8 +45,8 @@ def light_colors(lights: Lights, t: Array) -> Colors:
     before = np.minimum(at.astype(np.intp), max(len(lights.times) - 2, 0))
     after = np.minimum(before + 1, len(lights.times) - 1)
     share = (at - before).astype(np.float32)[:, None]
-    found = lights.colors[:, before] * (1.0 - share) + lights.colors[:, after] * share
-    return np.asarray(np.rint(found), dtype=np.uint8)
+    colors = lights.colors[:, before] * (1.0 - share) + lights.colors[:, after] * share
+    return np.asarray(np.rint(colors), dtype=np.uint8)
 
 
 def subjects(mission: MissionIR, drone: DroneTrajectory, shot: str) -> tuple[str, ...]:

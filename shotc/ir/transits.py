@@ -63,11 +63,11 @@ def from_zones(mission: MissionIR) -> Apart | None:
 
 def ways(phases: Sequence[Phase]) -> tuple[Way, ...]:
     """Return the ways among a flight's phases; take-off and landing are none."""
-    found, runs = list[Way](), list[tuple[bool, list[Phase]]]()
+    transits, runs = list[Way](), list[tuple[bool, list[Phase]]]()
     for unfilmed, group in groupby(phases, lambda p: p.shot is None and p.name not in UPRIGHT):
         runs.append((unfilmed, list(group)))
     for i, (unfilmed, run) in enumerate(runs):
         if unfilmed:
             after = runs[i + 1][1][0].shot if i + 1 < len(runs) else None
-            found.append(Way(run[0].start, run[-1].end, after))
-    return tuple(found)
+            transits.append(Way(run[0].start, run[-1].end, after))
+    return tuple(transits)

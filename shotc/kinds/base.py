@@ -92,10 +92,10 @@ class Expansion(NamedTuple):
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Self:
         """Sort parts: keyframes count only where nothing stands against them."""
-        found = tuple(parts)
-        diagnostics = tuple(p for p in found if isinstance(p, Diagnostic))
-        deferred = tuple(p for p in found if isinstance(p, Deferred))
-        keyframes = tuple(p for p in found if isinstance(p, Keyframe))
+        items = tuple(parts)
+        diagnostics = tuple(p for p in items if isinstance(p, Diagnostic))
+        deferred = tuple(p for p in items if isinstance(p, Deferred))
+        keyframes = tuple(p for p in items if isinstance(p, Keyframe))
         return cls(() if diagnostics or deferred else keyframes, diagnostics, deferred)
 
 

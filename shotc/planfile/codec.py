@@ -94,8 +94,8 @@ def _rows(value: NDArray[Any]) -> list[Any]:
 @cache
 def hints(kind: type) -> dict[str, Any]:
     """Return the resolved types of a record's fields, in their order."""
-    found = get_type_hints(kind, localns={"Display": Display, "Fleet": Fleet, "Track": Track})
-    return {name: found[name] for name in field_names(kind)}
+    types = get_type_hints(kind, localns={"Display": Display, "Fleet": Fleet, "Track": Track})
+    return {name: types[name] for name in field_names(kind)}
 
 
 @cache
@@ -137,13 +137,13 @@ class Decoder:
         After a fault only those come back that are no more than JSON values.
         """
         try:
-            found: dict[str, Any] = _reader(tuple(kinds.items())).validate_python(value)
+            fields: dict[str, Any] = _reader(tuple(kinds.items())).validate_python(value)
         except ValidationError as error:
             for item in error.errors(include_url=False):
                 self.fault(_path(path, item["loc"]), _text(item))
             raw = value if isinstance(value, dict) else {}
             return {name: raw[name] for name, kind in kinds.items() if kind is object and name in raw}
-        return found
+        return fields
 
 
 @cache
@@ -199,9 +199,9 @@ def _plain(kind: Any) -> CoreSchema:
 def _record(kind: Any) -> CoreSchema:
     fields = {name: _field(kind, name, hint) for name, hint in hints(kind).items()}
 
-    def made(found: dict[str, Any]) -> Any:
-        found.pop(TAG, None)
-        return kind(**found)
+    def made(fields: dict[str, Any]) -> Any:
+        fields.pop(TAG, None)
+        return kind(**fields)
 
     return core_schema.no_info_after_validator_function(made, _object(fields, TAG))
 
@@ -248,8 +248,8 @@ def _colors(value: Any) -> Colors:
     if isinstance(value, list) and value and all(isinstance(row, str) for row in value):
         widths, digits = {len(row) for row in value}, "".join(value)
         if len(widths) == 1 and len(value[0]) % 6 == 0 and _HEXADECIMAL(digits):
-            found = np.frombuffer(bytes.fromhex(digits), dtype=np.uint8)
-            return found.reshape(len(value), -1, 3)
+            numbers = np.frombuffer(bytes.fromhex(digits), dtype=np.uint8)
+            return numbers.reshape(len(value), -1, 3)
     raise _fault("is not a list of equally long texts of hexadecimal colours")
 
 
@@ -257,9 +257,9 @@ def _array(depth: int) -> CoreSchema:
     def read(value: Any) -> Array:
         try:
             if numeric(value, depth):
-                found = np.array(value, dtype=np.float64)
-                if np.abs(found).max() <= LARGEST:
-                    return found
+                array = np.array(value, dtype=np.float64)
+                if np.abs(array).max() <= LARGEST:
+                    return array
         except (ValueError, OverflowError):
             pass
         raise _fault(f"is not a table of finite numbers in {depth} dimension{'s' * (depth > 1)}")

@@ -47,9 +47,9 @@ class ClaimChange:
     @property
     def claim(self) -> Claim:
         """Either of them, for its name and unit."""
-        found = self.new or self.old
-        assert found is not None
-        return found
+        either = self.new or self.old
+        assert either is not None
+        return either
 
 
 @dataclass(frozen=True, slots=True)

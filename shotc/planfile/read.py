@@ -114,12 +114,12 @@ def _constant(text: str) -> float:
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    fields = dict(pairs)
+    if len(fields) < len(pairs):
         names = [key for key, _ in pairs]
         twice = next(key for key in names if names.count(key) > 1)
         raise ValueError(f"the key {show(twice)} stands twice in one object")
-    return found
+    return fields
 
 
 def _mission_given(code: str, name: str) -> Diagnostic:
@@ -132,12 +132,12 @@ def _foreign(document: Any, name: str) -> Diagnostic | None:
     if isinstance(document, dict) and "shotc" in document:
         return _mission_given("E002", name)
     if not isinstance(document, dict) or document.get("format") != FORMAT:
-        found = show(document.get("format")) if isinstance(document, dict) else show(document)
+        given = show(document.get("format")) if isinstance(document, dict) else show(document)
         return Diagnostic(
             "E002",
             "this JSON is not a shotc plan",
             label,
-            notes=(f'its "format" is {found}, not `{FORMAT}`',),
+            notes=(f'its "format" is {given}, not `{FORMAT}`',),
             help="give the plan.json of `shotc plan`",
         )
     if document.get("version") is not VERSION:
@@ -210,25 +210,25 @@ def _source(value: Any, decoder: Decoder) -> _Source | None:
     kinds: dict[str, Any] = {"file": str, "sha256": str}
     if isinstance(value, dict) and not value.keys() <= kinds.keys():
         kinds |= {"text": tuple[str, ...], "tables": object, "drawn": object, "chosen": object}
-    found = decoder.fields(kinds, value, "source")
-    if decoder.faults or "text" not in found:
-        return None if decoder.faults else _Source(found["file"], found["sha256"], MissionSource())
-    tables = _pairs(found["tables"], {"name": str, "text": tuple[str, ...]}, "source.tables", decoder)
-    drawn = _pairs(found["drawn"], {"name": str, "sha256": str}, "source.drawn", decoder)
+    fields = decoder.fields(kinds, value, "source")
+    if decoder.faults or "text" not in fields:
+        return None if decoder.faults else _Source(fields["file"], fields["sha256"], MissionSource())
+    tables = _pairs(fields["tables"], {"name": str, "text": tuple[str, ...]}, "source.tables", decoder)
+    drawn = _pairs(fields["drawn"], {"name": str, "sha256": str}, "source.drawn", decoder)
     choices = {"drones": object, "autopilot": Autopilot | None}
-    chosen = decoder.fields(choices, found["chosen"], "source.chosen")
+    chosen = decoder.fields(choices, fields["chosen"], "source.chosen")
     drones = _pairs(chosen.get("drones"), {"shot": str, "drone": str}, "source.chosen.drones", decoder)
     if decoder.faults:
         return None
     try:
-        text = as_bytes(found["text"])
+        text = as_bytes(fields["text"])
         read = tuple((name, as_bytes(table)) for name, table in tables)
     except ValueError:
         decoder.fault("source", "a text in it is that of no file")
         return None
     return _Source(
-        found["file"],
-        found["sha256"],
+        fields["file"],
+        fields["sha256"],
         MissionSource(text, read, drawn, Chosen(drones, chosen["autopilot"])),
     )
 
@@ -249,15 +249,15 @@ def _placed(value: Any, mission: MissionIR, decoder: Decoder) -> tuple[PlacedSho
     if not isinstance(value, list):
         decoder.fault("keyframes", f"{show(value)} is not a list")
         return ()
-    found: list[PlacedShot] = []
+    placed_shots: list[PlacedShot] = []
     for i, item in enumerate(value):
         fields = decoder.fields(kinds, item, f"keyframes[{i}]")
         shot = shots.get(fields.get("shot", ""))
         if shot is not None and len(fields.get("keyframes", ())) == len(shot.keyframes):
-            found.append(PlacedShot(shot, fields["keyframes"], fields.get("subjects", ())))
+            placed_shots.append(PlacedShot(shot, fields["keyframes"], fields.get("subjects", ())))
         elif len(fields) == len(kinds):
             decoder.fault(
                 f"keyframes[{i}]",
                 "names no shot of the mission, or has not as many keyframes as that",
             )
-    return tuple(found)
+    return tuple(placed_shots)

@@ -205,7 +205,7 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
     share : of the distance a piece has beyond the clearance, this much is kept, COMFORT_M at most
     A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
     """
-    found: list[HalfSpaces] = []
+    planes: list[HalfSpaces] = []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
     for j, o in enumerate(space.obstacles):
         near = np.flatnonzero(distances(o.part, middle) < o.clearance + reach + size)
@@ -222,8 +222,8 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
             along = np.einsum("nmd,nd->nm", points, n) - border[:, None]
             slack = (along - o.clearance + less).min(axis=1)
         offset = (border + o.clearance + kept(slack, share))[:, None] - less
-        found.append(HalfSpaces(near, n, offset, np.full(len(near), j)))
-    return NO_HALF_SPACES.and_also(*found)
+        planes.append(HalfSpaces(near, n, offset, np.full(len(near), j)))
+    return NO_HALF_SPACES.and_also(*planes)
 
 
 def taper(space: FreeSpace, obstacle: Obstacle) -> Taper:

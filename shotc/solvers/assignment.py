@@ -30,7 +30,7 @@ def least_cost(programme: Programme) -> Array | None:
     from scipy.optimize import Bounds, LinearConstraint, milp
 
     number = len(programme.cost)
-    found = milp(
+    solution = milp(
         programme.cost,
         integrality=(np.arange(number) < programme.whole).astype(float),
         bounds=Bounds(np.zeros(number), programme.highest),
@@ -40,4 +40,4 @@ def least_cost(programme: Programme) -> Array | None:
         ],
         options={"mip_rel_gap": 0.0},
     )
-    return None if found.x is None else np.asarray(found.x)
+    return None if solution.x is None else np.asarray(solution.x)

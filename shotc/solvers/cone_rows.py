@@ -134,16 +134,16 @@ class ConeRows:
 
         values, constants : of all rows; a half-space's bound is its constant
         """
-        found = []
+        reached = []
         for block in self._blocks:
             value = values[block.rows].reshape(block.cones, block.dim)
             if block.kind == "cone":
-                found.append(np.linalg.norm(value[:, 1:], axis=1) >= share * value[:, 0])
+                reached.append(np.linalg.norm(value[:, 1:], axis=1) >= share * value[:, 0])
             elif block.kind == "positive":
-                found.append(value[:, 0] <= (1.0 - share) * np.abs(constants[block.rows]))
+                reached.append(value[:, 0] <= (1.0 - share) * np.abs(constants[block.rows]))
             else:
-                found.append(np.ones(block.cones, dtype=np.bool_))
-        return found
+                reached.append(np.ones(block.cones, dtype=np.bool_))
+        return reached
 
     def _square(self, hessian: Any) -> Any:
         """Return the upper triangle of a hessian as ``solve`` takes one, in columns."""

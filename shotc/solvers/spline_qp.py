@@ -51,14 +51,14 @@ def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     if free is not None and _keeps(problem, free):
         return SplineSolution(Status.SOLVED, free + centre, _energy(problem, free), 0.0)
     left = problem if free is None else _leaving(problem, free)
-    found = programme(left, squares, unit)
-    if found.coef is None and (dear := _dearest(problem)) > unit:
+    solution = programme(left, squares, unit)
+    if solution.coef is None and (dear := _dearest(problem)) > unit:
         # Costs of many orders above the constraints pass for a certificate that there is no solution.
-        found = programme(left, squares, dear)
-    if found.coef is None:
-        return found
-    coef = found.coef if free is None else free + found.coef
-    return replace(found, coef=coef + centre, objective=_energy(problem, coef))
+        solution = programme(left, squares, dear)
+    if solution.coef is None:
+        return solution
+    coef = solution.coef if free is None else free + solution.coef
+    return replace(solution, coef=coef + centre, objective=_energy(problem, coef))
 
 
 def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:

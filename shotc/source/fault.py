@@ -69,5 +69,5 @@ def capped(faults: Sequence[_Told], of: str) -> tuple[_Told, ...]:
     if more <= 0:
         return tuple(faults)
     last = faults[MAX_FAULTS - 1]
-    told = last._replace(notes=(*last.notes, f"{more} more faults of {of} are not shown"))
-    return (*faults[: MAX_FAULTS - 1], told)
+    shortened = last._replace(notes=(*last.notes, f"{more} more faults of {of} are not shown"))
+    return (*faults[: MAX_FAULTS - 1], shortened)

@@ -124,8 +124,8 @@ class Hinted(FieldType):
         except PydanticCustomError as error:
             if not (isinstance(value, str) and re.fullmatch(self.slip, clip(value), re.IGNORECASE)):
                 raise
-            said = error.context or {}
-            raise fault(error.type, said["message"], self.help, said["notes"]) from None
+            details = error.context or {}
+            raise fault(error.type, details["message"], self.help, details["notes"]) from None
 
     def schema(self) -> JsonSchemaValue:
         """Return the other type's schema."""

@@ -33,8 +33,8 @@ def shape_faults(
     usable, unusable = kinds
     found = _version_findings(root)
     if not any(f.slug == "unknown-version" for f in found):
-        said = findings(error) if error is not None else []
-        found += [f for f in said if f.path != ("shotc",)] + _shot_findings(root, [*usable, *unusable])
+        faults = findings(error) if error is not None else []
+        found += [f for f in faults if f.path != ("shotc",)] + _shot_findings(root, [*usable, *unusable])
     broken = tuple(_broken_kinds(root, unusable, origins))
     return _diagnostics([_uncovered(f, origins, file) for f in found], origins, broken)
 

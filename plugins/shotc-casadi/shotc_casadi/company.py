@@ -51,7 +51,7 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
 
     Shots on their own clock have no keyframes to interpolate; the conditions that do leave them alone.
     """
-    told: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     filmed = [
         (flown.drone, leg) for flown in path.timed for leg in flown.legs if not isinstance(leg, HoldLeg)
     ]
@@ -60,13 +60,13 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
             continue
         ctx.progress(f"refine shot {leg.shot}")
         if isinstance(leg, MovingLeg):
-            path, said = _refined(path, subject_of(path, drone, leg), condition)
+            path, messages = _refined(path, subject_of(path, drone, leg), condition)
         elif condition.aims == "framing":
-            path, said = refine_one(path, leg.shot, condition.name)
+            path, messages = refine_one(path, leg.shot, condition.name)
         else:
-            said = [unrefined(path, leg.shot, f"`{condition.name}` goes from keyframe to keyframe")]
-        told += said
-    return Outcome(path, tuple(told))
+            messages = [unrefined(path, leg.shot, f"`{condition.name}` goes from keyframe to keyframe")]
+        diagnostics += messages
+    return Outcome(path, tuple(diagnostics))
 
 
 def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[PathIR, list[Diagnostic]]:
@@ -148,12 +148,12 @@ def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
     """Return what moves and is not proved to be clear of a shot as it is flown, with the metres that lack."""
     flown = flown_shot(path, subject.placed.shot.id).curve
     around = surroundings(path, subject.drone, flown.breaks, standing_too=False)
-    found: dict[str, float] = {}
+    lacks: dict[str, float] = {}
     for motion in around.motions:
         lack = float(replace(around, motions=(motion,)).lacking(flown.ctrl[:, :, :3]).max())
         if lack > PROVED_M:
-            found[str(motion.what.owner)] = lack
-    return found
+            lacks[str(motion.what.owner)] = lack
+    return lacks
 
 
 @dataclass(frozen=True, slots=True, eq=False)

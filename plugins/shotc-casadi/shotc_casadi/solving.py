@@ -169,8 +169,8 @@ def _status(stats: Mapping[str, Any], feasible: bool) -> Status:
     # A success flag alone is no evidence.
     if stats["success"] and feasible:
         return "solved"
-    said = str(stats.get("return_status", ""))
-    return "nan" if "Invalid_Number" in said else "infeasible" if "nfeasible" in said else "stopped"
+    status = str(stats.get("return_status", ""))
+    return "nan" if "Invalid_Number" in status else "infeasible" if "nfeasible" in status else "stopped"
 
 
 def _name(row: int, task: Instance) -> str:

@@ -143,13 +143,13 @@ class _Job:
 
     def _warnings(self, flight: _Flight, flown: Flown, error: Error) -> list[Diagnostic]:
         height = float(self.track.poses.position[0, 2]) - self.drone.home[2]
-        found: list[Diagnostic | None] = [
+        warnings: list[Diagnostic | None] = [
             coarsened(self.mission, self.drone, error, self.dialect.most_items) if flight.coarser else None,
             raised(self.mission, self.drone, height, self.dialect.least_takeoff),
             cut(self.mission, self.drone, *nearest_miss(self.obstacles, flown)),
         ]
         return (
-            [d for d in found if d is not None]
+            [d for d in warnings if d is not None]
             + zooms(self.mission, self.flight)
             + clockless(self.mission, self.flight)
         )

@@ -79,13 +79,13 @@ def _camera(flight: DroneTrajectory, time: float, *, ahead: bool) -> Array:
 
 
 def _bodies(mission: MissionIR, subjects: list[str], time: float) -> list[Array]:
-    found = []
+    bodies = []
     for name in subjects:
         target = mission.target(name)
         centre = np.array(target.centre) + moved(target, np.array([time]))[0]
         reach = np.array([target.radius, target.radius, target.height / 2])
-        found.append(np.array([centre - reach, centre + reach]))
-    return found
+        bodies.append(np.array([centre - reach, centre + reach]))
+    return bodies
 
 
 def _covered(mission: MissionIR, subjects: list[str], eye: Array, time: float) -> int:

@@ -47,13 +47,13 @@ def within(place: str, entity: str) -> str:
     return f"{root}/{place}/{rest}"
 
 
-def record_comparison(found: Comparison, table: str) -> bytes:
+def record_comparison(comparison: Comparison, table: str) -> bytes:
     """Return the recording; table : the comparison in Markdown. At least one condition has a plan."""
-    return recorded(found.mission, "compare ", lambda stream: _fill(stream, found, table))
+    return recorded(comparison.mission, "compare ", lambda stream: _fill(stream, comparison, table))
 
 
-def _fill(recording: rr.RecordingStream, found: Comparison, table: str) -> None:
-    plans = [(each, each.plan) for each in found.conditions if each.plan is not None]
+def _fill(recording: rr.RecordingStream, comparison: Comparison, table: str) -> None:
+    plans = [(each, each.plan) for each in comparison.conditions if each.plan is not None]
     stream = Clocked(recording, _filmed(plans)[0])
     corners = [scene_bounds(plan) for _, plan in plans]
     bounds = np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)
@@ -64,17 +64,17 @@ def _fill(recording: rr.RecordingStream, found: Comparison, table: str) -> None:
         for flight in plan.trajectory.drones:
             log_motion(below, plan, flight, frustum_length(bounds))
     stream.log("summary", rr.TextDocument(table, media_type="text/markdown"), static=True)
-    recording.send_blueprint(_blueprint(found, plans, bounds), make_active=True, make_default=True)
+    recording.send_blueprint(_blueprint(comparison, plans, bounds), make_active=True, make_default=True)
 
 
 def _blueprint(
-    found: Comparison, plans: list[tuple[Condition, VerifiedIR]], bounds: tuple[Array, Array]
+    comparison: Comparison, plans: list[tuple[Condition, VerifiedIR]], bounds: tuple[Array, Array]
 ) -> Any:
     """Return the layout: a column a refiner of what its cameras see and how far off, the world below."""
     end = max(flight.curve.end for _, plan in plans for flight in plan.trajectory.drones)
     top = error_top([trace.error for each, _ in plans for shot in each.shots for trace in shot.traces])
-    columns = [_column(found, each, len(plans), (end, top)) for each, _ in plans]
-    cameras = [_camera(each, drone) for each, _ in plans for drone in found.mission.drones]
+    columns = [_column(comparison, each, len(plans), (end, top)) for each, _ in plans]
+    cameras = [_camera(each, drone) for each, _ in plans for drone in comparison.mission.drones]
     facts = rrb.TextDocumentView(origin="summary", name="In numbers")
     below = rrb.Horizontal(
         world_view(first_stand(plans[0][1]) or overview(bounds), cameras), facts, column_shares=[1.0, 1.4]
@@ -90,15 +90,15 @@ def _filmed(plans: list[tuple[Condition, VerifiedIR]]) -> tuple[float, float]:
     return min(start for start, _ in filmed), max(end for _, end in filmed)
 
 
-def _column(found: Comparison, each: Condition, count: int, axes: tuple[float, float]) -> Any:
+def _column(comparison: Comparison, each: Condition, count: int, axes: tuple[float, float]) -> Any:
     """Return one column of ``count``; axes : the ends of time, seconds, and of screen error."""
     views = []
     for name in dict.fromkeys(shot.drone for shot in each.shots):
-        drone = found.mission.drone(name)
-        title = each.refiner if len(found.mission.drones) == 1 else f"{each.refiner}: {name}"
+        drone = comparison.mission.drone(name)
+        title = each.refiner if len(comparison.mission.drones) == 1 else f"{each.refiner}: {name}"
         if each.score is not None and each.score.in_frame is not None:
             title += f" (whole in frame {percent(each.score.in_frame)})"
-        views.append(camera_view(found.mission, drone, _camera(each, drone), title))
+        views.append(camera_view(comparison.mission, drone, _camera(each, drone), title))
         views.append(error_view(within(place_of(each.refiner), f"plots/{name}/screen_error"), *axes))
     shares = [1.0 / count + HEAD, PLOT + HEAD] * (len(views) // 2)
     return rrb.Vertical(*views, row_shares=shares, name=each.refiner)

@@ -240,9 +240,9 @@ class Canvas:
 
     def write(self, x: float, y: float, text: str, style: Type, room: float) -> float:
         """Write one line of text in at most ``room`` inches; return the width it takes."""
-        found = self.fitted(text, style, room)
-        self.text(x, y, found.text, found.style)
-        return found.width
+        fitted = self.fitted(text, style, room)
+        self.text(x, y, fitted.text, fitted.style)
+        return fitted.width
 
     def png(self) -> bytes:
         """Return the page as PNG bytes, the same for the same drawing."""

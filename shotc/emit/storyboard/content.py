@@ -92,15 +92,15 @@ def shot_boards(plan: VerifiedIR, most_generated: int = MOST_GENERATED) -> tuple
 
     most_generated : how many moments of a shot to show whose keyframes a kind generated
     """
-    found = []
+    boards = []
     for placed in plan.trajectory.keyframes.shots:
         for flight in plan.trajectory.drones:
             phases = [p for p in flight.phases if p.shot == placed.shot.id]
             if phases:
-                found.append((phases[0].start, phases[-1].end, placed, flight))
-    found.sort(key=lambda item: (item[0], item[2].shot.id))
+                boards.append((phases[0].start, phases[-1].end, placed, flight))
+    boards.sort(key=lambda item: (item[0], item[2].shot.id))
     return tuple(
-        _board(plan, (start, end), (placed, flight), most_generated) for start, end, placed, flight in found
+        _board(plan, (start, end), (placed, flight), most_generated) for start, end, placed, flight in boards
     )
 
 
@@ -199,8 +199,10 @@ def passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: fl
 
 def standing(mission: MissionIR, board: ShotBoard) -> MissionIR:
     """Return the mission with a moving target standing wherever it is at one of a shot's moments."""
-    found: list[Target] = []
+    targets: list[Target] = []
     for target in mission.targets:
         places = dict.fromkeys(target.at(moment.time) for moment in board.moments)
-        found += [target] if target.track is None else [target._replace(centre=p, track=None) for p in places]
-    return mission._replace(targets=tuple(found))
+        targets += (
+            [target] if target.track is None else [target._replace(centre=p, track=None) for p in places]
+        )
+    return mission._replace(targets=tuple(targets))

@@ -249,7 +249,7 @@ def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
 
 def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]]:
     """Return name, colour and page rectangle of everything that is in the picture, the near first."""
-    found = []
+    names = []
     for thing in reversed(painting_order(shown.eye, _things(mission))):
         if isinstance(thing, Target):
             shapes = [cylinder_outline(shown.camera, shown.offset(thing), thing.radius, thing.height)]
@@ -264,5 +264,5 @@ def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]
         if (low < 1).all() and (high > -1).all():
             left, bottom = (float(c) for c in shown.place(np.maximum(low, -1.0)))
             right, top = (float(c) for c in shown.place(np.minimum(high, 1.0)))
-            found.append((thing.name, color, Box(left, bottom, right - left, top - bottom)))
-    return found
+            names.append((thing.name, color, Box(left, bottom, right - left, top - bottom)))
+    return names

@@ -33,10 +33,10 @@ class Panel:
     picture: tuple[float, float]
 
 
-def draw_comparison(found: Comparison, dpi: float) -> bytes:
+def draw_comparison(comparison: Comparison, dpi: float) -> bytes:
     """Return the page as PNG bytes, the same for the same comparison."""
     with house_style():
-        return _page(found, dpi)
+        return _page(comparison, dpi)
 
 
 def worst_frame(shot: FlownShot) -> float:
@@ -55,23 +55,23 @@ def worst_frame(shot: FlownShot) -> float:
     return max(off)[1] if off else 0.5 * (shot.start + shot.end)
 
 
-def _page(found: Comparison, dpi: float) -> bytes:
-    mission, count = found.mission, len(found.conditions)
+def _page(comparison: Comparison, dpi: float) -> bytes:
+    mission, count = comparison.mission, len(comparison.conditions)
     sizes = [_picture(mission.drone(shot.drone).aspect) for shot in mission.shots]
     heights = [_height(size) for size in sizes]
     width = 2 * MARGIN + max(count, 2) * (CELL + GAP) - GAP
     height = HEADING + sum(heights) + 0.2
     canvas = Canvas(width, height, dpi)
     canvas.write(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN)
-    told = (
+    text = (
         "every refiner's worst frame (amber below), and its screen error over the shot, in half frames; "
         "shaded where the target is not whole in the frame"
     )
-    canvas.write(MARGIN, height - 0.95, told, Type(10, QUIET), width - 2 * MARGIN)
+    canvas.write(MARGIN, height - 0.95, text, Type(10, QUIET), width - 2 * MARGIN)
     top = height - HEADING
     for shot, size, used in zip(mission.shots, sizes, heights, strict=True):
         canvas.lines([np.array([[MARGIN, top], [width - MARGIN, top]])], FAINT, 0.8)
-        _shot(canvas, found, shot, Panel(MARGIN, top, size))
+        _shot(canvas, comparison, shot, Panel(MARGIN, top, size))
         top -= used
     return canvas.png()
 
@@ -85,11 +85,11 @@ def _height(picture: tuple[float, float]) -> float:
     return NAMES + picture[1] + caption_height(CELL) + PLOT + FACTS
 
 
-def _shot(canvas: Canvas, found: Comparison, shot: Shot, first: Panel) -> None:
-    several = len(found.mission.shots) > 1
-    flown = [next((s for s in each.shots if s.id == shot.id), None) for each in found.conditions]
+def _shot(canvas: Canvas, comparison: Comparison, shot: Shot, first: Panel) -> None:
+    several = len(comparison.mission.shots) > 1
+    flown = [next((s for s in each.shots if s.id == shot.id), None) for each in comparison.conditions]
     top = error_top([trace.error for s in flown if s is not None for trace in s.traces])
-    for i, (each, there) in enumerate(zip(found.conditions, flown, strict=True)):
+    for i, (each, there) in enumerate(zip(comparison.conditions, flown, strict=True)):
         panel = Panel(first.left + i * (CELL + GAP), first.top, first.picture)
         name = f"{each.refiner}, {shot.id}" if several else each.refiner
         canvas.write(panel.left, panel.top - 0.3, name, Type(13, INK, bold=True), CELL)
@@ -137,6 +137,6 @@ def _no_plan(canvas: Canvas, each: Condition, panel: Panel) -> None:
     box = Box(panel.left, panel.top - NAMES - height, width, height)
     canvas.polygons([box.outline()], GROUND_FAR, FAINT, 0.8)
     canvas.text(box.x + 0.12, box.top - 0.3, "no plan", Type(11, KEEP_OUT, bold=True))
-    told = [line for d in each.faults for line in wrap(f"{d.code}: {d.message}", 44)]
-    for i, line in enumerate(told[: int((height - 0.5) / 0.17)]):
+    lines = [line for d in each.faults for line in wrap(f"{d.code}: {d.message}", 44)]
+    for i, line in enumerate(lines[: int((height - 0.5) / 0.17)]):
         canvas.text(box.x + 0.12, box.top - 0.55 - i * 0.17, line, Type(8, INK, halo=PAPER))

@@ -69,10 +69,10 @@ def at_time(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: fl
     shot = placed.shot
     spans = _spans([f for f in flight.framing if f.shot == shot.id], time)
     passed = [k.index for k in flight.keyframes if k.shot == shot.id and k.time <= time + SAME_TIME]
-    found = []
+    framed = []
     for target in dict.fromkeys(span.target for span in spans):
         u, v = (float(c) for c in references(flight, shot.id, target, np.array([time]))[0])
-        found.append(
+        framed.append(
             Framed(
                 target=target,
                 reference=None if np.isnan(u) else (u, v),
@@ -81,7 +81,7 @@ def at_time(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: fl
                 fault=_fault(plan, flight, target, time),
             )
         )
-    return tuple(found)
+    return tuple(framed)
 
 
 def _spans(framing: Sequence[Reference], time: float) -> list[Reference]:

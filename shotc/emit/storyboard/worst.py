@@ -42,18 +42,18 @@ def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> Worst
     several = len(whole) > 1
     if off is not None and off.time is not None and all(c.worst >= 1.0 for c in whole):
         name = f"{off.constraint.removesuffix(SCREEN_ERROR)} " if several else ""
-        told = f"screen error {at_least(off.worst, 3)}" if isfinite(off.worst) else "behind the camera"
-        return Worst(off.time, name + told)
+        text = f"screen error {at_least(off.worst, 3)}" if isfinite(off.worst) else "behind the camera"
+        return Worst(off.time, name + text)
     least = min((_edge(plan, flight, c) for c in whole), key=lambda edge: edge.margin, default=None)
     if least is None:
         return None
     name = f"{least.target} " if several else ""
-    told = (
+    text = (
         f"{at_least(-least.margin, 2)} m out of the frame"
         if least.margin < 0.0
         else f"{at_most(least.margin, 2)} m from the frame's edge"
     )
-    return Worst(least.time, name + told)
+    return Worst(least.time, name + text)
 
 
 def _edge(plan: VerifiedIR, flight: DroneTrajectory, claim: Claim) -> _Edge:

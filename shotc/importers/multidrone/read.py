@@ -78,25 +78,25 @@ class Sequence(NamedTuple):
 
 def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
     """Return all shooting action sequences that hold something to film."""
-    found = []
+    sequences = []
     for node in below(root, "shootingActionSequence"):
         actions = [_action(child, notes) for child in below(node, "shootingAction")]
         kept = tuple(action for action in actions if action is not None)
         if kept:
-            found.append(Sequence(node, node.value("name"), node.value("role") != "secondary", kept))
+            sequences.append(Sequence(node, node.value("name"), node.value("role") != "secondary", kept))
         else:
             notes.assume(
                 node, "a sequence without a shooting action that can be read", "the sequence is left out"
             )
-    return tuple(found)
+    return tuple(sequences)
 
 
 def below(node: Node, tag: str) -> list[Node]:
     """Return the elements of that name at any depth, in order; the tree is no deeper than it may be."""
-    found = []
+    nodes = []
     for child in node.children:
-        found += [child] if child.tag == tag else below(child, tag)
-    return found
+        nodes += [child] if child.tag == tag else below(child, tag)
+    return nodes
 
 
 def number(node: Node | None, notes: Notes) -> float | None:

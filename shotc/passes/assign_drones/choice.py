@@ -40,10 +40,10 @@ def choose(tasks: Sequence[Task], drones: Sequence[str]) -> Choice | None:
         for c, value in terms.items():
             matrix[r, c] = value
     most = np.array([bound for _, bound in rows])
-    found = least_cost(Programme(cost, highest, once, matrix, most, whole=count))
-    if found is None:
+    solution = least_cost(Programme(cost, highest, once, matrix, most, whole=count))
+    if solution is None:
         return None
-    chosen = found[:count].reshape(len(tasks), len(drones)).argmax(axis=1)
+    chosen = solution[:count].reshape(len(tasks), len(drones)).argmax(axis=1)
     return {task.number: drones[k] for task, k in zip(tasks, chosen, strict=True)}
 
 

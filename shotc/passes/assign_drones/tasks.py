@@ -62,7 +62,7 @@ def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] |
     """
     spec = ir.spec
     some = next(iter(spec.drones))
-    found: list[Task] = []
+    tasks: list[Task] = []
     for i, written in enumerate(spec.shots):
         open_ = written.drone == AUTO
         alone = written.model_copy(update={"drone": some}) if open_ else written
@@ -72,8 +72,8 @@ def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] |
         mission = Resolve(kinds).run(one, PassContext()).value
         if mission is None or not mission.shots:
             return None
-        found.append(_task(i, mission, mission.shots[0], None if open_ else written.drone))
-    return tuple(found)
+        tasks.append(_task(i, mission, mission.shots[0], None if open_ else written.drone))
+    return tuple(tasks)
 
 
 def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> Task:

@@ -44,19 +44,19 @@ def misplaced(mission: MissionIR, placed: PlacedShot, start: float) -> list[Diag
     ]
     if unseen:
         return unseen
-    found = _told(shot, then, place_shot(mission, shot, then)[1], open_)
-    return [*found, *(while_following(mission, shot.keyframes, placed.keyframes) if any(open_) else [])]
+    diagnostics = _told(shot, then, place_shot(mission, shot, then)[1], open_)
+    return [*diagnostics, *(while_following(mission, shot.keyframes, placed.keyframes) if any(open_) else [])]
 
 
 def _told(
     shot: Shot, then: Sequence[MissionIR], misses: Sequence[Unmet], judged: Sequence[bool]
 ) -> list[Diagnostic]:
     """Return the misses of the keyframes that are judged, each reported for its own moment."""
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     for keyframe, moment, mine in zip(shot.keyframes, then, judged, strict=True):
         missed = [miss for miss in misses if mine and miss.keyframe is keyframe]
-        found += report(moment, shot, missed)
-    return list(dict.fromkeys(found))
+        diagnostics += report(moment, shot, missed)
+    return list(dict.fromkeys(diagnostics))
 
 
 def _is_unseen(moment: MissionIR, shot: Shot, keyframe: Keyframe) -> bool:

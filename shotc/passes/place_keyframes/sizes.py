@@ -47,10 +47,10 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
     if abs(worst.size / asked - 1.0) <= OFF:
         return None
     low, high = min(look.size for look in looks), max(look.size for look in looks)
-    found = f"{low:.3g} to {high:.3g}" if high - low > 0.01 * high else f"{worst.size:.3g}"
+    sizes = f"{low:.3g} to {high:.3g}" if high - low > 0.01 * high else f"{worst.size:.3g}"
     return Diagnostic(
         "M035",
-        f"the size of `{worst.name}` in shot `{shot.id}` is {found}, not {asked:.3g}",
+        f"the size of `{worst.name}` in shot `{shot.id}` is {sizes}, not {asked:.3g}",
         (mission.origins.value((*shot.path, "size")),),
         (
             "how far away the camera is, other numbers of the shot say",

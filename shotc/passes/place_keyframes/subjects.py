@@ -29,9 +29,9 @@ def place_subjects(
     placed: list[PlacedSubject] = []
     diagnostics: list[Diagnostic] = []
     for subject in shot.subjects:
-        reference, said = _reference(mission, shot, subject)
+        reference, warnings = _reference(mission, shot, subject)
         placed.append(PlacedSubject(subject.target, reference, subject.size, subject.view, subject.path))
-        diagnostics += said
+        diagnostics += warnings
     return tuple(placed), tuple(diagnostics)
 
 

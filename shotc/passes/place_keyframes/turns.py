@@ -14,15 +14,15 @@ def while_following(
     mission: MissionIR, keyframes: tuple[Keyframe, ...], placed: tuple[PlacedKeyframe, ...]
 ) -> list[Diagnostic]:
     """Return errors for stated turns in which the camera would lose the target that it follows."""
-    found = []
+    diagnostics = []
     for i, after in enumerate(placed):
         before = placed[i - 1]
         if after.turn is None or before.reference is None or after.reference is None:
             continue
         follows = wrapped(after.yaw - before.yaw)
         if abs(after.turn - follows) > pi:
-            found.append(_lost(mission, keyframes[i], after, follows))
-    return found
+            diagnostics.append(_lost(mission, keyframes[i], after, follows))
+    return diagnostics
 
 
 def _lost(mission: MissionIR, keyframe: Keyframe, placed: PlacedKeyframe, follows: float) -> Diagnostic:

@@ -34,10 +34,10 @@ class Account(NamedTuple):
         return replace(value, trajectory=replace(flown, stats=(*flown.stats, *self.entries)))
 
 
-def account(seat: Seat, paths: tuple[PathIR, PathIR], said: Iterable[Diagnostic]) -> Account:
+def account(seat: Seat, paths: tuple[PathIR, PathIR], diagnostics: Iterable[Diagnostic]) -> Account:
     """Return which shots of a plan are refined.
 
-    paths : the convex one and the one that is flown; said : all diagnostics so far
+    paths : the convex one and the one that is flown; diagnostics : all diagnostics so far
     A camera that stands still is no fault: there is nothing to refine. The refiner `none` owes nothing.
     """
     if isinstance(seat.refiner, KeepPath):
@@ -51,16 +51,16 @@ def account(seat: Seat, paths: tuple[PathIR, PathIR], said: Iterable[Diagnostic]
         still = isinstance(was, HoldLeg)
         why = STANDS if still else DONE
         if not still and same(was, now):
-            told = _reason(mission, shot, said)
-            why = told or f"{seat.named} left it as it was"
-            missing += [] if told else [unrefined(before, shot.id, why)]
+            reason = _reason(mission, shot, diagnostics)
+            why = reason or f"{seat.named} left it as it was"
+            missing += [] if reason else [unrefined(before, shot.id, why)]
         entries.append((f"{shot.id}.refined", why))
     return Account(tuple(entries), tuple(missing))
 
 
-def _reason(mission: MissionIR, shot: Shot, said: Iterable[Diagnostic]) -> str:
+def _reason(mission: MissionIR, shot: Shot, diagnostics: Iterable[Diagnostic]) -> str:
     """Return why a shot stays as it was, by what was said of it; empty where nobody says."""
     find = mission.origins.key
     spans = {find(shot.path).span, find((*shot.path, "refine")).span}
-    about = [d for d in said if d.code in {KEPT, UNREFINED} and any(m.span in spans for m in d.labels)]
+    about = [d for d in diagnostics if d.code in {KEPT, UNREFINED} and any(m.span in spans for m in d.labels)]
     return about[0].message.partition(": " if about[0].code == UNREFINED else ", ")[2] if about else ""

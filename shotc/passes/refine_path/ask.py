@@ -57,5 +57,5 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> A
     return Answer(outcome.value, tuple(own(mission, seat, d) for d in errors), warnings)
 
 
-def _are_diagnostics(told: object) -> bool:
-    return isinstance(told, tuple) and all(isinstance(d, Diagnostic) and d.code in registry() for d in told)
+def _are_diagnostics(value: object) -> bool:
+    return isinstance(value, tuple) and all(isinstance(d, Diagnostic) and d.code in registry() for d in value)

@@ -57,7 +57,7 @@ def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ..
 
 
 def shortest_refined(
-    seat: Seat, said: tuple[Diagnostic, ...], convex: tuple[Diagnostic, ...]
+    seat: Seat, diagnostics: tuple[Diagnostic, ...], convex: tuple[Diagnostic, ...]
 ) -> tuple[Diagnostic, ...]:
     """Return what was said of a refined path, its durations told as those of that path and not of any.
 
@@ -76,10 +76,10 @@ def shortest_refined(
             notes=(*d.notes, f"the convex path would not do either: {other.message}"),
         )
 
-    return tuple(told(d) for d in said)
+    return tuple(told(d) for d in diagnostics)
 
 
-def still_true(paths: tuple[PathIR, PathIR], said: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+def still_true(paths: tuple[PathIR, PathIR], diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
     """Return what was said, less the warnings about convex legs that are not flown; paths as in ``blame``.
 
     Where a guide left its place and was refined, the flown motion's distance is told instead.
@@ -89,21 +89,21 @@ def still_true(paths: tuple[PathIR, PathIR], said: tuple[Diagnostic, ...]) -> tu
     refined = {shot.id for shot in _refined(paths)}
     find = mission.origins.key
     over = {find(k.path).span for p in before.keyframes.shots if p.shot.id in refined for k in p.keyframes}
-    told = {
+    untrue = {
         id(d)
-        for d in said
+        for d in diagnostics
         if (d.code in OF_THE_CONVEX and d.labels[0].span in over)
         or (d.code == OF_THE_GUIDE and _of(mission, d) in refined)
     }
-    guided = {_of(mission, d) for d in said if id(d) in told and d.code == OF_THE_GUIDE}
+    guided = {_of(mission, d) for d in diagnostics if id(d) in untrue and d.code == OF_THE_GUIDE}
     on_clock = (d for d in after.deviations if isinstance(d, ClockDeviation))
     anew = left_places(mission, (d for d in on_clock if d.shot in guided))
-    return (*(d for d in said if id(d) not in told), *anew)
+    return (*(d for d in diagnostics if id(d) not in untrue), *anew)
 
 
-def _of(mission: MissionIR, told: Diagnostic) -> str | None:
+def _of(mission: MissionIR, diagnostic: Diagnostic) -> str | None:
     """Return the shot whose kind a warning of its place labels first."""
-    span = told.labels[0].span
+    span = diagnostic.labels[0].span
     return next((s.id for s in mission.shots if mission.origins.value((*s.path, "kind")).span == span), None)
 
 

@@ -64,8 +64,8 @@ def _as_told(was: PathLeg, now: PathLeg) -> Iterator[str]:
     if isinstance(was, HoldLeg) or isinstance(now, HoldLeg) or now.phase == "shot":
         yield from changed_shot(was, now)
         return
-    told = [(leg.phase, leg.pace, leg.duration, leg.start, leg.path) for leg in (was, now)]
-    if told[0] != told[1] or len(was.stops) != len(now.stops):
+    fields = [(leg.phase, leg.pace, leg.duration, leg.start, leg.path) for leg in (was, now)]
+    if fields[0] != fields[1] or len(was.stops) != len(now.stops):
         yield "its timing is another"
     elif now.phase in UPRIGHT:
         yield "its flight is another"
@@ -134,8 +134,8 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
 
 def _alike(a: PathLeg, b: PathLeg) -> bool:
     """Tell whether two legs of the same kind are flown the same."""
-    told = (a.phase, a.pose, a.marks, a.duration, a.start, a.path)
-    if told != (b.phase, b.pose, b.marks, b.duration, b.start, b.path):
+    fields = (a.phase, a.pose, a.marks, a.duration, a.start, a.path)
+    if fields != (b.phase, b.pose, b.marks, b.duration, b.start, b.path):
         return False
     if len(a.framing) != len(b.framing) or not all(map(_same_span, a.framing, b.framing)):
         return False

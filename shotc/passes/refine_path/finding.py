@@ -32,24 +32,28 @@ class Fault(NamedTuple):
     told: Diagnostic
 
 
-def tell(mission: MissionIR, seat: Seat, found: Finding) -> Fault:
+def tell(mission: MissionIR, seat: Seat, finding: Finding) -> Fault:
     """Return a finding as the error that the user reads."""
-    path = next((shot.path for shot in mission.shots if shot.id == found.shot), None)
-    labels = (() if path is None else (mission.origins.key(path, "in this shot"),)) + found.labels
-    help_ = found.help or f"tell the authors of {seat.package}"
-    return Fault(found.shot, Diagnostic(found.code, f"{seat.named} {found.what}", labels, found.notes, help_))
+    path = next((shot.path for shot in mission.shots if shot.id == finding.shot), None)
+    labels = (() if path is None else (mission.origins.key(path, "in this shot"),)) + finding.labels
+    help_ = finding.help or f"tell the authors of {seat.package}"
+    return Fault(
+        finding.shot, Diagnostic(finding.code, f"{seat.named} {finding.what}", labels, finding.notes, help_)
+    )
 
 
-def own(mission: MissionIR, seat: Seat, told: Diagnostic) -> Fault:
+def own(mission: MissionIR, seat: Seat, diagnostic: Diagnostic) -> Fault:
     """Return an error of the refiner's own, with the package's name added."""
     note = seat.named
-    return Fault(shot_of(mission, told), told._replace(notes=(*told.notes, f"told by {note}")))
+    return Fault(
+        shot_of(mission, diagnostic), diagnostic._replace(notes=(*diagnostic.notes, f"told by {note}"))
+    )
 
 
-def shot_of(mission: MissionIR, told: Diagnostic) -> str | None:
+def shot_of(mission: MissionIR, diagnostic: Diagnostic) -> str | None:
     """Return the one shot whose key an error labels; the only shot of a mission needs no label."""
     if len(mission.shots) == 1:
         return mission.shots[0].id
-    spans = {label.span for label in told.labels}
+    spans = {label.span for label in diagnostic.labels}
     named = [shot.id for shot in mission.shots if mission.origins.key(shot.path).span in spans]
     return named[0] if len(named) == 1 else None

@@ -14,14 +14,16 @@ NONE = "plan with `--refiner none`"
 
 
 def with_convex(
-    path: PathIR, said: Iterable[Diagnostic], later: Iterable[Diagnostic]
+    path: PathIR, diagnostics: Iterable[Diagnostic], later: Iterable[Diagnostic]
 ) -> tuple[Diagnostic, ...]:
     """Return what was said, the refiner's errors with what becomes of the convex path.
 
     path : the convex one; later : all that the passes after refine-path say of it
     """
     against = next((d for d in later if has_errors([d])), None)
-    return tuple(_told(path, d, against) if has_errors([d]) and d.code[0] == FAMILY else d for d in said)
+    return tuple(
+        _told(path, d, against) if has_errors([d]) and d.code[0] == FAMILY else d for d in diagnostics
+    )
 
 
 def _told(path: PathIR, error: Diagnostic, against: Diagnostic | None) -> Diagnostic:

@@ -75,9 +75,9 @@ def nearest(space: FreeSpace, curve: Piecewise) -> Near | None:
         bag = bag.pick(shortfall(space, bag.ctrl) > least)
         if not len(bag):
             break
-        found = _worst_of(space, bag)
-        if found.lack > TOLERANCE and (worst is None or found.lack > worst.lack):
-            worst = found
+        near = _worst_of(space, bag)
+        if near.lack > TOLERANCE and (worst is None or near.lack > worst.lack):
+            worst = near
         bag = bag.halves()
     return worst
 

@@ -62,9 +62,9 @@ def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, 
     failed = {fault.shot for fault in faults}
     mended: set[str | None] = set()
     while path is not None and path is not before:
-        found = [fault for fault in _judged(before, seat, path) if fault.shot not in failed]
-        faults += found
-        failed |= {fault.shot for fault in found}
+        left = [fault for fault in _judged(before, seat, path) if fault.shot not in failed]
+        faults += left
+        failed |= {fault.shot for fault in left}
         if None in failed or failed == mended:
             break
         path, mended = _with_convex(before, path, failed), set(failed)
@@ -74,14 +74,18 @@ def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, 
 def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
     """Return what is wrong with what should be a path; only a path that is one is looked at closely."""
     try:
-        found = list(structure(before, path)) or [*form(before, path), *on_clock(before, path), *limits(path)]
+        faults = list(structure(before, path)) or [
+            *form(before, path),
+            *on_clock(before, path),
+            *limits(path),
+        ]
     except Exception as raised:  # noqa: BLE001  a plugin may hand back anything, and reading it may raise
-        found = [
+        faults = [
             Finding(
                 "R002", "returned a path that cannot be flown", (f"to read it raises {one_line(raised)}",)
             )
         ]
-    return [tell(before.keyframes.mission, seat, finding) for finding in found]
+    return [tell(before.keyframes.mission, seat, finding) for finding in faults]
 
 
 def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> PathIR | None:

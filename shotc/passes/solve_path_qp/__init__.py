@@ -103,12 +103,12 @@ class SolvePathQp:
 
 def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]:
     """Return what is wrong with keyframes whose picture was not known before their shot's start was."""
-    placed, found = {p.shot.id: p for p in ir.shots if is_keyed(p.shot)}, list[Diagnostic]()
+    placed, diagnostics = {p.shot.id: p for p in ir.shots if is_keyed(p.shot)}, list[Diagnostic]()
     for leg in (leg for path in timed for leg in path.legs if isinstance(leg, ClockLeg)):
         if leg.shot in placed:
             shot = placed_at(ir.mission, placed[leg.shot], leg.start)
-            found += misplaced(ir.mission, shot, leg.start)
-    return found
+            diagnostics += misplaced(ir.mission, shot, leg.start)
+    return diagnostics
 
 
 def on_clock(ir: KeyframeIR) -> bool:

@@ -87,8 +87,8 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
         *_fleet_claims(ir, ctx),
     ]
     certificate = tuple(claims)
-    found = (*report(ir, certificate), *unjudged(ir, certificate), *losses(ir, certificate), *pans(ir))
-    return Verdict(certificate, (*_grounded(ir), *found))
+    diagnostics = (*report(ir, certificate), *unjudged(ir, certificate), *losses(ir, certificate), *pans(ir))
+    return Verdict(certificate, (*_grounded(ir), *diagnostics))
 
 
 def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:

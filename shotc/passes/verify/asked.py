@@ -155,8 +155,8 @@ def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator
 
 def _path(item: Any, at: _Place) -> KeyPath:
     """Return where the mission writes an element; a placed shot is written where its shot is."""
-    found: KeyPath = getattr(getattr(item, "shot", item), "path", at.path)
-    return found
+    path: KeyPath = getattr(getattr(item, "shot", item), "path", at.path)
+    return path
 
 
 def _one_of(words: str) -> str:
@@ -170,8 +170,8 @@ def _name(item: Any) -> str:
         return ""
     if "shot" in field_names(item):
         return _name(item.shot)
-    found = getattr(item, "name", getattr(item, "id", ""))
-    return found if isinstance(found, str) else ""
+    name = getattr(item, "name", getattr(item, "id", ""))
+    return name if isinstance(name, str) else ""
 
 
 def _same(a: Any, b: Any, near: float) -> bool:

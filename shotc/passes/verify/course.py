@@ -77,9 +77,9 @@ def course(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
 def _told(flight: Flight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> float:
     """Return how far a shot may leave its path, metres: as is said, round things and for its picture."""
     blocks = in_the_way(flight, way)
-    said = believed((d for d in ir.deviations if d.shot == placed.shot.id), blocks)
+    distances = believed((d for d in ir.deviations if d.shot == placed.shot.id), blocks)
     far = farthest(flight.mission, {k.target for k in placed.keyframes if k.target is not None}, way)
-    return min(sum(said[:2]), sum(blocks.values()) + for_the_picture(flight.mission, far, placed=False))
+    return min(sum(distances[:2]), sum(blocks.values()) + for_the_picture(flight.mission, far, placed=False))
 
 
 def _chords(at: Array) -> Way:
@@ -120,14 +120,14 @@ def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> It
     if any(k.placed for k in keyframes):
         yield from _swing(flight, placed, t)
         return
-    said = _told(flight, ir, placed, _chords(at))
+    reported = _told(flight, ir, placed, _chords(at))
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
     k = int(away.argmax())
     worst = Worst(float(away[k]), float(t[k]), "exact")
     for i in range(len(t) - 1):
         between = _between(flight, (t[i], t[i + 1]), (at[i], at[i + 1]))
         worst = between if between.value > worst.value else worst
-    path = Limit("distance from its path", said + UNREPORTED_M, "m", shot.path, shot=shot.id)
+    path = Limit("distance from its path", reported + UNREPORTED_M, "m", shot.path, shot=shot.id)
     yield claim(flight, path, worst)
     free = np.array([_is_free(flight, keyframe) for keyframe in keyframes])
     ends = [i for i in (0, len(t) - 1) if free[i]]
@@ -146,15 +146,15 @@ def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
     keyframes, shot = placed.keyframes, placed.shot
     at = np.array([k.at for k in keyframes])
     lengths = norm(np.diff(at, axis=0))
-    found: list[tuple[float, float, Worst]] = []
+    swings: list[tuple[float, float, Worst]] = []
     for i, (start, end) in enumerate(pairwise(t)):
         times, ends = (float(start) + keyframes[i].hold, float(end)), (at[i], at[i + 1])
         longest = float(lengths[max(i - 1, 0) : i + 2].max())
         most = SWING_SHARE * longest + UNREPORTED_M + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
         worst = _off_chord(flight, times, ends, most)
-        found.append((worst.value / most, most, worst))
-    if found:
-        _, most, worst = max(found, key=lambda one: one[0])
+        swings.append((worst.value / most, most, worst))
+    if swings:
+        _, most, worst = max(swings, key=lambda one: one[0])
         limit = Limit("way between keyframes", most, "m", shot.path, shot=shot.id)
         yield claim(flight, limit, worst)
 
@@ -162,8 +162,8 @@ def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
 def _between(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array]) -> Worst:
     """Return how far the flight is from the line between two keyframes, less what it may bow out."""
     bow = BOW_SHARE * float(np.linalg.norm(ends[1] - ends[0]))
-    found = _off_chord(flight, times, ends, bow + UNREPORTED_M)
-    return replace(found, value=max(found.value - bow, 0.0))
+    worst = _off_chord(flight, times, ends, bow + UNREPORTED_M)
+    return replace(worst, value=max(worst.value - bow, 0.0))
 
 
 def _off_chord(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array], most: float) -> Worst:
@@ -177,8 +177,8 @@ def _off_chord(flight: Flight, times: tuple[float, float], ends: tuple[Array, Ar
         share = np.clip((points - first) @ along / max(length * length, 1e-12), 0.0, 1.0)
         return norm(points - first - share[..., None] * along)
 
-    found = sup_convex(cut(flight.track.curve.channels(0, 1, 2), *times), off, gap(most))
-    return Worst(found.proven, found.at)
+    bound = sup_convex(cut(flight.track.curve.channels(0, 1, 2), *times), off, gap(most))
+    return Worst(bound.proven, bound.at)
 
 
 def _distances(mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...]) -> Array:
@@ -223,8 +223,8 @@ def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
 
 
 def _largest(flight: Flight, what: tuple[str, float, str], shot: Shot, values: tuple[Array, Array]) -> Claim:
-    found, t = values
-    k = int(found.argmax())
+    value, t = values
+    k = int(value.argmax())
     name, limit, unit = what
     wanted = Limit(name, limit, unit, shot.path, shot=shot.id)
-    return claim(flight, wanted, Worst(float(found[k]), float(t[k]), "exact"))
+    return claim(flight, wanted, Worst(float(value[k]), float(t[k]), "exact"))

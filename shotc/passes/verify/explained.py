@@ -49,14 +49,14 @@ def in_the_way(flight: Flight, way: Way, *, placed: bool = False) -> dict[str, f
     placed : whether the author gave the place, which then binds but where something comes
     """
     stands = () if placed else _zones(flight, way)
-    found = (*stands, *_targets(flight, way, placed=placed), *_drones(flight, way))
-    return {name: detour for name, detour in found if detour > 0.0}
+    detours = (*stands, *_targets(flight, way, placed=placed), *_drones(flight, way))
+    return {name: detour for name, detour in detours if detour > 0.0}
 
 
 def believed(deviations: Iterable[Deviation], blocks: dict[str, float]) -> list[float]:
     """Return the distances that are told with a cause that can be one, the largest first."""
-    told = (d.distance for d in deviations if d.cause in blocks or not d.cause.startswith(THINGS))
-    return sorted(told, reverse=True)
+    distances = (d.distance for d in deviations if d.cause in blocks or not d.cause.startswith(THINGS))
+    return sorted(distances, reverse=True)
 
 
 def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> float:

@@ -78,11 +78,11 @@ def against(written: KeyframeIR, asked: Lowered) -> list[Diagnostic]:
         return [fault, *asked.diagnostics]
     mine, true = dict(written.mission.source.drawn), dict(asked.keyframes.mission.source.drawn)
     other = (name for name in true if name in mine and mine[name] != true[name])
-    found = [
+    diagnostics = [
         *differences(written, asked.keyframes, same_text=False),
         *(Difference((), f"`{name}` is another file than the plan draws") for name in other),
     ]
-    return told(found, asked.keyframes, "V043", ())
+    return told(diagnostics, asked.keyframes, "V043", ())
 
 
 def _not_lowered(read: ReadPlan, asked: Lowered, name: str) -> tuple[Diagnostic, ...]:
@@ -108,20 +108,20 @@ def _of_another_mission(read: ReadPlan, asked: KeyframeIR) -> list[Diagnostic]:
     """Report what the plan says of its mission that the mission does not say."""
     assert read.trajectory is not None
     written = read.trajectory.keyframes
-    found = [*differences(written, asked), *source_differences(written.mission, asked.mission)]
-    return told(found, asked, "V041", (*_writer(read),))
+    differing = [*differences(written, asked), *source_differences(written.mission, asked.mission)]
+    return told(differing, asked, "V041", (*_writer(read),))
 
 
 def told(
-    found: Sequence[Difference], asked: KeyframeIR, code: str, notes: tuple[str, ...]
+    differing: Sequence[Difference], asked: KeyframeIR, code: str, notes: tuple[str, ...]
 ) -> list[Diagnostic]:
     """Return differences as diagnostics on the mission's lines, the first ones each, the others together."""
     shown = [
         Diagnostic(code, d.text, (asked.mission.origins.value(d.path),), notes, REPLAN)
-        for d in found[:REPORTED]
+        for d in differing[:REPORTED]
     ]
-    if len(found) > REPORTED:
-        more = f"and {len(found) - REPORTED} more differences between the plan and its mission"
+    if len(differing) > REPORTED:
+        more = f"and {len(differing) - REPORTED} more differences between the plan and its mission"
         shown.append(Diagnostic(code, more, (asked.mission.origins.value(()),), help=REPLAN))
     return shown
 
@@ -140,8 +140,8 @@ def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> l
         writer = f"the file was written by shotc {clip(read.tool)}, this is {__version__}"
         notes = (writer, *differing[:NOTED])
         return [Diagnostic("V040", many, label, notes, "plan the mission again with this shotc")]
-    found = [Diagnostic("V040", text, label, help=REPLAN) for text in differing[:REPORTED]]
+    diagnostics = [Diagnostic("V040", text, label, help=REPLAN) for text in differing[:REPORTED]]
     if len(differing) > REPORTED:
         more = f"{len(differing) - REPORTED} more claims of the certificate differ"
-        found.append(Diagnostic("V040", more, label))
-    return found
+        diagnostics.append(Diagnostic("V040", more, label))
+    return diagnostics

@@ -99,12 +99,12 @@ def _screen_error(flight: Flight, view: View) -> Iterator[Claim]:
         return
     error = np.where(known, view.error, -inf)
     k = int(np.argmax(error))
-    found = _sampled(flight, view, ("screen error", "screen_error", asked), (float(error[k]), k))
-    if asked is not None and found.holds:
+    claim = _sampled(flight, view, ("screen error", "screen_error", asked), (float(error[k]), k))
+    if asked is not None and claim.holds:
         times = view.times[known]
         if errors_close(flight, view.shot.id, view.target, times, asked):
-            found = replace(found, method="bounded")
-    yield found
+            claim = replace(claim, method="bounded")
+    yield claim
 
 
 def _size(flight: Flight, view: View) -> Iterator[Claim]:

@@ -22,8 +22,8 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
     if not len(times):
         return
     others, eyes = others_of(bodies(ir), track.drone), track.curve(times)[:, :3]
-    found = [(float(hides.mean()), name) for name, hides in hiders(mission, others, target, eyes, times)]
-    for share, what in sorted(found, key=lambda pair: -pair[0]):
+    shares = [(float(hides.mean()), name) for name, hides in hiders(mission, others, target, eyes, times)]
+    for share, what in sorted(shares, key=lambda pair: -pair[0]):
         sort, _, name = what.partition(" ")
         if share > 0:
             yield f"{sort} `{name}` hides it in {100 * share:.3g} %"

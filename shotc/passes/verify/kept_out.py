@@ -76,8 +76,8 @@ def _turned(sight: Sight, times: Array, phase: Phase) -> str:
     right, left = float((edge - off).max()), float((edge + off).max())
     by = float(at_least(degrees(min(right, left)) + BEYOND_DEG, 0))
     way = "right" if right <= left else "left"
-    said = f"turn the camera of `{shot.id}` {by:.0f} deg to the {way}"
+    text = f"turn the camera of `{shot.id}` {by:.0f} deg to the {way}"
     if len(shot.keyframes) > 1:
-        return said
+        return text
     heading = 90.0 - degrees(float(film[0, CAM_YAW])) + (by if way == "right" else -by)
-    return f"{said}, by `heading: {round(heading) % 360} deg`"
+    return f"{text}, by `heading: {round(heading) % 360} deg`"

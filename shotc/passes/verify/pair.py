@@ -51,8 +51,8 @@ def _from_pads(flown: Pieces, fleet: Fleet, least: float) -> Bound:
     for k in np.argsort(boxes, kind="stable"):
         if boxes[k] >= best.proven:
             break
-        found = inf_distance(flown, point(fleet.pads[k]), gap(least))
-        best = found if found.proven < best.proven else best
+        bound = inf_distance(flown, point(fleet.pads[k]), gap(least))
+        best = bound if bound.proven < best.proven else best
     return best
 
 

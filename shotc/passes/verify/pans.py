@@ -50,9 +50,9 @@ def pans(ir: TrajectoryIR) -> Iterator[Diagnostic]:
             shot = shots.get(phase.shot or "")
             if shot is None or FAST_PAN in shot.allow:
                 continue
-            found = fastest(track, phase)
-            if found is not None and found.pace * NEARLY_SHARE > 1.0:
-                yield _told(mission, track, phase, found)
+            turn = fastest(track, phase)
+            if turn is not None and turn.pace * NEARLY_SHARE > 1.0:
+                yield _told(mission, track, phase, turn)
 
 
 def fastest(track: DroneTrajectory, phase: Phase) -> Pan | None:

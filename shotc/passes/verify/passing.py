@@ -51,11 +51,11 @@ def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnos
     broken = [c for c in claims if not c.holds and c.constraint.endswith(ENDING)]
     soft: dict[tuple[str, Way], list[tuple[Claim, Pass]]] = {}
     for claim in broken:
-        found = _passes(ir, claim)
+        passes = _passes(ir, claim)
         if claim.hard:
-            yield _refused(ir, claim, found[0])
+            yield _refused(ir, claim, passes[0])
             continue
-        for one in (p for p in found if p.needs - p.has > WORTH_SHARE * p.needs):
+        for one in (p for p in passes if p.needs - p.has > WORTH_SHARE * p.needs):
             soft.setdefault((claim.subject, one.way), []).append((claim, one))
     for together in soft.values():
         yield _told(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))
@@ -68,7 +68,7 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
     solid, path, curve = _solid(mission, name, track)
     radius = mission.drone(track.drone).radius
     kind, _, own = name.partition(" ")
-    found = []
+    passes = []
     for way in ways(track.phases):
         bound = on_way((solid, curve), claim.limit + radius, way)
         if bound.proven - radius >= claim.limit - slack(claim.limit):
@@ -78,8 +78,8 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
         least = inf_distance(cut(curve, way.start, way.end), solid, gap(radius))
         has = distance(solid, (x, y, z))
         passed = Pass(f"{kind} `{own}`", path, way, bound.at, has - radius, float(needs) - radius)
-        found.append((bound.proven, passed._replace(least=least.proven - radius)))
-    return [one for _, one in sorted(found, key=lambda pair: pair[0])]
+        passes.append((bound.proven, passed._replace(least=least.proven - radius)))
+    return [one for _, one in sorted(passes, key=lambda pair: pair[0])]
 
 
 def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> tuple[Solid, KeyPath, Piecewise]:
@@ -113,19 +113,19 @@ def _held(least: float) -> str:
     return at_most(max(least - PLAY_M, 0.0))
 
 
-def _refused(ir: TrajectoryIR, claim: Claim, found: Pass) -> Diagnostic:
-    message = f"{claim.subject} passes {_near(claim, found)}"
+def _refused(ir: TrajectoryIR, claim: Claim, passed: Pass) -> Diagnostic:
+    message = f"{claim.subject} passes {_near(claim, passed)}"
     key = claim.path[-1]
     help_ = (
-        f"lower `transit_clearance.{key}` to {_held(found.least)} m, or start the shot at another "
+        f"lower `transit_clearance.{key}` to {_held(passed.least)} m, or start the shot at another "
         "time, or give the way more room; then plan again"
     )
-    return Diagnostic(HARD, message, tuple(_labels(ir, claim, found)), (_when(claim, found),), help_)
+    return Diagnostic(HARD, message, tuple(_labels(ir, claim, passed)), (_when(claim, passed),), help_)
 
 
-def _near(claim: Claim, found: Pass) -> str:
-    has, needs = told_apart(found.has, found.needs, "m")
-    return f"{found.name} at {has} {_where(found.way)}; {needs} {_kept(claim)}"
+def _near(claim: Claim, passed: Pass) -> str:
+    has, needs = told_apart(passed.has, passed.needs, "m")
+    return f"{passed.name} at {has} {_where(passed.way)}; {needs} {_kept(claim)}"
 
 
 def _kept(claim: Claim) -> str:
@@ -136,18 +136,18 @@ def _where(way: Way) -> str:
     return "on the way home" if way.shot is None else f"on the way to shot `{way.shot}`"
 
 
-def _when(claim: Claim, found: Pass) -> str:
-    tapers = claim.limit - found.needs > 0.01
+def _when(claim: Claim, passed: Pass) -> str:
+    tapers = claim.limit - passed.needs > 0.01
     nearer = f", less than {claim.limit:g} m where the way begins or ends nearer" if tapers else ""
-    return f"worst at t = {found.at:.1f} s{nearer}; proved over continuous time"
+    return f"worst at t = {passed.at:.1f} s{nearer}; proved over continuous time"
 
 
-def _labels(ir: TrajectoryIR, claim: Claim, found: Pass) -> Iterator[Label]:
+def _labels(ir: TrajectoryIR, claim: Claim, passed: Pass) -> Iterator[Label]:
     mission = ir.keyframes.mission
     if claim.hard:
         yield mission.origins.value(claim.path, "required here")
-    yield mission.origins.key(found.path, "is passed")
-    shot = next((s for s in mission.shots if s.id == found.way.shot), None)
+    yield mission.origins.key(passed.path, "is passed")
+    shot = next((s for s in mission.shots if s.id == passed.way.shot), None)
     if shot is not None:
         yield mission.origins.key(shot.path, "on the way here")
     else:

@@ -37,16 +37,16 @@ def broken_promise(claim: Claim, code: str) -> str:
     shot = f"shot `{claim.shot}`"
     if not isfinite(claim.worst):
         return f"{target} in {shot}: {_UNSEEN[code]}"
-    found, asked = told_apart(claim.worst, claim.limit, claim.unit if code == "V019" else "")
+    reached, asked = told_apart(claim.worst, claim.limit, claim.unit if code == "V019" else "")
     if code == "V019":
-        return f"{target} is whole in {found} of the frames of {shot}, {asked} is promised"
+        return f"{target} is whole in {reached} of the frames of {shot}, {asked} is promised"
     side = "most" if claim.upper else "least"
     if code == "V020":
         return (
-            f"{target} is {found} of half a frame off its place on screen in {shot}, "
+            f"{target} is {reached} of half a frame off its place on screen in {shot}, "
             f"{asked} is promised at {side}"
         )
-    return f"{target} fills {found} of the frame's height in {shot}, {asked} is promised at {side}"
+    return f"{target} fills {reached} of the frame's height in {shot}, {asked} is promised at {side}"
 
 
 def promise_help(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
@@ -75,11 +75,11 @@ def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagn
 
 def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
     """Yield how far and why the path of a shot leaves the one that its kind generates."""
-    for found in ir.deviations:
-        if found.shot == shot:
-            owner = owner_of(ir.keyframes.mission, found.cause)
-            cause = found.cause if owner is None else owner.words
-            yield f"the shot leaves its ideal path by up to {at_least(found.distance)} m, round {cause}"
+    for deviation in ir.deviations:
+        if deviation.shot == shot:
+            owner = owner_of(ir.keyframes.mission, deviation.cause)
+            cause = deviation.cause if owner is None else owner.words
+            yield f"the shot leaves its ideal path by up to {at_least(deviation.distance)} m, round {cause}"
 
 
 def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:

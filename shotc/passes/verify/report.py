@@ -173,8 +173,8 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
 
 def _state(claim: Claim, code: str) -> str:
     """Return the worst value beside its limit, with the digits that tell them apart."""
-    found, limit = told_apart(claim.worst, claim.limit, claim.unit)
-    state = f"is {found}" if isfinite(claim.worst) else UNKNOWN.get(code, "has no bound")
+    reached, limit = told_apart(claim.worst, claim.limit, claim.unit)
+    state = f"is {reached}" if isfinite(claim.worst) else UNKNOWN.get(code, "has no bound")
     return f"{_name(claim, code)} {state}, {_side(claim)} {limit} is {'allowed' if claim.upper else 'needed'}"
 
 

@@ -117,10 +117,10 @@ def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
     far = farthest(flight.mission, (s.target for s in shot.subjects), way)
     explained = sum(blocks.values()) + for_the_picture(flight.mission, far, placed=placed)
     explained += for_its_limits(flight, way)
-    said = max(believed((d for d in ir.deviations if d.shot == shot.id), blocks), default=0.0)
-    told = min(said, explained) + UNREPORTED_M
+    reported = max(believed((d for d in ir.deviations if d.shot == shot.id), blocks), default=0.0)
+    allowed = min(reported, explained) + UNREPORTED_M
     stands = placed and not np.ptp(way.places, axis=0).any()
-    return min(told, max(explained, IN_PLACE_M)) if stands else told
+    return min(allowed, max(explained, IN_PLACE_M)) if stands else allowed
 
 
 def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | None, ...]:

@@ -105,11 +105,11 @@ def _worst(sight: Sight, times: Array, limit: float) -> Worst:
     landed = sight.other.curve.end
     if times[0] < landed < times[-1]:
         times = np.union1d(times, [landed])
-    found = infimum(sight, times, limit)
-    closed = found.proven >= found.attained - _gap(found.attained, limit)
-    if closed or found.proven >= limit - slack(limit):
-        return Worst(found.proven, found.at, "bounded")
-    return Worst(found.attained, found.at, "sampled")
+    bound = infimum(sight, times, limit)
+    closed = bound.proven >= bound.attained - _gap(bound.attained, limit)
+    if closed or bound.proven >= limit - slack(limit):
+        return Worst(bound.proven, bound.at, "bounded")
+    return Worst(bound.attained, bound.at, "sampled")
 
 
 def infimum(sight: Sight, times: Array, limit: float) -> Bound:

@@ -72,21 +72,21 @@ def _keep_out(
     free, upright, clearance = parts
     radius = flight.drone.radius
     if len(free):
-        found = inf_distance(free, solid, gap(radius + clearance))
-        yield bounded(flight, Limit(name, clearance, "m", path, upper=False), less(found, radius))
+        bound = inf_distance(free, solid, gap(radius + clearance))
+        yield bounded(flight, Limit(name, clearance, "m", path, upper=False), less(bound, radius))
     if len(upright):
         near = min(radius, distance(solid, flight.drone.home))
-        found = inf_distance(upright, solid, gap(near))
+        bound = inf_distance(upright, solid, gap(near))
         limit = Limit(f"{name} at home", near - radius, "m", path, upper=False)
-        yield bounded(flight, limit, less(found, radius))
+        yield bounded(flight, limit, less(bound, radius))
 
 
 def _keep_in(flight: Flight, zone: Zone, free: Pieces, upright: Pieces) -> Claim:
     radius = flight.drone.radius
     worst = Bound(-inf, -inf, 0.0)
     for pieces, floor in ((free, True), (upright, False)):
-        found = sup_outside(pieces, zone.solid, gap(-radius), floor=floor)
-        worst = found if found.proven > worst.proven else worst
+        bound = sup_outside(pieces, zone.solid, gap(-radius), floor=floor)
+        worst = bound if bound.proven > worst.proven else worst
     margin = Bound(-worst.proven, -worst.attained, worst.at)
     return bounded(flight, Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False), less(margin, radius))
 

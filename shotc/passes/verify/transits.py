@@ -42,8 +42,8 @@ def transits(flight: Flight) -> Iterator[Claim]:
 def _kept(flight: Flight, name: str, near: tuple[Solid, Piecewise], apart: Apart) -> Iterator[Claim]:
     """Claim what is kept from one solid by a curve as the solid sees it."""
     clearance = apart.metres + flight.drone.radius
-    found = [on_way(near, clearance, way) for way in ways(flight.track.phases)]
-    worst = min(found, key=lambda bound: bound.proven, default=None)
+    bounds = [on_way(near, clearance, way) for way in ways(flight.track.phases)]
+    worst = min(bounds, key=lambda bound: bound.proven, default=None)
     if worst is None or worst.proven == inf:
         return
     path = ("rules", "transit_clearance", apart.key)

@@ -87,8 +87,8 @@ def _relatives(drone: Drone, wanted: float) -> list[tuple[float, float]]:
     first, last = floor((low - wanted) / (2 * pi)), ceil((high - wanted) / (2 * pi))
     windings = [wanted + 2 * pi * k for k in range(first, last + 1)]
     # Of equally good ones the smaller angle is taken.
-    found = [(_clip(w, (low, high)), abs(w - _clip(w, (low, high)))) for w in windings]
-    return sorted(found, key=lambda c: (round(c[1], 9), abs(c[0])))
+    options = [(_clip(w, (low, high)), abs(w - _clip(w, (low, high)))) for w in windings]
+    return sorted(options, key=lambda c: (round(c[1], 9), abs(c[0])))
 
 
 def _forward(drone: Drone, task: BodyTask, at: Array, cam: Array) -> tuple[Array, Array]:

@@ -184,10 +184,10 @@ def _transit(
         breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE)])
         position = Piecewise(breaks, np.linspace(a, b, 6)[None])
     else:
-        found = transit_curve(flight.spaces, flight.drone, a, b)
-        if not isinstance(found, Piecewise):
-            return found
-        position = found
+        transit = transit_curve(flight.spaces, flight.drone, a, b)
+        if not isinstance(transit, Piecewise):
+            return transit
+        position = transit
     curve = _with_angles(flight.drone, position, start, goal, free_end=phase == "return")
     return curve if isinstance(curve, AngleFailure) else [_plain(phase, curve, path)]
 

@@ -45,15 +45,15 @@ def worst_swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine) -> Swi
     at = subdivide(camera.angles.breaks, SAMPLES_PER_PIECE)
     yaw, pitch, _ = camera.angles(at).T
     turned = yaw - _course(keyed.position, at)
-    found = []
+    swings = []
     for run in _runs((np.abs(pitch) > STEEP_RAD) & _followed(keyed, at)):
         turn = min(float(np.ptp(yaw[run])), float(np.ptp(turned[run])))
         if turn > ROUND_RAD:
             steepest = run.start + int(np.abs(pitch[run]).argmax())
-            found.append(_swing(mission, keyed, camera, float(at[steepest]), turn))
-    if not found and camera.error > NOTICE_RAD and not camera.cuts:
+            swings.append(_swing(mission, keyed, camera, float(at[steepest]), turn))
+    if not swings and camera.error > NOTICE_RAD and not camera.cuts:
         return _swing(mission, keyed, camera, camera.worst, 0.0)
-    return max(found, key=lambda swing: swing.turn, default=None)
+    return max(swings, key=lambda swing: swing.turn, default=None)
 
 
 def _swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine, s: float, turn: float) -> Swing:

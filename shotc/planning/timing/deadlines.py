@@ -113,14 +113,14 @@ class DueLeg:
     def meet(self) -> Timed | TooFast:
         """Return the moves at the times asked for, or the first that cannot be met and what could."""
         anchors = _anchors(self.leg, self.plan)
-        found = _attempt(self, anchors)
-        if isinstance(found, Timed):
-            return found
-        late = anchors[found.anchor]
+        attempt = _attempt(self, anchors)
+        if isinstance(attempt, Timed):
+            return attempt
+        late = anchors[attempt.anchor]
         at_end = late.mark is None
         asked = late.leaves if at_end else late.arrives
         for shifts_rest in (False, True):
-            delay = _least_delay(self, anchors, found, shifts_rest)
+            delay = _least_delay(self, anchors, attempt, shifts_rest)
             if delay is not None:
                 return TooFast(late.mark, asked, asked + delay, shifts_rest)
         return TooFast(late.mark, asked, None)
@@ -172,15 +172,15 @@ def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
     parts: list[_Part] = []
     plan = timed.plan.leaving({a.s: a.leaves - a.arrives for a in anchors})
     for i, (a, b) in enumerate(pairwise(anchors)):
-        found = _parts(plan, timed.fast, a.s, b.s)
-        least = sum(seconds for _, _, seconds in found)
+        split = _parts(plan, timed.fast, a.s, b.s)
+        least = sum(seconds for _, _, seconds in split)
         room = _room(plan, a, b)
         lack = least - room
         if lack > ROUNDING * (1 + room) + SOLVED_TO * least and (
             room <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))
         ):
             return _Late(i + 1, lack)
-        parts += [_Part(m, end, room * seconds / least, seconds, i + 1) for m, end, seconds in found]
+        parts += [_Part(m, end, room * seconds / least, seconds, i + 1) for m, end, seconds in split]
     rest = _parts(plan, timed.paced, anchors[-1].s, plan.stops[-1].s)
     parts += [_Part(m, end, seconds, seconds, len(anchors)) for m, end, seconds in rest]
     moves: list[Move] = []
@@ -196,12 +196,12 @@ def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
 
 def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> list[tuple[int, float, float]]:
     """Return (move, where its part ends, seconds) for what is flown between two places."""
-    found = []
+    parts = []
     for m, ((s0, s1), move) in enumerate(zip(plan.spans, moves, strict=True)):
         low, high = max(s0, start), min(s1, end)
         if high - low > SAME:
-            found.append((m, high, move.profile.arrival(high) - move.profile.departure(low)))
-    return found
+            parts.append((m, high, move.profile.arrival(high) - move.profile.departure(low)))
+    return parts
 
 
 def _made(timed: DueLeg, fast: Move, parts: list[_Part]) -> Move | None:

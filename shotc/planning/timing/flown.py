@@ -53,9 +53,9 @@ def usages(curve: Piecewise, limits: tuple[Axis, ...]) -> tuple[Usage, ...]:
     return tuple(found)
 
 
-def needed_scale(found: tuple[Usage, ...]) -> Array:
+def needed_scale(usage: tuple[Usage, ...]) -> Array:
     """Return the slowdown per piece that keeps every limit with a little to spare; may be below 1."""
-    return np.asarray(np.max([u.slowdown for u in found], axis=0) / SHARE)
+    return np.asarray(np.max([u.slowdown for u in usage], axis=0) / SHARE)
 
 
 def on_path(path: Piecewise, profile: Profile, ceiling: Ceiling) -> tuple[Profile, Piecewise]:
@@ -80,15 +80,15 @@ def straying(path: Piecewise, profile: Profile, flown: Piecewise, ceiling: Ceili
     t = profile.t[:-1, None] + inside * np.diff(profile.t)[:, None]
     s = profile.curve()(t)[..., 0]
     away = flown(t) - path(s)
-    found = np.abs(away).max(axis=(1, 2)) > STRAY
+    strays = np.abs(away).max(axis=(1, 2)) > STRAY
     gimbal_yaw = flown.ctrl[:, :, CAM_YAW] - flown.ctrl[:, :, BODY_YAW]
     for angle, error, (low, high) in (
         (flown.ctrl[:, :, CAM_PITCH], away[:, :, CAM_PITCH], ceiling.pitch),
         (gimbal_yaw, away[:, :, CAM_YAW] - away[:, :, BODY_YAW], ceiling.yaw),
     ):
         beyond = (angle.min(axis=1) < low - AT_END) | (angle.max(axis=1) > high + AT_END)
-        found |= beyond & (np.abs(error).max(axis=1) > AT_END)
-    return np.asarray(found)
+        strays |= beyond & (np.abs(error).max(axis=1) > AT_END)
+    return np.asarray(strays)
 
 
 def _peak(ctrl: Array, sign: int) -> Array:

@@ -104,7 +104,7 @@ def time_move(
         steps += used
         if bounded is None and best is not None:
             break
-        found = start if bounded is None else bounded
+        timed = start if bounded is None else bounded
         coarse = np.ones(len(samples.widths), dtype=np.bool_)
         if bounded is not None:
             tried = _Tried(path, samples.grid, bounded, limits, ceiling)
@@ -114,7 +114,7 @@ def time_move(
         if not coarse.any() or len(coarse) > MOST_CELLS:
             break
         grid = split_cells(samples.grid, coarse)
-        start = Iterate(*(np.interp(grid, samples.grid, part) for part in (found.b, found.a)))
+        start = Iterate(*(np.interp(grid, samples.grid, part) for part in (timed.b, timed.a)))
         samples = sample(path, grid)
     held = None
     if best is None:

@@ -38,13 +38,13 @@ class AssignGoals:
         ends: dict[str, float] = {}
         while any(director.advance(ends) for director in directors):
             pass
-        found: list[Diagnostic] = [d for director in directors for d in director.finish()]
-        if has_errors(found):
-            return Outcome(None, tuple(found))
+        diagnostics: list[Diagnostic] = [d for director in directors for d in director.finish()]
+        if has_errors(diagnostics):
+            return Outcome(None, tuple(diagnostics))
         fleets = tuple(director.trajectory() for director in directors)
         stats = tuple(entry for director in directors for entry in _stats(director.cast, director))
         wanted = tuple(fleet.coef for fleet in fleets)
-        return Outcome(ShowIR(ir, fleets, wanted, (*ir.stats, *stats)), tuple(found))
+        return Outcome(ShowIR(ir, fleets, wanted, (*ir.stats, *stats)), tuple(diagnostics))
 
 
 def _stats(cast: Cast, director: Director) -> list[tuple[str, float | str]]:

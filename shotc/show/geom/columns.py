@@ -67,21 +67,21 @@ def column_at(place: Array) -> Columns:
 
 def through_triangles(columns: Columns, corners: Array) -> Crossings:
     """Return where columns meet triangles (T, 3, 3), whose corners run counter-clockwise from outside."""
-    found = [_through(columns, corners[part], cells) for part, cells in _chunks(columns, corners)]
-    return _joined(found)
+    crossings = [_through(columns, corners[part], cells) for part, cells in _chunks(columns, corners)]
+    return _joined(crossings)
 
 
 def through_edges(columns: Columns, edges: Array) -> Crossings:
     """Return where columns of a plane meet edges (E, 2, 2), which are given as from (x, y) to (x, y)."""
-    found = []
+    crossings = []
     for part, cells in _chunks(columns, edges):
         a, b = edges[part, 0], edges[part, 1]
         x = columns.places[cells, 0]
         met = (x >= np.minimum(a[:, 0], b[:, 0])) & (x < np.maximum(a[:, 0], b[:, 0]))
         a, b, x = a[met], b[met], x[met]
         y = a[:, 1] + (x - a[:, 0]) / (b[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
-        found.append(Crossings(cells[met], y, np.where(b[:, 0] > a[:, 0], 1, -1)))
-    return _joined(found)
+        crossings.append(Crossings(cells[met], y, np.where(b[:, 0] > a[:, 0], 1, -1)))
+    return _joined(crossings)
 
 
 def spans(crossings: Crossings, parity: bool) -> Spans:

@@ -57,8 +57,8 @@ def _display(mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContex
         room=room_of(mission, fleet),
     )
     number = mission.displays.index(display)
-    found = []
+    drawn = []
     for k in range(len(display.pictures)):
         ctx.progress(f"placing the goals of {display.id}, picture {k + 1} of {len(display.pictures)}")
-        found.append(draw_picture(Task(mission, fleet, display, k, (ctx.seed, number, k), files), setting))
-    return found
+        drawn.append(draw_picture(Task(mission, fleet, display, k, (ctx.seed, number, k), files), setting))
+    return drawn

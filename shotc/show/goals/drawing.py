@@ -134,7 +134,7 @@ def _shapes(data: bytes) -> list[Shape]:
     from svgelements import Path as Curves
     from svgelements import Shape as Drawn
 
-    found: list[Shape] = []
+    shapes: list[Shape] = []
     for element in SVG.parse(io.BytesIO(data), on_error="raise").select(lambda e: isinstance(e, Drawn)):
         filled, stroked = (element.values.get(key) != "none" for key in ("fill", "stroke"))
         if not (filled or stroked) or _hidden(element.values):
@@ -145,8 +145,8 @@ def _shapes(data: bytes) -> list[Shape]:
             parity = element.values.get("fill-rule") == "evenodd"
             width = max(width, 1e-6 * float(np.ptp(edges)))
             color = _color(element.fill if filled else element.stroke)
-            found.append(Shape(edges * (1.0, -1.0), filled, parity, width, color))
-    return found
+            shapes.append(Shape(edges * (1.0, -1.0), filled, parity, width, color))
+    return shapes
 
 
 def _color(paint: Any) -> Color | None:

@@ -146,7 +146,7 @@ def in_the_way(
     shift = least_shift(goals, room) if shift is None else shift
     help_ = "make the picture smaller, or place it elsewhere" if shift is None else _moved(picture, shift)
     label = place_of(mission, picture, "center")
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     low = float(goals[:, 2].min())
     if low < room.lowest - ROUNDING_M:
         count = int((goals[:, 2] < room.lowest - ROUNDING_M).sum()) // len(frames) or 1
@@ -155,10 +155,10 @@ def in_the_way(
             f"{fleet.radius:.2f} m ask for {room.lowest:.2f} m"
         )
         message = f"the picture is too low: {_of(count, fleet)}"
-        found.append(Diagnostic("D058", message, (label,), (note,), help_))
+        diagnostics.append(Diagnostic("D058", message, (label,), (note,), help_))
     for obstacle in room.obstacles:
-        found += _at_obstacle(obstacle, goals, (mission, fleet, label, help_, len(frames)))
-    return found
+        diagnostics += _at_obstacle(obstacle, goals, (mission, fleet, label, help_, len(frames)))
+    return diagnostics
 
 
 def _whole(goals: Array) -> Array:

@@ -106,12 +106,12 @@ def _part(geometry: Any) -> Mesh:
 
 def _colors(geometry: Any, number: int) -> Colors | None:
     if not hasattr(geometry, "faces"):
-        found = np.asarray(geometry.colors)
+        colors = np.asarray(geometry.colors)
     elif geometry.visual.defined and geometry.visual.kind in ("vertex", "face"):
-        found = np.asarray(geometry.visual.vertex_colors)
+        colors = np.asarray(geometry.visual.vertex_colors)
     else:
         return None
-    return found[:, :3].astype(np.uint8) if found.ndim == 2 and len(found) == number else None
+    return colors[:, :3].astype(np.uint8) if colors.ndim == 2 and len(colors) == number else None
 
 
 def _together(parts: list[Mesh]) -> Mesh:

@@ -53,15 +53,15 @@ def draw_picture(task: Task, setting: Setting) -> Drawn:
 
 def _warnings(task: Task, setting: Setting, body: Body, layout: Layout) -> list[Diagnostic]:
     """Return what is to be said of a picture that can be flown."""
-    found = []
+    diagnostics = []
     if layout.bright < setting.number:
         ways = _remedies(task, setting, layout.placed[0], layout.bright)
-        found.append(too_dark(task.mission, task.fleet, task.picture, ways, layout.bright))
+        diagnostics.append(too_dark(task.mission, task.fleet, task.picture, ways, layout.bright))
     small = too_small(task.mission, task.fleet, task.picture)
     if small is not None:
-        found.append(small)
-    few = None if found else _few(task, setting, body, layout)
-    return found if few is None else [few]
+        diagnostics.append(small)
+    few = None if diagnostics else _few(task, setting, body, layout)
+    return diagnostics if few is None else [few]
 
 
 def _few(task: Task, setting: Setting, body: Body, layout: Layout) -> Diagnostic | None:

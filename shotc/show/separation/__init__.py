@@ -38,23 +38,23 @@ class KeepApart:
     def run(self, ir: ShowIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
         """Prove every fleet's separation, mending what breaks it."""
         mission = ir.goals.keyframes.mission
-        found: list[Diagnostic] = []
+        diagnostics: list[Diagnostic] = []
         warnings: list[Diagnostic] = []
         fleets, stats = [], list(ir.stats)
         for flight, wanted in zip(ir.fleets, ir.wanted, strict=True):
             ctx.progress(f"separation in fleet {flight.fleet}")
             keeper = Keeper(mission, mission.fleet(flight.fleet), flight, wanted, ctx)
             fleets.append(keeper.keep())
-            found += keeper.faults
+            diagnostics += keeper.faults
             stats += keeper.stats()
             off = farthest(fleets[-1], wanted)
             stats += off.stats(flight.fleet)
             if off.distance > MUCH_SHARE * spacing(keeper.fleet.apart):
                 warnings.append(bent(mission, keeper.fleet, off))
         for one, other in combinations(fleets, 2):
-            found += _meeting(mission, one, other)
-        if found:
-            return Outcome(None, tuple(found))
+            diagnostics += _meeting(mission, one, other)
+        if diagnostics:
+            return Outcome(None, tuple(diagnostics))
         return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)), tuple(warnings))
 
 

@@ -39,21 +39,21 @@ class Tried(NamedTuple):
 
 
 def standing_too_near(
-    mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, found: Nearest
+    mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, nearest: Nearest
 ) -> Diagnostic:
     """Return D085: two places of one picture, or two pads, are too near."""
-    shown = _shown(flight, found.time)
+    shown = _shown(flight, nearest.time)
     where = "on or over its pads" if shown is None else f"in display `{shown.display}`"
     path = fleet.path if shown is None else _path(mission, shown)
-    share = at_least(fleet.apart.across / max(found.attained, 1e-3))
+    share = at_least(fleet.apart.across / max(nearest.attained, 1e-3))
     larger = f"make the picture {share} times as large, or use fewer drones"
     change = wider(mission, fleet, spacing(fleet.apart)) if shown is None else larger
     return Diagnostic(
         "D085",
-        f"two drones of `{fleet.name}` stand {found.attained:.2f} m apart {where}, "
+        f"two drones of `{fleet.name}` stand {nearest.attained:.2f} m apart {where}, "
         f"and {fleet.apart.across:.2f} m is the least",
         (mission.origins.key(path), *_rule(mission, fleet)),
-        (_who(fleet, found),),
+        (_who(fleet, nearest),),
         change,
     )
 
@@ -61,14 +61,14 @@ def standing_too_near(
 def too_near(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -> Diagnostic:
     """Return D086: between two stops no flight was found that keeps the drones apart."""
     path = fleet.path if stretch.shown is None else _path(mission, stretch.shown)
-    found, across = tried.found, fleet.apart.across
+    nearest, across = tried.found, fleet.apart.across
     return Diagnostic(
         "D086",
-        f"two drones of `{fleet.name}` come within {found.attained:.2f} m of each other at "
-        f"{found.time:.2f} s, and {across:.2f} m is the least",
+        f"two drones of `{fleet.name}` come within {nearest.attained:.2f} m of each other at "
+        f"{nearest.time:.2f} s, and {across:.2f} m is the least",
         (mission.origins.key(path), *_rule(mission, fleet)),
         (
-            _who(fleet, found),
+            _who(fleet, nearest),
             f"the best flight found within their limits keeps {at_most(tried.best)} m",
         ),
         "; or ".join(_remedies(mission, fleet, stretch, tried)),
@@ -86,16 +86,18 @@ def _remedies(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) 
 
 
 def fleets_meet(
-    mission: MissionIR, flights: tuple[FleetTrajectory, FleetTrajectory], found: Nearest, across: float
+    mission: MissionIR, flights: tuple[FleetTrajectory, FleetTrajectory], nearest: Nearest, across: float
 ) -> Diagnostic:
     """Return D087: drones of two fleets come too near."""
     fleets = mission.fleet(flights[0].fleet), mission.fleet(flights[1].fleet)
-    first, second = (drone_names(f)[row] for f, row in zip(fleets, (found.first, found.second), strict=True))
-    x, y, z = found.position
+    first, second = (
+        drone_names(f)[row] for f, row in zip(fleets, (nearest.first, nearest.second), strict=True)
+    )
+    x, y, z = nearest.position
     return Diagnostic(
         "D087",
-        f"fleets `{fleets[0].name}` and `{fleets[1].name}` come within {found.attained:.2f} m of each "
-        f"other at {found.time:.2f} s, and {across:.2f} m is the least",
+        f"fleets `{fleets[0].name}` and `{fleets[1].name}` come within {nearest.attained:.2f} m of each "
+        f"other at {nearest.time:.2f} s, and {across:.2f} m is the least",
         tuple(mission.origins.key(fleet.path) for fleet in fleets),
         (f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",),
         f"{_in_turn(*flights)}, or bring their pads and pictures farther apart",
@@ -134,10 +136,10 @@ def bent(mission: MissionIR, fleet: Fleet, off: Off) -> Diagnostic:
     )
 
 
-def _who(fleet: Fleet, found: Nearest) -> str:
+def _who(fleet: Fleet, nearest: Nearest) -> str:
     names = drone_names(fleet)
-    x, y, z = found.position
-    return f"they are `{names[found.first]}` and `{names[found.second]}`, at [{x:.1f}, {y:.1f}, {z:.1f}]"
+    x, y, z = nearest.position
+    return f"they are `{names[nearest.first]}` and `{names[nearest.second]}`, at [{x:.1f}, {y:.1f}, {z:.1f}]"
 
 
 def _rule(mission: MissionIR, fleet: Fleet) -> tuple[Label, ...]:

@@ -35,9 +35,9 @@ class Keeper:
 
     def keep(self) -> FleetTrajectory:
         """Return the flight with its drones kept apart, or as it is where there are faults."""
-        found = closest(self.flight.breaks, self.coef, self.fleet.apart)
-        self.proven = found.proven
-        if kept(found.proven, self.across):
+        nearest = closest(self.flight.breaks, self.coef, self.fleet.apart)
+        self.proven = nearest.proven
+        if kept(nearest.proven, self.across):
             return self.flight
         for window in windows(self.coef):
             self._mend(window)
@@ -59,8 +59,8 @@ class Keeper:
 
     def _mend(self, window: Window) -> None:
         breaks, coef = window.breaks(self.flight.breaks), self.coef[:, window.points]
-        found = closest(breaks, coef, self.fleet.apart)
-        if kept(found.proven, self.across):
+        nearest = closest(breaks, coef, self.fleet.apart)
+        if kept(nearest.proven, self.across):
             return
         self.ctx.progress(f"mending fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
         standing = self._standing(window)
@@ -70,22 +70,22 @@ class Keeper:
         done = pushed(breaks, coef, self.fleet, self.ctx.seed)
         self.rounds += done.rounds
         if done.coef is None:
-            self.faults.append(self._too_near(window, found, done))
+            self.faults.append(self._too_near(window, nearest, done))
             return
         self.coef[:, window.points] = done.coef
 
-    def _too_near(self, window: Window, found: Nearest, done: Pushed) -> Diagnostic:
+    def _too_near(self, window: Window, nearest: Nearest, done: Pushed) -> Diagnostic:
         stretch = Stretch.of(self.flight, window.breaks(self.flight.breaks), self.wanted[:, window.points])
         seconds = longer(stretch, self.fleet, self.ctx)
-        best = max(found.proven, done.reached)
-        return too_near(self.mission, self.fleet, stretch, Tried(found, best, seconds))
+        best = max(nearest.proven, done.reached)
+        return too_near(self.mission, self.fleet, stretch, Tried(nearest, best, seconds))
 
     def _standing(self, window: Window) -> Nearest | None:
         """Return who is too near at one of its stops, where nothing can be mended."""
         for stop in (window.first, window.last):
             at = np.repeat(self.coef[:, stop : stop + 1], 4, axis=1)
             time = float(self.flight.breaks[stop])
-            found = closest(np.array([time, time + 1.0]), at, self.fleet.apart)
-            if not kept(found.proven, self.across):
-                return replace(found, time=time)
+            nearest = closest(np.array([time, time + 1.0]), at, self.fleet.apart)
+            if not kept(nearest.proven, self.across):
+                return replace(nearest, time=time)
         return None

@@ -50,8 +50,8 @@ class Avoidance:
             self._world.setAgentVelocity(i, tuple(moving))
             self._world.setAgentPrefVelocity(i, tuple(asked))
         self._world.doStep()
-        found = np.array([self._world.getAgentVelocity(i) for i in range(len(position))])
-        return np.asarray(found / height)
+        velocities = np.array([self._world.getAgentVelocity(i) for i in range(len(position))])
+        return np.asarray(velocities / height)
 
     def _filled(self, position: Array) -> Any:
         radius = 0.5 * ball(self.apart)

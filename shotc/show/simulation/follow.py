@@ -102,11 +102,11 @@ def _nearest(reference: Reference, gains: Gains, now: float, position: Array) ->
     low, high = np.clip([low, high], first, last)
     times = np.linspace(low, high, max(2, int(np.ceil((high - low) / SPACING_S)) + 1))
     away = reference.together(times) - position[:, None]
-    found = times[np.argmin(np.einsum("ntd,ntd->nt", away, away), axis=1)]
+    nearest = times[np.argmin(np.einsum("ntd,ntd->nt", away, away), axis=1)]
     # One Newton step leads from the sample to the foot of the perpendicular.
-    place, rate, _ = reference.each(found)
+    place, rate, _ = reference.each(nearest)
     step = _dot(position - place, rate) / np.maximum(_dot(rate, rate), SLOW_M_S**2)
-    return np.asarray(np.clip(found + np.clip(step[:, 0], -SPACING_S, SPACING_S), low, high))
+    return np.asarray(np.clip(nearest + np.clip(step[:, 0], -SPACING_S, SPACING_S), low, high))
 
 
 def _dot(one: Array, other: Array) -> Array:

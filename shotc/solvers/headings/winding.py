@@ -34,9 +34,9 @@ def by_winding(task: HeadingTask) -> Headings:
     extra = np.zeros((len(task.yaw), len(free)))
     for column, i in enumerate(free):
         extra[i + 1 :, column] = 2 * pi
-    found = _decoded(cost, shorter, extra)
-    choices = [shorter + extra @ np.array(m) for _, m in found.points if any(m)]
-    return _judged(task, cost, [shorter, *choices], found)
+    decoded = _decoded(cost, shorter, extra)
+    choices = [shorter + extra @ np.array(m) for _, m in decoded.points if any(m)]
+    return _judged(task, cost, [shorter, *choices], decoded)
 
 
 def _decoded(cost: Energy, shorter: Array, extra: Array) -> Decoded:
@@ -46,11 +46,11 @@ def _decoded(cost: Energy, shorter: Array, extra: Array) -> Decoded:
     return decode(gram, np.asarray(centre, dtype=np.float64), LIST)
 
 
-def _judged(task: HeadingTask, cost: Energy, choices: list[Array], found: Decoded) -> Headings:
+def _judged(task: HeadingTask, cost: Energy, choices: list[Array], decoded: Decoded) -> Headings:
     """Solve choices from the cheapest on; without limits each energy is a lower bound of that with them."""
     least = [cost.of(angles, cost.slopes(angles)) for angles in choices]
     best: tuple[float, Array, Piecewise] | None = None
-    certain = not found.points or len(choices) == 1
+    certain = not decoded.points or len(choices) == 1
     for k in sorted(range(len(choices)), key=lambda k: least[k]):
         if best is not None and least[k] >= best[0] * (1 - SAME):
             certain = True
@@ -61,10 +61,10 @@ def _judged(task: HeadingTask, cost: Energy, choices: list[Array], found: Decode
         spent = cost.of(choices[k], _slopes(curve))
         if best is None or spent < best[0] * (1 - SAME):
             best = (spent, choices[k], curve)
-    complete = certain and not found.capped
+    complete = certain and not decoded.capped
     if best is None:
-        return Headings(Status.INFEASIBLE, choices[0], None, found.nodes, complete)
-    return Headings(Status.SOLVED, best[1], best[2], found.nodes, complete)
+        return Headings(Status.INFEASIBLE, choices[0], None, decoded.nodes, complete)
+    return Headings(Status.SOLVED, best[1], best[2], decoded.nodes, complete)
 
 
 def _slopes(curve: Piecewise) -> Array:

@@ -128,16 +128,16 @@ def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str
 
 def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[Label, ...]:
     """Return labels on the lines of the limits that bind, at most two, and on the wind that lowers one."""
-    found: dict[Span, Label] = {}
+    by_span: dict[Span, Label] = {}
     for name in holdup.names[:2]:
         label = mission.origins.value((*drone.path, *_SHOWN[name].key), _SHOWN[name].words)
-        before = found.get(label.span)
-        found[label.span] = (
+        before = by_span.get(label.span)
+        by_span[label.span] = (
             label if before is None else before._replace(text=f"{before.text} and {label.text}")
         )
     labels = tuple(
         label._replace(text=f"{label.text} bind{'' if ' and ' in label.text else 's'}")
-        for label in found.values()
+        for label in by_span.values()
     )
     if "speed" in holdup.names[:2] and mission.wind > 0:
         labels += (mission.origins.value(("world", "wind"), "takes a part of the speed"),)
@@ -149,14 +149,14 @@ def raises(
 ) -> list[str]:
     """Return which of the named limits would do if it alone rose, and how far, as text."""
     full = ceiling_of(drone)
-    found = []
+    texts = []
     for name in names:
         factor = _least_factor(partial(_with, enough, full, name))
         if factor is not None:
-            found.append(
+            texts.append(
                 f"raise `{'.'.join(_SHOWN[name].key)}` to {limit_text(mission, drone, name, factor)}"
             )
-    return found
+    return texts
 
 
 def _with(enough: Callable[[Ceiling], bool], full: Ceiling, name: str, factor: float) -> bool:

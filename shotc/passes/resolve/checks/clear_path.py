@@ -49,15 +49,15 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
 
     nearest = min(distance_of(centre, k) for k in shot.keyframes)
     ends = (shot.keyframes[0], shot.keyframes[-1])
-    found: list[Change] = []
+    changes: list[Change] = []
     for key, move, least in ((DISTANCES[shot.kind], aside, STEP - nearest), ("altitude", above, -MOST)):
         by = next(_free(mission, shot, move, least), None)
         if by is not None:
             now = [distance_of(centre, k) if move is aside else altitude(k) for k in ends]
             value = span(now[0] + by, now[1] + by)
             counted = move is above and (*shot.path, key, "above") in mission.origins.values
-            found.append(Change(key, f"{{above: {shot.above}, height: {value}}}" if counted else value))
-    return found
+            changes.append(Change(key, f"{{above: {shot.above}, height: {value}}}" if counted else value))
+    return changes
 
 
 def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator[float]:

@@ -27,13 +27,13 @@ def check_framing(mission: MissionIR, misplaced: Collection[KeyPath] = ()) -> li
     misplaced : lines whose keyframes cannot stand where they are, and are not judged
     """
     faults: list[Diagnostic] = []
-    told: set[tuple[object, ...]] = set()
+    reported: set[tuple[object, ...]] = set()
     for shot in mission.shots:
         for keyframe, then in _moments(mission, shot):
             fault = None if keyframe.path in misplaced else _fault(then, shot, keyframe)
             # The keyframes of a file or of a generated path share a line, and one report will do.
-            if fault is not None and (keyframe.path, fault.code) not in told:
-                told.add((keyframe.path, fault.code))
+            if fault is not None and (keyframe.path, fault.code) not in reported:
+                reported.add((keyframe.path, fault.code))
                 faults.append(fault)
     return faults
 

@@ -39,8 +39,8 @@ def for_size_and_elevation(
     if asked is None:
         return
     free = subject._replace(view=None if azimuth is None else (azimuth, None))
-    for found in for_size(fits, mission, _with(shot, subject, free), free, most):
-        yield f"leave `elevation` out and {found}"
+    for remedy in for_size(fits, mission, _with(shot, subject, free), free, most):
+        yield f"leave `elevation` out and {remedy}"
 
 
 def for_lens(fits: Fits, mission: MissionIR, shot: Shot, wanted: Wanted, nearest: Vec3) -> Iterator[str]:

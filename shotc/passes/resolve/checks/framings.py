@@ -64,7 +64,7 @@ def _fits(mission: MissionIR, shot: Shot) -> bool:
 
 
 def _either(*remedies: Iterator[str], otherwise: str) -> str:
-    return ", or ".join(found for remedy in remedies for found in remedy) or otherwise
+    return ", or ".join(text for remedy in remedies for text in remedy) or otherwise
 
 
 def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic | None:
@@ -242,9 +242,9 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
             return
         if not seen:
             continue
-        said = _compromise(subject, seen)
-        if said:
-            notes.append(f"`{subject.target}` is {', '.join(said)}")
+        compromise = _compromise(subject, seen)
+        if compromise:
+            notes.append(f"`{subject.target}` is {', '.join(compromise)}")
             labels.append(mission.origins.value(subject.path))
     if notes:
         if not _known(mission, shot):
@@ -306,20 +306,22 @@ def _apart(
 
 def _compromise(subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]) -> list[str]:
     """Say how far one subject is from what was asked of it, where that is worth telling."""
-    said = []
+    notes = []
     t, worst, wanted = max(seen, key=lambda found: found[1].screen)
     if worst.screen > OFF_PLACE and wanted.uv is not None:
         place = f"({wanted.uv[0]:.2f}, {wanted.uv[1]:.2f})"
-        said.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
+        notes.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
     if subject.size is not None:
         asked = subject.size
         t, worst, _ = max(seen, key=lambda found: abs(found[1].size / asked - 1.0))
         if abs(worst.size / asked - 1.0) > OFF_SIZE:
-            said.append(f"{_share(worst.size)} of the frame high instead of {_share(asked)} at t = {t:.1f} s")
+            notes.append(
+                f"{_share(worst.size)} of the frame high instead of {_share(asked)} at t = {t:.1f} s"
+            )
     t, worst, _ = max(seen, key=lambda found: found[1].angle)
     if worst.angle > OFF_VIEW:
-        said.append(f"seen {degrees(worst.angle):.0f} deg off its view at t = {t:.1f} s")
-    return said
+        notes.append(f"seen {degrees(worst.angle):.0f} deg off its view at t = {t:.1f} s")
+    return notes
 
 
 def _share(size: float) -> str:

@@ -33,11 +33,11 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
             faults.append(Diagnostic("G006", message, (label,), (note,), help_))
             continue
         for obstacle in clearances_of(mission, drone):
-            said = _obstructed(mission, drone, obstacle)
-            if said is not None:
+            texts = _obstructed(mission, drone, obstacle)
+            if texts is not None:
                 labels = (label, mission.origins.key(obstacle.owner.path, "the obstacle"))
                 faults.append(
-                    Diagnostic("G005", said[0], labels, (said[1],), _remedy(mission, drone, obstacle))
+                    Diagnostic("G005", texts[0], labels, (texts[1],), _remedy(mission, drone, obstacle))
                 )
     return [*faults, *_too_near(mission)]
 

@@ -95,12 +95,12 @@ def _hardest(mission: MissionIR, shot: Shot, start: float) -> float:
         shot = settled(mission, shot, start)
     duration = shot.timing.duration or 0.0
     window = min(WINDOW, duration / 2)
-    found = [0.0]
+    delays = [0.0]
     for i in range(STEPS + 1):
         t = start + (duration - 2 * window) * i / STEPS
         a, b, c = (ideal_place(mission, shot, start, t + k * window) for k in range(3))
-        found.append(dist([2 * m for m in b], [p + n for p, n in zip(a, c, strict=True)]) / window**2)
-    return max(found)
+        delays.append(dist([2 * m for m in b], [p + n for p, n in zip(a, c, strict=True)]) / window**2)
+    return max(delays)
 
 
 def _begins(mission: MissionIR, shot: Shot) -> tuple[float, ...]:

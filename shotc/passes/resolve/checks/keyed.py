@@ -29,9 +29,9 @@ def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Dia
     for keyframe, then, t in zip(shot.keyframes, moments(mission, shot, start), times, strict=True):
         beside = None if keyframe.beside is None else mission.target(keyframe.beside.target)
         sure = beside is None or shot.timing.start is not None
-        found = []
+        diagnostics = []
         if sure or (beside is not None and _level(beside)):
-            found += list(too_low(mission, shot, drone, keyframe.path, [keyframe]))
+            diagnostics += list(too_low(mission, shot, drone, keyframe.path, [keyframe]))
         for obstacle in clearances_of(then, drone):
             if not sure and (beside is None or obstacle.owner.path != beside.path):
                 continue
@@ -39,10 +39,10 @@ def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Dia
                 continue
             for fault in blocked(then, shot, [keyframe], obstacle, list):
                 place = free_place(then, drone, keyframe.at, obstacle)
-                told = beside is not None and keyframe.placed and place is not None
-                help_ = _by_offset(mission, keyframe, place, t) if told and place is not None else fault.help
-                found.append(fault._replace(help=help_))
-        yield from ((keyframe.path, fault) for fault in found)
+                apart = beside is not None and keyframe.placed and place is not None
+                help_ = _by_offset(mission, keyframe, place, t) if apart and place is not None else fault.help
+                diagnostics.append(fault._replace(help=help_))
+        yield from ((keyframe.path, fault) for fault in diagnostics)
 
 
 def _level(target: Target) -> bool:

@@ -28,18 +28,18 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
         return "move it to a free place" if free is None else move(p, free)
     around, floor = clearances_of(mission, drone), mission.rules.over_ground(drone.radius)
     centre = mission.target(str(keyframe.target)).centre
-    found: list[Vec3] = []
+    places: list[Vec3] = []
     for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:WAYS]:
         for q in _farther(centre, way):
             place = outward(p, q)
             if place[2] < floor - ROUNDING_M or any(o.lack(place) > ROUNDING_M for o in around):
                 continue
             if _shown(mission, shot, keyframe, place):
-                found.append(place)
+                places.append(place)
                 break
-    if not found:
+    if not places:
         return "move it to a free place" if free is None else move(p, free)
-    best = min(found, key=lambda place: dist(p, place))
+    best = min(places, key=lambda place: dist(p, place))
     return f"{move(p, best)}, from where `{keyframe.target}` fits into the frame"
 
 

@@ -109,16 +109,16 @@ def match_files(
     if folder is None:
         note = "the mission has no folder"
         return Diagnostic("N008", f"cannot look for `{pattern}`", label, (note,), NO_FOLDER)
-    found = _kept(folder, where, last) if isinstance(folder, KeptFiles) else _listed(folder, where, last)
-    if isinstance(found, str):
-        return Diagnostic("N008", f"cannot look for `{pattern}`", label, (found,), "check the folder's name")
-    if not found:
+    names = _kept(folder, where, last) if isinstance(folder, KeptFiles) else _listed(folder, where, last)
+    if isinstance(names, str):
+        return Diagnostic("N008", f"cannot look for `{pattern}`", label, (names,), "check the folder's name")
+    if not names:
         note = f"looked for it in the folder of the mission, as `{pattern}`"
         return Diagnostic("N008", f"no file is called `{pattern}`", label, (note,), "check the pattern")
-    if len(found) > MOST_FILES:
-        message = f"`{pattern}` stands for {len(found)} files, and no more than {MOST_FILES} are read"
+    if len(names) > MOST_FILES:
+        message = f"`{pattern}` stands for {len(names)} files, and no more than {MOST_FILES} are read"
         return Diagnostic("N008", message, label, help="take a narrower pattern, or fewer frames")
-    return tuple(f"{where}{slash}{name}" for name in sorted(found, key=_in_order))
+    return tuple(f"{where}{slash}{name}" for name in sorted(names, key=_in_order))
 
 
 def _fitting(pattern: str) -> re.Pattern[str]:
@@ -140,7 +140,7 @@ def _listed(folder: Path, where: str, pattern: str) -> list[str] | str:
         place = (root / where).resolve()
         if not place.is_relative_to(root):
             return "its folder, or a link on the way, is outside the folder of the mission"
-        names = [found.name for found in place.iterdir() if fits.match(found.name) and found.is_file()]
+        names = [entry.name for entry in place.iterdir() if fits.match(entry.name) and entry.is_file()]
     except (OSError, ValueError, RuntimeError) as error:
         return str(getattr(error, "strerror", None) or "the path cannot be followed").lower()
     return [name for name in names if pattern[0] == "." or name[0] != "."]
@@ -156,8 +156,8 @@ def _neighbours(place: Path) -> str:
     """Propose the files of the same sort that lie where the missing one was looked for."""
     if not place.parent.is_dir():
         return "check the path; it counts from the folder of the mission"
-    found = sorted(p.name for p in place.parent.iterdir() if p.suffix.lower() == place.suffix.lower())
-    close = closest(place.name, found[:1000])
+    names = sorted(p.name for p in place.parent.iterdir() if p.suffix.lower() == place.suffix.lower())
+    close = closest(place.name, names[:1000])
     if close is not None:
         return f"did you mean `{close}`?"
-    return f"there are {', '.join(f'`{n}`' for n in found[:3])}" if found else "check the name of the file"
+    return f"there are {', '.join(f'`{n}`' for n in names[:3])}" if names else "check the name of the file"

@@ -23,7 +23,7 @@ ROWS = (("x", "y", "z"), ("lat", "lon", "height"))
 
 def fleets_of(spec: MissionSpec, put: Put, ground: Ground) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:
     """Return the fleets whose layouts can be read, and what is wrong with the others."""
-    found: list[Fleet] = []
+    fleets: list[Fleet] = []
     faults: list[Diagnostic] = []
     for name, written in spec.fleets.items():
         path = ("fleets", name)
@@ -36,8 +36,8 @@ def fleets_of(spec: MissionSpec, put: Put, ground: Ground) -> tuple[tuple[Fleet,
         wrong += beyond_model("fleet", written, path, ground.origins)
         faults += wrong
         if not has_errors(wrong):
-            found.append(fleet)
-    return tuple(found), faults
+            fleets.append(fleet)
+    return tuple(fleets), faults
 
 
 def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, ...]) -> Fleet:

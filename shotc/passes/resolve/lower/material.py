@@ -31,22 +31,22 @@ def read_material(
 
     Of the files of one pattern, the first that cannot be used is told.
     """
-    found: dict[str, bytes] = {}
+    files: dict[str, bytes] = {}
     faults: dict[KeyPath, Diagnostic] = {}
     read = partial(_usable, folder, origins)
     for name, path in (named for display in displays for named in _named(display)):
-        if name in found or path in faults:
+        if name in files or path in faults:
             continue
         data = read(name, path)
-        total = sum(map(len, found.values()))
+        total = sum(map(len, files.values()))
         if not isinstance(data, Diagnostic) and total + len(data) > MOST:
             message = f"with this file the mission's displays have more than {MOST / 1e6:.0f} MB"
             data = bad_file(origins, path, name, FileFault(message, None, "thin the meshes, or take fewer"))
         if isinstance(data, Diagnostic):
             faults[path] = data
         else:
-            found[name] = data
-    return tuple(found.items()), list(faults.values())
+            files[name] = data
+    return tuple(files.items()), list(faults.values())
 
 
 def digests(files: Material) -> tuple[tuple[str, str], ...]:

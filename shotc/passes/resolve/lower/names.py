@@ -40,16 +40,16 @@ def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str]
 def once(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
     """Report a name that is unknown in several places once, with the first few of them."""
     groups: dict[tuple[str, str], list[Diagnostic]] = {}
-    for i, found in enumerate(dict.fromkeys(diagnostics)):
-        key = found.message if found.code in _UNKNOWN else str(i)
-        groups.setdefault((found.code, key), []).append(found)
+    for i, diagnostic in enumerate(dict.fromkeys(diagnostics)):
+        key = diagnostic.message if diagnostic.code in _UNKNOWN else str(i)
+        groups.setdefault((diagnostic.code, key), []).append(diagnostic)
     return [_merged(group) if len(group) > 1 else group[0] for group in groups.values()]
 
 
 def _merged(group: list[Diagnostic]) -> Diagnostic:
     """Return one diagnostic for the same unknown name in different places."""
-    ordered = sorted(group, key=lambda found: found.sort_key)
-    first, *others = dict.fromkeys(found.labels[0] for found in ordered)
+    ordered = sorted(group, key=lambda diagnostic: diagnostic.sort_key)
+    first, *others = dict.fromkeys(diagnostic.labels[0] for diagnostic in ordered)
     labels = (first, *(label._replace(text="here, too") for label in others[: _SHOWN - 1]))
     notes = (f"it stands in {1 + len(others)} places",) if len(others) >= _SHOWN else ()
     return group[0]._replace(labels=labels, notes=(*group[0].notes, *notes))
@@ -95,7 +95,7 @@ def _waits(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
     index = {shot.id: i for i, shot in reversed(list(enumerate(spec.shots)))}
     waits = {shot.id: shot.timing.after for shot in spec.shots}
     faults: list[Diagnostic] = []
-    told: set[str] = set()
+    reported: set[str] = set()
     for i, shot in enumerate(spec.shots):
         after = shot.timing.after
         if after is None:
@@ -107,8 +107,8 @@ def _waits(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
             continue
         # Two shots of one name can close a circle that is none; the name is the fault then.
         circle = _circle(shot.id, waits) if len(waits) == len(spec.shots) else []
-        if circle and told.isdisjoint(circle):
-            told.update(circle)
+        if circle and reported.isdisjoint(circle):
+            reported.update(circle)
             chain = " after ".join(f"`{name}`" for name in (*circle, circle[0]))
             labels = tuple(origins.value(("shots", index[name], "timing", "after")) for name in circle)
             message = (

@@ -32,7 +32,7 @@ class Tracks(NamedTuple):
 
 def read_tracks(spec: MissionSpec, put: Put, ground: Ground) -> Tracks:
     """Return the motion of every target that moves."""
-    found: dict[str, Track] = {}
+    tracks: dict[str, Track] = {}
     faults: list[Diagnostic] = []
     for name, target in spec.targets.items():
         if target.track is None:
@@ -48,10 +48,10 @@ def read_tracks(spec: MissionSpec, put: Put, ground: Ground) -> Tracks:
         wrong = [fault for fault in _too_fast(target.track, course, ground.origins) if fault is not None]
         faults += wrong
         if not wrong:
-            found[name] = track.track
+            tracks[name] = track.track
             gap = check_gap(course, ground.origins) if course.file else None
             faults += [] if gap is None else [gap]
-    return Tracks(found, tuple(faults))
+    return Tracks(tracks, tuple(faults))
 
 
 def _too_fast(spec: TrackSpec, course: Course, origins: OriginMap) -> Iterator[Diagnostic | None]:

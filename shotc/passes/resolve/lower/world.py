@@ -80,18 +80,18 @@ def _same(p: Vec2, q: Vec2) -> bool:
 
 def targets(spec: MissionSpec, put: Put, tracks: Mapping[str, Track]) -> dict[str, Target | None]:
     """Return the targets by name; None for one whose track cannot be used."""
-    found: dict[str, Target | None] = {}
+    bodies: dict[str, Target | None] = {}
     for name, target in spec.targets.items():
         track = tracks.get(name)
         centre = put(target.at) if target.at is not None else track.at(0.0) if track is not None else None
         if centre is None:
-            found[name] = None
+            bodies[name] = None
         else:
-            found[name] = Target(name, centre, target.radius, target.height, ("targets", name), track)
-    return found
+            bodies[name] = Target(name, centre, target.radius, target.height, ("targets", name), track)
+    return bodies
 
 
-def check_targets(found: Mapping[str, Target | None], origins: OriginMap) -> list[Diagnostic]:
+def check_targets(targets: Mapping[str, Target | None], origins: OriginMap) -> list[Diagnostic]:
     """Warn of targets a good part of which is under the ground, where a moving one begins."""
     return [
         Diagnostic(
@@ -101,7 +101,7 @@ def check_targets(found: Mapping[str, Target | None], origins: OriginMap) -> lis
             (f"`at` is the middle of its {target.height:.2f} m, and the ground is z = 0",),
             f"if it stands on the ground, put its middle at z = {target.height / 2:g}",
         )
-        for target in found.values()
+        for target in targets.values()
         if target is not None and target.centre[2] < target.height * (0.5 - BURIED)
     ]
 
@@ -189,7 +189,7 @@ def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -
         origins.value((*drone.path, "limits", "speed"), f"{what} `{drone.name}`"),
     )
     none, half = max(0.0, speed - LEAST_SPEED), speed / 2
-    found = Diagnostic(
+    diagnostic = Diagnostic(
         "K011",
         f"the wind leaves {what} `{drone.name}` no speed",
         labels,
@@ -197,4 +197,4 @@ def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -
         f"wait for wind below {min(none, half):.1f} m/s, which leaves it half its speed "
         f"({none:.1f} m/s leave it next to none), or take a faster drone",
     )
-    return [found]
+    return [diagnostic]

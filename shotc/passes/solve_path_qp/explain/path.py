@@ -229,14 +229,14 @@ def _stuck(
     ends = (what.keyframes[0], what.keyframes[-1]) if what.keyframes else (-1, -1)
     if what.solved.status is not Status.INFEASIBLE:
         return _solver_failed(mission, drone, shot, f"path ({what.solved.status})")
-    found = conflict(what)
-    if not found.owners and not found.points:
+    owners = conflict(what)
+    if not owners.owners and not owners.points:
         # Nothing is too tight, so there is nothing that the user could widen.
         return _solver_failed(mission, drone, shot, "path (no curve kept clear of everything)")
     labels = _ends(mission, drone, shot, ends)
-    labels += [_owner_label(mission, name, f"would have to give {x:.2f} m") for name, x in found.owners]
-    notes = [needed(mission, name, x) for name, x in found.owners]
-    notes += [f"keyframe {_bound_name(what, k)} would have to move by {x:.2f} m" for k, x in found.points]
+    labels += [_owner_label(mission, name, f"would have to give {x:.2f} m") for name, x in owners.owners]
+    notes = [needed(mission, name, x) for name, x in owners.owners]
+    notes += [f"keyframe {_bound_name(what, k)} would have to move by {x:.2f} m" for k, x in owners.points]
     return Diagnostic(
         "Q003",
         f"the corridor {_leading(shot, ends)} is too tight for a smooth path of `{drone.name}`",

@@ -16,55 +16,55 @@ ALONE = "or have the drone start nearer"
 WINDOW = 2.0  # seconds over which the speed of a place is told
 
 
-def outside_track(mission: MissionIR, shot: Shot, found: OutsideTrack) -> Diagnostic:
+def outside_track(mission: MissionIR, shot: Shot, outside: OutsideTrack) -> Diagnostic:
     """Return M010: the drone is there so late that the track ends before the shot does."""
-    track = mission.target(found.target).track
+    track = mission.target(outside.target).track
     until = 0.0 if track is None else track.until
-    end = found.start + (shot.timing.duration or 0.0)
+    end = outside.start + (shot.timing.duration or 0.0)
     labels = (
         mission.origins.value((*shot.path, "id")),
-        mission.origins.value((*mission.target(found.target).path, "track"), "the track"),
+        mission.origins.value((*mission.target(outside.target).path, "track"), "the track"),
     )
-    short = _shortened(found)
+    short = _shortened(outside)
     remedy = f"give it {short}" if short else "give the track more rows"
     later = "let its recording begin later by `begins`, " if _recorded(mission, shot) else ""
     return Diagnostic(
         "M010",
-        f"the track of `{found.target}` ends before shot `{shot.id}` does",
+        f"the track of `{outside.target}` ends before shot `{shot.id}` does",
         labels,
         (
-            f"the drone is in place at {found.start:.1f} s at the earliest, so the shot ends at {end:.1f} s; "
-            f"the track ends at {until:.1f} s",
+            f"the drone is in place at {outside.start:.1f} s at the earliest, so the shot ends at "
+            f"{end:.1f} s; the track ends at {until:.1f} s",
         ),
         f"{remedy}, {later}{ALONE}",
     )
 
 
-def too_late(mission: MissionIR, shot: Shot, found: TooLate) -> Diagnostic:
+def too_late(mission: MissionIR, shot: Shot, late: TooLate) -> Diagnostic:
     """Return T003: the drone is not there at the start of a shot of what moves on meanwhile."""
-    asked, short = shot.timing.start, found.outside
+    asked, short = shot.timing.start, late.outside
     label = mission.origins.key(shot.path) if asked is None else timing_value(mission, shot.path, "start")
     begins = "has no start" if asked is None else f"starts at {plain(asked)} s"
     labels, told = [label], f"shot `{shot.id}` {begins}"
-    sum_up = f"{at_least(found.before[-1].end)} s, the last {found.run_up:.1f} s to come up to speed"
-    notes = [f"before it come {phases_in_words(found.before)}: {sum_up}"]
+    sum_up = f"{at_least(late.before[-1].end)} s, the last {late.run_up:.1f} s to come up to speed"
+    notes = [f"before it come {phases_in_words(late.before)}: {sum_up}"]
     remedies = []
-    if found.earliest is not None:
-        message = f"{told}, but {at_least(found.earliest)} s is the earliest possible"
+    if late.earliest is not None:
+        message = f"{told}, but {at_least(late.earliest)} s is the earliest possible"
         remedies.append(
-            f"give it `start: {at_least(found.earliest)} s`" + (" or later" if short is None else "")
+            f"give it `start: {at_least(late.earliest)} s`" + (" or later" if short is None else "")
         )
     elif short is not None:
         message = f"{told}, and the track of `{short.target}` ends before its drone is there"
     else:
         message = f"{told}, and its drone does not catch up with what it films"
-        remedies += _catching_up(mission, shot, found.before[-1].end)
+        remedies += _catching_up(mission, shot, late.before[-1].end)
     if short is not None:
         path = mission.target(short.target).path
         labels.append(mission.origins.value((*path, "track"), f"{short.left:.1f} s are left of it then"))
         remedies = [f"{remedy} and {_shortened(short)}" for remedy in remedies]
     if asked is not None:
-        remedies += _begun_later(mission, shot, asked, up(found.late))
+        remedies += _begun_later(mission, shot, asked, up(late.late))
     remedies.append(f"shorten what comes before, {ALONE}")
     return Diagnostic("T003", message, tuple(labels), tuple(notes), ", or ".join(remedies))
 
@@ -83,18 +83,18 @@ def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
     ]
 
 
-def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -> Diagnostic:
+def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, meets: Meets) -> Diagnostic:
     """Return M011: every way to a shot, or back home where that is None, meets a target."""
-    met = found.met
+    met = meets.met
     if met.phase != "transit":
-        return _pad_met(mission, drone, found)
+        return _pad_met(mission, drone, meets)
     lead = "on its way home" if shot is None else f"on every way to shot `{shot.id}`"
     where = (
         mission.origins.value((*drone.path, "home"), "on the way back here")
         if shot is None
         else mission.origins.key(shot.path, "on the way to this shot")
     )
-    remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
+    remedies = [f"start the shot at {at_least(meets.start)} s"] if meets.start is not None else []
     remedies.append(f"put `home` where {met.owner.words} is not between it and the shots")
     return Diagnostic(
         "M011",
@@ -109,9 +109,9 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, found: Meets) -
     )
 
 
-def _pad_met(mission: MissionIR, drone: Drone, found: Meets) -> Diagnostic:
+def _pad_met(mission: MissionIR, drone: Drone, meets: Meets) -> Diagnostic:
     """Return M013: a target is over the pad whenever the drone could take off from it, or land."""
-    met = found.met
+    met = meets.met
     target = mission.target(met.owner.name)
     verb = "take off" if met.phase == "takeoff" else "land"
     labels = (
@@ -123,14 +123,14 @@ def _pad_met(mission: MissionIR, drone: Drone, found: Meets) -> Diagnostic:
         f"best of the times to {verb} that were tried",
     )
     away = at_least(target.radius + mission.rules.beside_target(drone.radius))
-    remedies = [f"start the shot at {at_least(found.start)} s"] if found.start is not None else []
+    remedies = [f"start the shot at {at_least(meets.start)} s"] if meets.start is not None else []
     remedies.append(f"put `home` where the axis of `{target.name}` comes no nearer than {away} m")
     message = f"`{drone.name}` cannot {verb} clear of target `{target.name}`"
     return Diagnostic("M013", message, labels, notes, ", or ".join(remedies))
 
 
-def _shortened(found: OutsideTrack) -> str:
-    left = down(found.left, 1)
+def _shortened(outside: OutsideTrack) -> str:
+    left = down(outside.left, 1)
     return f"`duration: {left:.1f} s` or less" if left > 0 else ""
 
 

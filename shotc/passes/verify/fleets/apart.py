@@ -30,13 +30,13 @@ def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
     for flight in flights:
         if len(flight.names) > 1:
             apart = flight.fleet.apart
-            found = closest(flight.track.breaks, flight.track.coef, apart)
-            yield _claim((flight, flight.names), "separation", apart, found)
+            nearest = closest(flight.track.breaks, flight.track.coef, apart)
+            yield _claim((flight, flight.names), "separation", apart, nearest)
     for one, other in combinations(flights, 2):
         apart = stricter(one.fleet.apart, other.fleet.apart)
         first, second = one.track, other.track
-        found = closest_between(first.breaks, first.coef, second.breaks, second.coef, apart)
-        yield _claim((one, other.names), f"separation from {other.fleet.name}", apart, found)
+        nearest = closest_between(first.breaks, first.coef, second.breaks, second.coef, apart)
+        yield _claim((one, other.names), f"separation from {other.fleet.name}", apart, nearest)
 
 
 def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
@@ -45,8 +45,8 @@ def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Cl
     for flight, track in product(flights, parked(ir)):
         pad = track.curve(0.0)[:3]
         limit = Limit(f"separation from {track.drone}", least, "m", ("rules", "separation"), upper=False)
-        found = nearest(flight.flown.bag(), point((float(pad[0]), float(pad[1]), float(pad[2]))), gap(least))
-        yield bounded(flight, limit, found, partial(_away, pad))
+        bound = nearest(flight.flown.bag(), point((float(pad[0]), float(pad[1]), float(pad[2]))), gap(least))
+        yield bounded(flight, limit, bound, partial(_away, pad))
     for flight, fleet in product(flights, parked_fleets(ir)):
         apart, names = stricter(flight.fleet.apart, fleet.apart), drone_names(fleet)
         pads = np.repeat(np.array(fleet.pads)[:, None], 4, axis=1)
@@ -60,11 +60,11 @@ def _away(pad: Array, places: Array) -> Array:
     return norm(places - pad)
 
 
-def _claim(of: tuple[FleetFlight, tuple[str, ...]], name: str, apart: Apart, found: Nearest) -> Claim:
+def _claim(of: tuple[FleetFlight, tuple[str, ...]], name: str, apart: Apart, nearest: Nearest) -> Claim:
     one, others = of
     limit = Limit(name, apart.across, "m", _path(one), upper=False)
-    worst = Worst(found.proven, found.time, "bounded", found.position)
-    return held(one.fleet.name, limit, worst, (one.names[found.first], others[found.second]))
+    worst = Worst(nearest.proven, nearest.time, "bounded", nearest.position)
+    return held(one.fleet.name, limit, worst, (one.names[nearest.first], others[nearest.second]))
 
 
 def _path(flight: FleetFlight) -> KeyPath:

@@ -55,8 +55,8 @@ def _timing(flight: FleetFlight, display: Display, phase: Phase, ends: dict[str,
             yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
 
 
-def _off(asked: float | None, found: float) -> float | None:
-    return None if asked is None else abs(found - asked)
+def _off(asked: float | None, flown: float) -> float | None:
+    return None if asked is None else abs(flown - asked)
 
 
 def _early(after: str | None, ends: dict[str, float], start: float) -> float | None:
@@ -86,15 +86,15 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
 
 def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
     """Claim that it takes from picture to picture as long as the mission says."""
-    found: list[tuple[float, float, KeyPath]] = []
+    transitions: list[tuple[float, float, KeyPath]] = []
     for one, other in pairwise(shown):
         if one.picture != other.picture and other.picture in range(len(display.pictures)):
             picture = display.pictures[other.picture]
             if picture.transition is not None:
                 off = abs(other.start - one.end - picture.transition)
-                found.append((off, other.start, (*picture.path, "transition")))
-    if found:
-        off, time, path = max(found, key=lambda item: item[0])
+                transitions.append((off, other.start, (*picture.path, "transition")))
+    if transitions:
+        off, time, path = max(transitions, key=lambda item: item[0])
         limit = Limit("error of transition", ON_TIME_S, "s", path, shot=display.id)
         yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
 

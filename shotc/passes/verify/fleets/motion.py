@@ -40,5 +40,5 @@ def _limit(flight: FleetFlight, name: str, unit: str) -> Limit:
 def _largest(flight: FleetFlight, limit: Limit, size: Array) -> Claim:
     """Hold the largest of values (n, m) at the first m breaks, or on the pieces from them on."""
     drone, k = np.unravel_index(int(np.argmax(size)), size.shape)
-    found = float(size[drone, k]), float(flight.track.breaks[k])
-    return of_drone(flight, limit, found, int(drone), "bounded")
+    worst = float(size[drone, k]), float(flight.track.breaks[k])
+    return of_drone(flight, limit, worst, int(drone), "bounded")

@@ -82,8 +82,8 @@ def _keep_out(
     free, upright = parts
     radius = flight.fleet.radius
     if len(free.low):
-        found = nearest(free.bag(), solid, gap(radius + limit.value))
-        yield bounded(flight, limit, less(found, radius), lambda p: signed_distance(solid, p))
+        bound = nearest(free.bag(), solid, gap(radius + limit.value))
+        yield bounded(flight, limit, less(bound, radius), lambda p: signed_distance(solid, p))
     if upright:
         limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
         yield _worse(limit, [_at_home(flight, limit, solid, part) for part in upright])
@@ -104,8 +104,8 @@ def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetP
         some = FleetPieces(upright.low, upright.high, upright.ctrl[clear])
         worst = less(nearest(some.bag(), solid, gap(radius)), radius)
     for drone in np.flatnonzero(~clear):
-        found = less(inf_distance(upright.of(int(drone)), solid, gap(near[drone])), float(near[drone]))
-        worst = found if found.proven < worst.proven else worst
+        bound = less(inf_distance(upright.of(int(drone)), solid, gap(near[drone])), float(near[drone]))
+        worst = bound if bound.proven < worst.proven else worst
     return bounded(flight, limit, worst, lambda p: signed_distance(solid, p) - near)
 
 
@@ -127,12 +127,12 @@ def _keep_from(flight: FleetFlight, limit: Limit, target: Target) -> Iterator[Cl
         near = np.full(len(flight.pads), radius + limit.value)
         yield _from_moving(flight, limit, (target, spans), near)
     limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
-    found = [
+    bounds = [
         _from_moving(flight, limit, (target, upright), np.minimum(radius, _off(target, pads)))
         for upright, pads in flight.verticals()
     ]
-    if found:
-        yield _worse(limit, found)
+    if bounds:
+        yield _worse(limit, bounds)
 
 
 def _off(target: Target, points: Array) -> Array:
@@ -154,9 +154,9 @@ def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]
         curve = beside(Piecewise(flight.track.breaks, flight.flown.ctrl[drone]), target)
         parts = join([cut(curve, *span) for span in spans])
         keep = float(near[drone])
-        found = less(inf_distance(parts, target.solid, gap(keep)), keep)
-        if found.proven < worst.proven:
-            worst, nearest = found, int(drone)
+        bound = less(inf_distance(parts, target.solid, gap(keep)), keep)
+        if bound.proven < worst.proven:
+            worst, nearest = bound, int(drone)
     return of_drone(flight, limit, (worst.proven + limit.value, worst.at), nearest, "bounded")
 
 
@@ -181,9 +181,9 @@ def _keep_in(flight: FleetFlight, zone: Zone, free: FleetPieces, upright: list[F
     worst, floor = Bound(-inf, -inf, 0.0), True
     for parts, with_floor in ((free, True), *((part, False) for part in upright)):
         for pieces in _batches(parts.bag()):
-            found = sup_outside(pieces, zone.solid, gap(-radius), floor=with_floor)
-            if found.proven > worst.proven:
-                worst, floor = found, with_floor
+            bound = sup_outside(pieces, zone.solid, gap(-radius), floor=with_floor)
+            if bound.proven > worst.proven:
+                worst, floor = bound, with_floor
     solid = zone.solid if floor else zone.solid._replace(bottom=-inf)
     margin = Bound(-worst.proven, -worst.attained, worst.at)
     limit = _clear(f"zone {zone.name}", 0.0, zone.path)
@@ -206,14 +206,14 @@ def _vertical(flight: FleetFlight, upright: Upright) -> Iterator[Claim]:
 
 def _drift(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:
     pads = part[1]
-    found = sup_convex(_from_pads(*part).channels(0, 1), norm, gap(DRIFT_M))
-    return bounded(flight, limit, found, lambda p: norm((p - pads)[:, :2]))
+    bound = sup_convex(_from_pads(*part).channels(0, 1), norm, gap(DRIFT_M))
+    return bounded(flight, limit, bound, lambda p: norm((p - pads)[:, :2]))
 
 
 def _sunk(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:
     pads = part[1]
-    found = sup_convex(_from_pads(*part), lambda c: -c[..., 2], gap(0.0))
-    return bounded(flight, limit, found, lambda p: (pads - p)[:, 2])
+    bound = sup_convex(_from_pads(*part), lambda c: -c[..., 2], gap(0.0))
+    return bounded(flight, limit, bound, lambda p: (pads - p)[:, 2])
 
 
 def _from_pads(upright: FleetPieces, pads: Array) -> Pieces:

@@ -55,12 +55,12 @@ def outlines(board: Board, sheet: Sheet) -> list[Array]:
     at = sheet.place(places(board.flight.breaks, board.flight.coef, times))
     lit = light_colors(board.flight.lights, times).max(axis=-1) > 0
     corners = BODY_IN * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-    found = []
+    shapes = []
     for k in range(len(times)):
         shown = at[lit[:, k], k] if lit[:, k].any() else at[:, k]
         spread = (shown[:, None] + corners).reshape(-1, 2)
-        found.append(np.array(convex_hull(tuple((float(x), float(y)) for x, y in spread))))
-    return found
+        shapes.append(np.array(convex_hull(tuple((float(x), float(y)) for x, y in spread))))
+    return shapes
 
 
 def draw_stands(canvas: Canvas, sheet: Sheet, shapes: Sequence[Array], taken: Sequence[Box]) -> list[Box]:

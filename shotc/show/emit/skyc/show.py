@@ -45,13 +45,13 @@ def show_of(plan: VerifiedIR) -> Show:
     mission = plan.trajectory.keyframes.mission
     flights = plan.trajectory.fleets
     flown = [curves(flight) for flight in flights]
-    control = np.concatenate([found.control.reshape(-1, 3) for found in flown])
+    control = np.concatenate([curve.control.reshape(-1, 3) for curve in flown])
     kept = [zone for zone in mission.zones if zone.keep == "in"]
     left = tuple(zone for zone in kept if not in_footprint(zone.solid, control[:, :2]).all())
     drones = [
         drone
-        for flight, found in zip(flights, flown, strict=True)
-        for drone in _drones(mission.fleet(flight.fleet), flight, found)
+        for flight, curve in zip(flights, flown, strict=True)
+        for drone in _drones(mission.fleet(flight.fleet), flight, curve)
     ]
     fences = [fence(zone.solid) for zone in kept if zone not in left]
     content: Json = {
@@ -73,7 +73,7 @@ def show_of(plan: VerifiedIR) -> Show:
         "swarm": {"drones": drones},
     }
     # Inner control points of a chord are moved by no more than this.
-    return Show(content, max(found.error for found in flown) + STRAIGHT_M, left)
+    return Show(content, max(curve.error for curve in flown) + STRAIGHT_M, left)
 
 
 def _turned(points: Array) -> list[list[float]]:
@@ -127,12 +127,12 @@ def _segments(flights: tuple[FleetTrajectory, ...]) -> dict[str, list[float]]:
 
 def _environment(plan: VerifiedIR) -> Json:
     mission = plan.trajectory.keyframes.mission
-    found: Json = {"type": "outdoor"}
+    environment: Json = {"type": "outdoor"}
     if mission.origin is not None:
         place = mission.origin
-        found["location"] = {"origin": [place.lat_deg, place.lon_deg, place.alt], "orientation": 0}
-    found["cameras"] = [_camera(plan, i) for i in range(len(mission.displays))]
-    return found
+        environment["location"] = {"origin": [place.lat_deg, place.lon_deg, place.alt], "orientation": 0}
+    environment["cameras"] = [_camera(plan, i) for i in range(len(mission.displays))]
+    return environment
 
 
 def _camera(plan: VerifiedIR, index: int) -> Json:

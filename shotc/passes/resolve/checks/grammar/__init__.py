@@ -18,9 +18,9 @@ from shotc.spec.mission import MissionSpec
 
 def allowed(spec: MissionSpec) -> Mapping[KeyPath, frozenset[str]]:
     """Return the rules that may be broken: in each shot by its path, and under () in every one."""
-    found: dict[KeyPath, frozenset[str]] = {(): frozenset(spec.rules.allow)}
-    found |= {("shots", i): frozenset(shot.allow) for i, shot in enumerate(spec.shots) if shot.allow}
-    return found
+    codes: dict[KeyPath, frozenset[str]] = {(): frozenset(spec.rules.allow)}
+    codes |= {("shots", i): frozenset(shot.allow) for i, shot in enumerate(spec.shots) if shot.allow}
+    return codes
 
 
 def check_grammar(mission: MissionIR, allow: Mapping[KeyPath, frozenset[str]]) -> list[Diagnostic]:
@@ -30,14 +30,14 @@ def check_grammar(mission: MissionIR, allow: Mapping[KeyPath, frozenset[str]]) -
     def judged(slug: str, shot: Shot) -> bool:
         return slug not in everywhere and slug not in allow.get(shot.path, none)
 
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     if len(mission.shots) > 1:
-        found += check_cuts(mission, judged)
+        diagnostics += check_cuts(mission, judged)
     lasting = [shot for shot in mission.shots if shot.timing.duration is not None or _timed(shot)]
     if lasting:
         for shot in lasting:
-            found += check_alone(mission, shot, judged)
-    return found
+            diagnostics += check_alone(mission, shot, judged)
+    return diagnostics
 
 
 def _timed(shot: Shot) -> bool:

@@ -36,7 +36,7 @@ def check_cuts(mission: MissionIR, judged: Callable[[str, Shot], bool]) -> Itera
             continue
         crossed = check_line(mission, before, after, left, right) if line else None
         jumped = check_jump(mission, before, after, left, right) if jump else None
-        yield from (found for found in (crossed, jumped) if found is not None)
+        yield from (diagnostic for diagnostic in (crossed, jumped) if diagnostic is not None)
 
 
 def film_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:
@@ -86,10 +86,10 @@ def _as_far(mission: MissionIR, after: Shot, right: Sight, ratio: float) -> list
     target = mission.target(right.names[0])
     near, far = away * ratio / ALIKE, away * ratio * ALIKE
     clear = target.radius + mission.rules.beside_target(mission.drone(after.drone).radius)
-    found = [f"write `distance: {at_least(sqrt(far * far - z * z), 1)}` or more"]
+    remedies = [f"write `distance: {at_least(sqrt(far * far - z * z), 1)}` or more"]
     if near > hypot(clear, z):
-        found.insert(0, f"write `distance: {at_most(sqrt(near * near - z * z), 1)}` or less")
-    return found
+        remedies.insert(0, f"write `distance: {at_most(sqrt(near * near - z * z), 1)}` or less")
+    return remedies
 
 
 def between(left: Sight, right: Sight) -> float:

@@ -118,14 +118,14 @@ def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
 
 def _looks(mission: MissionIR, keyframes: Sequence[Keyframe]) -> list[Vec2]:
     """Return yaw and pitch of the camera at every keyframe, before composition turns it a little."""
-    found: list[Vec2] = []
+    looks: list[Vec2] = []
     for keyframe in keyframes:
         aim: Vec2 | Vec3 | None = keyframe.aim
         if aim is None and keyframe.target is not None:
             aim = mission.target(keyframe.target).centre
-        last = found[-1] if found else (pi / 2, 0.0)
-        found.append(last if aim is None else explicit_aim(keyframe.at, aim, last[0]))
-    return found
+        last = looks[-1] if looks else (pi / 2, 0.0)
+        looks.append(last if aim is None else explicit_aim(keyframe.at, aim, last[0]))
+    return looks
 
 
 def _turned(keyframes: Sequence[Keyframe], looks: Sequence[Vec2], i: int) -> float:

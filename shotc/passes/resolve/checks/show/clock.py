@@ -97,11 +97,11 @@ def _animation(picture: Picture) -> float:
 def _before(displays: Sequence[Display]) -> dict[str, Display | None]:
     """Return the display that the fleet of each shows before it, by id."""
     last: dict[str, Display] = {}
-    found: dict[str, Display | None] = {}
+    earlier: dict[str, Display | None] = {}
     for display in displays:
-        found[display.id] = last.get(display.fleet)
+        earlier[display.id] = last.get(display.fleet)
         last[display.fleet] = display
-    return found
+    return earlier
 
 
 def _in_order(displays: Sequence[Display]) -> list[Display]:

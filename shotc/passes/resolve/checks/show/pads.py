@@ -40,12 +40,12 @@ def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
 
 def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     """Say which two pads of a fleet are nearest, and what spacing would do."""
-    found = nearest_pair(fleet.pads, fleet.apart)
-    if found is None:
+    nearest = nearest_pair(fleet.pads, fleet.apart)
+    if nearest is None:
         return None
-    one, other = fleet.pads[found.one], fleet.pads[found.other]
+    one, other = fleet.pads[nearest.one], fleet.pads[nearest.other]
     away = dist(one, other)
-    which = f"pads {found.one + 1} and {found.other + 1} are {away:.2f} m apart"
+    which = f"pads {nearest.one + 1} and {nearest.other + 1} are {away:.2f} m apart"
     # The separation alone would do on the pads, but not on straight ways between them and the pictures.
     help_ = wider(mission, fleet, max(spacing(fleet.apart), 2 * fleet.radius))
     if away < 2 * fleet.radius:
