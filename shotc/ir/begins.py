@@ -38,9 +38,9 @@ def _starts(shots: Same[tuple[Shot, ...]]) -> dict[str, float | None]:
         waits = (shot.timing.after, last.get(shot.drone))
         begin = _latest([ends.get(name) for name in waits if name is not None])
         begin = begin if shot.timing.start is None else shot.timing.start
-        lasts = shot.timing.duration
+        duration = shot.timing.duration
         starts.setdefault(shot.id, begin)
-        ends[shot.id] = None if begin is None or lasts is None else begin + lasts
+        ends[shot.id] = None if begin is None or duration is None else begin + duration
         last[shot.drone] = shot.id
     return starts
 

@@ -114,9 +114,9 @@ def _bends(mission: Same[MissionIR], shot: Same[Shot], start: float) -> _Bends:
     speeds: list[tuple[float, float]] = []
     for i in _gaps(shot.it):
         # Times that leave none for the way are refused (K001, K003), and planning may look on for a number.
-        lasts = max(arrive[i + 1] - leave[i], NEVER)
+        seconds = max(arrive[i + 1] - leave[i], NEVER)
         way = _way(mission.it, keyframes, i, (start + leave[i], start + arrive[i + 1]))
-        speeds.append((way / lasts, lasts))
+        speeds.append((way / seconds, seconds))
     rests = [k.hold > 0 for k in keyframes]
     rests[0] |= arrive[0] > 0
     slopes = tuple(_slope(speeds, i, rests=rests[i]) for i in range(len(keyframes)))

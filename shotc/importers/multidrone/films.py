@@ -17,7 +17,7 @@ class Film(NamedTuple):
     """An action with its target, as it is filmed.
 
     target : its name, empty where the cameras fly through, and the course is their own
-    start, lasts : mission time and length, seconds; first : number of the first of its drones
+    start, duration : mission time and length, seconds; first : number of the first of its drones
     main : whether its drones are planned before those of a secondary sequence
     """
 
@@ -26,7 +26,7 @@ class Film(NamedTuple):
     course: Course
     target: str
     start: float
-    lasts: float
+    duration: float
     first: int
     main: bool
     comments: tuple[str, ...]
@@ -45,10 +45,10 @@ def films_of(sequences: Rows[Sequence], frame: Frame, notes: Notes) -> Iterator[
     targets: list[_Target] = []
     first = 1
     for number, sequence in enumerate(sequences, 1):
-        begins = LEAD
+        clock = LEAD
         courses = courses_of(sequence, frame, notes)
         for k, (action, known) in enumerate(zip(sequence.actions, courses, strict=True), 1):
-            start, begins = begins, begins + action.duration
+            start, clock = clock, clock + action.duration
             if known is None and not (action.flies and (action.points or action.origin)):
                 notes.assume(action.node, "an action that says nowhere where its target is", "it is left out")
                 continue

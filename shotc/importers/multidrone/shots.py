@@ -80,10 +80,10 @@ def _orbit(task: Task) -> Made:
     if abs(begin) > 2 * pi:
         more = task.assume(f"azimuth_s = {begin:g} is no angle in rad", "degrees")
         begin, three = radians(begin), (*three, more)
-    sweep = turn * task.lasts
+    sweep = turn * task.duration
     if abs(sweep) > TURNS:
         message = (
-            f"azimuth_speed = {turn:g} rad/s over {task.lasts:g} s are {abs(sweep) / (2 * pi):.0f} turns"
+            f"azimuth_speed = {turn:g} rad/s over {task.duration:g} s are {abs(sweep) / (2 * pi):.0f} turns"
         )
         sweep = TURNS if sweep > 0 else -TURNS
         two = (*two, task.assume(message, f"{TURNS / (2 * pi):g} turns, the most that are flown, and slower"))
@@ -95,7 +95,7 @@ def _orbit(task: Task) -> Made:
     turned = f"sweep: {degrees(sweep):.1f} deg, start_azimuth: {bearing:.1f} deg"
     begins, halfway, ends = (
         task.beside(
-            (away * cos(begin + s * sweep), away * sin(begin + s * sweep), z), task.start + s * task.lasts
+            (away * cos(begin + s * sweep), away * sin(begin + s * sweep), z), task.start + s * task.duration
         )
         for s in (0.0, 0.5, 1.0)
     )

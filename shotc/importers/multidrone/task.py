@@ -34,21 +34,21 @@ class Made(NamedTuple):
 
 
 class Task(NamedTuple):
-    """One role to be made a shot, from mission time ``start`` on, for ``lasts`` seconds."""
+    """One role to be made a shot, from mission time ``start`` on, for ``duration`` seconds."""
 
     action: Action
     role: Role
     course: Course
     frame: Frame
     start: float
-    lasts: float
+    duration: float
     target: str
     notes: Notes
 
     @property
     def middle(self) -> float:
         """The mission time in the middle of the shot."""
-        return self.start + self.lasts / 2
+        return self.start + self.duration / 2
 
     def assume(self, message: str, taken: str) -> str:
         """Note an assumption about the parameters of the role, and return the comment that goes with it."""
@@ -75,7 +75,7 @@ class Task(NamedTuple):
         return (
             self.beside(begin, self.start),
             self.beside(half, self.middle),
-            self.beside(end, self.start + self.lasts),
+            self.beside(end, self.start + self.duration),
         )
 
     def beside(self, spot: Vec3, t: float) -> Vec3:

@@ -36,7 +36,7 @@ def timed(films: Iterable[Film], frame: Frame, notes: Notes) -> Iterator[Film]:
 
 def task_of(film: Film, role: Role, frame: Frame, notes: Notes) -> Task:
     """Return what has to be known to make a shot of one role of a film."""
-    return Task(film.action, role, film.course, frame, film.start, film.lasts, film.target, notes)
+    return Task(film.action, role, film.course, frame, film.start, film.duration, film.target, notes)
 
 
 def _cut(film: Film, change: float, notes: Notes) -> Film:
@@ -45,22 +45,22 @@ def _cut(film: Film, change: float, notes: Notes) -> Film:
     It ends where nothing more is known of its target, if its camera goes with that.
     """
     action, said = film.action, list(film.comments)
-    start, lasts = film.start, film.lasts
+    start, duration = film.start, film.duration
     if change > 0:
-        change = min(change, SHARE * lasts)
+        change = min(change, SHARE * duration)
         message = "the action begins as the last one ends"
         said.append(notes.assume(action.node, message, f"the drones change places for {change:g} s"))
-        start, lasts = round(start + change, 2), round(lasts - change, 2)
+        start, duration = round(start + change, 2), round(duration - change, 2)
     if start < film.course.times[0]:
         start = film.course.times[0]
         message = "the action begins before its target is anywhere"
         said.append(notes.assume(action.node, message, f"it begins at {start:g} s"))
     known = film.course.times[-1] - start
     goes_along = any(role.kind.replace(" ", "_") not in WATCHING for role in action.roles)
-    if goes_along and not film.course.stands and SHORTEST < known < lasts - OVERLAP:
+    if goes_along and not film.course.stands and SHORTEST < known < duration - OVERLAP:
         node = action.node.first("duration") or action.node
         told = film.course.times[-1] - film.start
         message = f"the action lasts {action.duration:g} s, the way of its target is told for {told:.1f} s"
         said.append(notes.assume(node, message, "the shot ends with the way"))
-        lasts = round(known, 2)
-    return film._replace(start=start, lasts=lasts, comments=tuple(said))
+        duration = round(known, 2)
+    return film._replace(start=start, duration=duration, comments=tuple(said))

@@ -92,7 +92,7 @@ def _shot(film: Film, k: int, frame: Frame, notes: Notes) -> list[str]:
         *(f"  # {text}" for text in comments),
         f"  - {{{', '.join(fields)},",
         f"     {made.params},",
-        f"     timing: {{start: {film.start:g}, duration: {film.lasts:g}}}}}",
+        f"     timing: {{start: {film.start:g}, duration: {film.duration:g}}}}}",
     ]
 
 

@@ -54,7 +54,7 @@ def _can(task: Task, drone: str) -> bool:
     away = task.way(drone)
     if task.start is not None and away > task.start + SLACK:
         return False
-    return away + task.lasts + task.back(drone) <= task.drones[drone].endurance
+    return away + task.duration + task.back(drone) <= task.drones[drone].endurance
 
 
 def _work(
@@ -62,7 +62,9 @@ def _work(
 ) -> Iterator[Row]:
     """Yield that no drone has more to do than the busiest one, whose work is the last unknown."""
     for d in drones:
-        work = {column[i, d]: task.lasts + 0.5 * (task.way(d) + task.back(d)) for i, task in enumerate(tasks)}
+        work = {
+            column[i, d]: task.duration + 0.5 * (task.way(d) + task.back(d)) for i, task in enumerate(tasks)
+        }
         yield {**work, busiest: -1.0}, 0.0
 
 
@@ -77,5 +79,5 @@ def _clashes(
         assert first.start is not None
         assert second.start is not None
         for d in drones:
-            if first.start + first.lasts + first.to(second, d) > second.start + SLACK:
+            if first.start + first.duration + first.to(second, d) > second.start + SLACK:
                 yield {column[k, d]: 1.0, column[m, d]: 1.0}, 1.0

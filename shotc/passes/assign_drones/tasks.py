@@ -23,7 +23,7 @@ SLOWER = 2.0
 class Task(NamedTuple):
     """One shot.
 
-    number : its index in the mission; start : seconds, None where that is open; lasts : seconds at least
+    number : its index in the mission; start : seconds, None where that is open; duration : seconds at least
     first, last : where the camera begins and ends; flown_by : its drone, None where that is open
     drones : of the mission, by name
     """
@@ -31,7 +31,7 @@ class Task(NamedTuple):
     number: int
     id: str
     start: float | None
-    lasts: float
+    duration: float
     first: Vec3
     last: Vec3
     flown_by: str | None
@@ -81,13 +81,13 @@ def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> T
     start = shot.timing.start
     if shot.ideal is not None:
         begin = start or 0.0
-        lasts = shot.timing.duration or 0.0
-        first, last = (ideal_place(mission, shot, begin, t) for t in (begin, begin + lasts))
+        duration = shot.timing.duration or 0.0
+        first, last = (ideal_place(mission, shot, begin, t) for t in (begin, begin + duration))
     else:
         first, last = shot.keyframes[0].at, shot.keyframes[-1].at
         least = min(least_shot(shot.keyframes, drone.limits) for drone in mission.drones)
-        lasts = shot.timing.duration or least
-    return Task(index, shot.id, start, lasts, first, last, flown_by, drones)
+        duration = shot.timing.duration or least
+    return Task(index, shot.id, start, duration, first, last, flown_by, drones)
 
 
 def busiest(tasks: tuple[Task, ...]) -> tuple[float, list[Task]]:
@@ -109,4 +109,4 @@ def later(busy: list[Task]) -> str:
 
 
 def _end(task: Task) -> float:
-    return (task.start or 0.0) + task.lasts
+    return (task.start or 0.0) + task.duration

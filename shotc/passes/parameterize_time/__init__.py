@@ -104,13 +104,13 @@ class _Pilot:
 
     def _film(self, leg: ClockLeg, ready: float) -> None:
         """Fly a shot on its own clock, if the drone is there in time."""
-        begins = float(leg.curve.start)
-        earliest = max(self.flight.clock, ready - (leg.start - begins))
-        if begins < earliest - TINY and not self.faults:
-            lead = leg.start - begins
+        first = float(leg.curve.start)
+        earliest = max(self.flight.clock, ready - (leg.start - first))
+        if first < earliest - TINY and not self.faults:
+            lead = leg.start - first
             before = tuple(self.flight.phases)
             self.faults.append(start_too_early(self.mission, leg, leg.start, earliest + lead, before))
-        self.flight.wait(begins, leg.pose)
+        self.flight.wait(first, leg.pose)
         self.flight.film(leg)
 
     def _waits(self, leg: Leg) -> str | None:

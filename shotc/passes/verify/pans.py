@@ -57,11 +57,11 @@ def pans(ir: TrajectoryIR) -> Iterator[Diagnostic]:
 
 def fastest(track: DroneTrajectory, phase: Phase) -> Pan | None:
     """Return the turn of a shot that is fastest by its rule, over a second, or over all of a shorter shot."""
-    lasts = phase.end - phase.start
-    if lasts <= 0.0:
+    duration = phase.end - phase.start
+    if duration <= 0.0:
         return None
-    window = min(WINDOW_S, lasts)
-    starts = np.linspace(phase.start, phase.end - window, max(1, round((lasts - window) / STEP_S)) + 1)
+    window = min(WINDOW_S, duration)
+    starts = np.linspace(phase.start, phase.end - window, max(1, round((duration - window) / STEP_S)) + 1)
     names = tuple(dict.fromkeys(f.target for f in track.framing if f.shot == phase.shot))
     followed: list[str | None] = [_followed(track, phase, names, float(t), window) for t in starts]
     least = np.array([slowest(name) for name in followed])
@@ -103,10 +103,10 @@ def _enough(track: DroneTrajectory, phase: Phase, pan: Pan, free: bool) -> float
     As much longer as it is too fast; and for all that it turns, from rest to rest by the smoothest law.
     free : whether the mission leaves its time free
     """
-    lasts = phase.end - phase.start
-    times = np.linspace(phase.start, phase.end, max(2, round(lasts / STEP_S)) + 1)
+    duration = phase.end - phase.start
+    times = np.linspace(phase.start, phase.end, max(2, round(duration / STEP_S)) + 1)
     turned = float(_widths(track, times[:-1], float(times[1] - times[0])).sum())
-    longer = lasts * pan.pace * (RESHAPED_RATIO if free else 1.0)
+    longer = duration * pan.pace * (RESHAPED_RATIO if free else 1.0)
     return max(longer, PEAK_RATIO * turned * slowest(pan.followed))
 
 

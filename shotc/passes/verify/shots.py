@@ -82,8 +82,8 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
             late.append((Worst(off, time, "exact"), keyframe))
         rests = keyframe.hold > 0 and placed.shot.keyframes[index].beside is None
         if rests or len(placed.keyframes) == 1:
-            until = phase.end if len(placed.keyframes) == 1 else (time or 0.0) + keyframe.hold
-            yield _still(flight, keyframe, (time, until), (placed.shot, index, phase))
+            end = phase.end if len(placed.keyframes) == 1 else (time or 0.0) + keyframe.hold
+            yield _still(flight, keyframe, (time, end), (placed.shot, index, phase))
     for name, unit, limit, found in (
         ("distance from keyframes", "m", ON_PLACE, met),
         ("delay of keyframes", "s", ON_TIME_S, late),

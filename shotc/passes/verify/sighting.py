@@ -98,8 +98,8 @@ def _notes(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
     if seen.any():
         first = float(times[int(np.argmax(seen))])
         share = 100 * float(seen.mean())
-        lasts = share / 100 * (phase.end - phase.start)
-        often = f"in {share:.3g} % of its frames, {lasts:.2f} s in all"
+        seconds = share / 100 * (phase.end - phase.start)
+        often = f"in {share:.3g} % of its frames, {seconds:.2f} s in all"
     else:
         first, often = worst, f"for less than a frame at {rate:g} Hz, between two of them"
     yield f"first at t = {first:.3f} s, {first - phase.start:.3f} s into the shot, {often}"

@@ -28,22 +28,22 @@ class Flight:
     keyframes: list[KeyframeTime] = field(default_factory=list)
     framing: list[Reference] = field(default_factory=list)
 
-    def wait(self, until: float, pose: tuple[float, ...]) -> None:
+    def wait(self, time: float, pose: tuple[float, ...]) -> None:
         """Hover until a mission time; the wait belongs to the transit before it, or is one.
 
         A drone that has not left its pad waits there.
         """
-        if until - self.clock < TINY:
+        if time - self.clock < TINY:
             return
         here = self.curves[-1].ctrl[-1, -1] if self.curves else np.array(pose)
-        self.curves.append(rest(here, np.array([self.clock, until])))
+        self.curves.append(rest(here, np.array([self.clock, time])))
         if self.phases and self.phases[-1].name == "transit":
-            self.phases[-1] = Phase("transit", None, self.phases[-1].start, until)
+            self.phases[-1] = Phase("transit", None, self.phases[-1].start, time)
         elif not self.phases:
-            self.phases.append(Phase("takeoff", None, self.clock, until))
+            self.phases.append(Phase("takeoff", None, self.clock, time))
         else:
-            self.phases.append(Phase("transit", None, self.clock, until))
-        self.clock = until
+            self.phases.append(Phase("transit", None, self.clock, time))
+        self.clock = time
 
     def fly(self, leg: PathLeg, motion: LegMotion) -> None:
         """Add a leg, from now on."""

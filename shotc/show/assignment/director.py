@@ -100,7 +100,7 @@ class Director:
         return max(0.0, start - earliest)
 
     def _pictures(self, display: Display, scenes: tuple[Scene, ...]) -> None:
-        begins = self.score.clock
+        before = self.score.clock
         for number, group in groupby(scenes, key=lambda scene: scene.frame.picture):
             picture, frames = display.pictures[number], tuple(group)
             if frames[0] is not scenes[0]:
@@ -108,7 +108,7 @@ class Director:
                 duration = self._duration(picture, self.score.places, frames[0].places, move)
                 self.score.move(frames[0].places, move.s, duration)
             self._show(display, picture, frames)
-        if self.score.clock <= begins:
+        if self.score.clock <= before:
             self._found.append(faults.no_time(self.mission, display))
 
     def _show(self, display: Display, picture: Picture, frames: tuple[Scene, ...]) -> None:

@@ -49,11 +49,11 @@ class Score:
 
         The first three control points are the last stop, which is the frame before these.
         """
-        begins = self.clock
+        origin = self.clock
         self._add([*frames, frames[-1], frames[-1]], period)
         self.places = frames[-1]
         # The control point of the first of them is two pieces after the stop.
-        times = [begins + (k + 2) * period for k in range(len(frames))]
+        times = [origin + (k + 2) * period for k in range(len(frames))]
         return [*times[:-1], self.clock]
 
     def phase(self, name: PhaseName, shot: str | None = None) -> None:
@@ -67,7 +67,7 @@ class Score:
         return FleetTrajectory(fleet, breaks, coef, tuple(self.phases), tuple(self.shown), lights)
 
     def _add(self, points: list[Array], piece: float) -> None:
-        begins = self.clock
+        origin = self.clock
         self._points += points
         # Counted from one place, so that the pieces are even to the last digit that matters.
-        self._breaks += [round(begins + (k + 1) * piece, 9) for k in range(len(points))]
+        self._breaks += [round(origin + (k + 1) * piece, 9) for k in range(len(points))]

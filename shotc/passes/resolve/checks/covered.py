@@ -29,12 +29,12 @@ def covered(mission: MissionIR) -> Iterator[Diagnostic]:
 
     A target is not told of where every shot that films it says that it may be hidden.
     """
-    until = _end(mission)
+    end = _end(mission)
     for target in mission.targets:
         filming = [shot for shot in mission.shots if target.name in _filmed(shot)]
         if filming and all(HIDDEN in shot.allow for shot in filming):
             continue
-        way = tuple(_way(target, until))
+        way = tuple(_way(target, end))
         for zone in mission.zones:
             met = None if zone.keep == "in" else first_within(way, zone.solid)
             if met is not None:
@@ -65,20 +65,20 @@ def _between(a: Moment, b: Moment, share: float) -> Moment:
     return Moment(a.time + share * (b.time - a.time), (x, y, z))
 
 
-def _way(target: Target, until: float) -> Iterator[Moment]:
+def _way(target: Target, end: float) -> Iterator[Moment]:
     """Yield where a target's centre is at the start of the mission, at corners of its way, and at the end."""
     rows = () if target.track is None else target.track.times
-    yield from (Moment(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < until), until))
+    yield from (Moment(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < end), end))
 
 
 def _end(mission: MissionIR) -> float:
     """Return when the last shot has ended, as far as that is known, else the longest time in the air."""
     ends: list[float] = []
     for shot in mission.shots:
-        begin, lasts = known_start(mission, shot), shot.timing.duration
-        if begin is None or lasts is None:
+        begin, duration = known_start(mission, shot), shot.timing.duration
+        if begin is None or duration is None:
             return max((drone.endurance for drone in mission.drones), default=0.0)
-        ends.append(begin + lasts)
+        ends.append(begin + duration)
     return max(ends, default=0.0)
 
 

@@ -31,13 +31,13 @@ LEVEL = ("distance", "radius", "offset")
 
 def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Tell an ideal that is faster than the drone, on average over a window, whenever the shot begins."""
-    drone, begins = mission.drone(shot.drone), _begins(mission, shot)
+    drone, starts = mission.drone(shot.drone), _begins(mission, shot)
     limit = drone.limits.speed
-    if not begins or any(_fastest(mission, shot, t)[0] <= limit * (1 + ROUNDING) for t in begins):
+    if not starts or any(_fastest(mission, shot, t)[0] <= limit * (1 + ROUNDING) for t in starts):
         return
-    worst, when = _fastest(mission, shot, begins[0])
-    open_ = len(begins) > 1
-    early = f"; the shot begins at {begins[0]:.1f} s at the earliest" if open_ else ""
+    worst, when = _fastest(mission, shot, starts[0])
+    open_ = len(starts) > 1
+    early = f"; the shot begins at {starts[0]:.1f} s at the earliest" if open_ else ""
     wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
     window = min(WINDOW, shot.timing.duration or 0.0)
     remedies = [
@@ -45,7 +45,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         *_other_side(mission, shot, limit),
         *_longer(mission, shot, worst / limit),
         *_straight(mission, shot, limit),
-        f"raise `{_faster(mission, shot, worst, begins[0])}` of `{drone.name}` if it flies that",
+        f"raise `{_faster(mission, shot, worst, starts[0])}` of `{drone.name}` if it flies that",
         *_slower(mission, shot),
     ]
     yield Diagnostic(
@@ -193,12 +193,14 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
         return
     duration, start = shot.timing.duration or 0.0, first_start(mission, shot)
     tracks = (mission.target(name).track for name in carriers(shot))
-    until = min((track.until for track in tracks if track is not None), default=inf)
+    track_end = min((track.until for track in tracks if track is not None), default=inf)
     for more in MORE:
-        lasts = up(duration * share * more, 1)
-        longer = shot._replace(timing=shot.timing._replace(duration=lasts))
-        if start + lasts <= until and _keeps_up(mission, longer, mission.drone(shot.drone).limits.speed):
-            yield f"give it `duration: {lasts:.1f} s`"
+        seconds = up(duration * share * more, 1)
+        longer = shot._replace(timing=shot.timing._replace(duration=seconds))
+        if start + seconds <= track_end and _keeps_up(
+            mission, longer, mission.drone(shot.drone).limits.speed
+        ):
+            yield f"give it `duration: {seconds:.1f} s`"
             return
 
 

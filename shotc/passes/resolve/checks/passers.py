@@ -57,8 +57,8 @@ def _told(mission: MissionIR, drone: Drone, target: Target, touches: list[Touch]
     ends = [(s.drone, first_start(mission, s) + (s.timing.duration or 0.0)) for s in mission.shots]
     filmed = [end for name, end in ends if name in (drone.name, AUTO)]
     if not filmed:
-        until = max((end for _, end in ends), default=0.0)
-        parked = [t for t in touches if t.first < until - ROUNDING]
+        last = max((end for _, end in ends), default=0.0)
+        parked = [t for t in touches if t.first < last - ROUNDING]
         if parked:
             yield _fault(
                 mission, drone, target, parked[0].first, f"`{drone.name}` films nothing and stands there"
@@ -110,9 +110,9 @@ def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:
     """Return when a target touches a drone that takes off as soon and as fast as it can; None where never."""
     if touch.first == 0.0:
         return 0.0
-    until = min(touch.last, touch.first + 10.0)
+    last = min(touch.last, touch.first + 10.0)
     for i in range(LOOKS + 1):
-        t = touch.first + (until - touch.first) * i / LOOKS
+        t = touch.first + (last - touch.first) * i / LOOKS
         x, y, z = drone.home
         if _room(drone, target, (x, y, z + _risen(drone, t)), t) < -ROUNDING:
             return t

@@ -197,8 +197,8 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
 def too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diagnostic:
     """Say that a shot lasts longer than the endurance: as it is written, or as it has to."""
     asked, calmer = shot.timing.duration, list[str]()
-    lasts = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
-    notes = [f"the shot {lasts}, the endurance is {drone.endurance:.1f} s"]
+    seconds = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
+    notes = [f"the shot {seconds}, the endurance is {drone.endurance:.1f} s"]
     if asked is None:
         calmer = less_wind(mission, shot, drone, drone.endurance)
         if calmer:
@@ -240,10 +240,10 @@ def _schedule(mission: MissionIR) -> list[Diagnostic]:
         faults += _late(mission, shot, before, there, waits)
         begin = start if start is not None else max(there, waits)
         duration = shot.timing.duration
-        lasts = duration if duration is not None else least_shot(shot.keyframes, drone.limits)
+        seconds = duration if duration is not None else least_shot(shot.keyframes, drone.limits)
         take_off = begin - there if before.shot is None else before.take_off
-        ends[shot.id] = begin + lasts
-        free[drone.name] = _Moment(begin + lasts, last, shot, take_off)
+        ends[shot.id] = begin + seconds
+        free[drone.name] = _Moment(begin + seconds, last, shot, take_off)
     return faults or [f for d in mission.drones for f in _endurance(mission, d, free[d.name])]
 
 

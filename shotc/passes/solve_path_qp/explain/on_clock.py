@@ -85,10 +85,10 @@ def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
     if blocked:
         remedies = [f"move {_these(blocked)} by so much", "give the shot another time"]
     if missed.longer is not None:
-        lasts = up((shot.timing.duration or 0.0) * missed.longer, 1)
+        seconds = up((shot.timing.duration or 0.0) * missed.longer, 1)
         timed = any(k.time for k in shot.keyframes)
         later = f", and every `time` {missed.longer:g} times as late" if timed else ""
-        remedies.insert(0, f"give the shot `duration: {lasts:.1f} s`{later}")
+        remedies.insert(0, f"give the shot `duration: {seconds:.1f} s`{later}")
     return Diagnostic(
         "M015",
         f"drone `{shot.drone}` cannot pass the keyframes of shot `{shot.id}` at their times",

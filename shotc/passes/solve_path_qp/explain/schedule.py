@@ -19,7 +19,7 @@ WINDOW = 2.0  # seconds over which the speed of a place is told
 def outside_track(mission: MissionIR, shot: Shot, outside: OutsideTrack) -> Diagnostic:
     """Return M010: the drone is there so late that the track ends before the shot does."""
     track = mission.target(outside.target).track
-    until = 0.0 if track is None else track.until
+    track_end = 0.0 if track is None else track.until
     end = outside.start + (shot.timing.duration or 0.0)
     labels = (
         mission.origins.value((*shot.path, "id")),
@@ -34,7 +34,7 @@ def outside_track(mission: MissionIR, shot: Shot, outside: OutsideTrack) -> Diag
         labels,
         (
             f"the drone is in place at {outside.start:.1f} s at the earliest, so the shot ends at "
-            f"{end:.1f} s; the track ends at {until:.1f} s",
+            f"{end:.1f} s; the track ends at {track_end:.1f} s",
         ),
         f"{remedy}, {later}{ALONE}",
     )
@@ -44,8 +44,8 @@ def too_late(mission: MissionIR, shot: Shot, late: TooLate) -> Diagnostic:
     """Return T003: the drone is not there at the start of a shot of what moves on meanwhile."""
     asked, short = shot.timing.start, late.outside
     label = mission.origins.key(shot.path) if asked is None else timing_value(mission, shot.path, "start")
-    begins = "has no start" if asked is None else f"starts at {plain(asked)} s"
-    labels, told = [label], f"shot `{shot.id}` {begins}"
+    starts = "has no start" if asked is None else f"starts at {plain(asked)} s"
+    labels, told = [label], f"shot `{shot.id}` {starts}"
     sum_up = f"{at_least(late.before[-1].end)} s, the last {late.run_up:.1f} s to come up to speed"
     notes = [f"before it come {phases_in_words(late.before)}: {sum_up}"]
     remedies = []
@@ -139,9 +139,9 @@ def _begun_later(mission: MissionIR, shot: Shot, asked: float, later: float) -> 
     recorded = _recorded(mission, shot)
     if not recorded:
         return []
-    begins = " and ".join(f"`begins: {plain(first + later)} s` of `{name}`" for name, first in recorded)
+    starts = " and ".join(f"`begins: {plain(first + later)} s` of `{name}`" for name, first in recorded)
     shots = f"every shot of it as much later, this one at `start: {plain(asked + later)} s`"
-    return [f"let its track begin {plain(later)} s later, or more ({begins}), and {shots}"]
+    return [f"let its track begin {plain(later)} s later, or more ({starts}), and {shots}"]
 
 
 def _recorded(mission: MissionIR, shot: Shot) -> list[tuple[str, float]]:

@@ -32,11 +32,11 @@ def cost(tasks: list[Task], names: tuple[str, ...]) -> float | None:
         for j, b in enumerate(tasks):
             if i < j and names[i] == names[j] and a.start is not None and b.start is not None:
                 one, two = (a, b) if a.start <= b.start else (b, a)
-                if one.start + one.lasts + one.to(two, names[i]) > two.start + 1e-6:
+                if one.start + one.duration + one.to(two, names[i]) > two.start + 1e-6:
                     return None
     work = dict.fromkeys(DRONES, 0.0)
     for t, name in zip(tasks, names, strict=True):
-        work[name] += t.lasts + 0.5 * (t.way(name) + t.back(name))
+        work[name] += t.duration + 0.5 * (t.way(name) + t.back(name))
     return max(work.values()) + LEAST_WAY * sum(t.length(n) for t, n in zip(tasks, names, strict=True))
 
 

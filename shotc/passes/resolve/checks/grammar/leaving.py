@@ -10,7 +10,7 @@ from shotc.geom.vec import minus
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.places import framing
-from shotc.passes.resolve.checks.grammar.sight import begins
+from shotc.passes.resolve.checks.grammar.sight import start_of
 from shotc.planning.framing.candidates import Setting
 
 EMPTY = 0.5  # seconds without its subject that a shot may have
@@ -19,7 +19,7 @@ STEPS = 200  # places at which a shot is looked at
 
 def check_leaving(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Tell a subject that is out of the picture for a part of a shot."""
-    start, duration = begins(mission, shot), shot.timing.duration
+    start, duration = start_of(mission, shot), shot.timing.duration
     if shot.ideal is None or shot.ideal.aim is None or start is None or duration is None:
         return
     for subject in shot.subjects:

@@ -11,7 +11,7 @@ from shotc.geom.vec import TURN, minus, wrapped
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.places import lasting
-from shotc.passes.resolve.checks.grammar.sight import begins, sight
+from shotc.passes.resolve.checks.grammar.sight import sight, start_of
 from shotc.passes.resolve.checks.timing import SLACK
 from shotc.planning.framing.placing import explicit_aim
 from shotc.planning.framing.turns import ROUNDING
@@ -23,19 +23,19 @@ STEPS = 120  # pieces of such a shot at most
 class Pan(NamedTuple):
     """A stretch of a shot with its turn.
 
-    widths : frame widths that go through the picture; lasts : seconds it takes; held : of rest in it
+    widths : frame widths that go through the picture; seconds : that it takes; held : of rest in it
     followed : the subject that the camera follows, or None
     when : mission time at which it begins, of a shot on its own clock
-    since : seconds into the shot at which one between keyframes begins; until : the last of these keyframes
+    start : seconds into the shot at which one between keyframes begins; last : the last of these keyframes
     """
 
     widths: float
-    lasts: float
+    seconds: float
     followed: str | None
     held: float = 0.0
     when: float | None = None
-    since: float = 0.0
-    until: int = -1
+    start: float = 0.0
+    last: int = -1
 
     @property
     def least(self) -> float:
@@ -46,10 +46,10 @@ class Pan(NamedTuple):
 def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield the worst of the pans of a shot that are too fast; those whose time is not known are not told."""
     pans = list(_on_clock(mission, shot) if shot.ideal is not None else _between_keyframes(mission, shot))
-    fast = [pan for pan in pans if pan.lasts > 0 and pan.lasts < pan.least - SLACK]
+    fast = [pan for pan in pans if pan.seconds > 0 and pan.seconds < pan.least - SLACK]
     if not fast:
         return
-    worst = max(fast, key=lambda pan: pan.least / pan.lasts)
+    worst = max(fast, key=lambda pan: pan.least / pan.seconds)
     when = "" if worst.when is None else f" at t = {worst.when:.1f} s"
     label, help_ = lasting(mission, shot), "film it from farther away, or with a wider field of view"
     if worst.when is None:
@@ -59,7 +59,7 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` pans too fast for the eye",
         (label,),
         (
-            f"a frame width goes by in {worst.lasts / worst.widths:.1f} s{when}; {whose(worst.followed)} "
+            f"a frame width goes by in {worst.seconds / worst.widths:.1f} s{when}; {whose(worst.followed)} "
             f"it takes {slowest(worst.followed):.0f} s or more, at 24 frames a second, not to judder",
         ),
         f"{help_}, or write `allow: [fast-pan]` in it",
@@ -68,11 +68,11 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 def _slower(mission: MissionIR, shot: Shot, pan: Pan) -> tuple[Label, str]:
     """Return the time or duration that ends a pan between keyframes, and what to write there."""
-    last, end = shot.keyframes[pan.until], pan.since + pan.held + pan.least
+    last, end = shot.keyframes[pan.last], pan.start + pan.held + pan.least
     if last.time is None:
         return lasting(mission, shot), f"write `duration: {at_least(end + last.hold, 1)} s` or more"
     later = shot.timing.duration is not None or any(
-        k.time is not None for k in shot.keyframes[pan.until + 1 :]
+        k.time is not None for k in shot.keyframes[pan.last + 1 :]
     )
     with_it = ", and move what follows by as much" if later else ""
     return mission.origins.value((*last.path, "time")), f"write `time: {at_least(end, 1)} s` or more{with_it}"
@@ -80,7 +80,7 @@ def _slower(mission: MissionIR, shot: Shot, pan: Pan) -> tuple[Label, str]:
 
 def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
     """Yield the pans of a camera that follows a moving subject, over a second each."""
-    start, duration = begins(mission, shot), shot.timing.duration
+    start, duration = start_of(mission, shot), shot.timing.duration
     kept = shot.ideal is not None and shot.ideal.aim is not None
     if start is None or duration is None or kept or not shot.subjects:
         return
@@ -95,10 +95,10 @@ def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
     hfov = min((k.hfov for k in shot.keyframes), default=mission.drone(shot.drone).hfov)
     width = 2 * tan(hfov / 2)
     who = shot.subjects[0].target
-    lasts = duration * ahead / pieces
+    seconds = duration * ahead / pieces
     for i, (a, b) in enumerate(zip(looks, looks[ahead:], strict=False)):
         if a is not None and b is not None:
-            yield Pan(_angle(a, b) / width, lasts, who, when=start + duration * i / pieces)
+            yield Pan(_angle(a, b) / width, seconds, who, when=start + duration * i / pieces)
 
 
 def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
@@ -113,7 +113,7 @@ def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
         stretch = keyframes[i : j + 1]
         held = sum(k.hold for k in stretch[:-1])
         widths = sum(_turned(keyframes, looks, k) for k in range(i, j))
-        yield Pan(widths, times[j] - times[i] - held, _followed(stretch), held, since=times[i], until=j)
+        yield Pan(widths, times[j] - times[i] - held, _followed(stretch), held, start=times[i], last=j)
 
 
 def _looks(mission: MissionIR, keyframes: Sequence[Keyframe]) -> list[Vec2]:

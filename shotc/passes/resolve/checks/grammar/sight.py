@@ -58,7 +58,7 @@ def sight(mission: MissionIR, shot: Shot, share: float) -> Sight | None:
     )
 
 
-def begins(mission: MissionIR, shot: Shot) -> float | None:
+def start_of(mission: MissionIR, shot: Shot) -> float | None:
     """Return the mission time of a shot's first frame, or None where its picture depends on it unknown.
 
     Without a `start` it is not known. That does not matter where the camera goes along with a target whose
@@ -76,7 +76,7 @@ def begins(mission: MissionIR, shot: Shot) -> float | None:
 
 
 def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sight | None:
-    start, duration = begins(mission, shot), shot.timing.duration
+    start, duration = start_of(mission, shot), shot.timing.duration
     if start is None or duration is None or not shot.subjects:
         return None
     t = start + share * duration
