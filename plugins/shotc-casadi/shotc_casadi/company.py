@@ -30,7 +30,7 @@ from shotc.plugin_api.refiner import (
     surroundings,
     with_need,
 )
-from shotc_casadi.clock.refiner import IN_PICTURE, OUT, refine_one
+from shotc_casadi.clock.refiner import IN_PICTURE, OUT_M, refine_one
 from shotc_casadi.conditions import Condition
 from shotc_casadi.margins import REACH_M
 from shotc_casadi.messages import stats
@@ -141,7 +141,7 @@ def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
         if lack > kept.get(owner, 0.0) + PROVED_M:
             return f"refined, it comes {lack:.2g} m too near to {owner}"
     free = least_out(before)
-    return IN_PICTURE if least_out(after) < min(OUT, free - DEEPER_SHARE * abs(free)) else None
+    return IN_PICTURE if least_out(after) < min(OUT_M, free - DEEPER_SHARE * abs(free)) else None
 
 
 def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:

@@ -14,7 +14,7 @@ from shotc_casadi.clock.bodies import NONE, Body, inscribed, kept_from
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, references
 from shotc_casadi.clock.refiner import subject_of
-from shotc_casadi.clock.rounds import NEARLY
+from shotc_casadi.clock.rounds import NEARLY_SHARE
 
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.solid_arrays.points import distances
@@ -89,7 +89,7 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
         breaks,
         wanted,
         NO_HALF_SPACES,
-        Use(NEARLY),
+        Use(NEARLY_SHARE),
         guess(guide, breaks),
     )
     table, names = made.parameters.copy(), list(symbols.FIELDS)
@@ -121,7 +121,7 @@ def test_where_there_is_no_way_out_the_slack_is_what_is_lacking() -> None:
     # The place where the motion begins is given, and now lies in it.
     start = made.states[0, :3]
     table = made.parameters.copy()
-    first = symbols.size(made.sizes.planes, made.sizes.screens)
+    first = symbols.size(made.sizes.planes, made.sizes.occluders)
     table[0, first : first + symbols.BODY] = numbers(body.scale, start + np.array([0.0, 0.5, 0.0]), 1.5)
     found = program.solve(replace(made, parameters=table), "fatrop")
     assert found.status == "solved"

@@ -12,11 +12,11 @@ import pytest
 from shotc_casadi import solving
 from shotc_casadi.clock import program
 from shotc_casadi.clock.angles import turning
-from shotc_casadi.clock.problem import STAGES, Use, breaks_of, guess, problem
+from shotc_casadi.clock.problem import USUAL_STAGES, Use, breaks_of, guess, problem
 from shotc_casadi.clock.proof import astray, gap_in
 from shotc_casadi.clock.references import ClockSubject, motion, references, steepest
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
-from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, ClockRefined, refine_clock
+from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE, ClockRefined, refine_clock
 from shotc_casadi.solving import Solution
 from shotc_casadi.timeout import TimedOut
 
@@ -177,7 +177,7 @@ def test_the_legs_around_stay_and_the_ends_are_the_same_numbers() -> None:
     assert {old.leg.start, old.leg.end} <= set(new.leg.curve.breaks)
     stats = dict(new.path.stats)
     assert stats["s.refine_status"] == "solved"
-    assert stats["s.refine_stages"] >= STAGES
+    assert stats["s.refine_stages"] >= USUAL_STAGES
     assert stats["s.refine_rounds"] >= 1
 
 
@@ -185,8 +185,8 @@ def task(of: ClockSubject) -> program.ClockProblem:
     breaks = breaks_of(of)
     around, wanted = surroundings(of.path, of.drone, breaks), references(of, breaks)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
-    planes = around.half_spaces(guide.ctrl, REACH, SHARE)
-    return problem(of, breaks, wanted, planes, Use(NEARLY), guess(guide, breaks))
+    planes = around.half_spaces(guide.ctrl, REACH_M, ROOM_SHARE)
+    return problem(of, breaks, wanted, planes, Use(NEARLY_SHARE), guess(guide, breaks))
 
 
 def test_two_solvers_find_the_same_motion() -> None:

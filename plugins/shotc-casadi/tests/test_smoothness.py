@@ -139,10 +139,10 @@ def _on_clock(kind: Any, _: int, scene: Scene, rng: np.random.Generator) -> tupl
         "lens": LENS,
     }
     scale = np.diag(1 / np.array([0.6, 0.6, 1.2])).ravel()
-    screen = [*scale, *(0.5 * (scene.eye + scene.centre)), 1.0, *scene.centre]
+    occluder = [*scale, *(0.5 * (scene.eye + scene.centre)), 1.0, *scene.centre]
     body = [*scale, *scene.centre, 0.0, 1.5]
     parts = [flat(clock.FIELDS, values), rng.normal(size=clock.PLANE * sizes.planes)]
-    parts += [np.array(screen)] * sizes.screens + [np.array(body)] * sizes.bodies
+    parts += [np.array(occluder)] * sizes.occluders + [np.array(body)] * sizes.bodies
     for k in range(sizes.subjects):
         parts.append(_subject(scene, k))
     return z, np.concatenate(parts)

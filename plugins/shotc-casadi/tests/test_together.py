@@ -13,7 +13,7 @@ from shotc_casadi.clock import picture, program
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.references import ClockSubject, references
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
-from shotc_casadi.clock.rounds import NEARLY, REACH, SHARE, flown_cost
+from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE, flown_cost
 from shotc_casadi.clock.several import pictured
 from shotc_casadi.clock.shown import no_less, shown
 
@@ -75,8 +75,8 @@ def task(of: ClockSubject) -> ClockProblem:
     breaks = breaks_of(of)
     around, wanted = surroundings(of.path, of.drone, breaks), references(of, breaks)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
-    planes = around.half_spaces(guide.ctrl, REACH, SHARE)
-    return problem(of, breaks, wanted, planes, Use(NEARLY), guess(guide, breaks, of.leg.curve))
+    planes = around.half_spaces(guide.ctrl, REACH_M, ROOM_SHARE)
+    return problem(of, breaks, wanted, planes, Use(NEARLY_SHARE), guess(guide, breaks, of.leg.curve))
 
 
 def turning(leg: ClockLeg) -> float:

@@ -43,9 +43,9 @@ def camera_task_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: 
 
 
 ROUNDS = 12  # of Gauss and Newton, from a good first guess
-NUDGE = 1e-6  # rad
-VERTICAL = 1e-9  # share of a distance that is over ground: with less a ray has no yaw
-MOST = 0.2  # rad of a step
+NUDGE_RAD = 1e-6  # rad
+VERTICAL_SHARE = 1e-9  # share of a distance that is over ground: with less a ray has no yaw
+MOST_RAD = 0.2  # rad of a step
 
 
 def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
@@ -69,12 +69,15 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
     for _ in range(ROUNDS):
         here = _errors(drone, offsets, wanted, found)
         slopes = np.stack(
-            [(_errors(drone, offsets, wanted, found + NUDGE * step) - here) / NUDGE for step in np.eye(2)],
+            [
+                (_errors(drone, offsets, wanted, found + NUDGE_RAD * step) - here) / NUDGE_RAD
+                for step in np.eye(2)
+            ],
             axis=2,
         )
         normal = np.einsum("mri,mrj->mij", slopes, slopes) + 1e-9 * np.eye(2)
         down = np.einsum("mri,mr->mi", slopes, here)
-        found = found - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST, MOST)
+        found = found - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST_RAD, MOST_RAD)
     return found
 
 
@@ -99,7 +102,7 @@ def _aim(mission: MissionIR, drone: Drone, subject: PlacedSubject, times: Array,
     yaw = np.arctan2(offset[:, 1], offset[:, 0]) + np.arctan2(right, along)
     found = np.column_stack([np.arctan2(np.sin(yaw), np.cos(yaw)), pitch])
     none = (length == 0.0) | (np.abs(wanted) > reach)
-    upright = ~none & (np.hypot(offset[:, 0], offset[:, 1]) < VERTICAL * length)
+    upright = ~none & (np.hypot(offset[:, 0], offset[:, 1]) < VERTICAL_SHARE * length)
     return _carried(found, none, upright)
 
 

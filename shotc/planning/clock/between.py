@@ -15,8 +15,8 @@ from shotc.geom.taper import SLOPE, Taper
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, relative_to, sides
 from shotc.planning.free_space import STEEPER_RATIO, HalfSpaces
 
-STEP = 0.05  # seconds between the places that are compared
-STAND = 1.0  # seconds that a drone stands at least where it has come from far, or leaves for there
+STEP_S = 0.05  # seconds between the places that are compared
+STAND_S = 1.0  # seconds that a drone stands at least where it has come from far, or leaves for there
 
 Span = tuple[float, float]
 """Mission times of the first and the last filmed frame, seconds."""
@@ -85,8 +85,8 @@ def standing_apart(
     begin, end = float(course.start), float(course.end)
     found = []
     for film, window, place in (
-        (span[0], (begin - STAND, begin), course.ctrl[0, 0, :3]),
-        (span[1], (end, end + STAND), course.ctrl[-1, -1, :3]),
+        (span[0], (begin - STAND_S, begin), course.ctrl[0, 0, :3]),
+        (span[1], (end, end + STAND_S), course.ctrl[-1, -1, :3]),
     ):
         stands = np.tile(place, (1, 6, 1))
         linear_motions = (linearised(motion.what, np.array(window)) for motion in motions)
@@ -124,8 +124,10 @@ def _taper(what: Moving, course: Piecewise, film: float, slope: float) -> Taper 
 
 
 def _times(course: Piecewise, span: Span) -> tuple[Array, Array]:
-    begin, end = float(course.start) - STAND, float(course.end) + STAND
-    return np.append(np.arange(begin, span[0], STEP), span[0]), np.append(np.arange(span[1], end, STEP), end)
+    begin, end = float(course.start) - STAND_S, float(course.end) + STAND_S
+    return np.append(np.arange(begin, span[0], STEP_S), span[0]), np.append(
+        np.arange(span[1], end, STEP_S), end
+    )
 
 
 def _filmed(course: Piecewise, span: Span) -> Mask:

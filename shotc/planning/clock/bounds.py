@@ -13,7 +13,7 @@ from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR, Shot
 from shotc.solvers.spline_problem import Cones
 
-NEARLY = 0.999  # of each limit that is used, so that rounding breaks none
+NEARLY_SHARE = 0.999  # of each limit that is used, so that rounding breaks none
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,11 +72,13 @@ def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
         number = len(rows.piece)
         owner = np.zeros(number, dtype=np.intp)
         cones.append(
-            Cones(rows, axes, np.zeros((number, len(axes))), np.full(number, NEARLY * bound), None, owner)
+            Cones(
+                rows, axes, np.zeros((number, len(axes))), np.full(number, NEARLY_SHARE * bound), None, owner
+            )
         )
     up = hull_rows(breaks, 1)
-    middle = 0.5 * NEARLY * (limits.climb - limits.descent)
-    half = 0.5 * NEARLY * (limits.climb + limits.descent)
+    middle = 0.5 * NEARLY_SHARE * (limits.climb - limits.descent)
+    half = 0.5 * NEARLY_SHARE * (limits.climb + limits.descent)
     number = len(up.piece)
     owner = np.zeros(number, dtype=np.intp)
     cones.append(Cones(up, (2,), np.full((number, 1), middle), np.full(number, half), None, owner))

@@ -12,19 +12,19 @@ from shotc.geom.bspline import Rows, control_rows, count, energy_rows, hull_rows
 from shotc.geom.vec import Vec2
 from shotc.ir.mission import Drone
 from shotc.planning.clock.aims import CameraTask, aims_at
-from shotc.planning.clock.bounds import NEARLY, at_rest
+from shotc.planning.clock.bounds import NEARLY_SHARE, at_rest
 from shotc.planning.clock.clock import Clock
-from shotc.planning.clock.position import UNSEEN
+from shotc.planning.clock.position import UNSEEN_WEIGHT
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
 from shotc.solvers.spline_qp import minimise
 
-SAMPLES = 4  # of the aim, a piece
-FAINT = 1e-2  # weight of the aim beyond the film's ends, against that in the film
-SMOOTH = (0.12, 0.12, 0.6)  # seconds below which wiggles of the camera's yaw, its pitch and the body vanish
-FOLLOW = 0.05  # weight of the body's wish against the camera's aim
-LEVEL = 0.5  # m/s below which a motion has no course
-UNIT = 1e-4  # rad^2 s: what the cost of turning is measured in, for one of 0.1 rad is a large one
+SAMPLES_PER_PIECE = 4  # of the aim, a piece
+FAINT_WEIGHT = 1e-2  # weight of the aim beyond the film's ends, against that in the film
+SMOOTH_S = (0.12, 0.12, 0.6)  # seconds below which wiggles of the camera's yaw, its pitch and the body vanish
+FOLLOW_WEIGHT = 0.05  # weight of the body's wish against the camera's aim
+LEVEL_M_S = 0.5  # m/s below which a motion has no course
+UNIT_RAD2_S = 1e-4  # rad^2 s: what the cost of turning is measured in, for one of 0.1 rad is a large one
 YAW, PITCH, BODY = range(3)
 
 
@@ -56,18 +56,18 @@ def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> Turned:
     """Return the camera's angles along a position curve."""
     drone = angle_task.camera_task.drone
     breaks = clock.breaks
-    inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    inner = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
     rows = value_rows(breaks, times)
     aims = _aims(angle_task, times, position)
-    step = np.diff(breaks)[rows.piece] / SAMPLES
-    filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT) * step
+    step = np.diff(breaks)[rows.piece] / SAMPLES_PER_PIECE
+    filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT_WEIGHT) * step
     across = np.maximum(np.cos(aims[:, 1]), 0.03)
     wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
-    weight = np.column_stack([filmed * across**2, filmed, FOLLOW * step])
+    weight = np.column_stack([filmed * across**2, filmed, FOLLOW_WEIGHT * step])
     goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(clock)
     problem = SplineProblem(count(breaks), goals, _ends(angle_task, breaks), _bounds(drone, breaks), ())
-    solved = minimise(problem, UNIT)
+    solved = minimise(problem, UNIT_RAD2_S)
     if solved.coef is None:
         return Turned(None, solved.status)
     coef = solved.coef.copy()
@@ -125,7 +125,7 @@ def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Arra
 
 def _motion(velocity: Array) -> Array:
     """Return the course of a motion, unwrapped; while it hardly moves, that of the nearest time it did."""
-    moves = np.flatnonzero(np.linalg.norm(velocity, axis=1) >= LEVEL)
+    moves = np.flatnonzero(np.linalg.norm(velocity, axis=1) >= LEVEL_M_S)
     if not len(moves):
         return np.full(len(velocity), np.pi / 2)
     course = np.unwrap(np.arctan2(velocity[moves, 1], velocity[moves, 0]))
@@ -145,8 +145,8 @@ def _goals(rows: Rows, root: Array, wanted: Array) -> tuple[Goal, ...]:
 def _smooth(clock: Clock) -> tuple[Goal, ...]:
     energy = energy_rows(clock.breaks, 3)
     none = np.zeros((len(energy.piece), 3))
-    gentle = np.sqrt(np.where(clock.filmed, 1.0, UNSEEN))[energy.piece]
-    return tuple(Goal(_scaled(energy, s**3 * gentle), none, (c,)) for c, s in enumerate(SMOOTH))
+    gentle = np.sqrt(np.where(clock.filmed, 1.0, UNSEEN_WEIGHT))[energy.piece]
+    return tuple(Goal(_scaled(energy, s**3 * gentle), none, (c,)) for c, s in enumerate(SMOOTH_S))
 
 
 def _bounds(drone: Drone, breaks: Array) -> tuple[HalfSpaceRows, ...]:
@@ -167,12 +167,12 @@ def _bounds(drone: Drone, breaks: Array) -> tuple[HalfSpaceRows, ...]:
         (1, limits.yaw_rate, gimbal.rate),
         (2, limits.yaw_acceleration, gimbal.acceleration),
     ):
-        keep(order, (0.0, 1.0, 0.0), -NEARLY * axis, NEARLY * axis)
+        keep(order, (0.0, 1.0, 0.0), -NEARLY_SHARE * axis, NEARLY_SHARE * axis)
         if drone.body == "follow-camera":
-            keep(order, (1.0, 0.0, 0.0), -NEARLY * body, NEARLY * body)
+            keep(order, (1.0, 0.0, 0.0), -NEARLY_SHARE * body, NEARLY_SHARE * body)
             continue
-        keep(order, (0.0, 0.0, 1.0), -NEARLY * body, NEARLY * body)
-        keep(order, (1.0, 0.0, -1.0), -NEARLY * axis, NEARLY * axis)
+        keep(order, (0.0, 0.0, 1.0), -NEARLY_SHARE * body, NEARLY_SHARE * body)
+        keep(order, (1.0, 0.0, -1.0), -NEARLY_SHARE * axis, NEARLY_SHARE * axis)
     if drone.body != "follow-camera":
         keep(0, (1.0, 0.0, -1.0), *gimbal.yaw)
     return tuple(found)

@@ -14,12 +14,12 @@ from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.mission import Shot
 from shotc.planning.clock.run_up import RunUp
 
-PIECE = 0.5  # seconds of a piece of the spline, of a shot that is not very long
-FEWEST, MOST = 16, 240  # pieces of the film
-FINE = 0.4  # seconds of a piece of a way into the film or out of it
-LEAST = 5  # pieces of such a way: fewer are not as quick as its time allows
-PARTS = 4  # pieces at least from a keyframe to the next, so that a smooth way bends between them
-ROUNDING = 1e-9  # seconds
+PIECE_S = 0.5  # seconds of a piece of the spline, of a shot that is not very long
+FEWEST_PIECES, MOST_PIECES = 16, 240  # pieces of the film
+FINE_S = 0.4  # seconds of a piece of a way into the film or out of it
+LEAST_PIECES = 5  # pieces of such a way: fewer are not as quick as its time allows
+PIECES_PER_KEYFRAME = 4  # at least from one to the next, so that a smooth way bends between them
+ROUNDING_S = 1e-9  # seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,9 +44,9 @@ def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp]) -> Clock:
     """Return the knots of a shot whose first frame is at ``start``, with the ways into and out of it."""
     duration = shot.timing.duration or 0.0
     end = start + duration
-    pieces = int(min(MOST, max(FEWEST, ceil(duration / PIECE))))
+    pieces = int(min(MOST_PIECES, max(FEWEST_PIECES, ceil(duration / PIECE_S))))
     before, after = (way.seconds for way in ways)
-    first, last = (max(LEAST, ceil(seconds / FINE)) for seconds in (before, after))
+    first, last = (max(LEAST_PIECES, ceil(seconds / FINE_S)) for seconds in (before, after))
     breaks = np.concatenate(
         [
             np.linspace(start - before, start, first + 1)[:-1],
@@ -67,9 +67,10 @@ def _filmed(shot: Shot, start: float, step: float) -> Array:
     duration = shot.timing.duration or 0.0
     stops = [(t, t + k.hold) for t, k in zip(arrivals(shot), shot.keyframes, strict=True)]
     ends = sorted({0.0, duration, *(min(t, duration) for stop in stops for t in stop)})
-    kept = ends[:1] + [b for a, b in pairwise(ends) if b - a > ROUNDING]
+    kept = ends[:1] + [b for a, b in pairwise(ends) if b - a > ROUNDING_S]
     kept[-1] = duration
     knots = [
-        start + np.linspace(a, b, max(PARTS, ceil((b - a) / step)), endpoint=False) for a, b in pairwise(kept)
+        start + np.linspace(a, b, max(PIECES_PER_KEYFRAME, ceil((b - a) / step)), endpoint=False)
+        for a, b in pairwise(kept)
     ]
     return np.append(np.concatenate(knots), start + duration)

@@ -31,16 +31,16 @@ from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.visibility import seen_on
 from shotc.planning.timing.estimate import leg_motion
 
-STEP = 0.05  # seconds between the places that are compared
-COMFORT = 0.5  # metres beyond a clearance: twice what two drones or a target come nearer within a step
-EARLY = 1.0  # seconds by which a drone is in place where it has the time
-HASTE = 0.9  # of those that are given up where something passes its place until then
-DELAYS = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds that it may wait
-SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the time it has to spare that it waits
+STEP_S = 0.05  # seconds between the places that are compared
+COMFORT_M = 0.5  # metres beyond a clearance: twice what two drones or a target come nearer within a step
+EARLY_S = 1.0  # seconds by which a drone is in place where it has the time
+HASTE_SHARE = 0.9  # of those that are given up where something passes its place until then
+DELAYS_S = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds that it may wait
+WAIT_SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the time it has to spare that it waits
 CLOSER, ZOOMS = 20, 2  # parts into which a step is cut where it is nearest to a target, and how often
-LEAVES = 3.0  # seconds after a shot, in which a drone has to get away from where it ends
-PROVED = 1e-6  # metres
-WAITED = 1e3  # metres that a clearance counts as broken by, where what follows would wait too long for it
+LEAVES_S = 3.0  # seconds after a shot, in which a drone has to get away from where it ends
+PROVED_M = 1e-6  # metres
+WAITED_M = 1e3  # metres that a clearance counts as broken by, where what follows would wait too long for it
 
 Course = Callable[[Array], Array]
 """Places (M, 3) at mission times (M,)."""
@@ -81,7 +81,7 @@ class Transfer:
     @property
     def clear(self) -> bool:
         """Whether nothing is met on it."""
-        return self.slack >= COMFORT and self.required >= -PROVED
+        return self.slack >= COMFORT_M and self.required >= -PROVED_M
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -133,7 +133,7 @@ def choose(
         for way in _tries(mission, drone, others, legs, when, then):
             in_time = when.due is None or way.end <= when.due
             tried.append(way)
-            fine = _unseen(others, way, waits(way)) >= 0.0 and _kept(way, waits(way)) >= -PROVED
+            fine = _unseen(others, way, waits(way)) >= 0.0 and _kept(way, waits(way)) >= -PROVED_M
             if way.clear and fine and (in_time or len(tried) == 1):
                 return way
         if not others.moving:
@@ -145,7 +145,7 @@ def choose(
         kept = min(_kept(way, waits(way)), 0.0)
         unseen = _unseen(others, way, waits(way))
         required = min(way.required, 0.0)
-        return way.met is None, way.slack >= 0.0, required, -late, kept, min(way.slack, COMFORT), unseen
+        return way.met is None, way.slack >= 0.0, required, -late, kept, min(way.slack, COMFORT_M), unseen
 
     return max(tried, key=worth, default=None)
 
@@ -155,7 +155,7 @@ def _kept(way: Transfer, waits: float) -> float:
 
     It is worth little where what follows would wait longer for it than a preference may cost.
     """
-    return way.kept if waits <= LONGEST_WAIT else min(way.kept, 0.0) - WAITED
+    return way.kept if waits <= LONGEST_WAIT else min(way.kept, 0.0) - WAITED_M
 
 
 def _unseen(others: OtherVehicles, way: Transfer, waits: float) -> float:
@@ -181,9 +181,12 @@ def _tries(
     lasts = sum(float(curve.end) for curve in curves)
     next_motion = None if then is None else leg_motion(drone, then.leg)
     film = None if next_motion is None else next_motion.curve.channels(0, 1, 2)
-    spare = 0.0 if due is None else max(0.0, due - EARLY - begin - lasts)
-    shares = (*(share * spare for share in SHARES), *((spare + HASTE * EARLY,) if spare > 0.0 else ()))
-    delays = DELAYS if due is None else tuple(dict.fromkeys(shares))
+    spare = 0.0 if due is None else max(0.0, due - EARLY_S - begin - lasts)
+    shares = (
+        *(share * spare for share in WAIT_SHARES),
+        *((spare + HASTE_SHARE * EARLY_S,) if spare > 0.0 else ()),
+    )
+    delays = DELAYS_S if due is None else tuple(dict.fromkeys(shares))
     for delay in delays:
         leaves = begin + delay
         started = [replace(leg, start=leaves) if i == 0 else leg for i, leg in enumerate(legs)]
@@ -192,7 +195,9 @@ def _tries(
             return
         until = max(leaves + lasts, when.stays, due or 0.0, 0.0 if then is None else then.ready)
         course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, until)
-        times = np.arange(begin, until + (0.0 if film is None else float(film.end) + LEAVES) + STEP, STEP)
+        times = np.arange(
+            begin, until + (0.0 if film is None else float(film.end) + LEAVES_S) + STEP_S, STEP_S
+        )
         places, upright = course.at(times), course.upright(times)
         slack = min(_slack(what, drone.radius, times, places, upright) for what in others.moving)
         unseen = seen_on(drone, others.visibility, times, places)
@@ -285,12 +290,12 @@ def _met(moving: Sequence[Moving], radius: float, course: _Course, times: Array)
     """Return the target that a course comes nearest to, if that is too near."""
     nearest = [_nearest(what, radius, course, times) for what in moving if not what.always]
     worst = max(nearest, key=lambda met: met.lack, default=None)
-    return worst if worst is not None and worst.lack > PROVED else None
+    return worst if worst is not None and worst.lack > PROVED_M else None
 
 
 def _nearest(what: Moving, radius: float, course: _Course, times: Array) -> Meeting:
     """Return where a course is nearest to a target, looked at ever more closely: it is to stand the proof."""
-    step, most, when = STEP, -inf, float(times[0])
+    step, most, when = STEP_S, -inf, float(times[0])
     for _ in range(1 + ZOOMS):
         lack = _needs(what, radius, course.upright(times)) - distances(
             what.part, course.at(times) - what.at(times)

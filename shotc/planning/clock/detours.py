@@ -14,7 +14,7 @@ from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.sweeps import with_sweeps
 from shotc.planning.path.legs import Flight, end_of, raised, take_off, way_home, way_to
 
-LIFTS = (4.0, 10.0, 20.0)  # metres over the higher end of a way
+LIFTS_M = (4.0, 10.0, 20.0)  # metres over the higher end of a way
 
 
 class Meanwhile(NamedTuple):
@@ -47,7 +47,7 @@ def ways_home(
     around = way_home(meanwhile.beside(flight), pose)
     if isinstance(around, list):
         yield around
-    for metres in LIFTS:
+    for metres in LIFTS_M:
         top = _at(pose, pose[2] + metres)
         up = _through(flight, [pose, top], flight.drone.path)
         back = way_home(flight, top)
@@ -68,7 +68,7 @@ def ways_to(
     around = way_to(meanwhile.beside(flight), pose, goal, path)
     if isinstance(around, list):
         yield [*lift, *around]
-    for metres in LIFTS:
+    for metres in LIFTS_M:
         high = max(pose[2], goal[2]) + metres
         # Straight up from a pad there is the take-off already.
         stops = [pose, *([] if lift else [_at(pose, high)]), _at(goal, high), goal]
@@ -81,7 +81,7 @@ def ways_to(
 
 def _lifted(wanted: Transit, first: Pose) -> Iterator[list[MovingLeg]]:
     """Return ways from the pad that rise higher straight up, where there is room for it."""
-    for metres in LIFTS:
+    for metres in LIFTS_M:
         higher = raised(wanted.mission, wanted.flight, metres)
         if higher is None:
             return

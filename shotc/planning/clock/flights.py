@@ -14,7 +14,7 @@ from shotc.planning.timing.estimate import leg_motion
 from shotc.planning.timing.flight import Flight
 from shotc.planning.timing.profile import Profile
 
-LATE = 1e-6  # seconds
+LATE_S = 1e-6  # seconds
 
 
 def flights(path: PathIR) -> dict[str, DroneTrajectory]:
@@ -67,7 +67,7 @@ def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> Dron
     after = {shot.id: shot.timing.after for shot in mission.shots}
     for leg in flown.legs:
         if isinstance(leg, ClockLeg):
-            if made.clock > leg.curve.start + LATE:
+            if made.clock > leg.curve.start + LATE_S:
                 break
             made.wait(float(leg.curve.start), leg.pose)
             made.film(leg)

@@ -27,7 +27,7 @@ from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import (
     ASKED,
     FROM_AFAR,
-    LESS,
+    LESS_SHARE,
     Ask,
     NoMotion,
     OtherVehicles,
@@ -58,11 +58,11 @@ from shotc.planning.path.shots import Failure, PlannedShot
 from shotc.planning.timing.estimate import leg_time
 from shotc.rounding import up
 
-LATER = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
+LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
 """Seconds that a shot may begin later, for a motion or a way to it."""
-LATE = 1e-6  # seconds
-SLIGHT = 0.02  # metres
-AMPLE = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
+LATE_S = 1e-6  # seconds
+SLIGHT_M = 0.02  # metres
+AMPLE_RATIO = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
 
 
 class _State(NamedTuple):
@@ -129,7 +129,7 @@ class Itinerary:
         self.late = 0.0
         before = self._state()
         found = add()
-        if isinstance(found, TooLate) or self.late > LATE:
+        if isinstance(found, TooLate) or self.late > LATE_S:
             tries = ((False, False), (True, False)) if before.last and before.last.aside[1] else ()
         elif isinstance(found, Meets) or self.slack < 0.0:
             tries = (False, True), (True, True)
@@ -139,7 +139,7 @@ class Itinerary:
         self._restore(before)
         if self._ended(tries):
             again = add()
-            if again is None and self.slack >= 0.0 and self.late <= LATE:
+            if again is None and self.slack >= 0.0 and self.late <= LATE_S:
                 return None
             if isinstance(found, TooLate) and isinstance(again, TooLate) and again.late < found.late:
                 found = again
@@ -157,7 +157,7 @@ class Itinerary:
         self._restore(before)
         for led in ends:
             reached = self._reached_as(placed, start, aside(*led))
-            if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE:
+            if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE_S:
                 self._add(placed, reached)
                 return True
         return False
@@ -198,7 +198,7 @@ class Itinerary:
         """
         until = due
         if until is None:
-            until = self.clock + AMPLE * sum(leg_time(self.drone, leg) for leg in direct)
+            until = self.clock + AMPLE_RATIO * sum(leg_time(self.drone, leg) for leg in direct)
         return Meanwhile(self.others, (self.clock, max(self.clock, until)))
 
     def _path(self, shot: PlannedShot) -> ClockFailure | None:
@@ -291,7 +291,7 @@ class Itinerary:
     def _late(self, placed: PlacedShot, reached: Reached) -> ClockFailure | None:
         """Return what is wrong with when a shot is reached, or with how long it can last then."""
         start, fixed = reached.shot.leg.start, placed.shot.timing.start
-        if reached.late <= LATE:
+        if reached.late <= LATE_S:
             return outside(self.mission, placed, start)
         if fixed is None:
             return self._too_late(reached, reached, None)
@@ -300,7 +300,7 @@ class Itinerary:
             return self._too_late(reached, reached, first)
         if not isinstance(first, Reached):
             return first
-        short = outside(self.mission, placed, first.shot.leg.start) if first.late <= LATE else None
+        short = outside(self.mission, placed, first.shot.leg.start) if first.late <= LATE_S else None
         return self._too_late(reached, first, short)
 
     def _too_late(self, asked: Reached, first: Reached, short: OutsideTrack | None) -> TooLate:
@@ -308,9 +308,11 @@ class Itinerary:
 
         first : the same shot at the first start at which it is not, or the last that was tried
         """
-        leg, there = first.shot.leg, first.late <= LATE
+        leg, there = first.shot.leg, first.late <= LATE_S
         path = TimedPath(self.drone.name, (*self.legs, *first.way.legs, leg))
-        before = [p for p in flight(self.mission, path, dict(self.ends)).phases if p.end <= leg.start + LATE]
+        before = [
+            p for p in flight(self.mission, path, dict(self.ends)).phases if p.end <= leg.start + LATE_S
+        ]
         if not there:
             before[-1] = replace(before[-1], end=leg.start + first.late)
         run_up = leg.start - float(leg.curve.start)
@@ -318,7 +320,7 @@ class Itinerary:
 
     def _later(self, placed: PlacedShot, start: float) -> Reached | None:
         """Return the first of some later starts to which there is a way on which nothing is met."""
-        for more in LATER:
+        for more in LATER_S:
             reached = self._reached(placed, start + more)
             if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear:
                 return reached
@@ -337,7 +339,7 @@ class Itinerary:
         near = self._reached_as(placed, start, ASKED)
         if not isinstance(near, Reached):
             return near
-        into, out = (lack > SLIGHT for lack in near.shot.lacks)
+        into, out = (lack > SLIGHT_M for lack in near.shot.lacks)
         tries = (aside(True, out), FROM_AFAR) if near.way.met else (aside(into, out),) if into or out else ()
         for asked in tries:
             far = self._reached_as(placed, start, asked)
@@ -389,5 +391,5 @@ def _better(far: Reached, near: Reached) -> bool:
     if far.way.met is not None or far.late > max(0.0, near.late):
         return False
     return near.way.met is not None or (
-        max(far.shot.lacks) < LESS * max(near.shot.lacks) and far.shot.off <= near.shot.off + SLIGHT
+        max(far.shot.lacks) < LESS_SHARE * max(near.shot.lacks) and far.shot.off <= near.shot.off + SLIGHT_M
     )

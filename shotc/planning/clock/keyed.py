@@ -23,12 +23,12 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import KeyframeTime, Reference
 
-STEEP = 0.1  # of a line of sight that is level, below which it has no bearing to turn to
+STEEP_SHARE = 0.1  # of a line of sight that is level, below which it has no bearing to turn to
 CALM = 1e-4  # half frames squared that a turn of 1 rad off the keyframes' own angles costs there
 ROUNDS = 8  # of Gauss and Newton
-NUDGE = 1e-6  # rad
-MOST = 0.2  # rad of a step
-SAME = 1e-9  # seconds
+NUDGE_RAD = 1e-6  # rad
+MOST_RAD = 0.2  # rad of a step
+SAME_S = 1e-9  # seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,7 +130,7 @@ class Keyed:
         centres = np.tile(np.array(target.centre), (len(times), 1))
         offsets = (centres if target.track is None else track_places(target.track, times)) - places
         hfov, found = self.hfov(times), own.copy()
-        level = np.linalg.norm(offsets[:, :2], axis=1) >= STEEP * np.linalg.norm(offsets, axis=1)
+        level = np.linalg.norm(offsets[:, :2], axis=1) >= STEEP_SHARE * np.linalg.norm(offsets, axis=1)
         for i in np.flatnonzero(level):
             x, y, z = map(float, offsets[i])
             uv = (float(wanted[i, 0]), float(wanted[i, 1]))
@@ -164,7 +164,7 @@ def _stretches(placed: PlacedShot, start: float) -> Iterator[Stretch]:
         leave = arrive[i] + a.hold
         stops += [(arrive[i], leave, a, a), (leave, arrive[i + 1], a, b)]
     stops += [(arrive[-1], duration, keyframes[-1], keyframes[-1])]
-    long = [stop for stop in stops if stop[1] - stop[0] > SAME]
+    long = [stop for stop in stops if stop[1] - stop[0] > SAME_S]
     ends = [*(stop[0] for stop in long[1:]), duration]
     begin = 0.0
     for (_, _, a, b), end in zip(long, ends, strict=True):
@@ -214,12 +214,15 @@ def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array
     for _ in range(ROUNDS):
         here = _off(offsets, wanted, lens, own + turned)
         slopes = np.stack(
-            [(_off(offsets, wanted, lens, own + turned + NUDGE * step) - here) / NUDGE for step in np.eye(2)],
+            [
+                (_off(offsets, wanted, lens, own + turned + NUDGE_RAD * step) - here) / NUDGE_RAD
+                for step in np.eye(2)
+            ],
             axis=2,
         )
         normal = np.einsum("mri,mrj->mij", slopes, slopes) + CALM * np.eye(2)
         down = np.einsum("mri,mr->mi", slopes, here) + CALM * turned
-        turned = turned - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST, MOST)
+        turned = turned - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST_RAD, MOST_RAD)
     return own + turned
 
 

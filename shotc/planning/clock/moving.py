@@ -27,10 +27,10 @@ from shotc.planning.free_space import MARGIN_M, NO_HALF_SPACES, HalfSpaces, six
 from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.spline_problem import HalfSpaceRows
 
-SAMPLES = 8  # a piece, at which motion is compared with linear motion
-REACH = 4.0  # metres beyond its clearance within which something that moves counts
-TOUCH = 1e-3  # metres by which a proved piece may seem too near
-COMFORT = 0.3  # metres kept beyond a clearance where there is room
+SAMPLES_PER_PIECE = 8  # a piece, at which motion is compared with linear motion
+REACH_M = 4.0  # metres beyond its clearance within which something that moves counts
+TOUCH_M = 1e-3  # metres by which a proved piece may seem too near
+COMFORT_M = 0.3  # metres kept beyond a clearance where there is room
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
 
 def linearised(what: Moving, breaks: Array) -> LinearMotion:
     """Linearise a motion on the pieces between breaks."""
-    share = np.linspace(0.0, 1.0, SAMPLES + 1)
+    share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
     times = breaks[:-1, None] + np.diff(breaks)[:, None] * share
     at = what.at(times.ravel()).reshape(*times.shape, 3)
     ends = at[:, [0, -1]]
@@ -124,15 +124,15 @@ def sides(motions: Sequence[LinearMotion], hulls: Array) -> HalfSpaces:
         need = motion.needs
         normal, gap = separate(motion.what.part, relative)
         slack = _slack(motion, relative, normal, gap)
-        for run in _runs(slack < -TOUCH):
+        for run in _runs(slack < -TOUCH_M):
             normal[run] = _way_round(motion.what.part, relative[run], need[run].max(axis=1))
             gap[run] = -_push(motion.what.part, relative[run], np.zeros(len(run)), normal[run])
         slack = _slack(motion, relative, normal, gap)
-        near = np.flatnonzero(slack < REACH)
+        near = np.flatnonzero(slack < REACH_M)
         if not len(near):
             continue
         points = np.einsum("nmd,nd->nm", relative[near], normal[near]).min(axis=1)
-        keep = need[near] + np.minimum(COMFORT, 0.5 * np.maximum(slack[near], 0.0))[:, None]
+        keep = need[near] + np.minimum(COMFORT_M, 0.5 * np.maximum(slack[near], 0.0))[:, None]
         border = (points - gap[near])[:, None] + keep
         linear = np.linspace(0.0, 1.0, 6)[None, :, None]
         carried = motion.ends[near][:, :1] + linear * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])

@@ -12,7 +12,7 @@ from shotc.ir.bodies import flying
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathIR
 from shotc.planning.clock.flights import flights
 
-STEP = 0.1  # seconds between the pictures that are looked at
+STEP_S = 0.1  # seconds between the pictures that are looked at
 
 
 def least_out(path: PathIR) -> float:
@@ -26,7 +26,7 @@ def least_out(path: PathIR) -> float:
         return inf
     for name, flight in found.items():
         for phase in (p for p in flight.phases if p.shot is not None):
-            times = np.append(np.arange(phase.start, phase.end, STEP), phase.end)
+            times = np.append(np.arange(phase.start, phase.end, STEP_S), phase.end)
             pose = flight.curve(times)
             aspect = mission.drone(name).aspect
             cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)

@@ -29,22 +29,22 @@ from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, Spline
 from shotc.solvers.spline_qp import SplineSolution, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
-SMOOTH = 0.5  # seconds: shorter wiggles of the ideal are smoothed away
-SAMPLES = 3  # of the ideal, a piece
-FAINT = 1e-3  # weight of the ideal's course beyond the film's ends, against that in the film
-UNSEEN = 0.005  # weight of jerk beyond the film's ends, against that in the film
+SMOOTH_S = 0.5  # seconds: shorter wiggles of the ideal are smoothed away
+SAMPLES_PER_PIECE = 3  # of the ideal, a piece
+FAINT_WEIGHT = 1e-3  # weight of the ideal's course beyond the film's ends, against that in the film
+UNSEEN_WEIGHT = 0.005  # weight of jerk beyond the film's ends, against that in the film
 ROUNDS = 6
-LOOKS = 5  # rounds in which pictures are kept free
-SAME = 0.02  # of its distance from whom it films, that a camera is moved by for what is not written down
-NEAR = 0.35  # metres beyond a clearance, within which a place of rest is held: planes keep COMFORT
-LOOKS_APART = 3  # rounds in which the clearances of ways between shots are sought
-REACH = 4.0  # metres beyond its clearance within which something that stands counts
+PICTURE_ROUNDS = 5  # rounds in which pictures are kept free
+SAME_SHARE = 0.02  # of its distance from whom it films, by which a camera moves for what is not written
+NEAR_M = 0.35  # metres beyond a clearance, within which a place of rest is held: planes keep COMFORT
+CLEARANCE_ROUNDS = 3  # rounds in which the clearances of ways between shots are sought
+REACH_M = 4.0  # metres beyond its clearance within which something that stands counts
 SHARES = (0.5, 0.95)  # as in planning.path.position
-PROVED = 1e-6  # metres
-ROUNDING = 1e-9  # seconds
-GAIN = 0.01
-ASTRAY = 50.0  # metres off its ideal on average over the film: a motion so far off is none
-HOPE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
+PROVED_M = 1e-6  # metres
+ROUNDING_S = 1e-9  # seconds
+GAIN_SHARE = 0.01
+ASTRAY_M = 50.0  # metres off its ideal on average over the film: a motion so far off is none
+HOPE_SHARE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -120,14 +120,14 @@ def fly(task: Task) -> Flown:
         return plain
     best = plain
     kept = _kept(task, plain.curve)
-    for _ in range(LOOKS):
+    for _ in range(PICTURE_ROUNDS):
         if kept.worst >= 0.0 or best.curve is None:
             break
         freer = _fly(task, kept.half_spaces)
         if freer.curve is None:
             break
         later = _kept(task, freer.curve)
-        if later.worst <= kept.worst + PROVED:
+        if later.worst <= kept.worst + PROVED_M:
             break
         best, kept = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
     if not prefers_free_pictures(task.mission) or best.curve is None:
@@ -148,7 +148,7 @@ def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
         return task, plain
     span = (task.clock.start, task.clock.end)
     best, lack = (task, plain), lacking(task.motions, plain.curve, span)
-    for _ in range(LOOKS_APART):
+    for _ in range(CLEARANCE_ROUNDS):
         if max(lack) <= 0.0 or best[1].curve is None:
             break
         wider = replace(task, apart=_apart_floors(task, best[1].curve))
@@ -156,7 +156,7 @@ def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
         if made.curve is None:
             break
         price = cost(task.camera_task, span, plain.curve, made.curve)
-        if lack.required <= 0.0 and (price.share > SAME or price.crops):
+        if lack.required <= 0.0 and (price.share > SAME_SHARE or price.crops):
             break
         later = lacking(task.motions, made.curve, span)
         if later >= lack:
@@ -188,7 +188,7 @@ class _Round:
     """
 
     hulls: Array
-    reach: float = REACH
+    reach: float = REACH_M
     share: float = SHARES[0]
     rounds: int = 0
     status: Status = Status.INFEASIBLE
@@ -210,10 +210,10 @@ def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
         solution = minimise(problem)
         now = replace(now, rounds=now.rounds + 1, status=solution.status)
         if solution.coef is None:
-            now = _relaxed(task, problem, now, HOPE if free else inf)
+            now = _relaxed(task, problem, now, HOPE_SHARE if free else inf)
             continue
         points = _points(breaks, solution.coef)
-        if _lack(task, points) > PROVED:
+        if _lack(task, points) > PROVED_M:
             hulls = points if now.rounds % 2 else chords
             now = replace(now, hulls=hulls, reach=2.0 * now.reach, share=SHARES[0])
         elif _astray(task, solution):
@@ -231,7 +231,7 @@ def _astray(task: Task, solution: SplineSolution) -> bool:
 
     Planes that all but contradict each other leave room only where they cross, kilometres away.
     """
-    return solution.objective > ASTRAY**2 * (task.clock.end - task.clock.start)
+    return solution.objective > ASTRAY_M**2 * (task.clock.end - task.clock.start)
 
 
 def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _Round:
@@ -253,7 +253,7 @@ def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _R
 def _improved(now: _Round, solution: SplineSolution, points: Array, *, done: bool) -> _Round:
     """Return what follows a motion that holds; done : there is nothing that it could be put beside anew."""
     best = now.best
-    if best is not None and solution.objective > (1 - GAIN) * best.objective:
+    if best is not None and solution.objective > (1 - GAIN_SHARE) * best.objective:
         return replace(now, ended=True)
     return replace(now, hulls=points, share=SHARES[1], best=solution, ended=done)
 
@@ -283,15 +283,15 @@ def _ideal(task: Task, times: Array) -> Array:
 def _base(task: Task) -> SplineProblem:
     breaks = task.clock.breaks
     step = np.diff(breaks)
-    inner = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    inner = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
     times = (breaks[:-1, None] + step[:, None] * inner).ravel()
     rows = value_rows(breaks, times)
-    weight = np.sqrt(np.where(task.clock.filmed, 1.0, FAINT) * step / SAMPLES)[rows.piece]
+    weight = np.sqrt(np.where(task.clock.filmed, 1.0, FAINT_WEIGHT) * step / SAMPLES_PER_PIECE)[rows.piece]
     jerk = energy_rows(breaks, 3)
-    gentle = np.sqrt(np.where(task.clock.filmed, 1.0, UNSEEN))
+    gentle = np.sqrt(np.where(task.clock.filmed, 1.0, UNSEEN_WEIGHT))
     goals = (
         Goal(_scaled(rows, weight), weight[:, None] * _ideal(task, times)),
-        Goal(_scaled(jerk, SMOOTH**3 * gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
+        Goal(_scaled(jerk, SMOOTH_S**3 * gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
     )
     rest = at_rest(breaks)
     still = Equalities(rest, np.zeros((len(rest.piece), 3)))
@@ -308,7 +308,7 @@ def _through(task: Task, rest: Equalities) -> Equalities:
     breaks, rows, values = task.clock.breaks, [rest.rows], [rest.value]
     for bound in task.bound:
         if bound.still:
-            first, last = np.searchsorted(breaks, np.array([bound.start, bound.end]) - ROUNDING)
+            first, last = np.searchsorted(breaks, np.array([bound.start, bound.end]) - ROUNDING_S)
             found = _coefficients(int(first), int(last) + DEGREE, len(breaks) - 1)
         else:
             found = value_rows(breaks, np.array([bound.start]))
@@ -348,7 +348,7 @@ def standing_by(
 def held_where_it_rests(task: Task, curve: Piecewise) -> bool:
     """Tell whether a motion rests so near to what passes there that this may move it."""
     return any(
-        shortfalls(passing, place).max(initial=-inf) > -NEAR
+        shortfalls(passing, place).max(initial=-inf) > -NEAR_M
         for passing, place, _ in _stands(task, curve.ctrl)
     )
 

@@ -18,7 +18,7 @@ from shotc.ir.mission import Target
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
 from shotc.planning.clock.aims import CameraTask, aims_at
 
-STEP = 0.1  # seconds between the moments that are looked at
+STEP_S = 0.1  # seconds between the moments that are looked at
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,13 +44,13 @@ def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, f
 
     span : of the film, seconds
     """
-    times = np.linspace(*span, max(2, round((span[1] - span[0]) / STEP)) + 1)
+    times = np.linspace(*span, max(2, round((span[1] - span[0]) / STEP_S)) + 1)
     before, after = plain(times)[:, :3], freer(times)[:, :3]
     targets = [camera_task.mission.target(s.target) for s in camera_task.subjects]
     far = [np.linalg.norm(_places(target, times) - before, axis=1) for target in targets]
     away = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
     moved = np.linalg.norm(after - before, axis=1)
-    share = moved / np.maximum(away, STEP)
+    share = moved / np.maximum(away, STEP_S)
     k = int(share.argmax())
     crops = any(
         (_whole(camera_task, t, times, before) & ~_whole(camera_task, t, times, after)).any() for t in targets

@@ -14,14 +14,14 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
-from shotc.planning.clock.moving import COMFORT, Moving
+from shotc.planning.clock.moving import COMFORT_M, Moving
 from shotc.planning.free_space import MARGIN_M, FreeSpace, bounds_slack
 
-LONG = 20.0  # seconds before a film, or after it, for which nothing comes near
-STEP = 0.1  # seconds between the moments that are looked at
-FARTHEST, RING = 15.0, 1.0  # metres aside that are tried, and from one ring of places to the next
-TURNS = 16  # places on a ring
-RISES = (0.0, 0.5, 1.0)  # rad by which they lie over the place, besides straight up
+LONG_S = 20.0  # seconds before a film, or after it, for which nothing comes near
+STEP_S = 0.1  # seconds between the moments that are looked at
+FARTHEST_M, RING_M = 15.0, 1.0  # metres aside that are tried, and from one ring of places to the next
+PLACES_ON_RING = 16  # places on a ring
+RISES_RAD = (0.0, 0.5, 1.0)  # rad by which they lie over the place, besides straight up
 
 
 def aside_of_what_passes(
@@ -32,14 +32,14 @@ def aside_of_what_passes(
     near : what stands and what moves; space : what the drone is held to
     rest : W, shape (3,), metres; span : from when to when, mission time, seconds
     """
-    times = np.arange(span[0], span[1] + STEP, STEP)
+    times = np.arange(span[0], span[1] + STEP_S, STEP_S)
     tracks = [(what, what.at(times)) for what in near]
-    for ring in np.arange(0.0, FARTHEST + RING, RING):
-        shifts = ring * directions(TURNS, RISES) if ring else np.zeros((1, 3))
+    for ring in np.arange(0.0, FARTHEST_M + RING_M, RING_M):
+        shifts = ring * directions(PLACES_ON_RING, RISES_RAD) if ring else np.zeros((1, 3))
         places = rest + shifts
         fine = bounds_slack(space, places) >= MARGIN_M
         for what, at in tracks:
-            needs = max(what.apart, what.clearance) + COMFORT
+            needs = max(what.apart, what.clearance) + COMFORT_M
             away = distances(what.part, (places[:, None] - at[None]).reshape(-1, 3))
             fine &= away.reshape(len(places), -1).min(axis=1) >= needs
         if fine.any():

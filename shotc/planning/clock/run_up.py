@@ -20,12 +20,10 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Limits
 from shotc.ir.mission import Drone, MissionIR, Shot
 
-STEP = 0.5  # seconds over which the speed at the ends of a shot is measured
-SPLINE = (
-    1.05  # times the least time that a spline takes: its control points keep the limits, its pieces are few
-)
-SETTLE = 0.4  # seconds beyond that, in which the camera comes to its turn too, and the place settles
-SHORTEST = 2.0  # seconds of any way: a shorter one has too few pieces for a refiner to ease it
+STEP_S = 0.5  # seconds over which the speed at the ends of a shot is measured
+SPLINE_RATIO = 1.05  # of the least time, that a spline takes: its control points keep the limits
+SETTLE_S = 0.4  # seconds beyond that, in which the camera comes to its turn too, and the place settles
+SHORTEST_S = 2.0  # seconds of any way: a shorter one has too few pieces for a refiner to ease it
 
 GOES_ON, ACROSS = 0.4, 0.7
 """Shares of a way to aside: for which it goes on as fast as the film, and in which it is aside."""
@@ -63,7 +61,7 @@ class RunUp:
             rest_to_rest(level, limits.speed, limits.acceleration, limits.jerk),
             rest_to_rest(rise, min(limits.climb, limits.descent), limits.acceleration, limits.jerk),
         )
-        least = max(self.seconds, SPLINE * needed / ACROSS + SETTLE)
+        least = max(self.seconds, SPLINE_RATIO * needed / ACROSS + SETTLE_S)
         return replace(self, seconds=least / (1.0 - GOES_ON) if aside.any() else self.seconds, aside=aside)
 
     def at(self, away: Array) -> Array:
@@ -85,13 +83,13 @@ class RunUp:
 
 def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> RunUp:
     """Return the way into a shot whose first frame is at ``start``."""
-    return _run_up(drone, partial(ideal_place, mission, shot, start), start, STEP)
+    return _run_up(drone, partial(ideal_place, mission, shot, start), start, STEP_S)
 
 
 def run_ups(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> tuple[RunUp, RunUp]:
     """Return the ways into and out of a shot whose first frame is at ``start``."""
     end = start + (shot.timing.duration or 0.0)
-    after = _run_up(drone, partial(ideal_place, mission, shot, start), end, -STEP)
+    after = _run_up(drone, partial(ideal_place, mission, shot, start), end, -STEP_S)
     return lead_in(mission, drone, shot, start), after
 
 
@@ -102,7 +100,7 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
     share = max(level / limits.speed, up / limits.climb, -up / limits.descent, 1.0)
     velocity = velocity / share
     least = least_time(float(np.linalg.norm(velocity)), limits.acceleration, limits.jerk)
-    return RunUp(max(SHORTEST, SPLINE * least + SETTLE), here, velocity)
+    return RunUp(max(SHORTEST_S, SPLINE_RATIO * least + SETTLE_S), here, velocity)
 
 
 def way_time(limits: Limits, way: Array) -> float:

@@ -26,7 +26,7 @@ from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
 from shotc.planning.clock.position import Flown, Task, fly, held_where_it_rests, standing_by
-from shotc.planning.clock.resting import LONG, aside_of_what_passes
+from shotc.planning.clock.resting import LONG_S, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp, run_ups
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.framing.moments import placed_at, slowed
@@ -34,14 +34,14 @@ from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.conic import Status
 
-LESS = 0.8  # of what a motion leaves its place, with which another is better
-FAR = 5.0  # metres off the ideal, which are not worth where a drone rests, even if something else may hold it
-NOTICE = 0.5  # metres off the ideal that are worth telling
-LEFT = 0.1  # metres off that belong to a stretch worth telling
-LONGER = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
-ON_PLACE = 1e-3  # metres
+LESS_SHARE = 0.8  # of what a motion leaves its place, with which another is better
+FAR_M = 5.0  # off the ideal, which are not worth where a drone rests, even if something else may hold it
+NOTICE_M = 0.5  # metres off the ideal that are worth telling
+LEFT_M = 0.1  # metres off that belong to a stretch worth telling
+LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
+ON_PLACE_M = 1e-3  # metres
 SETTLES = 2  # times that a place aside is looked for
-STEP = 0.1  # seconds between the places that are compared with the ideal
+STEP_S = 0.1  # seconds between the places that are compared with the ideal
 PICTURES = "the pictures of other drones"
 
 
@@ -196,9 +196,9 @@ def _flown(
             continue
         away = _away(task, flown.curve)
         off = away.max()
-        if best is None or off < LESS * best[2].max():
+        if best is None or off < LESS_SHARE * best[2].max():
             best = (task, flown, away)
-        if off <= NOTICE or (off <= FAR and not held_where_it_rests(task, flown.curve)):
+        if off <= NOTICE_M or (off <= FAR_M and not held_where_it_rests(task, flown.curve)):
             break
     return best or (task, flown, np.zeros(0))
 
@@ -239,7 +239,7 @@ def _led(
         rest = film + sign * led.seconds
         straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
         # What would pass there while the drone is on its way would meet it on its way.
-        span = (rest - LONG, film) if sign < 0.0 else (film, rest + LONG)
+        span = (rest - LONG_S, film) if sign < 0.0 else (film, rest + LONG_S)
         led = way.led(aside_of_what_passes(*around, straight, span), drone.limits)
     return led
 
@@ -254,8 +254,8 @@ def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Mis
         place = np.array(b.place)
         owner, lack = _in_the_way(task, place, b.start) or (None, 0.0)
         away.append(Away(b.index, float(np.linalg.norm(free(b.start) - place)), b.start, owner, lack))
-    far = tuple(sorted((a for a in away if a.distance > ON_PLACE), key=lambda a: -a.distance))
-    for longer in LONGER:
+    far = tuple(sorted((a for a in away if a.distance > ON_PLACE_M), key=lambda a: -a.distance))
+    for longer in LONGER_RATIOS:
         slower = slowed(task.mission, placed, start, longer)
         camera_task = camera_task_of(task.mission, task.drone, slower, start)
         if fly(_task(camera_task, around, slower.shot, start, ASKED[-1])).curve is not None:
@@ -292,13 +292,13 @@ def _deviations(task: Task, flown: Flown, away: Array) -> tuple[ClockDeviation, 
     times = _filmed(task)
     return tuple(
         ClockDeviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
-        for i in worst_of_runs(away, LEFT, NOTICE)
+        for i in worst_of_runs(away, LEFT_M, NOTICE_M)
     )
 
 
 def _filmed(task: Task) -> Array:
     """Return the times of the film at which it is compared with its ideal, shape (M,)."""
-    return np.append(np.arange(task.clock.start, task.clock.end, STEP), task.clock.end)
+    return np.append(np.arange(task.clock.start, task.clock.end, STEP_S), task.clock.end)
 
 
 def _away(task: Task, curve: Piecewise) -> Array:

@@ -27,15 +27,15 @@ from shotc.rounding import down, up
 
 TRIES = 10
 GIVES_UP = 4  # tries, after which a drone that falls behind ever more is given up
-CLOSE = 0.3  # seconds between starts that are late and in time, the second of which is taken
-SPARE = 0.1  # seconds by which a drone is early where the mission does not fix the start
-STEEPEST = 0.95  # seconds that an estimate may get worse by with each second that the start is put off
-HORIZON = 300.0  # seconds that a start may be put off by
-FINE = 0.1  # seconds between the first starts that are looked at
+CLOSE_S = 0.3  # seconds between starts that are late and in time, the second of which is taken
+SPARE_S = 0.1  # seconds by which a drone is early where the mission does not fix the start
+STEEPEST_RATE = 0.95  # seconds that an estimate may get worse by with each second that the start is put off
+HORIZON_S = 300.0  # seconds that a start may be put off by
+FINE_S = 0.1  # seconds between the first starts that are looked at
 COARSER = 100  # of them, after which they lie twice as far apart
-SHORTEST = 1.0  # seconds of track that are worth a shot
-ROUNDING = 1e-6  # seconds
-SOON, WHOLE = 40.0, 1.0
+SHORTEST_S = 1.0  # seconds of track that are worth a shot
+ROUNDING_S = 1e-6  # seconds
+SOON_S, WHOLE_S = 40.0, 1.0
 """Seconds by which a start is put off for a fence, and between the starts that are looked at."""
 
 
@@ -103,7 +103,7 @@ def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrac
     end = start + (placed.shot.timing.duration or 0.0)
     for name in carriers(placed.shot):
         track = mission.target(name).track
-        if track is not None and end > track.until + ROUNDING:
+        if track is not None and end > track.until + ROUNDING_S:
             return OutsideTrack(name, start, max(0.0, track.until - start))
     return None
 
@@ -114,12 +114,12 @@ def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: floa
     Its target may still be where no drone may go. The start that is given, where there is none soon.
     """
     lasts = placed.shot.timing.duration or 0.0
-    for more in np.arange(0.0, SOON + WHOLE, WHOLE):
+    for more in np.arange(0.0, SOON_S + WHOLE_S, WHOLE_S):
         first = start + float(more)
         if outside(mission, placed, first) is not None:
             break
         there = placed_at(mission, placed, first).shot
-        times = first + np.append(np.arange(0.0, lasts, WHOLE), lasts)
+        times = first + np.append(np.arange(0.0, lasts, WHOLE_S), lasts)
         if bounds_slack(space, ideal_places(mission, there, first, times)).min() >= 0.0:
             return first
     return start
@@ -165,7 +165,7 @@ def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, f
     """
     (before, less), (last, lack) = off[-2:] if len(off) > 1 else (off[-1], off[-1])
     rate = (lack - less) / (last - before) if last != before else 0.0
-    found = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST))
+    found = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST_RATE))
     return _soonest(about, off, span, 0.0) if found is None and len(off) < GIVES_UP else found
 
 
@@ -173,11 +173,11 @@ def _soonest(
     about: Lateness, off: list[tuple[float, float]], span: tuple[float, float], rate: float
 ) -> float | None:
     """Return the same, for an estimate that gets worse at a rate from the last try on."""
-    (last, lack), begin = off[-1], span[0] + FINE
-    until = min(span[1] - CLOSE, off[0][0] + HORIZON)
+    (last, lack), begin = off[-1], span[0] + FINE_S
+    until = min(span[1] - CLOSE_S, off[0][0] + HORIZON_S)
     steps = 0
-    while (now := up(begin + FINE * steps * (1.0 + steps / COARSER))) <= until:
-        if about(now) + lack + rate * (now - last) <= -SPARE:
+    while (now := up(begin + FINE_S * steps * (1.0 + steps / COARSER))) <= until:
+        if about(now) + lack + rate * (now - last) <= -SPARE_S:
             return now
         steps += 1
     return None
@@ -189,7 +189,7 @@ def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float)
     if short is None:
         return reach(placed, start)
     # Keyframes have their times: what they tell is not cut short.
-    if short.left < SHORTEST or is_keyed(placed.shot):
+    if short.left < SHORTEST_S or is_keyed(placed.shot):
         return short
     return reach(lasting(placed, short.left), start)
 

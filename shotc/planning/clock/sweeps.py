@@ -17,8 +17,8 @@ from shotc.planning.clock.moving import Moving
 from shotc.planning.free_space import FreeSpace, Obstacle
 from shotc.planning.obstacles import FreeSpaces
 
-STEP = 0.5  # seconds between the places that a hull is drawn about
-STILL = 1e-3  # metres: less is standing
+STEP_S = 0.5  # seconds between the places that a hull is drawn about
+STILL_M = 1e-3  # metres: less is standing
 CORNERS = 8  # of the prism about a cylinder
 
 
@@ -36,12 +36,12 @@ def _with(space: FreeSpace, more: Iterable[Obstacle]) -> FreeSpace:
 
 def _swept(what: Moving, span: tuple[float, float]) -> Solid:
     part, (begin, end) = what.part, span
-    at = what.at(np.append(np.arange(begin, end, STEP), end))
+    at = what.at(np.append(np.arange(begin, end, STEP_S), end))
     low, high = at.min(axis=0), at.max(axis=0)
     assert isinstance(part, Cylinder), "targets are"
     middle, bottom, top = 0.5 * (low + high), part.bottom + float(low[2]), part.top + float(high[2])
-    if np.linalg.norm(high - low) < STILL:
-        return Cylinder((float(middle[0]), float(middle[1])), part.radius + STILL, bottom, top)
+    if np.linalg.norm(high - low) < STILL_M:
+        return Cylinder((float(middle[0]), float(middle[1])), part.radius + STILL_M, bottom, top)
     turn = 2 * pi * np.arange(CORNERS) / CORNERS
     rim = part.radius / cos(pi / CORNERS) * np.column_stack([np.cos(turn), np.sin(turn)])
     corners = (at[:, None, :2] + rim).reshape(-1, 2)

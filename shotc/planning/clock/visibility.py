@@ -24,11 +24,11 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask, aims_at
 from shotc.solvers.spline_problem import HalfSpaceRows
 
-MARGIN = 0.3  # metres that a body is kept out of a picture by
-NEAR = 4.0  # metres out of a picture beyond which nothing is asked
-NUDGE = 1e-3  # metres of the numeric slopes
-SAMPLES = 3  # instants a piece
-FLAT = 0.05  # slope below which to move does not help
+MARGIN_M = 0.3  # metres that a body is kept out of a picture by
+NEAR_M = 4.0  # metres out of a picture beyond which nothing is asked
+NUDGE_M = 1e-3  # metres of the numeric slopes
+SAMPLES_PER_PIECE = 3  # instants a piece
+FLAT_SLOPE = 0.05  # slope below which to move does not help
 
 Outside = Callable[[Array, Array], Array]
 
@@ -115,7 +115,7 @@ def keep_free(
 
     span : of the film; course : places at times, about which all is linearised
     """
-    middle = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    middle = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * middle).ravel()
     asked: list[tuple[Outside, Array]] = [
         (
@@ -148,13 +148,13 @@ def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -
 def _linear(found: Outside, times: Array, breaks: Array, course: Callable[[Array], Array]) -> Kept:
     places = course(times)
     here = found(times, places)
-    slope = np.stack([(found(times, places + NUDGE * step) - here) / NUDGE for step in np.eye(3)], axis=1)
-    helps = (here < NEAR) & (np.linalg.norm(slope, axis=1) > FLAT)
+    slope = np.stack([(found(times, places + NUDGE_M * step) - here) / NUDGE_M for step in np.eye(3)], axis=1)
+    helps = (here < NEAR_M) & (np.linalg.norm(slope, axis=1) > FLAT_SLOPE)
     worst = float(here.min())
     if not helps.any():
         return Kept((), worst)
     normal = slope[helps]
-    offset = (normal * places[helps]).sum(axis=1) - here[helps] + MARGIN
+    offset = (normal * places[helps]).sum(axis=1) - here[helps] + MARGIN_M
     owner = np.zeros(len(offset), dtype=np.intp)
     return Kept((HalfSpaceRows(value_rows(breaks, times[helps]), normal, offset, owner),), worst)
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
-BENEATH = 1e-2  # m^2 added to the squared distance over ground: straight above a target the yaw is none
+BENEATH_M2 = 1e-2  # m^2 added to the squared distance over ground: straight above a target the yaw is none
 
 
 class Turning(NamedTuple):
@@ -22,7 +22,7 @@ class Turning(NamedTuple):
 
 def over_ground(ray: Any) -> Any:
     """Return the length of a ray over ground, metres; its square is smooth and never zero."""
-    return ca.sqrt(ray[0] ** 2 + ray[1] ** 2 + BENEATH)
+    return ca.sqrt(ray[0] ** 2 + ray[1] ** 2 + BENEATH_M2)
 
 
 def rates(ray: Any, first: Any) -> tuple[Any, Any]:

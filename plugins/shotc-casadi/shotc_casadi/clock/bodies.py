@@ -15,14 +15,14 @@ import numpy as np
 
 from shotc.plugin_api.refiner import Array, Cylinder, Solid, Surroundings, bounded
 from shotc_casadi.clock import weights
+from shotc_casadi.clock.occluders import ellipse
 from shotc_casadi.clock.references import ClockReferences
-from shotc_casadi.clock.screens import ellipse
 from shotc_casadi.clock.symbols import BODY
 
-NEAR = 1.0  # metres beyond the potential field within which an ellipsoid counts
+NEAR_M = 1.0  # metres beyond the potential field within which an ellipsoid counts
 COUNTS = (0, 1, 2, 4, 8)  # ellipsoids a programme may have, so that few are built
 NONE = 1e2  # added to the squared distance, where there is no ellipsoid
-ENDLESS = 1e3  # metres of half a height that is that of something without an end
+ENDLESS_M = 1e3  # metres of half a height that is that of something without an end
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,7 +54,7 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
         longer = half + what.clearance
         if longer.min() <= 0.0:
             continue
-        longest = float(longer[:2].max() if longer[2] > ENDLESS else longer.max())
+        longest = float(longer[:2].max() if longer[2] > ENDLESS_M else longer.max())
         scale = (axes / longer).T
         found.append(Body(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest))
     return tuple(found)
@@ -89,7 +89,7 @@ def kept_from(bodies: Sequence[Body], wanted: ClockReferences, eyes: Array) -> C
     """
     if not bodies:
         return wanted
-    beside = np.array([body.longest * (body.distance(eyes) - body.reach) < NEAR for body in bodies])
+    beside = np.array([body.longest * (body.distance(eyes) - body.reach) < NEAR_M for body in bodies])
     if wanted.beside is not None:
         beside |= wanted.beside
     most = int(beside.sum(axis=0).max(initial=0))

@@ -13,10 +13,10 @@ import casadi as ca
 
 from shotc.plugin_api.refiner import View
 
-DEEP = 0.01  # of its distance, by which a subject counts as before the camera at least
-LEVEL = 0.003  # of its distance: a rim that is less above or below the camera is rounded off
+DEEP_SHARE = 0.01  # of its distance, by which a subject counts as before the camera at least
+LEVEL_SHARE = 0.003  # of its distance: a rim that is less above or below the camera is rounded off
 UPRIGHT = 0.01  # of a sine or cosine of the pitch, the same
-EVEN = 0.001  # half frames: two rims that are less apart on screen are, too
+EVEN_HALF_FRAMES = 0.001  # half frames: two rims that are less apart on screen are, too
 
 
 class Outline(NamedTuple):
@@ -51,10 +51,10 @@ def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Outlin
     )
     return Outline(
         ca.vertcat(u, v),
-        lesser(low.left, high.left, EVEN),
-        -lesser(-low.right, -high.right, EVEN),
-        lesser(low.low, high.low, EVEN),
-        -lesser(-low.high, -high.high, EVEN),
+        lesser(low.left, high.left, EVEN_HALF_FRAMES),
+        -lesser(-low.right, -high.right, EVEN_HALF_FRAMES),
+        lesser(low.low, high.low, EVEN_HALF_FRAMES),
+        -lesser(-low.high, -high.high, EVEN_HALF_FRAMES),
     )
 
 
@@ -74,7 +74,7 @@ def _before(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Any:
     axis = ca.vertcat(camera.cos_pitch * camera.cos_yaw, camera.cos_pitch * camera.sin_yaw, camera.sin_pitch)
     reach = height / 2 * length(camera.sin_pitch, UPRIGHT) + radius * length(camera.cos_pitch, UPRIGHT)
     depth = ca.dot(axis, away) - reach
-    return away + 0.5 * (length(depth, DEEP * far) - depth) * axis
+    return away + 0.5 * (length(depth, DEEP_SHARE * far) - depth) * axis
 
 
 def _rim(camera: View, centre: Any, radius: Any, far: Any) -> _Rim:
@@ -88,7 +88,7 @@ def _rim(camera: View, centre: Any, radius: Any, far: Any) -> _Rim:
     lean_y, lean_z = radius * camera.sin_pitch, radius * camera.cos_pitch
     square = z**2 - lean_z**2
     aside = radius * ca.sqrt(square + (camera.cos_pitch * x) ** 2)
-    fall = radius * length(centre[2], LEVEL * far)
+    fall = radius * length(centre[2], LEVEL_SHARE * far)
     down = y * z - lean_y * lean_z
     wide, tall = square * camera.half_width, square * camera.half_height
     return _Rim((x * z - aside) / wide, (x * z + aside) / wide, -(down + fall) / tall, -(down - fall) / tall)

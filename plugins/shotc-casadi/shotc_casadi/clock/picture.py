@@ -35,8 +35,8 @@ placed, sized, whole, level : factors of what is off its place, of the logarithm
     of the frame, and of what is not level; viewed : of the chord, the level chord, and the elevation
 """
 SUBJECT = sum(FIELDS.values())
-TINY = 1e-12  # m^2 added to a squared distance that is not to be none
-STEEP = 0.003  # of the distance that a subject is away over ground at least, for its bearing
+TINY_M2 = 1e-12  # m^2 added to a squared distance that is not to be none
+STEEP_SHARE = 0.003  # of the distance that a subject is away over ground at least, for its bearing
 
 
 def picture(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
@@ -54,8 +54,8 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     radius, height = given["solid"][0], given["solid"][1]
     camera = View(ca.cos(aim[0]), ca.sin(aim[0]), ca.cos(aim[1]), ca.sin(aim[1]), lens[0], lens[1])
     away = given["centre"] - eye
-    far = ca.sqrt(ca.sumsqr(away) + TINY)
-    flat = ca.sqrt(ca.sumsqr(away[:2]) + (STEEP * far) ** 2)
+    far = ca.sqrt(ca.sumsqr(away) + TINY_M2)
+    flat = ca.sqrt(ca.sumsqr(away[:2]) + (STEEP_SHARE * far) ** 2)
     seen = outline(camera, away, far, (radius, height))
     edges = ca.vertcat(-seen.left, seen.right, -seen.low, seen.high) - viewpoint.EDGE_SHARE
     return ca.vertcat(

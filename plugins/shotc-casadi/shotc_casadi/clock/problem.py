@@ -15,14 +15,14 @@ from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepes
 from shotc_casadi.clock.several import angles, turning_room
 from shotc_casadi.clock.symbols import FIELDS, PLACED, PLANE, POINTS, SLACK, Sizes
 
-STAGES = 100  # of the film, if its pieces allow
+USUAL_STAGES = 100  # of the film, if its pieces allow
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so that few are built
-FREE = 1.0  # metres of slack of what means nothing: a constraint needs an interior
+FREE_M = 1.0  # metres of slack of what means nothing: a constraint needs an interior
 WEIGHTS = ("place", "jerk", "turn", "price", "hidden", "field", "touch", "picture")
 UNFILMED = 1e3
 ENDS = 5e-4  # half the width of the box about the given states of both ends, m and so on
 HELD = 2e-4  # half the width of the box about a keyframe's place; of its velocity and acceleration at rest
-SAME = 1e-9  # seconds
+SAME_S = 1e-9  # seconds
 
 
 class Use(NamedTuple):
@@ -75,11 +75,11 @@ class ClockProblem:
 
 
 def breaks_of(subject: ClockSubject) -> Array:
-    """Return the times of the nodes: the guide's pieces cut, in the film until there are STAGES."""
+    """Return the times of the nodes: the guide's pieces cut, in the film until there are USUAL_STAGES."""
     breaks, leg = subject.leg.curve.breaks, subject.leg
     middle = 0.5 * (breaks[:-1] + breaks[1:])
     filmed = (middle > leg.start) & (middle < leg.end)
-    parts = max(1, round(STAGES / max(1, int(filmed.sum()))))
+    parts = max(1, round(USUAL_STAGES / max(1, int(filmed.sum()))))
     counts = np.where(filmed, parts, max(1, parts // 2))
     cut = [
         np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], counts, strict=True)
@@ -115,7 +115,7 @@ def problem(
     """
     limits = subject.drone.limits
     table, count = _half_spaces(planes, len(breaks) - 1)
-    sizes = Sizes(count, wanted.past.shape[1], wanted.bodies.shape[1], wanted.subjects.shape[1])
+    sizes = Sizes(count, wanted.sight_lines.shape[1], wanted.bodies.shape[1], wanted.subjects.shape[1])
     least = np.full(sizes.inputs, -inf)
     least[sizes.moves :] = 0.0
     if not sizes.subjects:
@@ -123,11 +123,11 @@ def problem(
     speed, acceleration, jerk = (
         (use.share * bound) ** 2 for bound in (limits.speed, limits.acceleration, limits.jerk)
     )
-    low = np.zeros(sizes.limits + count * POINTS + sizes.screens + sizes.bodies)
+    low = np.zeros(sizes.limits + count * POINTS + sizes.occluders + sizes.bodies)
     low[:3] = -inf, -inf, -use.share * limits.descent
     high = np.full_like(low, inf)
     high[:3] = jerk, speed, use.share * limits.climb
-    rows = [wanted.past, wanted.bodies, wanted.subjects]
+    rows = [wanted.sight_lines, wanted.bodies, wanted.subjects]
     flat = [row.reshape(len(breaks), -1) for row in rows]
     moves = start[1][:, : sizes.moves]
     made = ClockProblem(
@@ -157,7 +157,7 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
     for k, given in zip((0, -1), rest, strict=True):
         low[k], high[k] = given - use.ends, given + use.ends
     for bound in subject.bound:
-        at = (breaks >= bound.start - SAME) & (breaks <= bound.end + SAME)
+        at = (breaks >= bound.start - SAME_S) & (breaks <= bound.end + SAME_S)
         low[at, :3], high[at, :3] = np.array(bound.place) - HELD, np.array(bound.place) + HELD
         if bound.still:
             low[at, 3:9], high[at, 3:9] = -HELD, HELD
@@ -204,7 +204,7 @@ def _unit(wanted: ClockReferences) -> float:
     to the diagonal, again and again, and creeps. Beside what is looked past the cost has hills between one
     side and the other, and costs that are large against the barrier strand it on the first: there they stay.
     """
-    if wanted.past.shape[1]:
+    if wanted.sight_lines.shape[1]:
         return 1.0
     return weights.UNIT * wanted.usual**2
 
@@ -215,7 +215,7 @@ def _binds(subject: ClockSubject, wanted: ClockReferences) -> float:
         return weights.LOOSE
     if not wanted.placed or subject.held_whole:
         return weights.PLACE
-    return weights.YIELDS if wanted.yields or wanted.past.shape[1] else weights.PLACED
+    return weights.YIELDS if wanted.yields or wanted.sight_lines.shape[1] else weights.PLACED
 
 
 def _shared(stages: Array) -> Array:
@@ -228,7 +228,7 @@ def _half_spaces(planes: HalfSpaces, stages: int) -> tuple[Array, int]:
     most = int(np.bincount(planes.piece, minlength=1).max()) if len(planes.piece) else 0
     count = next((c for c in COUNTS if c >= most), most)
     table = np.zeros((stages + 1, count, PLANE))
-    table[:, :, 3] = -FREE
+    table[:, :, 3] = -FREE_M
     filled = np.zeros(stages, dtype=np.intp)
     for k, normal, offset in zip(planes.piece, planes.normal, planes.offset, strict=True):
         table[k, filled[k]] = [*normal, offset[0], offset[-1] - offset[0]]

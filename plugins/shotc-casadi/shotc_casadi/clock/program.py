@@ -53,10 +53,10 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
     u[:, : sizes.moves] = inputs[:, : sizes.moves]
     rows = np.array(made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[2])
     lack = np.maximum(-rows[len(HELD) + sizes.limits + POINTS * sizes.planes :].T, 0.0)
-    if sizes.screens:
-        u[:, sizes.moves] = lack[:, : sizes.screens].max(axis=1)
+    if sizes.occluders:
+        u[:, sizes.moves] = lack[:, : sizes.occluders].max(axis=1)
     if sizes.bodies:
-        u[:, -1] = lack[:, sizes.screens :].max(axis=1)
+        u[:, -1] = lack[:, sizes.occluders :].max(axis=1)
     value = made.cost.map(len(u))(np.hstack([states[:-1], u / task.units]).T, task.parameters[:-1].T)[0]
     last = made.last_cost(states[-1], task.parameters[-1])[0]
     return (float(np.array(value).sum()) + float(last)) / task.unit
@@ -72,4 +72,4 @@ def _named(sizes: Sizes, row: int) -> str:
     row -= sizes.limits + POINTS * sizes.planes
     if row < 0:
         return "clearance"
-    return "the line of sight" if row < sizes.screens else "distance"
+    return "the line of sight" if row < sizes.occluders else "distance"

@@ -20,8 +20,8 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.clock.references import ClockSubject
 
-PROVED = 1e-6  # metres
-ROUNDING = 1e-9  # of a limit
+PROVED_M = 1e-6  # metres
+ROUNDING_SHARE = 1e-9  # of a limit
 AIMS = 200  # at which a camera is compared with its aim
 
 
@@ -38,7 +38,7 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
     """Return the worst of what the hulls of a motion do not prove, None where they prove all."""
     lack = around.lacking(position.ctrl)
     k = int(lack.argmax())
-    if lack[k] > PROVED:
+    if lack[k] > PROVED_M:
         return Gap(float(position.breaks[k]), "the clearances", float(lack[k]), "m")
     limits = drone.limits
     first, second, third = (position.derivative(order).ctrl for order in (1, 2, 3))
@@ -55,7 +55,7 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
         most = points.max(axis=1)
         k = int(most.argmax())
         over = float(most[k]) - limit
-        if over > ROUNDING * limit and (worst is None or over > worst.lack):
+        if over > ROUNDING_SHARE * limit and (worst is None or over > worst.lack):
             worst = Gap(float(position.breaks[k]), f"the limit of {what}", over, unit)
     return worst
 

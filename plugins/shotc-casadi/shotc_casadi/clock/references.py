@@ -29,16 +29,16 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.several import pictured, where_it_fits
 from shotc_casadi.clock.symbols import BODY, LINE
 
-AROUND = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
-SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
+AROUND_S = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
+QUADRATURE_SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
 STEEPEST = tan(89.0 * pi / 180)
-KEPT = 0.05  # of the usual distance: a guide that is farther off a framing's place does not keep it
-STEEP = 0.15  # of a line of sight that is level, below which it is as good as straight down
-NEAREST = 1.0  # metres: least distance that counts as usual
-ASIDE = 100.0  # metres east of its place: where a shot without a subject has its target
+KEPT_SHARE = 0.05  # of the usual distance: a guide that is farther off a framing's place does not keep it
+STEEP_SHARE = 0.15  # of a line of sight that is level, below which it is as good as straight down
+NEAREST_M = 1.0  # metres: least distance that counts as usual
+NO_SUBJECT_M = 100.0  # metres east of its place: where a shot without a subject has its target
 PREFERRED = 0.98 * MOST_MOVED  # of a distance: between two nodes a camera may be a little farther off
-LOOKS = 8  # at an ideal, a stage
-INNER = 0.005  # metres that it may be farther off than its guide: a constraint needs an interior
+LOOKS_PER_STAGE = 8  # at an ideal, a stage
+INNER_M = 0.005  # metres that it may be farther off than its guide: a constraint needs an interior
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,7 +105,7 @@ class ClockReferences:
     placed : whether the author gave the places; yields : whether the guide cannot keep a framing's
     centres : of all that is to be seen, (N + 1, J, 3), W, metres
     subjects : how several are to appear, (N + 1, J, SUBJECT), as in picture.FIELDS; of one J is 0
-    past : what to look past, (N + 1, K, LINE), as in symbols.cover; near : which screens those are, by node
+    sight_lines : past occluders, (N + 1, K, LINE), as in symbols.occlusion; near : which those are, by node
     bodies : what to keep away from, (N + 1, B, BODY), as in symbols.inside; beside : which those are, by node
     """
 
@@ -118,7 +118,7 @@ class ClockReferences:
     yields: bool
     centres: Array
     subjects: Array
-    past: Array
+    sight_lines: Array
     bodies: Array
     near: Mask | None = None
     beside: Mask | None = None
@@ -141,24 +141,24 @@ def references(subject: ClockSubject, t: Array) -> ClockReferences:
         shown = where_it_fits(shown, subject.drone, ideal, reach)
     unwatched = ClockReferences(
         ideal=ideal,
-        target=np.column_stack([ideal + np.array([ASIDE, 0.0, 0.0]), np.zeros((n, 9))]),
+        target=np.column_stack([ideal + np.array([NO_SUBJECT_M, 0.0, 0.0]), np.zeros((n, 9))]),
         reach=reach,
-        usual=ASIDE,
+        usual=NO_SUBJECT_M,
         watches=False,
         placed=placed,
         yields=False,
         centres=centres,
         subjects=shown,
-        past=np.zeros((n, 0, LINE)),
+        sight_lines=np.zeros((n, 0, LINE)),
         bodies=np.zeros((n, 0, BODY)),
     )
     if watched is None or (keyed and _over(subject, centres, ideal)):
         return unwatched
     target = np.mean([motion(subject.mission, one.target, t) for one in subject.framed], axis=0)
     filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
-    usual = max(NEAREST, float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1))))
+    usual = max(NEAREST_M, float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1))))
     off = np.linalg.norm(subject.leg.curve(t)[filmed, :3] - ideal[filmed], axis=1).max()
-    yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT * usual)
+    yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT_SHARE * usual)
     return replace(unwatched, target=target, usual=usual, watches=True, yields=yields)
 
 
@@ -174,15 +174,19 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
     promised = promise.in_frame is not None or promise.screen_error is not None
     if promised or len(subject.framed) > 1 or subject.camera_task.keyed is not None:
         return np.full(n + 1, np.inf)
-    share = np.arange(LOOKS)[:, None] / LOOKS
+    share = np.arange(LOOKS_PER_STAGE)[:, None] / LOOKS_PER_STAGE
     times = (t[:-1] + share * np.diff(t)).ravel()
     between = _ideal_at(subject, times)
     straight = (ideal[:-1] + share[:, :, None] * np.diff(ideal, axis=0)).reshape(-1, 3)
     away = np.linalg.norm(seen_at(subject, times) - between[:, None], axis=2)
     far = away.min(axis=1) if subject.framed else UNWATCHED
     free = PREFERRED * far - np.linalg.norm(between - straight, axis=1)
-    stages = np.where((times >= leg.start) & (times < leg.end), free, np.inf).reshape(LOOKS, n).min(axis=0)
-    guide = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1) + INNER
+    stages = (
+        np.where((times >= leg.start) & (times < leg.end), free, np.inf)
+        .reshape(LOOKS_PER_STAGE, n)
+        .min(axis=0)
+    )
+    guide = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1) + INNER_M
     film = (t >= leg.start) & (t <= leg.end)
     nearest = np.minimum(np.append(stages, np.inf), np.append(np.inf, stages))
     return np.where(film, np.maximum(nearest, guide), np.inf)
@@ -203,7 +207,7 @@ def followed(placed: PlacedShot, keyed: Keyed) -> PlacedSubject | None:
 def _over(subject: ClockSubject, centres: Array, ideal: Array) -> bool:
     """Tell whether the camera comes so nearly over its target that the ray to it has no bearing."""
     rays = centres[:, 0] - ideal
-    return bool((np.linalg.norm(rays[:, :2], axis=1) < STEEP * np.linalg.norm(rays, axis=1)).any())
+    return bool((np.linalg.norm(rays[:, :2], axis=1) < STEEP_SHARE * np.linalg.norm(rays, axis=1)).any())
 
 
 def seen_at(subject: ClockSubject, t: Array) -> Array:
@@ -218,7 +222,7 @@ def seen_at(subject: ClockSubject, t: Array) -> Array:
 def motion(mission: MissionIR, name: str, t: Array) -> Array:
     """Return a target's smoothed position, velocity, acceleration and jerk at times; shape (M, 12).
 
-    The track is convolved with (1 - s^2)^4, s over AROUND seconds: an linear motion stays what it is.
+    The track is convolved with (1 - s^2)^4, s over AROUND_S seconds: an linear motion stays what it is.
     """
     target = mission.target(name)
     if target.track is None:
@@ -226,19 +230,19 @@ def motion(mission: MissionIR, name: str, t: Array) -> Array:
     s, share = _legendre()
     kernel = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 4
     mass = 256 / 315  # the integral of (1 - s^2)^4
-    at = places(target.track, (t[:, None] - AROUND * s).ravel()).reshape(len(t), SAMPLES, 3)
+    at = places(target.track, (t[:, None] - AROUND_S * s).ravel()).reshape(len(t), QUADRATURE_SAMPLES, 3)
     orders = []
     for order in range(4):
         weight = kernel.deriv(order)(s) if order else kernel(s)
-        weight = weight * share / (mass * AROUND**order)
+        weight = weight * share / (mass * AROUND_S**order)
         orders.append(np.einsum("mkd,k->md", at, weight))
     return np.concatenate(orders, axis=1)
 
 
 @cache
 def _legendre() -> tuple[Array, Array]:
-    """Return places and weights of the quadrature, shape (SAMPLES,) each; they are eigenvalues, and slow."""
-    s, share = np.polynomial.legendre.leggauss(SAMPLES)
+    """Return places and weights of the quadrature, shape (M,) each; they are eigenvalues, and slow."""
+    s, share = np.polynomial.legendre.leggauss(QUADRATURE_SAMPLES)
     return np.asarray(s), np.asarray(share)
 
 

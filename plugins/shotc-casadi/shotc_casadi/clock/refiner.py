@@ -30,20 +30,20 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_what_hides
+from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_occluders
 from shotc_casadi.messages import UNITS, fallen_back, stats, unsolved
 from shotc_casadi.solving import MOTION
 
-NOTICE, LEFT = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
-STEP = 0.1  # seconds between the places that are compared with it
+NOTICE_M, LEFT_M = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
+STEP_S = 0.1  # seconds between the places that are compared with it
 KEPT = "kept: the guide shows more"
 GUIDE_BETTER = "its guide films the subject as well or better by what the refiner measures"
 SHOWS_LESS = "its guide shows more of its subjects"
 IN_PICTURE = "refined, a drone would come into another's picture"
-OUT = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
+OUT_M = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
 SIGHT = "what would hide the subject"
 WHOLE = "the whole subject in the frame, and the drone's limits"
-SAME = 2.0  # seconds between a place that moved the guide and one that is off for the same reason
+SAME_S = 2.0  # seconds between a place that moved the guide and one that is off for the same reason
 
 
 def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tuple[Diagnostic, ...]]:
@@ -91,7 +91,7 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool) -> _
     enough = no_less if subject.together else as_whole
     if new is not None and not enough(subject, subject.leg, new):
         refined, why = replace(refined, leg=None), SHOWS_LESS
-    freed = past_what_hides(subject, whole or refined, unseen=unseen)
+    freed = past_occluders(subject, whole or refined, unseen=unseen)
     reasons = ((freed, SIGHT), (whole, WHOLE), (refined, CALM))
     if any(one is not None and one.leg is not None for one, _ in reasons):
         why = IN_PICTURE
@@ -111,7 +111,7 @@ def _taken(
         if one is None or one.leg is None:
             continue
         moved = with_leg(path, one.leg, why)
-        if not unseen or least_out(moved) >= min(OUT, least_out(path)):
+        if not unseen or least_out(moved) >= min(OUT_M, least_out(path)):
             return one, moved
     return None, path
 
@@ -149,17 +149,17 @@ def _deviations(
 ) -> tuple[ClockDeviation, ...]:
     """Return the worst of every stretch off the ideal; what moved the guide nearest to there is why."""
     leg = subject.leg
-    t = np.append(np.arange(leg.start, leg.end, STEP), leg.end)
+    t = np.append(np.arange(leg.start, leg.end, STEP_S), leg.end)
     ideal = ideal_places(subject.mission, subject.placed.shot, leg.start, t)
     away = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1)
     return tuple(
         ClockDeviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
-        for k in worst_of_runs(away, LEFT, NOTICE)
+        for k in worst_of_runs(away, LEFT_M, NOTICE_M)
     )
 
 
 def _cause(before: tuple[ClockDeviation, ...], t: float, why: str) -> str:
-    near = [d for d in before if why == CALM or abs(d.t - t) <= SAME]
+    near = [d for d in before if why == CALM or abs(d.t - t) <= SAME_S]
     return min(near, key=lambda d: abs(d.t - t)).cause if near else why
 
 

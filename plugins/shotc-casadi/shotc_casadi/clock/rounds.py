@@ -19,26 +19,26 @@ from shotc.plugin_api.refiner import (
     restrict,
     surroundings,
 )
-from shotc_casadi.clock.aside import led_past
 from shotc_casadi.clock.bodies import Body, bodies_of, kept_from
 from shotc_casadi.clock.curve import curve_of, filmed
+from shotc_casadi.clock.guess import guess_past
+from shotc_casadi.clock.occluders import Occluder, with_occluders
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, references
-from shotc_casadi.clock.screens import Screen, looked_past
 from shotc_casadi.clock.several import turned
-from shotc_casadi.clock.side import Pass, held, led, passes
+from shotc_casadi.clock.side import Pass, guess_to_side, held, passes
 from shotc_casadi.solving import SOLVERS, Solution, by_one_of
 
 ROUNDS = 6
-REACH = 8.0  # metres beyond its clearance within which a wall counts
-SHARE = 0.5  # of the room beside a wall that is kept
-NEARLY = 0.998  # of each limit that is used, so that rounding breaks none
-ALLOWED = 0.01  # rad by which a camera may miss its aim, if its guide misses it by less
-FIRST = Use(NEARLY)
-NARROWER = 0.1  # of what the ends may be off, which is taken back beside walls that nodes are held to
-GAIN = 0.02  # of the cost: a round that gains less is the last
+REACH_M = 8.0  # metres beyond its clearance within which a wall counts
+ROOM_SHARE = 0.5  # of the room beside a wall that is kept
+NEARLY_SHARE = 0.998  # of each limit that is used, so that rounding breaks none
+ALLOWED_RAD = 0.01  # rad by which a camera may miss its aim, if its guide misses it by less
+FIRST = Use(NEARLY_SHARE)
+NARROWER_SHARE = 0.1  # of what the ends may be off, which is taken back beside walls that nodes are held to
+GAIN_SHARE = 0.02  # of the cost: a round that gains less is the last
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,12 +75,12 @@ class _Best(NamedTuple):
 class _Shot:
     """What stays from round to round.
 
-    screens, bodies : what to look past, and what to keep away from; shown : whether each node is in the film
+    occluders, bodies : to look past, and to keep away from; shown : whether each node is in the film
     unseen : as in ``refine_clock``
     """
 
     subject: ClockSubject
-    screens: tuple[Screen, ...]
+    occluders: tuple[Occluder, ...]
     breaks: Array
     around: Surroundings
     bodies: tuple[Body, ...]
@@ -102,7 +102,7 @@ class _Round:
     """Where a round begins, or the last one ended.
 
     course : the motion that the surroundings are put beside; start : the first guess
-    over : ways over the target that are held to their side; aside : whether the guess is led aside
+    over : ways over the target that are held to their side; guess_aside : whether the guess is
     reach : of what stands near, metres; use : of the limits, and of where the ends are
     rounds, last, seconds : how often it was solved, what came of it last, and how long all of it took
     first : the solver that failed before one that did not
@@ -112,8 +112,8 @@ class _Round:
     course: Piecewise
     start: tuple[Array, Array]
     over: tuple[Pass, ...]
-    aside: bool
-    reach: float = REACH
+    guess_aside: bool
+    reach: float = REACH_M
     use: Use = FIRST
     rounds: int = 0
     seconds: float = 0.0
@@ -125,17 +125,17 @@ class _Round:
 
 
 def refine_clock(
-    subject: ClockSubject, screens: tuple[Screen, ...] = (), *, unseen: bool = True
+    subject: ClockSubject, occluders: tuple[Occluder, ...] = (), *, unseen: bool = True
 ) -> ClockRefined:
     """Refine one shot.
 
-    screens : what it is to look past
+    occluders : what it is to look past
     unseen : whether it stays as far out of the drones' pictures as its guide
     """
     breaks = breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
     shown = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
-    shot = _Shot(subject, screens, breaks, around, bodies_of(around, breaks), shown, unseen)
+    shot = _Shot(subject, occluders, breaks, around, bodies_of(around, breaks), shown, unseen)
     now = _begun(shot)
     while not now.ended and now.rounds < ROUNDS:
         now = _next(shot, now)
@@ -147,17 +147,17 @@ def _begun(shot: _Shot) -> _Round:
     subject, guide = shot.subject, shot.guide
     wanted = references(subject, shot.breaks)
     over = () if subject.together else passes(subject, shot.breaks, wanted)
-    first = led_past(led(guide, over), wanted, shot.screens, shot.shown)
-    course = first if shot.screens else guide
-    return _Round(wanted, course, shot.guess(first), over, aside=bool(over or shot.screens))
+    first = guess_past(guess_to_side(guide, over), wanted, shot.occluders, shot.shown)
+    course = first if shot.occluders else guide
+    return _Round(wanted, course, shot.guess(first), over, guess_aside=bool(over or shot.occluders))
 
 
 def _next(shot: _Shot, now: _Round) -> _Round:
     """Return the round after one: set up about its course, solved, and proved at every instant."""
-    wanted = looked_past(shot.screens, now.wanted, now.course(shot.breaks), shot.shown)
+    wanted = with_occluders(shot.occluders, now.wanted, now.course(shot.breaks), shot.shown)
     wanted = kept_from(shot.bodies, wanted, now.course(shot.breaks))
     task = problem(shot.subject, shot.breaks, wanted, _planes(shot, now), now.use, now.start)
-    optional = now.best is not None or now.aside
+    optional = now.best is not None or now.guess_aside
     solution, failed = attempt = by_one_of(SOLVERS[:1] if optional else SOLVERS, partial(solve, task))
     seconds = now.seconds + attempt.seconds
     after = replace(now, wanted=wanted, rounds=now.rounds + 1, seconds=seconds, last=solution)
@@ -176,7 +176,7 @@ def _next(shot: _Shot, now: _Round) -> _Round:
 def _planes(shot: _Shot, now: _Round) -> HalfSpaces:
     """Return the half-spaces about the course of a round."""
     subject, leg = shot.subject, shot.subject.leg
-    planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, SHARE), now.wanted, now.over)
+    planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, ROOM_SHARE), now.wanted, now.over)
     if not shot.unseen:
         return planes
     return planes.and_also(shot.around.free(subject.camera_task, (leg.start, leg.end), now.course))
@@ -184,17 +184,19 @@ def _planes(shot: _Shot, now: _Round) -> HalfSpaces:
 
 def _unsolved(shot: _Shot, after: _Round) -> _Round:
     """Return what follows a round without a solution: the guide as it is, if that was not tried yet."""
-    if after.best is not None or not after.aside:
+    if after.best is not None or not after.guess_aside:
         return replace(after, ended=True)
     # The room may leave no place on that side; a camera that cannot follow then is not taken.
-    return replace(after, over=(), aside=False, course=shot.guide, start=shot.guess(shot.guide))
+    return replace(after, over=(), guess_aside=False, course=shot.guide, start=shot.guess(shot.guide))
 
 
 def _tightened(after: _Round, gap: Gap) -> _Round:
     """Return what follows a round that does not hold, from the same first guess."""
     if gap.unit == "m":
-        return replace(after, reach=2 * after.reach, use=after.use._replace(ends=NARROWER * after.use.ends))
-    return replace(after, use=after.use._replace(share=after.use.share * NEARLY))
+        return replace(
+            after, reach=2 * after.reach, use=after.use._replace(ends=NARROWER_SHARE * after.use.ends)
+        )
+    return replace(after, use=after.use._replace(share=after.use.share * NEARLY_SHARE))
 
 
 def _improved(after: _Round, found: _Best, *, anew: bool) -> _Round:
@@ -205,7 +207,7 @@ def _improved(after: _Round, found: _Best, *, anew: bool) -> _Round:
         after,
         best=found if solution.objective < least else best,
         start=(solution.states, solution.inputs),
-        ended=not solution.objective < (1 - GAIN) * least,
+        ended=not solution.objective < (1 - GAIN_SHARE) * least,
     )
 
 
@@ -229,7 +231,7 @@ def _weighed(
     if whole is None:
         return None, None, Gap(leg.start, "the camera's limits", float("nan"), "")
     if not subject.together:
-        worse = astray(subject, whole) > max(ALLOWED, astray(subject, leg))
+        worse = astray(subject, whole) > max(ALLOWED_RAD, astray(subject, leg))
         return None if worse else whole, None, None
     breaks = best.position.breaks
     costs = flown_cost(best.task, breaks, whole), flown_cost(best.task, breaks, leg)

@@ -22,7 +22,7 @@ from shotc_casadi.clock.picture import FIELDS, SUBJECT
 from shotc_casadi.clock.symbols import PITCH, PLACED, YAW
 
 WHOLE = sum(FIELDS[name] for name in tuple(FIELDS)[: tuple(FIELDS).index("whole")])
-FARTHEST = 1e6  # metres that count where a camera may go back as far as it takes
+FARTHEST_M = 1e6  # metres that count where a camera may go back as far as it takes
 
 
 def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array) -> Array:
@@ -70,7 +70,7 @@ def where_it_fits(rows: Array, drone: Drone, ideal: Array, reach: Array) -> Arra
     """
     radius, height = rows[0, 0, 3:5]
     offset = rows[:, 0, :3] - ideal
-    offset *= 1.0 + (np.minimum(reach, FARTHEST) / np.linalg.norm(offset, axis=1))[:, None]
+    offset *= 1.0 + (np.minimum(reach, FARTHEST_M) / np.linalg.norm(offset, axis=1))[:, None]
     yaw, pitch = np.arctan2(offset[:, 1], offset[:, 0]), np.arctan2(offset[:, 2], np.hypot(*offset.T[:2]))
     half = np.tan(drone.hfov / 2)
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)

@@ -8,13 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api.refiner import ClockLeg, DroneTrajectory, flights, others_of, seen
+from shotc_casadi.clock.occluders import occluders_of
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.clock.screens import screens_of
 
-RATE = 25.0  # frames a second that are looked at
-GAIN = 0.005  # of the frames: showing less more than that is not worth going aside for
-SLACK = 1e-4  # of a size, of half a frame, of the frames: as good
+RATE_HZ = 25.0  # frames a second that are looked at
+GAIN_SHARE = 0.005  # of the frames: showing less more than that is not worth going aside for
+SLACK_SHARE = 1e-4  # of a size, of half a frame, of the frames: as good
 
 
 class Shown(NamedTuple):
@@ -30,9 +30,7 @@ class Shown(NamedTuple):
     off: float
 
 
-def past_what_hides(
-    subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True
-) -> ClockRefined | None:
+def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:
     """Return a shot refined so that more of its subjects is seen than in a plain refinement, or None.
 
     unseen : as in ``refine_clock``. Where the author gave the places they stay;
@@ -43,12 +41,12 @@ def past_what_hides(
     if failed or subject.watched is None or ideal is None or ideal.placed:
         return None
     before = plain.leg or subject.leg
-    if _hidden(subject, before) <= GAIN:
+    if _hidden(subject, before) <= GAIN_SHARE:
         return None
-    found = refine_clock(subject, screens_of(subject, plain.breaks), unseen=unseen)
+    found = refine_clock(subject, occluders_of(subject, plain.breaks), unseen=unseen)
     if found.leg is None:
         return None
-    better = _hidden(subject, found.leg) < _hidden(subject, before) - GAIN
+    better = _hidden(subject, found.leg) < _hidden(subject, before) - GAIN_SHARE
     return found if better and as_whole(subject, before, found.leg) else None
 
 
@@ -63,12 +61,12 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
     if failed or not follows or ideal is None or ideal.placed or _cropped_on_purpose(subject):
         return None
     before = plain.leg or subject.leg
-    if shown(subject, before).cropped <= SLACK:
+    if shown(subject, before).cropped <= SLACK_SHARE:
         return None
     found = refine_clock(replace(subject, held_whole=True), unseen=unseen)
     if found.leg is None:
         return None
-    fewer = shown(subject, found.leg).cropped < shown(subject, before).cropped - SLACK
+    fewer = shown(subject, found.leg).cropped < shown(subject, before).cropped - SLACK_SHARE
     return found if fewer and as_whole(subject, before, found.leg) else None
 
 
@@ -79,14 +77,16 @@ def _cropped_on_purpose(subject: ClockSubject) -> bool:
 
 def no_less(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     """Tell whether a leg shows as much of all subjects as another, and breaks no promise that that keeps."""
-    return _hidden(subject, after) <= _hidden(subject, before) + GAIN and as_whole(subject, before, after)
+    return _hidden(subject, after) <= _hidden(subject, before) + GAIN_SHARE and as_whole(
+        subject, before, after
+    )
 
 
 def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     """Tell whether no subject is cropped in more frames than it was, and promises are kept as they were."""
     for which in range(len(subject.framed)):
         old, new = shown(subject, before, which), shown(subject, after, which)
-        if new.cropped > old.cropped + SLACK or not _promised(subject, old, new):
+        if new.cropped > old.cropped + SLACK_SHARE or not _promised(subject, old, new):
             return False
     return True
 
@@ -99,7 +99,7 @@ def _hidden(subject: ClockSubject, leg: ClockLeg) -> float:
 def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     """Return what a leg shows of one of the subjects of its shot in the film."""
     one = subject.framed[which]
-    t = np.linspace(leg.start, leg.end, max(2, int(RATE * (leg.end - leg.start))))
+    t = np.linspace(leg.start, leg.end, max(2, int(RATE_HZ * (leg.end - leg.start))))
     flight = DroneTrajectory(subject.drone.name, leg.curve, (), (), ())
     others = others_of(tuple(flights(subject.path).values()), subject.drone.name)
     frames = seen(subject.mission, flight, one.target, t, others)
@@ -120,10 +120,10 @@ def _promised(subject: ClockSubject, before: Shown, after: Shown) -> bool:
     held = [True]
     if promise.size is not None:
         low, high = promise.size
-        held.append(after.smallest >= min(low + SLACK, before.smallest))
-        held.append(after.largest <= max(high - SLACK, before.largest))
+        held.append(after.smallest >= min(low + SLACK_SHARE, before.smallest))
+        held.append(after.largest <= max(high - SLACK_SHARE, before.largest))
     if promise.screen_error is not None:
-        held.append(after.off <= max(promise.screen_error - SLACK, before.off))
+        held.append(after.off <= max(promise.screen_error - SLACK_SHARE, before.off))
     if promise.in_frame is not None:
-        held.append(after.cropped <= max(1.0 - promise.in_frame - SLACK, before.cropped))
+        held.append(after.cropped <= max(1.0 - promise.in_frame - SLACK_SHARE, before.cropped))
     return all(held)

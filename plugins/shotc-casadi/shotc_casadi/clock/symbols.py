@@ -28,8 +28,8 @@ YAW, PITCH = 9, 12  # each with rate and acceleration
 JERK, SLACK, CAMERA_JERK = slice(0, 3), 3, slice(3, 5)
 POINTS = 4  # control points of a stage's position
 PLANE = 5  # normal, offset at the stage's start, change of the offset over it
-SCREEN = 13  # what is looked past: see ``cover``
-LINE = SCREEN + 3  # the same, and the point that is looked at
+OCCLUDER = 13  # what is looked past: see ``occlusion``
+LINE = OCCLUDER + 3  # the same, and the point that is looked at
 BODY = 14  # what is kept away from: see ``inside``
 TINY = 1e-9  # added to a square that is not to be none
 
@@ -41,7 +41,7 @@ class Sizes(NamedTuple):
     """
 
     planes: int
-    screens: int = 0
+    occluders: int = 0
     bodies: int = 0
     subjects: int = 0
 
@@ -58,7 +58,7 @@ class Sizes(NamedTuple):
     @property
     def inputs(self) -> int:
         """How many inputs there are."""
-        return self.moves + (self.screens > 0) + (self.bodies > 0)
+        return self.moves + (self.occluders > 0) + (self.bodies > 0)
 
     @property
     def slacks(self) -> dict[str, int]:
@@ -67,7 +67,7 @@ class Sizes(NamedTuple):
         Solvers have them in units that cost 1 a stage: multipliers begin at 1, and a price that is large
         beside that is what most of the steps of an interior-point method go into.
         """
-        found = {"hidden": self.moves} if self.screens else {}
+        found = {"hidden": self.moves} if self.occluders else {}
         return found | ({"touch": self.inputs - 1} if self.bodies else {})
 
     @property
@@ -113,7 +113,7 @@ picture : weight of how several subjects appear; lens : tan of half the fields o
 """
 
 
-def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> Stage:
+def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0) -> Stage:
     """Return a stage with that many half-spaces to stay in, ellipsoids to look past and out of, and subjects.
 
     held is horizontal speed squared, acceleration squared, and the squared distance to the ideal place, over
@@ -123,17 +123,17 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
     each ellipsoid, by how much less than the input says it hides a subject, or how far the place is out of
     it beyond what the input says.
     """
-    sizes = Sizes(planes, screens, bodies, subjects)
+    sizes = Sizes(planes, occluders, bodies, subjects)
     z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(*sizes))
     x, u = z[: sizes.states], z[sizes.states :]
-    given, walls, past, near, shown = _cut(p, sizes)
+    given, walls, sight_lines, near, shown = _cut(p, sizes)
     h, jerk = given["length"], u[JERK]
     place, v, a = x[POSITION], x[VELOCITY], x[ACCELERATION]
     moved = _integrated(x[:PLACED], jerk, h)
     off = ca.sumsqr(place - given["ideal"])
     aimed = _aims_at_several(x, u, given, shown) if subjects else _aims_at_one(x, u, given)
     depths = [inside(body, place) for body in near]
-    covers = [cover(line[:SCREEN], place, line[SCREEN:]) for line in past]
+    occlusions = [occlusion(line[:OCCLUDER], place, line[OCCLUDER:]) for line in sight_lines]
     lacks = {price: u[k] / (h * given[price]) for price, k in sizes.slacks.items()}
     reached = [
         ca.sqrt(given["field"]) * ca.fmax(0.0, 1.0 - q / body[-1])
@@ -146,7 +146,7 @@ def stage(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> 
         middle[2],
         *aimed.limits,
         *_slacks(walls, place, v, moved, h),
-        *(lacks["hidden"] - covered for covered in covers),
+        *(lacks["hidden"] - occlusion_at for occlusion_at in occlusions),
         *(q - 1.0 + lacks["touch"] for q in depths),
     )
     return Stage(
@@ -219,15 +219,15 @@ def _slacks(walls: list[Any], place: Any, v: Any, following: Any, h: Any) -> lis
     ]
 
 
-def cover(screen: Any, eye: Any, point: Any) -> Any:
+def occlusion(occluder: Any, eye: Any, point: Any) -> Any:
     """Return d_v of viewpoint Eq. 11: how far inside an ellipsoid a line of sight runs, 1 through its middle.
 
-    screen : SCREEN numbers: scale by columns, centre, and 1, or less where there is none
+    occluder : OCCLUDER numbers: scale by columns, centre, and 1, or less where there is none
     d_v is 1 less the squared distance of the line from the centre, where the ellipsoid is the unit ball.
     """
-    scale, centre = ca.reshape(screen[:9], 3, 3), screen[9:12]
+    scale, centre = ca.reshape(occluder[:9], 3, 3), occluder[9:12]
     ray, away = scale @ (point - eye), scale @ (centre - eye)
-    return screen[12] - ca.sumsqr(ca.cross(away, ray)) / (ca.sumsqr(ray) + TINY)
+    return occluder[12] - ca.sumsqr(ca.cross(away, ray)) / (ca.sumsqr(ray) + TINY)
 
 
 def inside(body: Any, eye: Any) -> Any:
@@ -241,18 +241,18 @@ def inside(body: Any, eye: Any) -> Any:
 
 
 @lru_cache(maxsize=16)
-def derived(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> Derived:
+def derived(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0) -> Derived:
     """Return the functions of one stage of those sizes."""
-    return differentiated(stage(planes, screens, bodies, subjects))
+    return differentiated(stage(planes, occluders, bodies, subjects))
 
 
-def size(planes: int, screens: int = 0, bodies: int = 0, subjects: int = 0) -> int:
+def size(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0) -> int:
     """Return how many parameters a stage has."""
-    return sum(FIELDS.values()) + PLANE * planes + LINE * screens + BODY * bodies + SUBJECT * subjects
+    return sum(FIELDS.values()) + PLANE * planes + LINE * occluders + BODY * bodies + SUBJECT * subjects
 
 
 def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:
-    """Return the parameters by name, and those of half-spaces, screens, bodies and subjects, each apart."""
+    """Return the parameters by name, and those of half-spaces, occluders, bodies and subjects, each apart."""
     at = sum(FIELDS.values())
     rows: list[list[Any]] = []
     for count, width in zip(sizes, (PLANE, LINE, BODY, SUBJECT), strict=True):

@@ -49,16 +49,14 @@ def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         if begin >= track.since - ROUNDING_M and begin + duration <= track.until + ROUNDING_M:
             continue
         beside = mission.origins.value((*mission.target(name).path, "track"), "the track")
-        range_end = f"to {track.until:.2f} s" if track.until < inf else "on"
+        until = f"to {track.until:.2f} s" if track.until < inf else "on"
         filmed = "" if known is None else f" and begins at {known:.2f} s at the earliest"
         filmed = filmed if start is None else f", from {start:.2f} s to {start + duration:.2f} s"
         yield Diagnostic(
             "M004",
             f"shot `{shot.id}` reaches beyond the track of `{name}`",
             (timing_label(mission, shot), beside),
-            (
-                f"`{name}` is known from {track.since:.2f} s {range_end}; the shot lasts {duration:.2f} s{filmed}",
-            ),
+            (f"`{name}` is known from {track.since:.2f} s {until}; the shot lasts {duration:.2f} s{filmed}",),
             _within(track, duration),
         )
 

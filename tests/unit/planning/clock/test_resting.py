@@ -15,7 +15,7 @@ from shotc.geom.solids import Cylinder
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planning.clock.moving import Moving
-from shotc.planning.clock.resting import FARTHEST, aside_of_what_passes
+from shotc.planning.clock.resting import FARTHEST_M, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.free_space import FreeSpace, Wall
 from tests.support.compiled import compiled_text
@@ -133,7 +133,7 @@ def test_a_place_where_nothing_passes_stays() -> None:
 
 def test_where_there_is_no_place_aside_the_drone_stays() -> None:
     low = FreeSpace((), (*GROUND.walls, Wall(owner("ceiling"), (0.0, 0.0, -1.0), -3.0, 0.0)), ())
-    crowd = [passing((0.0, y), (0.0, 0.0)) for y in np.arange(-FARTHEST, FARTHEST + 1, 3.0)]
+    crowd = [passing((0.0, y), (0.0, 0.0)) for y in np.arange(-FARTHEST_M, FARTHEST_M + 1, 3.0)]
     crowd += [passing((x, y), (0, 0)) for x in (-12, -6, 6, 12) for y in np.arange(-15, 16, 3.0)]
     assert not aside_of_what_passes(crowd, low, np.array([0.0, 0.0, 1.5]), (0.0, 20.0)).any()
 

@@ -29,7 +29,7 @@ from shotc.planning.clock.departure import When, choose
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.run_up import least_time, rest_to_rest
 from shotc.planning.clock.shot import OtherVehicles, TimedShot, timed_shot
-from shotc.planning.clock.starts import CLOSE, SPARE, ClockFailure, Reached, put_off
+from shotc.planning.clock.starts import CLOSE_S, SPARE_S, ClockFailure, Reached, put_off
 from shotc.planning.clock.sweeps import with_sweeps
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
@@ -207,7 +207,7 @@ def test_a_start_is_put_off_to_where_the_drone_has_caught_up(slope: float) -> No
     found = put_off(mission, Chaser(slope, 5.0), PlacedShot(mission.shots[0], ()), 1.0, lambda start: -start)
     assert isinstance(found, Reached)
     exact = 5.0 / (1.0 - slope)
-    assert exact <= found.shot.leg.start <= exact + CLOSE + 2 * SPARE / (1.0 - slope)
+    assert exact <= found.shot.leg.start <= exact + CLOSE_S + 2 * SPARE_S / (1.0 - slope)
 
 
 def test_a_drone_that_falls_behind_is_given_up_soon() -> None:
@@ -225,7 +225,7 @@ def test_a_drone_that_gains_nothing_at_first_is_waited_for() -> None:
     )
     assert isinstance(found, Reached)
     assert found.late <= 0.0
-    assert found.shot.leg.start == pytest.approx(12.0 + 25.0, abs=CLOSE + 2 * SPARE / 0.2)
+    assert found.shot.leg.start == pytest.approx(12.0 + 25.0, abs=CLOSE_S + 2 * SPARE_S / 0.2)
 
 
 def test_a_way_that_costs_more_once_is_no_reason_to_give_a_drone_up() -> None:
@@ -241,7 +241,7 @@ def test_a_way_that_costs_more_once_is_no_reason_to_give_a_drone_up() -> None:
     found = put_off(mission, chaser, PlacedShot(mission.shots[0], ()), 1.0, lambda start: 5.0 - 0.8 * start)
     assert isinstance(found, Reached)
     assert found.late <= 0.0
-    assert found.shot.leg.start == pytest.approx(15.0, abs=CLOSE + 2 * SPARE / 0.8)
+    assert found.shot.leg.start == pytest.approx(15.0, abs=CLOSE_S + 2 * SPARE_S / 0.8)
 
 
 FOLLOWED = """\

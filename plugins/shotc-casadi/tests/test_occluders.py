@@ -8,11 +8,11 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.clock import symbols
+from shotc_casadi.clock.occluders import Occluder, enclosing, occluders_of
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.refiner import refine_clocks, subject_of
 from shotc_casadi.clock.rounds import refine_clock
-from shotc_casadi.clock.screens import Screen, enclosing, screens_of
-from shotc_casadi.clock.shown import past_what_hides, shown
+from shotc_casadi.clock.shown import past_occluders, shown
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Prism, box
@@ -73,22 +73,22 @@ def visible(text: str, refiner: str) -> float:
     return next(c.worst for c in done.plan.certificate if (c.shot, c.constraint) == ("s", "runner visible"))
 
 
-def drawn(seed: int) -> tuple[Screen, np.ndarray, np.ndarray]:
+def drawn(seed: int) -> tuple[Occluder, np.ndarray, np.ndarray]:
     rng = np.random.default_rng(seed)
     scale = rng.normal(size=(3, 3)) + 2.0 * np.eye(3)
     eyes, points = rng.uniform(-6, 6, (2, 400, 3))
-    return Screen(scale, np.tile(rng.uniform(-1, 1, 3), (400, 1))), eyes, points
+    return Occluder(scale, np.tile(rng.uniform(-1, 1, 3), (400, 1))), eyes, points
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_line_of_sight_is_covered_where_points_of_it_are_in_the_ellipsoid(seed: int) -> None:
-    screen, eyes, points = drawn(seed)
+    occluder, eyes, points = drawn(seed)
     share = np.linspace(0.0, 1.0, 1001)[:, None, None]
-    line = (eyes + share * (points - eyes) - screen.centres) @ screen.scale.T
+    line = (eyes + share * (points - eyes) - occluder.centres) @ occluder.scale.T
     least = np.linalg.norm(line, axis=2).min(axis=0)
     ends = np.minimum(np.linalg.norm(line[0], axis=1), np.linalg.norm(line[-1], axis=1))
     clear = ends > 1.1  # who is in it, or touches it, is not hidden by it
-    found = screen.cover(eyes, points)
+    found = occluder.occlusion(eyes, points)
     assert clear.any()
     assert (found[clear & (least < 0.999)] > 0).all()
     assert (found[clear & (least > 1.001)] <= 0).all()
@@ -101,24 +101,24 @@ def test_who_overlaps_the_subject_is_a_part_of_it_and_not_looked_past(radius: st
     text = mission(LATERAL, **(PASSING | {"speed": 3.0, "first": 0}))
     of = subject(text.replace("radius: 0.4, height: 2}", f"radius: {radius}, height: 2}}"))
     breaks = np.linspace(15.0, 27.0, 25)
-    screen = screens_of(of, breaks)[0]
+    occluder = occluders_of(of, breaks)[0]
     points = np.array([of.mission.target("runner").at(float(t)) for t in breaks])
-    cover = screen.cover(points + np.array([0.0, -9.0, 0.1]), points)
-    assert (cover == -np.inf).all() if one else (cover > 0.0).all()
+    occlusion = occluder.occlusion(points + np.array([0.0, -9.0, 0.1]), points)
+    assert (occlusion == -np.inf).all() if one else (occlusion > 0.0).all()
 
 
 def test_the_programme_s_term_is_the_paper_s() -> None:
-    screen, eyes, points = drawn(7)
-    numbers, eye, point = ca.SX.sym("s", symbols.SCREEN), ca.SX.sym("e", 3), ca.SX.sym("p", 3)
-    term = ca.Function("cover", [numbers, eye, point], [symbols.cover(numbers, eye, point)])
-    given = [*screen.scale.T.ravel(), *screen.centres[0], 1.0]
+    occluder, eyes, points = drawn(7)
+    numbers, eye, point = ca.SX.sym("s", symbols.OCCLUDER), ca.SX.sym("e", 3), ca.SX.sym("p", 3)
+    term = ca.Function("occlusion", [numbers, eye, point], [symbols.occlusion(numbers, eye, point)])
+    given = [*occluder.scale.T.ravel(), *occluder.centres[0], 1.0]
     found = np.array([float(term(given, e, p)) for e, p in zip(eyes, points, strict=True)])
-    to_point, to_centre = (points - eyes) @ screen.scale.T, (screen.centres - eyes) @ screen.scale.T
+    to_point, to_centre = (points - eyes) @ occluder.scale.T, (occluder.centres - eyes) @ occluder.scale.T
     projected = (to_point * to_centre).sum(axis=1)
     paper = projected**2 / (to_point**2).sum(axis=1) - ((to_centre**2).sum(axis=1) - 1.0)
     assert found == pytest.approx(paper, abs=1e-6)
-    counts = np.isfinite(screen.cover(eyes, points))
-    assert screen.cover(eyes, points)[counts] == pytest.approx(paper[counts])
+    counts = np.isfinite(occluder.occlusion(eyes, points))
+    assert occluder.occlusion(eyes, points)[counts] == pytest.approx(paper[counts])
 
 
 @pytest.mark.parametrize(
@@ -172,14 +172,14 @@ def test_where_nothing_hides_the_subject_the_shot_is_refined_as_ever() -> None:
     of = subject(mission(LATERAL, **AWAY))
     plain = refine_clock(of)
     assert shown(of, of.leg).hidden == 0.0
-    assert past_what_hides(of, plain) is None
+    assert past_occluders(of, plain) is None
 
 
 @pytest.mark.slow
 def test_a_place_that_the_author_gave_is_kept_whatever_hides_the_subject() -> None:
     of = subject(mission("kind: static, at: [63, -8, 3], look_at: runner", **CROSSING))
     assert shown(of, of.leg).hidden > 0.01
-    assert past_what_hides(of, refine_clock(of)) is None
+    assert past_occluders(of, refine_clock(of)) is None
 
 
 @pytest.mark.slow
@@ -187,8 +187,8 @@ def test_a_promise_goes_before_the_line_of_sight() -> None:
     text = mission(LATERAL + ", require: {size: [0.29, 0.3005]}", **PASSING)
     of = subject(text)
     plain = refine_clock(of)
-    assert past_what_hides(of, plain) is None
-    assert past_what_hides(subject(mission(LATERAL, **PASSING)), plain) is not None
+    assert past_occluders(of, plain) is None
+    assert past_occluders(subject(mission(LATERAL, **PASSING)), plain) is not None
     path, told = refine_clocks(of.path, PassContext(), "ours")
     assert told == ()
     assert shown(of, subject_of(path, "s").leg).largest <= 0.3005

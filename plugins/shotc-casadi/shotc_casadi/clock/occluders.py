@@ -28,15 +28,15 @@ from shotc_casadi.clock.symbols import LINE
 
 ENCLOSES = sqrt(2.0)  # the semi-axes of an ellipsoid over those of the upright cylinder that it goes round
 WIDER = 1.2  # of what is a ball or has no end, so that it counts before it hides
-STEPS = 200  # of Khachiyan's method
-NEAR = 3.0  # of -d_v: lines of sight that pass within twice the ellipsoid count
+KHACHIYAN_STEPS = 200  # of Khachiyan's method
+NEAR_DV = 3.0  # of -d_v: lines of sight that pass within twice the ellipsoid count
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # ellipsoids a programme may have, so that few are built
 NONE = -1e2  # of d_v, where there is no ellipsoid
-ROOM = 0.1  # of d_v: a camera or a subject in an ellipsoid, or as near to it, is not looked at through it
+ROOM_DV = 0.1  # of d_v: a camera or a subject in an ellipsoid, or as near to it, is not looked at through it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Screen:
+class Occluder:
     """An ellipsoid that moves.
 
     scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
@@ -49,7 +49,7 @@ class Screen:
     before: int = 0
     apart: Mask | bool = True
 
-    def cover(self, eyes: Array, points: Array) -> Array:
+    def occlusion(self, eyes: Array, points: Array) -> Array:
         """Return d_v of lines of sight, above 0 hidden; -inf where the point is before the horizon.
 
         eyes, points : (N + 1, 3), of the camera and of what it looks at
@@ -59,67 +59,72 @@ class Screen:
         square = np.maximum((ray**2).sum(axis=1), 1e-12)
         horizon = (away**2).sum(axis=1) - 1.0
         along = (ray * away).sum(axis=1)
-        counts = (along > horizon) & (horizon > ROOM) & ((beyond**2).sum(axis=1) > 1.0 + ROOM)
+        counts = (along > horizon) & (horizon > ROOM_DV) & ((beyond**2).sum(axis=1) > 1.0 + ROOM_DV)
         return np.where(counts & self.apart, along**2 / square - horizon, -np.inf)
 
 
-def screens_of(subject: ClockSubject, breaks: Array) -> tuple[Screen, ...]:
+def occluders_of(subject: ClockSubject, breaks: Array) -> tuple[Occluder, ...]:
     """Return all that may stand before a subject at the nodes: zones, other targets, other drones."""
     return tuple(
-        replace(screen, before=i)
+        replace(occluder, before=i)
         for i, one in enumerate(subject.framed)
-        for screen in _screens(subject, one.target, breaks)
+        for occluder in _occluders(subject, one.target, breaks)
     )
 
 
-def _screens(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Screen]:
+def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occluder]:
     mission, still = subject.mission, np.zeros((len(breaks), 3))
     for zone in mission.zones:
         if zone.keep == "out":
             for part in convex_parts(zone.solid):
                 scale, centre = enclosing(part)
-                yield Screen(scale, still + centre)
+                yield Occluder(scale, still + centre)
     for other in mission.targets:
         if other.name != name:
             scale, centre = enclosing(other.solid)
             apart = ~parts_of_one(mission.target(name), other, breaks)
-            yield Screen(scale, centre + moved(other, breaks), apart=apart)
+            yield Occluder(scale, centre + moved(other, breaks), apart=apart)
     for drone, flight in flights(subject.path).items():
         if drone != subject.drone.name:
             radius = WIDER * mission.drone(drone).radius
-            yield Screen(np.eye(3) / radius, flying(flight.curve, breaks))
+            yield Occluder(np.eye(3) / radius, flying(flight.curve, breaks))
 
 
-def looked_past(
-    screens: Sequence[Screen], wanted: ClockReferences, eyes: Array, filmed: Mask
+def with_occluders(
+    occluders: Sequence[Occluder], wanted: ClockReferences, eyes: Array, filmed: Mask
 ) -> ClockReferences:
     """Return the references with the ellipsoids that come near the lines of sight from ``eyes`` (N + 1, 3).
 
     Those that came near before stay, and the camera goes as far from its place as it takes.
     filmed : whether each node is in the film
     """
-    if not screens:
+    if not occluders:
         return wanted
     points = wanted.centres
-    covers = np.array([screen.cover(eyes, points[:, screen.before]) for screen in screens])
-    near = (covers > -NEAR) & filmed
+    occlusions = np.array([occluder.occlusion(eyes, points[:, occluder.before]) for occluder in occluders])
+    near = (occlusions > -NEAR_DV) & filmed
     if wanted.near is not None:
         near |= wanted.near
     most = int(near.sum(axis=0).max(initial=0))
     count = next((c for c in COUNTS if c >= most), most)
-    past = np.zeros((len(eyes), count, LINE))
-    past[:, :, 12] = NONE
+    sight_lines = np.zeros((len(eyes), count, LINE))
+    sight_lines[:, :, 12] = NONE
     for k in range(len(eyes)):
         for i, j in enumerate(np.flatnonzero(near[:, k])):
-            screen = screens[int(j)]
-            past[k, i] = [*screen.scale.T.ravel(), *screen.centres[k], 1.0, *points[k, screen.before]]
-    return replace(wanted, past=past, near=near, reach=np.full(len(eyes), np.inf))
+            occluder = occluders[int(j)]
+            sight_lines[k, i] = [
+                *occluder.scale.T.ravel(),
+                *occluder.centres[k],
+                1.0,
+                *points[k, occluder.before],
+            ]
+    return replace(wanted, sight_lines=sight_lines, near=near, reach=np.full(len(eyes), np.inf))
 
 
-def covered(screens: Sequence[Screen], wanted: ClockReferences, eyes: Array) -> Array:
+def occlusion_at(occluders: Sequence[Occluder], wanted: ClockReferences, eyes: Array) -> Array:
     """Return the most that anything covers each line of sight, d_v, above 0 hidden; shape (N + 1,)."""
-    covers = [screen.cover(eyes, wanted.centres[:, screen.before]) for screen in screens]
-    return np.asarray(np.max(covers, axis=0, initial=-np.inf))
+    occlusions = [occluder.occlusion(eyes, wanted.centres[:, occluder.before]) for occluder in occluders]
+    return np.asarray(np.max(occlusions, axis=0, initial=-np.inf))
 
 
 def enclosing(part: Solid) -> tuple[Array, Array]:
@@ -141,7 +146,7 @@ def ellipse(points: Array) -> tuple[Array, Array]:
     n = len(points)
     lifted = np.column_stack([points, np.ones(n)]).T
     weight = np.full(n, 1.0 / n)
-    for _ in range(STEPS):
+    for _ in range(KHACHIYAN_STEPS):
         reach = np.einsum("in,in->n", lifted, np.linalg.solve((lifted * weight) @ lifted.T, lifted))
         k = int(reach.argmax())
         step = (reach[k] - 3.0) / (3.0 * (reach[k] - 1.0))

@@ -11,41 +11,43 @@ import numpy as np
 
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, IntArray, Mask, quintic_hermite
+from shotc_casadi.clock.occluders import Occluder, occlusion_at
 from shotc_casadi.clock.references import ClockReferences
-from shotc_casadi.clock.screens import Screen, covered
 
 CLEAR = -0.1  # of d_v, to which a guess is led
 TRIES = 20  # of ways to go to either side, up to the usual distance to the subject
-BRIDGED = 1.0  # seconds: stretches that are hidden, with less between them, are passed on one side
-SPREAD = 3.0  # seconds before and after such a stretch in which a guess goes aside
+BRIDGED_S = 1.0  # seconds: stretches that are hidden, with less between them, are passed on one side
+SPREAD_S = 3.0  # seconds before and after such a stretch in which a guess goes aside
 
 
-def led_past(curve: Piecewise, wanted: ClockReferences, screens: Sequence[Screen], filmed: Mask) -> Piecewise:
+def guess_past(
+    curve: Piecewise, wanted: ClockReferences, occluders: Sequence[Occluder], filmed: Mask
+) -> Piecewise:
     """Return a position curve led aside where something hides the subject in the film; its ends stay."""
-    if not screens:
+    if not occluders:
         return curve
     breaks = curve.breaks
-    hidden = filmed & (covered(screens, wanted, curve(breaks)) > 0.0)
+    hidden = filmed & (occlusion_at(occluders, wanted, curve(breaks)) > 0.0)
     values = [curve(breaks), *(curve.derivative(order)(breaks) for order in (1, 2))]
     at = np.flatnonzero(hidden)
-    for run in np.split(at, np.flatnonzero(np.diff(breaks[at]) > BRIDGED) + 1) if len(at) else []:
-        way = _way_out(curve(breaks), wanted, screens, run)
+    for run in np.split(at, np.flatnonzero(np.diff(breaks[at]) > BRIDGED_S) + 1) if len(at) else []:
+        way = _way_out(curve(breaks), wanted, occluders, run)
         bump = _bump(breaks, (float(breaks[run[0]]), float(breaks[run[-1]])))
         for order in range(3):
             values[order] = values[order] + bump[order][:, None] * way
     return quintic_hermite(breaks, *values)
 
 
-def _way_out(eyes: Array, wanted: ClockReferences, screens: Sequence[Screen], run: IntArray) -> Array:
+def _way_out(eyes: Array, wanted: ClockReferences, occluders: Sequence[Occluder], run: IntArray) -> Array:
     """Return the shortest way out of the shadow for all nodes of a run, W, metres, shape (3,)."""
     ray = (wanted.target[run, :3] - eyes[run]).mean(axis=0)
     side = np.array([-ray[1], ray[0], 0.0]) / max(float(np.hypot(ray[0], ray[1])), 1e-6)
-    best, least = np.zeros(3), float(covered(screens, wanted, eyes)[run].max())
+    best, least = np.zeros(3), float(occlusion_at(occluders, wanted, eyes)[run].max())
     for far in wanted.usual * np.arange(1, TRIES + 1) / TRIES:
         for way in (far * np.array([0.0, 0.0, 1.0]), far * side, -far * side):
-            cover = float(covered(screens, wanted, eyes + way)[run].max())
-            if cover < least:
-                best, least = way, cover
+            occlusion = float(occlusion_at(occluders, wanted, eyes + way)[run].max())
+            if occlusion < least:
+                best, least = way, occlusion
         if least < CLEAR:
             break
     return best
@@ -53,8 +55,8 @@ def _way_out(eyes: Array, wanted: ClockReferences, screens: Sequence[Screen], ru
 
 def _bump(breaks: Array, span: tuple[float, float]) -> list[Array]:
     """Return a smooth step to 1 over a stretch of time and back, with its first two derivatives."""
-    early = min(SPREAD, span[0] - breaks[0]) or 1.0
-    late = min(SPREAD, breaks[-1] - span[1]) or 1.0
+    early = min(SPREAD_S, span[0] - breaks[0]) or 1.0
+    late = min(SPREAD_S, breaks[-1] - span[1]) or 1.0
     before, after = (span[0] - breaks) / early, (breaks - span[1]) / late
     rising = before > after
     x = np.clip(np.maximum(before, after), 0.0, 1.0)
