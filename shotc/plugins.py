@@ -138,13 +138,21 @@ def names(group: str) -> list[str]:
     return list(_by_name(group))
 
 
-def listing(group: str) -> list[tuple[str, str, str]]:
-    """Return (name, summary, package) of every plugin of ``group``, those that lack a library too."""
+class Listed(NamedTuple):
+    """A plugin: its name, what it does, and the package that it comes from."""
+
+    name: str
+    summary: str
+    package: str
+
+
+def listing(group: str) -> list[Listed]:
+    """Return every plugin of ``group``, those that lack a library too."""
     known = discover(group)
     summaries = {name: plugin.summary for name, plugin in known.plugins.items()}
     summaries |= {name: f"needs {library}, which is not installed" for name, library in known.lacking.items()}
     return [
-        (name, summaries[name], _owner(entries[0]))
+        Listed(name, summaries[name], _owner(entries[0]))
         for name, entries in _by_name(group).items()
         if name in summaries
     ]

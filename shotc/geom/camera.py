@@ -16,6 +16,14 @@ ROUNDING_M = 1e-6
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
 
 
+class OnScreen(NamedTuple):
+    """A place on screen, and its depth, metres; only depth > 0 is seen."""
+
+    u: S
+    v: S
+    depth: S
+
+
 class View(NamedTuple):
     """Direction cosines of a camera, and half its screen: tan of half the fields of view."""
 
@@ -34,10 +42,10 @@ class View(NamedTuple):
         down = self.sin_pitch * along - self.cos_pitch * d[2]
         return right, down, forward
 
-    def project(self, d: tuple[S, S, S]) -> tuple[S, S, S]:
+    def project(self, d: tuple[S, S, S]) -> OnScreen:
         """Project an offset from the camera (W, metres) to (u, v, depth); only depth > 0 is seen."""
         right, down, forward = self.to_camera(d)
-        return right / (forward * self.half_width), -down / (forward * self.half_height), forward
+        return OnScreen(right / (forward * self.half_width), -down / (forward * self.half_height), forward)
 
 
 def view(yaw: float, pitch: float, hfov: float, aspect: float) -> View:
@@ -46,7 +54,16 @@ def view(yaw: float, pitch: float, hfov: float, aspect: float) -> View:
     return View(cos(yaw), sin(yaw), cos(pitch), sin(pitch), half, half / aspect)
 
 
-def frustum_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> tuple[S, S, S, S]:
+class FrustumMargins(NamedTuple):
+    """How far inside each plane of the frustum, metres; negative is cropped."""
+
+    left: S
+    right: S
+    bottom: S
+    top: S
+
+
+def frustum_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> FrustumMargins:
     """Return how far inside each frustum plane a whole upright cylinder lies, metres.
 
     offset : its centre less the camera, W. Order left, right, bottom, top; negative is cropped.
@@ -65,7 +82,7 @@ def frustum_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) 
         return height / 2 * abs(n_up) + radius * abs(1.0 - n_up * n_up) ** 0.5
 
     side = reach(up_side)
-    return (
+    return FrustumMargins(
         across * (camera.half_width * forward + right) - side,
         across * (camera.half_width * forward - right) - side,
         along * (camera.half_height * forward - down) - reach(up_bottom),
@@ -73,7 +90,7 @@ def frustum_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) 
     )
 
 
-def point_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> tuple[S, S, S, S]:
+def point_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> FrustumMargins:
     """Return how far inside each frustum plane the least of four points of a cylinder lies, metres.
 
     Arguments and order as in ``frustum_margins``. The points are those of Gebhardt and Hilliges, Eq. 4-7:
@@ -95,10 +112,19 @@ def point_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) ->
     def least(plane: int) -> S:
         return _smaller(_smaller(a[plane], b[plane]), _smaller(c[plane], d[plane]))
 
-    return least(0), least(1), least(2), least(3)
+    return FrustumMargins(least(0), least(1), least(2), least(3))
 
 
-def silhouette_bounds(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> tuple[S, S, S, S]:
+class ScreenBox(NamedTuple):
+    """What is taken of the screen, half frames."""
+
+    u_min: S
+    u_max: S
+    v_min: S
+    v_max: S
+
+
+def silhouette_bounds(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> ScreenBox:
     """Return the exact screen box (u_min, u_max, v_min, v_max) of an upright cylinder.
 
     offset : its centre less the camera, W. Meaningless unless the whole cylinder is in front of the
@@ -107,7 +133,7 @@ def silhouette_bounds(camera: View, offset: tuple[S, S, S], radius: S, height: S
     """
     low = _rim_bounds(camera, (offset[0], offset[1], offset[2] - height / 2), radius)
     high = _rim_bounds(camera, (offset[0], offset[1], offset[2] + height / 2), radius)
-    return (
+    return ScreenBox(
         _smaller(low[0], high[0]),
         -_smaller(-low[1], -high[1]),
         _smaller(low[2], high[2]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from typing import NamedTuple
 
 from shotc.source.fault import Fault
 from shotc.source.file import WHOLE_FILE, SourceFile
@@ -23,13 +24,21 @@ _WIDE_MARKS = (
 _SAVE_AS = "save the file as UTF-8"
 
 
-def decode(data: bytes, name: str) -> tuple[SourceFile, tuple[Fault, ...], bool]:
+class DecodedFile(NamedTuple):
+    """A source file, what is wrong with its bytes, and whether it is worth parsing."""
+
+    file: SourceFile
+    faults: tuple[Fault, ...]
+    readable: bool
+
+
+def decode(data: bytes, name: str) -> DecodedFile:
     """Return the text, its faults, and whether it is worth parsing.
 
     What cannot be read or shown is replaced by U+FFFD, one for one, so that positions stay right.
     """
     if len(data) > MAX_BYTES:
-        return SourceFile(name, ""), (_too_large(),), False
+        return DecodedFile(SourceFile(name, ""), (_too_large(),), False)
     for mark, codec, title in _WIDE_MARKS:
         if data.startswith(mark):
             return _wide(data[len(mark) :], name, codec, title)
@@ -44,7 +53,7 @@ def decode(data: bytes, name: str) -> tuple[SourceFile, tuple[Fault, ...], bool]
         faults = (_not_utf8(data, error, SourceFile(name, text)),)
     file = SourceFile(name, _without_stray(text))
     stray, is_text = _stray_characters(text, file)
-    return file, (*faults, *stray), is_text
+    return DecodedFile(file, (*faults, *stray), is_text)
 
 
 def _too_large() -> Fault:
@@ -67,13 +76,13 @@ def _wide_without_mark(head: bytes) -> str | None:
     return None
 
 
-def _wide(data: bytes, name: str, codec: str, title: str) -> tuple[SourceFile, tuple[Fault, ...], bool]:
+def _wide(data: bytes, name: str, codec: str, title: str) -> DecodedFile:
     """Show the text of a file in a wider encoding, and refuse it."""
     text = _without_stray(data.decode(codec, "replace"))
     fault = Fault(
         "not-utf8", f"the file is written in {title}; missions are UTF-8", WHOLE_FILE, help=_SAVE_AS
     )
-    return SourceFile(name, text), (fault,), False
+    return DecodedFile(SourceFile(name, text), (fault,), False)
 
 
 def _not_utf8(data: bytes, error: UnicodeDecodeError, file: SourceFile) -> Fault:

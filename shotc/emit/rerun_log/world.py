@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import rerun as rr
@@ -189,7 +189,15 @@ def _top(solid: Solid) -> tuple[float, float, float]:
     return (*solid.points[0], solid.top)
 
 
-def solid_mesh(solid: Solid) -> tuple[Array, NDArray[np.uint32], Array]:
+class ShadedMesh(NamedTuple):
+    """Triangles: vertices (n, 3), their indices (m, 3), and a shade for every vertex, (n,)."""
+
+    points: Array
+    faces: NDArray[np.uint32]
+    light: Array
+
+
+def solid_mesh(solid: Solid) -> ShadedMesh:
     """Return a solid as triangles: vertices (n, 3), indices (m, 3), and a shade for every vertex.
 
     Faces share no vertices, so that every face has its own shade: light from the south-west.
@@ -216,4 +224,4 @@ def solid_mesh(solid: Solid) -> tuple[Array, NDArray[np.uint32], Array]:
         points += [np.concatenate((v, low)) for v in (c, b, a)]
         light += [0.5] * 3
     faces = np.arange(len(points), dtype=np.uint32).reshape(-1, 3)
-    return np.array(points), faces, np.array(light)
+    return ShadedMesh(np.array(points), faces, np.array(light))

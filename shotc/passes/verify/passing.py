@@ -82,14 +82,22 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
     return [one for _, one in sorted(passes, key=lambda pair: pair[0])]
 
 
-def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> tuple[Solid, KeyPath, Piecewise]:
+class _Named(NamedTuple):
+    """What a claim names: its solid, its key path, and the flight as it sees that."""
+
+    solid: Solid
+    path: KeyPath
+    curve: Piecewise
+
+
+def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
     """Return what a claim calls so, its path, and the flight as it sees that."""
     curve = track.curve.channels(0, 1, 2)
     for target in mission.targets:
         if name == f"target {target.name}":
-            return target.solid, target.path, beside(curve, target)
+            return _Named(target.solid, target.path, beside(curve, target))
     zone = next(zone for zone in mission.zones if name == f"zone {zone.name}")
-    return zone.solid, zone.path, curve
+    return _Named(zone.solid, zone.path, curve)
 
 
 def _told(ir: TrajectoryIR, together: list[tuple[Claim, Pass]]) -> Diagnostic:

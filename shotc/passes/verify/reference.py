@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +52,9 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
     limit = Limit("frames without their target", 0.0, "", shot.path, hard=hard, shot=shot.id)
     yield claim(flight, limit, Worst(missing, float(where[0]), "sampled"))
     errors = [
-        _off(flight, shot.id, leg) for leg in _sampled(flight, legs) if leg[1].reference and leg[2].reference
+        _off(flight, shot.id, leg)
+        for leg in _sampled(flight, legs)
+        if leg.before.reference and leg.after.reference
     ]
     if errors:
         worst, time = max(errors)
@@ -113,11 +116,21 @@ def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator
             yield times[i] + a.hold, times[j], a, b
 
 
-def _sampled(flight: Flight, legs: list[Leg]) -> Iterator[tuple[Array, PlacedKeyframe, PlacedKeyframe]]:
+class _SampledLeg(NamedTuple):
+    """Times of a stretch between two keyframes, shape (M,), and these."""
+
+    times: Array
+    before: PlacedKeyframe
+    after: PlacedKeyframe
+
+
+def _sampled(flight: Flight, legs: list[Leg]) -> Iterator[_SampledLeg]:
     for start, end, a, b in legs:
         ticks = clock(flight.mission.rate, end)
         inside = ticks[(ticks > start) & (ticks < end)]
-        yield np.concatenate([[start], inside, [end]]) if end > start else np.array([start]), a, b
+        yield _SampledLeg(
+            np.concatenate([[start], inside, [end]]) if end > start else np.array([start]), a, b
+        )
 
 
 def _off(flight: Flight, shot: str, leg: tuple[Array, PlacedKeyframe, PlacedKeyframe]) -> tuple[float, float]:

@@ -8,6 +8,7 @@ Where the polyline is one straight line, which routing has found to be free, it 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -121,9 +122,17 @@ def _line(stretch: Stretch) -> Piecewise:
     return restrict(line, stretch.s)
 
 
+class _Iterated(NamedTuple):
+    """The last programme, its best solution or why there is none, and how many were solved."""
+
+    problem: SplineProblem
+    best: SplineSolution | Status
+    rounds: int
+
+
 def _iterate(
     spaces: tuple[FreeSpace, FreeSpace], stretch: Stretch, limits: Limits, breaks: Array
-) -> tuple[SplineProblem, SplineSolution | Status, int]:
+) -> _Iterated:
     """Return the last programme, its best solution or why there is none, and how many were solved.
 
     spaces : what solutions are proved in, and what they are held to
@@ -140,7 +149,7 @@ def _iterate(
         problem = with_corridor(base, Around(wide, breaks, hulls, reach, share))
         solution = minimise(problem)
         if solution.coef is None:
-            return problem, best or solution.status, used
+            return _Iterated(problem, best or solution.status, used)
         points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
         if shortfall(space, points).max() > 1e-6:
             # The curve swung into something that was out of reach of the corridor: widen it.
@@ -153,7 +162,7 @@ def _iterate(
         if done or not problem.half_spaces:
             break
         hulls, share = points, LATER_SHARE
-    return problem, best or Status.INFEASIBLE, used
+    return _Iterated(problem, best or Status.INFEASIBLE, used)
 
 
 def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProblem:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -194,13 +195,22 @@ def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
     return Timed(plan, tuple(moves))
 
 
-def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> list[tuple[int, float, float]]:
-    """Return (move, where its part ends, seconds) for what is flown between two places."""
+class _FlownPart(NamedTuple):
+    """What is flown of a move: its number, where the part ends, and how long it takes, seconds."""
+
+    move: int
+    end: float
+    seconds: float
+
+
+def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> list[_FlownPart]:
+    """Return what is flown between two places, move by move."""
     parts = []
     for m, ((s0, s1), move) in enumerate(zip(plan.spans, moves, strict=True)):
         low, high = max(s0, start), min(s1, end)
         if high - low > SAME:
-            parts.append((m, high, move.profile.arrival(high) - move.profile.departure(low)))
+            seconds = move.profile.arrival(high) - move.profile.departure(low)
+            parts.append(_FlownPart(m, high, seconds))
     return parts
 
 

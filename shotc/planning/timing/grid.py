@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,14 @@ EVENINGS = 8
 FASTEST = 1e6
 
 
+class Derivatives(NamedTuple):
+    """First, second and third derivatives of the combinations that an axis picks, each (N, 3, d)."""
+
+    first: Array
+    second: Array
+    third: Array
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Samples:
     """Derivatives of q(s) at the start, middle and end of each of N cells.
@@ -45,10 +54,10 @@ class Samples:
         """Return the cell widths, shape (N,)."""
         return np.diff(self.grid)
 
-    def along(self, axis: Axis) -> tuple[Array, Array, Array]:
+    def along(self, axis: Axis) -> Derivatives:
         """Return the derivatives of the combinations that an axis picks, each (N, 3, d)."""
         turn = axis.pick.T
-        return self.d1 @ turn, self.d2 @ turn, self.d3 @ turn
+        return Derivatives(self.d1 @ turn, self.d2 @ turn, self.d3 @ turn)
 
 
 def sample(curve: Piecewise, grid: Array) -> Samples:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,9 +128,17 @@ def time_move(
     return move.stretched(best.slowdown)
 
 
+class _Opening(NamedTuple):
+    """The first grid, what to start from on it, and the fastest time without a jerk limit, seconds."""
+
+    samples: Samples
+    start: Iterate
+    fastest: float
+
+
 def _opening(
     path: Piecewise, span: tuple[float, float], limits: tuple[Axis, ...], through: tuple[float, ...]
-) -> tuple[Samples, Iterate, float]:
+) -> _Opening:
     """Return the first grid, what to start from on it, and the fastest time without a jerk limit."""
     rough_s, rough_b = rough_profile(path, *span, limits)
     grid = lay_grid(path, rough_s, rough_b, np.array(through))
@@ -139,7 +148,7 @@ def _opening(
     if quickest.status is Status.SOLVED:
         around = np.minimum(around, quickest.b)
     start = start_from(samples.widths, np.maximum(around, SLOWEST * around.max()))
-    return samples, start, quickest.time
+    return _Opening(samples, start, quickest.time)
 
 
 class _Tried:

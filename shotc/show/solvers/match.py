@@ -10,6 +10,8 @@ no pair of all is left.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
@@ -52,7 +54,15 @@ def matched(starts: Array, goals: Array) -> Index:
     return _untangled(starts, goals, order)
 
 
-def crossing(starts: Array, goals: Array) -> tuple[float, int, int]:
+class Crossing(NamedTuple):
+    """The least product of two drones' ways, square metres, and these two."""
+
+    product: float
+    first: int
+    second: int
+
+
+def crossing(starts: Array, goals: Array) -> Crossing:
     """Return the least (x_i - x_j).(g_i - g_j) of all pairs, square metres, and the pair; inf for one drone.
 
     starts, goals : shape (n, 3), in the order of the drones
@@ -60,7 +70,7 @@ def crossing(starts: Array, goals: Array) -> tuple[float, int, int]:
     rows = np.arange(len(starts))
     least, other = _least_products(starts, goals, rows)
     i = int(np.argmin(least))
-    return float(least[i]), i, int(other[i])
+    return Crossing(float(least[i]), i, int(other[i]))
 
 
 def _least(starts: Array, goals: Array) -> Index:

@@ -14,6 +14,7 @@ left alone; whoever it is too slow for is solved by Clarabel.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -162,6 +163,14 @@ class _Rows:
     scale: Array
 
 
+class Optimum(NamedTuple):
+    """Control points, which drones got to an optimum, (n,), and the slowest's iterations."""
+
+    points: Array
+    done: NDArray[np.bool_]
+    iterations: int
+
+
 class Programme:
     """What all drones over the same breaks share."""
 
@@ -188,7 +197,7 @@ class Programme:
         self.steps = STEP_RATIOS * float(np.trace(self.inner) / np.trace(gram))
         self.inverses = [np.linalg.inv(self.inner + step * gram) for step in self.steps]
 
-    def solve(self, wanted: Array) -> tuple[Array, NDArray[np.bool_], int]:
+    def solve(self, wanted: Array) -> Optimum:
         """Return control points near the optimum, which drones got there, and the slowest's iterations."""
         state = _State.of(self, wanted)
         done = np.zeros(len(wanted), dtype=bool)
@@ -206,7 +215,7 @@ class Programme:
                 levels[some] = np.clip(level + change, 0, len(STEP_RATIOS) - 1)
             active = np.flatnonzero(~done)
         result[:, FIXED:-FIXED] = state.points()
-        return result, done, rounds * ROUND
+        return Optimum(result, done, rounds * ROUND)
 
     def solve_exactly(self, wanted: Array) -> Array | None:
         """Return one drone's optimum, shape (K, 3), by an interior-point method; None if there is none."""

@@ -9,11 +9,20 @@ geometric stiffness.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray
+
+
+class Reduced(NamedTuple):
+    """The least energy through values p: p' M p + 2 b' p + c."""
+
+    matrix: Array
+    linear: Array
+    constant: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,7 +56,7 @@ class Energy:
         z = np.concatenate([value, slope])
         return float(z @ self.hessian @ z)
 
-    def reduced(self) -> tuple[Array, Array, float]:
+    def reduced(self) -> Reduced:
         """Return (M, b, c): the least energy through values p is p' M p + 2 b' p + c.
 
         M is the Schur complement onto the values, shape (K, K).
@@ -61,7 +70,7 @@ class Energy:
             schur = schur - across.T @ np.linalg.solve(self.hessian[np.ix_(free, free)], across)
         pinned = np.array(self.pinned)
         mixed = schur[:count, count:] @ pinned
-        return schur[:count, :count], mixed, float(pinned @ schur[count:, count:] @ pinned)
+        return Reduced(schur[:count, :count], mixed, float(pinned @ schur[count:, count:] @ pinned))
 
     def _state(self, value: Array) -> Array:
         z = np.zeros(2 * len(self.at))

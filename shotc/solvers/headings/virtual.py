@@ -12,6 +12,7 @@ heading, atan2 of s, written anew as quintic pieces.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -73,7 +74,15 @@ def _grid(task: HeadingTask, near: Piecewise) -> _Grid:
     return _Grid(knots, at, piece, x, along, np.column_stack([-along[:, 1], along[:, 0]]))
 
 
-def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> tuple[Status, Array, Array]:
+class _Solved(NamedTuple):
+    """How the programme ended; values and slopes of s at the knots, each (J, 2)."""
+
+    status: Status
+    value: Array
+    slope: Array
+
+
+def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> _Solved:
     """Solve Eq. 11; returns the values and slopes of s at the knots, each of shape (J, 2)."""
     knots, count = len(grid.knots), len(angles)
     pieces = knots - 1
@@ -96,7 +105,7 @@ def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> tuple[Status, A
     squares = np.zeros(problem.unknowns)
     squares[bends:] = 1.0
     status, z = problem.solve(np.zeros(problem.unknowns), TOLERANCE, squares)
-    return status, z[: 2 * knots].reshape(2, knots).T, z[2 * knots : 4 * knots].reshape(2, knots).T
+    return _Solved(status, z[: 2 * knots].reshape(2, knots).T, z[2 * knots : 4 * knots].reshape(2, knots).T)
 
 
 def _keyframes(problem: ConeRows, task: HeadingTask, angles: Array, where: tuple[int, int]) -> None:

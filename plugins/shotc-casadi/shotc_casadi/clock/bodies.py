@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -60,7 +61,15 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
     return tuple(found)
 
 
-def inscribed(part: Solid) -> tuple[Array, Array, Array]:
+class Ellipsoid(NamedTuple):
+    """An ellipsoid: its axes by columns, (3, 3), its half-axes, (3,), metres, and its centre, (3,)."""
+
+    axes: Array
+    half: Array
+    middle: Array
+
+
+def inscribed(part: Solid) -> Ellipsoid:
     """Return the axes (by columns), half-axes and centre of an ellipsoid in a convex solid."""
     if isinstance(part, Cylinder):
         flat, half, middle = np.eye(2), np.full(2, part.radius), np.array(part.centre)
@@ -75,7 +84,7 @@ def inscribed(part: Solid) -> tuple[Array, Array, Array]:
     tall = bounded(part)
     axes = np.eye(3)
     axes[:2, :2] = flat
-    return (
+    return Ellipsoid(
         axes,
         np.array([*half, 0.5 * (tall.top - tall.bottom)]),
         np.array([*middle, 0.5 * (tall.bottom + tall.top)]),
