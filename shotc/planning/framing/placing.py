@@ -11,7 +11,7 @@ from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
 from shotc.planning.framing.candidates import TOUCH_M, Setting, nearest_candidate, nearest_on_verticals
-from shotc.planning.framing.turns import with_turns
+from shotc.planning.framing.whole_turns import with_turns
 
 NORTH_RAD = pi / 2
 

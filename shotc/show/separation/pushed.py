@@ -9,8 +9,8 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.show import Fleet
+from shotc.show.solvers.pusher import Index, Push, Pusher
 from shotc.show.solvers.qcqp import Bounds, bounded
-from shotc.show.solvers.repair import Index, Push, Pusher
 
 ROUNDS = 25
 GROWTH = 1.8

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.checks.grammar.labels import lasting
 from shotc.passes.resolve.checks.grammar.leaving import check_leaving
 from shotc.passes.resolve.checks.grammar.pans import check_pans
-from shotc.passes.resolve.checks.grammar.places import lasting
 
 SHORTEST = 2.0  # seconds
 

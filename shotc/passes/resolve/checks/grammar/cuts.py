@@ -14,8 +14,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.flown_order import flown_order
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.aside import to_the_side
+from shotc.passes.resolve.checks.grammar.labels import placing
 from shotc.passes.resolve.checks.grammar.line import check_line
-from shotc.passes.resolve.checks.grammar.places import placing
 from shotc.passes.resolve.checks.grammar.sight import Sight, sight
 from shotc.rounding import at_least, at_most
 

@@ -12,7 +12,7 @@ from math import hypot, radians, sin
 from shotc.diag.model import Diagnostic
 from shotc.geom.vec import minus
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.checks.grammar.places import placing
+from shotc.passes.resolve.checks.grammar.labels import placing
 from shotc.passes.resolve.checks.grammar.sight import Sight, sight
 
 NEUTRAL = sin(radians(15.0))  # sine of the angle off the line within which a camera is on no side of it

@@ -10,11 +10,11 @@ from shotc.geom.pan import WINDOW_S, slowest, whose
 from shotc.geom.vec import TURN, minus, wrapped
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.passes.resolve.checks.grammar.places import lasting
+from shotc.passes.resolve.checks.grammar.labels import lasting
 from shotc.passes.resolve.checks.grammar.sight import sight, start_of
 from shotc.passes.resolve.checks.timing import SLACK
 from shotc.planning.framing.placing import explicit_aim
-from shotc.planning.framing.turns import ROUNDING
+from shotc.planning.framing.whole_turns import ROUNDING
 from shotc.rounding import at_least
 
 STEPS = 120  # pieces of such a shot at most
