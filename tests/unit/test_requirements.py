@@ -68,3 +68,5 @@ def test_the_help_offers_the_viewer_where_the_extra_brings_it(monkeypatch, syste
     assert ("[all]" in requirements.remedy(["rerun", "numpy"])) == brings
     assert ("viewer" in requirements.remedy(["numpy"])) == brings
     assert "[plan]" in requirements.remedy(["numpy"])
+    assert "[geo]" in requirements.remedy(["pyproj"])
+    assert "[all]" in requirements.remedy(["pyproj", "numpy"])

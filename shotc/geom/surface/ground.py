@@ -14,7 +14,7 @@ from shotc.geom.bernstein import Array, bernstein_basis
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.surface.distance import SurfaceBound, inf_distance
-from shotc.geom.surface.near import nearest
+from shotc.geom.surface.near import AT_ONCE, nearest
 from shotc.geom.surface.tree import Surface, plan_boxes_meet, search, surface_of
 from shotc.geom.surface.triangles import TINY
 
@@ -91,8 +91,14 @@ def height_at(ground: Ground, xy: Array) -> Array:
 
 def under(ground: Ground, xy: Array) -> Under:
     """Return the ground under points (K, 2), metres of W."""
-    surface = ground.surface
+    out = Under(np.full(len(xy), np.nan), np.full(len(xy), -1))
+    for start in range(0, len(xy), AT_ONCE):
+        part = slice(start, start + AT_ONCE)
+        _under(ground.surface, xy[part], Under(out.height[part], out.triangle[part]))
+    return out
 
+
+def _under(surface: Surface, xy: Array, out: Under) -> None:
     def meets(item: IntArray, low: Array, high: Array) -> Mask:
         p = xy[item]
         return plan_boxes_meet(p, p, low, high)
@@ -102,9 +108,7 @@ def under(ground: Ground, xy: Array) -> Under:
     inside = ~np.isnan(height)
     pairs, height = pairs.pick(inside), height[inside]
     item, best = pairs.best(-height)
-    out = Under(np.full(len(xy), np.nan), np.full(len(xy), -1))
     out.height[item], out.triangle[item] = height[best], pairs.triangle[best]
-    return out
 
 
 def heights(triangles: Array, xy: Array) -> Array:

@@ -53,8 +53,14 @@ _FIELDS = ("distance", "point", "triangle")
 def _nearest(surface: Surface, p: Array, limit: Array, out: Nearest) -> None:
     if not len(surface):
         return
-    reach = np.minimum(limit, some_distance(surface, p) * (1.0 + ROUNDING) + ROUNDING)
-    pairs = search(surface, len(p), lambda i, low, high: box_distances(p[i], p[i], low, high) < reach[i])
+    reach = limit.copy()
+
+    def meets(item: IntArray, low: Array, high: Array) -> Mask:
+        its = p[item]
+        np.minimum.at(reach, item, _surely_within(its, low, high) * (1.0 + ROUNDING) + ROUNDING)
+        return np.asarray(box_distances(its, its, low, high) < reach[item])
+
+    pairs = search(surface, len(p), meets)
     at = closest(surface.triangles[pairs.triangle], p[pairs.item])
     item, best = pairs.best(at.distance)
     nearer = at.distance[best] < limit[item]
@@ -62,6 +68,16 @@ def _nearest(surface: Surface, p: Array, limit: Array, out: Nearest) -> None:
     out.distance[item] = at.distance[best]
     out.point[item] = at.point[best]
     out.triangle[item] = pairs.triangle[best]
+
+
+def _surely_within(p: Array, low: Array, high: Array) -> Array:
+    """Return how far something in each box is from a point at most, shapes (K, 3) (Roussopoulos et al. 1995).
+
+    Each face of a box touches a triangle: the nearer face of some axis, at the farther ends of the others.
+    """
+    to_low, to_high = (p - low) ** 2, (p - high) ** 2
+    nearer, farther = np.minimum(to_low, to_high), np.maximum(to_low, to_high)
+    return np.asarray(np.sqrt(farther.sum(axis=1) + (nearer - farther).min(axis=1)))
 
 
 def some_distance(surface: Surface, p: Array) -> Array:

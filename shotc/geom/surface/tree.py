@@ -14,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
-from shotc.geom.surface.triangles import dot, halved, highest, lowest
+from shotc.geom.surface.triangles import Halved, dot, halved, highest, lowest
 
 FAN = 4
 """Triangles of a leaf, and children of a node."""
@@ -62,7 +62,7 @@ def surface_of(triangles: Array) -> Surface:
         raise ValueError(f"triangles are finite and of shape (N, 3, 3), not {given.shape}")
     if not len(given):
         return Surface(given, np.zeros(0, dtype=np.intp), (), ())
-    small = halved(given, _longest(given))
+    small = _without_long(given)
     order = np.argsort(_morton(small.triangles.mean(axis=1)), kind="stable")
     laid, source = small.triangles[order], small.source[order]
     low, high = [_grouped(lowest(laid), np.minimum)], [_grouped(highest(laid), np.maximum)]
@@ -74,14 +74,16 @@ def surface_of(triangles: Array) -> Surface:
     return Surface(laid, source, tuple(low), tuple(high))
 
 
-def _longest(triangles: Array) -> float:
-    """Return the edge from which triangles are halved: many small ones must not pay for few large ones."""
+def _without_long(triangles: Array) -> Halved:
+    """Halve triangles that are long beside the others: many small ones must not pay for few large ones."""
     sides = triangles[:, [1, 2, 0]] - triangles
     edges = np.sqrt(dot(sides, sides).max(axis=1))
-    limit = LONG * max(float(np.median(edges)), 1e-3 * float(edges.max()))
+    limit = max(LONG * float(np.median(edges)), LONG * 1e-3 * float(edges.max()), 1e-9)
     while ((edges[edges > limit] / limit) ** 2).sum() > max(0.5 * len(edges), SPARE):
         limit *= 2.0
-    return max(limit, 1e-9)
+    if not (edges > limit).any():
+        return Halved(triangles.copy(), np.arange(len(triangles)))
+    return halved(triangles, limit)
 
 
 def _morton(points: Array) -> Array:

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import Pieces, pieces
-from shotc.geom.surface import distance
+from shotc.geom.surface import distance, near
 from shotc.geom.surface.distance import inf_distance
 from shotc.geom.surface.near import comes_within, nearest, within
 from shotc.geom.surface.tree import FAN, TooMany, search, surface_of
-from shotc.geom.surface.triangles import halved, segment_distances
+from shotc.geom.surface.triangles import closest, halved, segment_distances
 from tests.support.surfaces import distances, grid, line, orbit, samples, some_curve, some_triangles
 
 GAP = 5e-7
@@ -137,6 +137,18 @@ def test_nearest_points_are_those_of_all_triangles(seed: int, count: int):
     near = expected < np.median(expected) - 1e-9
     assert limited.distance[near] == pytest.approx(expected[near], abs=1e-9)
     assert np.isinf(limited.distance[expected > np.median(expected) + 1e-9]).all()
+
+
+def test_the_nearest_of_many_triangles_is_found_among_few(monkeypatch: pytest.MonkeyPatch):
+    asked = []
+    monkeypatch.setattr(near, "closest", lambda t, p: asked.append(len(t)) or closest(t, p))
+    random = np.random.default_rng(3)
+    balls = (
+        sphere(5.0, 3) + np.append(random.uniform(-200, 200, (40, 2)), np.zeros((40, 1)), 1)[:, None, None]
+    )
+    points = random.uniform([-200, -200, 6], [200, 200, 60], (100, 3))
+    nearest(surface_of(balls.reshape(-1, 3, 3)), points)
+    assert sum(asked) < 60 * len(points)
 
 
 @settings(max_examples=60)
