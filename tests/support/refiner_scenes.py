@@ -12,7 +12,7 @@ from shotc_casadi.conditions import Condition
 from shotc_casadi.margins import Margins
 from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem
-from shotc_casadi.references import Subject, references
+from shotc_casadi.references import Subject, references_at
 from shotc_casadi.refiner import subjects
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.walls import half_spaces
@@ -61,7 +61,7 @@ def task(
     """The optimal-control problem of a shot on few stages."""
     nodes = nodes_of(of, count)
     walls = half_spaces(of.space, of.leg.curve, nodes, margins)
-    return problem(of, condition, nodes, references(of, condition, nodes.s), walls, margins)
+    return problem(of, condition, nodes, references_at(of, condition, nodes.s), walls, margins)
 
 
 HEAD = """\

@@ -14,7 +14,7 @@ from shotc.plugin_api.refiner import Array
 from shotc_casadi.camera import Given
 from shotc_casadi.conditions import OURS
 from shotc_casadi.frames import LEAST_HALF_FRAMES, insides
-from shotc_casadi.references import Subject, fields_of_view, references
+from shotc_casadi.references import Subject, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
 STEP_SHARE = 1e-5  # of the distance to the target, and of half a frame, over which slopes are measured
@@ -27,12 +27,12 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
     Where it would crop it beside one, as little is changed as does: in shares of the distance, half frames.
     """
     s = nodes.s[nodes.pins]
-    q, wanted = camera(s), references(subject, OURS, s)
-    inside = insides(subject, wanted, s, q)
-    away = np.linalg.norm(wanted.centre - q[:, :3], axis=1)
+    q, references = camera(s), references_at(subject, OURS, s)
+    inside = insides(subject, references, s, q)
+    away = np.linalg.norm(references.centre - q[:, :3], axis=1)
     half = fields_of_view(subject, s)[1]
     rate, found = camera.derivative()(s), []
-    for k in np.flatnonzero((wanted.whole > 0) & (inside.min(axis=1) < LEAST_HALF_FRAMES)):
+    for k in np.flatnonzero((references.whole > 0) & (inside.min(axis=1) < LEAST_HALF_FRAMES)):
         touches = inside[k] < LEAST_HALF_FRAMES
         slope = _along(subject, camera, float(s[k]), STEP_SHARE * float(away[k]))[touches]
         # What it gains before the first keyframe, or after the last, nobody sees.
@@ -48,7 +48,7 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
 def _along(subject: Subject, camera: Piecewise, s: float, step: float) -> Array:
     """Return by how much per metre of path a target comes inside each edge, half frames, (4,)."""
     at = np.clip(np.array([s - step, s + step]), camera.start, camera.end)
-    before, after = insides(subject, references(subject, OURS, at), at, camera(at))
+    before, after = insides(subject, references_at(subject, OURS, at), at, camera(at))
     return np.asarray((after - before) / (at[1] - at[0]))
 
 
@@ -56,5 +56,5 @@ def _by_pose(subject: Subject, s: float, q: Array, steps: Array) -> Array:
     """Return by how much a target comes inside each edge where a number of a pose takes its step, (4, 5)."""
     poses = np.concatenate([q + np.diag(steps), q - np.diag(steps)])
     at = np.full(len(poses), s)
-    after, before = np.split(insides(subject, references(subject, OURS, at), at, poses), 2)
+    after, before = np.split(insides(subject, references_at(subject, OURS, at), at, poses), 2)
     return np.asarray(0.5 * (after - before).T)

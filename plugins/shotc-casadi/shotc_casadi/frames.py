@@ -24,7 +24,7 @@ from shotc.plugin_api.refiner import (
     subdivide,
 )
 from shotc_casadi.conditions import OURS
-from shotc_casadi.references import References, Subject, fields_of_view, references
+from shotc_casadi.references import References, Subject, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
 SAMPLES_PER_PIECE = 6  # a piece
@@ -34,29 +34,29 @@ OPENING_HALF_FRAMES = 0.1  # asked for more, per length of path over the distanc
 MOST_HALF_FRAMES = 0.5  # half frames asked for at most
 
 
-def insides(subject: Subject, wanted: References, s: Array, q: Array) -> Array:
+def insides(subject: Subject, references: References, s: Array, q: Array) -> Array:
     """Return how far inside each edge of the frame the whole target lies, half frames, shape (M, 4).
 
     q : camera x, y, z, yaw, pitch at s, shape (M, 5). Order left, right, bottom, top; negative is cropped.
     The distance from the frustum's plane (``frustum_margins``, exact), divided by what a half frame is
     at the target's distance. What verification takes for rounding counts as inside.
     """
-    offset = (wanted.centre - q[:, :3]).T
+    offset = (references.centre - q[:, :3]).T
     wide, tall = fields_of_view(subject, s)
     view = View(np.cos(q[:, 3]), np.sin(q[:, 3]), np.cos(q[:, 4]), np.sin(q[:, 4]), wide, tall)
-    metres = frustum_margins(view, (offset[0], offset[1], offset[2]), wanted.radius, wanted.height)
+    metres = frustum_margins(view, (offset[0], offset[1], offset[2]), references.radius, references.height)
     away = np.linalg.norm(offset, axis=0)
     halves = (wide, wide, tall, tall)
     rows = [(m + ROUNDING_M) * np.hypot(1.0, h) / (h * away) for m, h in zip(metres, halves, strict=True)]
     return np.column_stack(rows)
 
 
-def asked_at_first(subject: Subject, nodes: Stages, wanted: References) -> References:
+def asked_at_first(subject: Subject, nodes: Stages, references: References) -> References:
     """Return references that ask for the target inside the frame by as much as a first solve takes."""
-    return replace(wanted, inside=np.minimum(INSIDE_HALF_FRAMES, _allowed(subject, nodes, nodes.s)))
+    return replace(references, inside=np.minimum(INSIDE_HALF_FRAMES, _allowed(subject, nodes, nodes.s)))
 
 
-def asked_again(subject: Subject, nodes: Stages, wanted: References, camera: Piecewise) -> References:
+def asked_again(subject: Subject, nodes: Stages, references: References, camera: Piecewise) -> References:
     """Return what the nodes ask for after a camera was looked at between them.
 
     The method of multipliers (Hestenes 1969, Powell 1969) for the hinge: where the target is nearer to an
@@ -70,7 +70,8 @@ def asked_again(subject: Subject, nodes: Stages, wanted: References, camera: Pie
     np.maximum.at(most, cell, lacks)
     more = np.maximum(np.vstack([most[:1], most]), np.vstack([most, most[-1:]]))
     return replace(
-        wanted, inside=np.minimum(wanted.inside + more, np.maximum(MOST_HALF_FRAMES, wanted.inside))
+        references,
+        inside=np.minimum(references.inside + more, np.maximum(MOST_HALF_FRAMES, references.inside)),
     )
 
 
@@ -94,8 +95,8 @@ class Looked(NamedTuple):
 def between_nodes(subject: Subject, camera: Piecewise) -> Looked:
     """Look at the target of a camera that holds its composition, at dense places."""
     s: Array = subdivide(camera.breaks, SAMPLES_PER_PIECE)
-    wanted = references(subject, OURS, s)
-    return Looked(s, insides(subject, wanted, s, camera(s)), wanted.whole > 0)
+    references = references_at(subject, OURS, s)
+    return Looked(s, insides(subject, references, s, camera(s)), references.whole > 0)
 
 
 def _allowed(subject: Subject, nodes: Stages, s: Array) -> Array:
@@ -107,7 +108,7 @@ def _allowed(subject: Subject, nodes: Stages, s: Array) -> Array:
     curve = subject.leg.curve
     assert curve is not None
     pins, q = nodes.s[nodes.pins], curve(nodes.s[nodes.pins])
-    at = references(subject, OURS, pins)
+    at = references_at(subject, OURS, pins)
     own = insides(subject, at, pins, q[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])
     away = np.linalg.norm(at.centre - q[:, :3], axis=1)
     opened = own + OPENING_HALF_FRAMES * (np.abs(s[:, None] - pins) / away)[:, :, None]

@@ -58,13 +58,18 @@ SLOWEST, FASTEST = 5.0, 0.2  # bounds on a stage's length against the first gues
 
 
 def problem(
-    subject: Subject, condition: Condition, stages: Stages, wanted: References, walls: Array, margins: Margins
+    subject: Subject,
+    condition: Condition,
+    stages: Stages,
+    references: References,
+    walls: Array,
+    margins: Margins,
 ) -> Problem:
     """Return the programme of one shot; walls : shape (N + 1, M, 4)."""
-    states, inputs = _guess(subject, stages, wanted, condition)
+    states, inputs = _guess(subject, stages, references, condition)
     return Problem(
         visibility=condition.visibility,
-        parameters=_parameters(subject, stages, wanted, walls, margins, states),
+        parameters=_parameters(subject, stages, references, walls, margins, states),
         states=states,
         inputs=inputs,
         state_bounds=_state_bounds(subject, len(stages.s), margins),
@@ -78,11 +83,13 @@ def _pace(subject: Subject, margins: Margins) -> float:
     return margins.limits * (1.0 if due(subject.leg) else subject.leg.pace)
 
 
-def _guess(subject: Subject, stages: Stages, wanted: References, condition: Condition) -> tuple[Array, Array]:
+def _guess(
+    subject: Subject, stages: Stages, references: References, condition: Condition
+) -> tuple[Array, Array]:
     curve = subject.leg.curve
     assert curve is not None
     q = curve(stages.s)
-    angles = q[:, [CAM_YAW, CAM_PITCH]] if condition.aims == "framing" else wanted.aim
+    angles = q[:, [CAM_YAW, CAM_PITCH]] if condition.aims == "framing" else references.aim
     values = np.column_stack([q[:, :3], angles])
     rest = ([(1, np.zeros(5)), (2, np.zeros(5))],) * 2
     # As coarse however many the stages: a finer guess only has sharper jerks for the solver to undo.
@@ -107,31 +114,31 @@ def _guess(subject: Subject, stages: Stages, wanted: References, condition: Cond
 
 
 def _parameters(
-    subject: Subject, stages: Stages, wanted: References, walls: Array, margins: Margins, guess: Array
+    subject: Subject, stages: Stages, references: References, walls: Array, margins: Margins, guess: Array
 ) -> Array:
     n, total, drone = len(stages.s) - 1, float(stages.t[-1]), subject.drone
     wide, tall = fields_of_view(subject, stages.s)
     rate = subject.leg.curve.derivative()(stages.s)[:, :3]
     spacing = np.maximum(np.gradient(stages.s), 1e-6)
-    pinned, weight = _pinned(subject, stages, wanted, margins, guess)
+    pinned, weight = _pinned(subject, stages, references, margins, guess)
     swing = max(drone.gimbal.acceleration, drone.limits.yaw_acceleration)
     each = 1.0 / n
     values = {
-        "centre": wanted.centre,
-        "radius": wanted.radius,
-        "height": wanted.height,
-        "place": wanted.place,
+        "centre": references.centre,
+        "radius": references.radius,
+        "height": references.height,
+        "place": references.place,
         "half_width": wide,
         "half_height": tall,
-        "inside": wanted.inside,
-        "aim": wanted.aim,
+        "inside": references.inside,
+        "aim": references.aim,
         "state": pinned,
         "state_weight": each * weight,
         "tangent": rate / np.maximum(np.linalg.norm(rate, axis=1), 1e-9)[:, None],
         "lag": each * LAG / spacing**2,
-        "framing": each * FRAMING * wanted.framed,
-        "visibility": each * VISIBILITY * wanted.whole,
-        "aiming": each * AIMING * (1.0 - wanted.framed),
+        "framing": each * FRAMING * references.framed,
+        "visibility": each * VISIBILITY * references.whole,
+        "aiming": each * AIMING * (1.0 - references.framed),
         "jerk": np.full(n + 1, JERK_SHARE / total / drone.limits.jerk**2),
         "angular_jerk": np.full(n + 1, ANGULAR_JERK_SHARE / total / swing**2),
         "time": np.full(n + 1, 1.0 / total),
@@ -144,16 +151,16 @@ def _parameters(
     return whole
 
 
-def _distance(wanted: References, reference: Array, stages: Stages) -> Array:
+def _distance(references: References, reference: Array, stages: Stages) -> Array:
     """Return the distance to the target by which lengths are measured, metres, shape (N + 1,).
 
     That of the places that bind, and between them between theirs: how near the reference happens to pass is
     no reason to keep it there. Where nothing is framed it is a fifth of the path.
     """
-    pins = stages.pins[wanted.framed[stages.pins] > 0]
+    pins = stages.pins[references.framed[stages.pins] > 0]
     if not len(pins):
         return np.full(len(stages.s), 0.2 * float(stages.s[-1] - stages.s[0]))
-    away = np.linalg.norm(wanted.centre[pins] - reference[pins], axis=1)
+    away = np.linalg.norm(references.centre[pins] - reference[pins], axis=1)
     return np.asarray(np.interp(stages.s, stages.s[pins], away))
 
 
@@ -165,12 +172,12 @@ def _planes(walls: Array, margins: Margins) -> Array:
 
 
 def _pinned(
-    subject: Subject, stages: Stages, wanted: References, margins: Margins, guess: Array
+    subject: Subject, stages: Stages, references: References, margins: Margins, guess: Array
 ) -> tuple[Array, Array]:
     """Return wanted states and their weights: positions near the path, keyframes, rest, ends, times."""
     value = guess.copy()
     value[:, POSITION] = subject.leg.curve(stages.s)[:, :3]
-    distance = _distance(wanted, value[:, POSITION], stages)
+    distance = _distance(references, value[:, POSITION], stages)
     weight = np.zeros_like(value)
     weight[:, POSITION] = (POSITION_ERROR / distance**2)[:, None]
     leg, s = subject.leg, stages.s
@@ -181,7 +188,7 @@ def _pinned(
     shares = _shares(subject)
     for k in pins:
         weight[k, POSITION] = PIN / distance[k] ** 2
-        if k in (pins[0], pins[-1]) or wanted.framed[k]:
+        if k in (pins[0], pins[-1]) or references.framed[k]:
             weight[k, [YAW, PITCH]] = PIN / half[k] ** 2
         if _among(s[k], rests):
             value[k, shares > 0] = 0.0

@@ -81,7 +81,7 @@ def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> Subject:
     return Subject(mission, flown_by, flight_space(mission, flown_by), placed, leg)
 
 
-def references(subject: Subject, condition: Condition, s: Array) -> References:
+def references_at(subject: Subject, condition: Condition, s: Array) -> References:
     """Return what a condition wants at path parameters s, shape (N + 1,)."""
     if condition.aims == "framing":
         return _framed(subject, s)

@@ -21,7 +21,7 @@ from shotc_casadi.margins import Check, Margins, tighter
 from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem, solve
 from shotc_casadi.proof import checked, hopeless
-from shotc_casadi.references import References, Subject, references
+from shotc_casadi.references import References, Subject, references_at
 from shotc_casadi.solving import SOLVERS, Attempt, Solution, by_one_of
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, YAW
@@ -86,11 +86,11 @@ def _refine(
     leg = subject.leg
     assert leg.shot is not None
     nodes = stages(leg, subject.placed, subject.drone, count)
-    wanted = asked_at_first(subject, nodes, references(subject, condition, nodes.s))
+    references = asked_at_first(subject, nodes, references_at(subject, condition, nodes.s))
     margins = Margins()
     walls = _walls(subject, nodes, margins)
-    following = problem(subject, condition, nodes, wanted, walls, margins)
-    given = _given(nodes, wanted, following)
+    following = problem(subject, condition, nodes, references, walls, margins)
+    given = _given(nodes, references, following)
     done: list[_Tried] = []
     for rounds in range(1, ROUNDS + 1):
         attempt = by_one_of(solvers, partial(solve, following))
@@ -103,8 +103,8 @@ def _refine(
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
         walls = _walls(subject, nodes, margins)
         if tried.check.cropped > 0:
-            wanted = asked_again(subject, nodes, wanted, tried.camera)
-        tightened = problem(subject, condition, nodes, wanted, walls, margins)
+            references = asked_again(subject, nodes, references, tried.camera)
+        tightened = problem(subject, condition, nodes, references, walls, margins)
         following = replace(tightened, states=attempt.solution.states, inputs=attempt.solution.inputs)
     return _result(subject, nodes, done, best), best.check
 
@@ -115,10 +115,10 @@ def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
     return half_spaces(subject.space, subject.leg.curve, nodes, margins, others)
 
 
-def _given(nodes: Stages, wanted: References, task: Problem) -> Given:
+def _given(nodes: Stages, references: References, task: Problem) -> Given:
     """Return the angles that bind: at both ends, and at keyframes whose target has its place on screen."""
     inner = nodes.pins[1:-1]
-    at = np.concatenate([[0], inner[wanted.framed[inner] > 0], [len(nodes.s) - 1]])
+    at = np.concatenate([[0], inner[references.framed[inner] > 0], [len(nodes.s) - 1]])
     return Given(nodes.s[at], task.states[at][:, [YAW, PITCH]])
 
 

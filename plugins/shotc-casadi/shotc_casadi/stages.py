@@ -64,8 +64,8 @@ def _pins(leg: MovingLeg, placed: PlacedShot) -> Array:
 
 def _shares(knots: Array, count: int) -> np.ndarray:
     """Share stages out among the intervals by their time, at least two each."""
-    wanted = count * np.diff(knots) / (knots[-1] - knots[0])
-    shares = np.maximum(2, np.floor(wanted)).astype(int)
+    references = count * np.diff(knots) / (knots[-1] - knots[0])
+    shares = np.maximum(2, np.floor(references)).astype(int)
     while shares.sum() < count:
-        shares[int((wanted - shares).argmax())] += 1
+        shares[int((references - shares).argmax())] += 1
     return np.asarray(shares)

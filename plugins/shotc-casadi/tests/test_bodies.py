@@ -12,7 +12,7 @@ import pytest
 from shotc_casadi.clock import program, symbols, weights
 from shotc_casadi.clock.bodies import NONE, Body, inscribed, kept_from
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
-from shotc_casadi.clock.references import ClockReferences, ClockSubject, references
+from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
 from shotc_casadi.clock.refiner import subject_of
 from shotc_casadi.clock.rounds import NEARLY_SHARE
 
@@ -61,10 +61,10 @@ def test_the_distance_and_the_field_are_the_paper_s() -> None:
         assert found == pytest.approx(away @ (scale.T @ scale) @ away)  # Eq. 13
     (made, body_of), (without, _) = in_the_way(0.3, 1e3, 1.0), in_the_way(0.3, 1e3, 0.0)
     larger = 1.0 - (body_of.distance(made.states[:, :3]) / body_of.reach) ** 2  # Eq. 12
-    wanted = (np.maximum(larger, 0.0) ** 2)[:-1] @ np.diff(breaks_of(subject()))
+    references = (np.maximum(larger, 0.0) ** 2)[:-1] @ np.diff(breaks_of(subject()))
     found = [program.cost(one, one.states, one.inputs) for one in (made, without)]
-    assert wanted > 0.1
-    assert found[0] - found[1] == pytest.approx(wanted, rel=1e-6)
+    assert references > 0.1
+    assert found[0] - found[1] == pytest.approx(references, rel=1e-6)
 
 
 @cache
@@ -83,11 +83,11 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
     middle = len(breaks) // 2
     centres = np.tile(course[middle] + np.array([0.0, at, 0.0]), (len(breaks), 1))
     body = Body(np.eye(3), centres, 1.5, 1.0)
-    wanted = kept_from((body,), references(of, breaks), course)
+    references = kept_from((body,), references_at(of, breaks), course)
     made = problem(
         of,
         breaks,
-        wanted,
+        references,
         NO_HALF_SPACES,
         Use(NEARLY_SHARE),
         guess(guide, breaks),
@@ -142,10 +142,10 @@ def test_the_field_pushes_away_only_where_it_reaches() -> None:
 def test_what_is_far_away_makes_no_part_of_the_problem() -> None:
     of = subject()
     breaks = breaks_of(of)
-    wanted, course = references(of, breaks), of.leg.curve(breaks)[:, :3]
+    references, course = references_at(of, breaks), of.leg.curve(breaks)[:, :3]
     far = Body(np.eye(3), course + np.array([0.0, 0.0, 5.0]), 1.5, 1.0)
-    assert kept_from((far,), wanted, course).bodies.shape[1] == 0
-    near: ClockReferences = kept_from((far,), wanted, course + np.array([0.0, 0.0, 3.0]))
+    assert kept_from((far,), references, course).bodies.shape[1] == 0
+    near: ClockReferences = kept_from((far,), references, course + np.array([0.0, 0.0, 3.0]))
     assert near.bodies.shape[1] == 1
     assert (near.bodies[:, 0, 12] < NONE).all()
     # What was near once stays in the problem.

@@ -14,7 +14,7 @@ from shotc_casadi.clock import program
 from shotc_casadi.clock.angles import turning
 from shotc_casadi.clock.problem import USUAL_STAGES, Use, breaks_of, guess, problem
 from shotc_casadi.clock.proof import astray, gap_in
-from shotc_casadi.clock.references import ClockSubject, motion, references, steepest
+from shotc_casadi.clock.references import ClockSubject, motion, references_at, steepest
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE, ClockRefined, refine_clock
 from shotc_casadi.solving import Solution
@@ -94,9 +94,9 @@ def test_the_ray_s_derivatives_are_those_of_its_angles() -> None:
         return np.array([np.arctan2(y, x), np.arctan2(z, np.sqrt(x**2 + y**2 + 1e-2))])
 
     a, b, c, d, e = (angles(t0 + k * h) for k in range(-2, 3))
-    wanted = [(d - b) / (2 * h), (d - 2 * c + b) / h**2, (e - 2 * d + 2 * b - a) / (2 * h**3)]
+    references = [(d - b) / (2 * h), (d - 2 * c + b) / h**2, (e - 2 * d + 2 * b - a) / (2 * h**3)]
     found = np.array(of(*[[p.deriv(k)(t0) if k else p(t0) for p in path] for k in range(4)])).ravel()
-    assert found.reshape(3, 2) == pytest.approx(np.array(wanted), rel=0.02)
+    assert found.reshape(3, 2) == pytest.approx(np.array(references), rel=0.02)
 
 
 def test_an_even_motion_stays_what_it_is_and_a_corner_is_rounded() -> None:
@@ -109,8 +109,8 @@ def test_an_even_motion_stays_what_it_is_and_a_corner_is_rounded() -> None:
     corner = motion(of.mission, "runner", near)
     for order in (0, 3, 6):
         slope = np.gradient(corner[:, order : order + 3], near, axis=0)[2:-2]
-        wanted = corner[2:-2, order + 3 : order + 6]
-        assert np.abs(slope - wanted).max() < 0.05 * np.abs(wanted).max()
+        references = corner[2:-2, order + 3 : order + 6]
+        assert np.abs(slope - references).max() < 0.05 * np.abs(references).max()
 
 
 def test_on_a_flyby_the_camera_turns_more_calmly_within_all_limits() -> None:
@@ -183,10 +183,10 @@ def test_the_legs_around_stay_and_the_ends_are_the_same_numbers() -> None:
 
 def task(of: ClockSubject) -> program.ClockProblem:
     breaks = breaks_of(of)
-    around, wanted = surroundings(of.path, of.drone, breaks), references(of, breaks)
+    around, references = surroundings(of.path, of.drone, breaks), references_at(of, breaks)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
     planes = around.half_spaces(guide.ctrl, REACH_M, ROOM_SHARE)
-    return problem(of, breaks, wanted, planes, Use(NEARLY_SHARE), guess(guide, breaks))
+    return problem(of, breaks, references, planes, Use(NEARLY_SHARE), guess(guide, breaks))
 
 
 def test_two_solvers_find_the_same_motion() -> None:
@@ -318,9 +318,9 @@ def test_what_is_framed_high_in_the_picture_is_looked_at_less_steeply() -> None:
     of, at = subject(compiled(FLYBY)), np.array([12.0])
 
     def framed_at(v: float) -> ClockSubject:
-        wanted = Piecewise(np.array([of.leg.start, of.leg.end]), np.full((1, 1, 2), [0.0, v]))
+        references = Piecewise(np.array([of.leg.start, of.leg.end]), np.full((1, 1, 2), [0.0, v]))
         (span,) = of.leg.framing
-        return replace(of, leg=replace(of.leg, framing=(replace(span, reference=wanted),)))
+        return replace(of, leg=replace(of.leg, framing=(replace(span, reference=references),)))
 
     ((low, high),) = steepest(framed_at(0.0), at)
     (up,) = steepest(framed_at(0.5), at)

@@ -20,7 +20,7 @@ from shotc_casadi.frames import (
 )
 from shotc_casadi.margins import Margins
 from shotc_casadi.problem import problem
-from shotc_casadi.references import references
+from shotc_casadi.references import references_at
 from shotc_casadi.symbols import PITCH, YAW
 
 from shotc.diag.registry import has_errors
@@ -94,18 +94,18 @@ def turned(of, by):
 def test_how_far_inside_counts_half_frames_from_every_edge():
     of = arc()
     s = nodes_of(of).s
-    wanted, q = references(of, OURS, s), turned(of, 0.0)(s)
-    left, right, bottom, top = insides(of, wanted, s, q).T
+    references, q = references_at(of, OURS, s), turned(of, 0.0)(s)
+    left, right, bottom, top = insides(of, references, s, q).T
     # Both edges together are the frame less the target.
     assert (left + right < 2.0).all()
     assert (bottom + top < 2.0).all()
-    aside = insides(of, wanted, s, turned(of, 0.1)(s))
+    aside = insides(of, references, s, turned(of, 0.1)(s))
     assert (np.sign(aside[:, 0] - left) == -np.sign(aside[:, 1] - right)).all()
 
 
 def test_nodes_ask_for_as_much_more_as_was_cropped_beside_them():
     of, nodes = arc(), nodes_of(arc())
-    first = asked_at_first(of, nodes, references(of, OURS, nodes.s))
+    first = asked_at_first(of, nodes, references_at(of, OURS, nodes.s))
     assert asked_again(of, nodes, first, turned(of, 0.0)).inside == pytest.approx(first.inside)
     out = turned(of, 0.55)
     lack = cropped(of, out)
@@ -127,7 +127,7 @@ def touching(of):
     def least(height):
         made = of._replace(mission=of.mission._replace(targets=(tower._replace(height=height),)))
         s = nodes.s[nodes.pins]
-        return insides(made, references(made, OURS, s), s, turned(made, 0.0)(s)).min(), made
+        return insides(made, references_at(made, OURS, s), s, turned(made, 0.0)(s)).min(), made
 
     low, high = 1.0, 200.0
     for _ in range(60):
@@ -138,7 +138,9 @@ def touching(of):
 
 def test_a_camera_goes_level_through_keyframes_at_which_the_target_touches_the_edge():
     of, nodes = touching(arc())
-    task = problem(of, OURS, nodes, references(of, OURS, nodes.s), np.zeros((len(nodes.s), 0, 4)), Margins())
+    task = problem(
+        of, OURS, nodes, references_at(of, OURS, nodes.s), np.zeros((len(nodes.s), 0, 4)), Margins()
+    )
     states = task.states.copy()
     states[:, :2] *= 1.0 + 0.02 * np.sin(nodes.s / 7.0)[:, None]
     states[nodes.pins] = task.states[nodes.pins]
@@ -152,7 +154,9 @@ def test_a_camera_goes_level_through_keyframes_at_which_the_target_touches_the_e
     assert found(pins) == pytest.approx(plain(pins), abs=1e-9)
     for k, s in enumerate(pins):
         beside = np.clip(s + np.array([-0.02, 0.02]), pins[0], pins[-1])
-        before, after = (insides(of, references(of, OURS, beside), beside, q(beside)) for q in (plain, found))
+        before, after = (
+            insides(of, references_at(of, OURS, beside), beside, q(beside)) for q in (plain, found)
+        )
         assert after.min() > -1e-6
         assert before.min() < -1e-5 or k in (0, len(pins) - 1)
     assert len(level_beside(of, nodes, found, given).through) == 0
@@ -162,8 +166,8 @@ def test_beside_a_keyframe_at_the_edge_nodes_ask_for_what_backing_off_can_give()
     of = arc()
     near = of._replace(mission=of.mission._replace(targets=(of.mission.targets[0]._replace(height=1e3),)))
     nodes = nodes_of(near)
-    asked = asked_at_first(near, nodes, references(near, OURS, nodes.s)).inside
-    own = insides(near, references(near, OURS, nodes.s), nodes.s, turned(near, 0.0)(nodes.s))
+    asked = asked_at_first(near, nodes, references_at(near, OURS, nodes.s)).inside
+    own = insides(near, references_at(near, OURS, nodes.s), nodes.s, turned(near, 0.0)(nodes.s))
     pins = nodes.pins
     assert asked[pins] == pytest.approx(np.minimum(own[pins], frames.INSIDE_HALF_FRAMES))
     assert (np.diff(asked[pins[0] : pins[0] + 3, 2]) > 0).all()

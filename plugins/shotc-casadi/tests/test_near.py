@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 from shotc_casadi.clock.problem import breaks_of
-from shotc_casadi.clock.references import ClockSubject, references
+from shotc_casadi.clock.references import ClockSubject, references_at
 from shotc_casadi.clock.refiner import SHOWS_LESS, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import refine_clock
 from shotc_casadi.clock.several import WHOLE
@@ -117,7 +117,7 @@ def test_who_does_not_fit_from_where_the_camera_may_go_is_no_reason_to_go_there(
     text = BESIDE.replace("gimbal", "camera: {hfov: 50 deg}, gimbal")
     asked = text.replace("offset: 1", "offset: 1, require: {in_frame: 100 %}")
     near, promised = (
-        references(replace(of, held_whole=True), breaks_of(of)).subjects[:, 0, WHOLE] > 0.0
+        references_at(replace(of, held_whole=True), breaks_of(of)).subjects[:, 0, WHOLE] > 0.0
         for of in (subject(one, "solve-path-qp") for one in (text, asked))
     )
     assert promised.all()
@@ -144,14 +144,14 @@ def test_what_is_promised_is_kept_at_any_distance() -> None:
 )
 def test_promises_and_keyframes_bind_instead(shot: str) -> None:
     of = subject(MISSION.format(shot=shot), "solve-path-qp")
-    assert np.isinf(references(of, breaks_of(of)).reach).all()
+    assert np.isinf(references_at(of, breaks_of(of)).reach).all()
 
 
 def test_the_ways_into_and_out_of_the_film_are_free() -> None:
     of = subject(FLYBY, "solve-path-qp")
     breaks = breaks_of(of)
     film = (breaks >= of.leg.start) & (breaks <= of.leg.end)
-    assert (np.isfinite(references(of, breaks).reach) == film).all()
+    assert (np.isfinite(references_at(of, breaks).reach) == film).all()
 
 
 BENT = """\

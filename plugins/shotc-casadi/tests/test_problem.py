@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shotc_casadi.conditions import LOOK_AT
 from shotc_casadi.margins import Margins
-from shotc_casadi.references import references
+from shotc_casadi.references import references_at
 from shotc_casadi.symbols import FIELDS, PITCH, TIME, YAW
 
 from tests.support.path_scenes import TOWER, circle, mission, shot
@@ -50,7 +50,7 @@ def test_a_camera_fixed_to_the_body_turns_no_faster_than_the_body():
 
 def test_the_aim_of_look_at_points_from_the_path_to_what_is_looked_at():
     s = nodes_of(arc()).s
-    wanted = references(arc(), LOOK_AT, s)
-    d = wanted.centre - arc().leg.curve(s)[:, :3]
+    references = references_at(arc(), LOOK_AT, s)
+    d = references.centre - arc().leg.curve(s)[:, :3]
     for k in range(len(s)):
-        assert sin(wanted.aim[k, 0] - atan2(d[k, 1], d[k, 0])) == pytest.approx(0.0, abs=1e-9)
+        assert sin(references.aim[k, 0] - atan2(d[k, 1], d[k, 0])) == pytest.approx(0.0, abs=1e-9)

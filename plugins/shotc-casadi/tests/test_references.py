@@ -7,7 +7,7 @@ from math import cos, sin
 import numpy as np
 import pytest
 from shotc_casadi.conditions import ANG, LOOK_AT, OURS, OURS_4PT
-from shotc_casadi.references import own_angles, references
+from shotc_casadi.references import own_angles, references_at
 
 from shotc.geom.camera import aim_at
 from shotc.ir.mission import Target
@@ -27,13 +27,13 @@ def test_the_place_asked_is_that_of_the_leg():
     of = subject(mission(targets=(TOWER,)), shot(keys))
     (span,) = of.leg.framing
     s = np.linspace(of.leg.curve.start, of.leg.curve.end, 57)
-    wanted = references(of, OURS, s)
-    assert wanted.place == pytest.approx(span.reference(s), abs=1e-9)
-    assert (wanted.framed == 1).all()
-    assert (wanted.whole == 1).all()
-    assert wanted.centre == pytest.approx(np.tile(TOWER.centre, (57, 1)))
-    assert set(wanted.radius) == {TOWER.radius}
-    assert references(of, OURS_4PT, s).place == pytest.approx(wanted.place)
+    references = references_at(of, OURS, s)
+    assert references.place == pytest.approx(span.reference(s), abs=1e-9)
+    assert (references.framed == 1).all()
+    assert (references.whole == 1).all()
+    assert references.centre == pytest.approx(np.tile(TOWER.centre, (57, 1)))
+    assert set(references.radius) == {TOWER.radius}
+    assert references_at(of, OURS_4PT, s).place == pytest.approx(references.place)
 
 
 def test_between_two_targets_one_becomes_the_other():
@@ -41,14 +41,14 @@ def test_between_two_targets_one_becomes_the_other():
     of = subject(mission(targets=(TOWER, MAST)), shot(keys))
     first, middle, last = (m.s for m in of.leg.marks)
     s = np.linspace(middle, last, 41)
-    wanted = references(of, OURS, s)
-    share = (wanted.centre - TOWER.centre)[:, 0] / (MAST.centre[0] - TOWER.centre[0])
+    references = references_at(of, OURS, s)
+    share = (references.centre - TOWER.centre)[:, 0] / (MAST.centre[0] - TOWER.centre[0])
     assert share[[0, -1]] == pytest.approx([0, 1], abs=1e-12)
     assert (np.diff(share) >= 0).all()
     assert share[20] == pytest.approx(0.5)
-    assert wanted.radius == pytest.approx((1 - share) * TOWER.radius + share * MAST.radius)
-    assert wanted.height == pytest.approx((1 - share) * TOWER.height + share * MAST.height)
-    before = references(of, OURS, np.linspace(first, middle, 11)[:-1])
+    assert references.radius == pytest.approx((1 - share) * TOWER.radius + share * MAST.radius)
+    assert references.height == pytest.approx((1 - share) * TOWER.height + share * MAST.height)
+    before = references_at(of, OURS, np.linspace(first, middle, 11)[:-1])
     assert before.centre == pytest.approx(np.tile(TOWER.centre, (10, 1)))
 
 
@@ -57,10 +57,10 @@ def test_what_frames_nothing_keeps_the_angles_of_the_convex_path():
     of = subject(mission(targets=(TOWER,)), shot(keys))
     middle = of.leg.marks[1].s
     s = np.linspace(of.leg.curve.start, of.leg.curve.end, 60)
-    wanted = references(of, OURS, s)
-    assert ((wanted.framed == 1) == (s < middle)).all()
-    assert (wanted.whole == wanted.framed).all()
-    assert wanted.aim == pytest.approx(of.leg.curve(s)[:, [CAM_YAW, CAM_PITCH]])
+    references = references_at(of, OURS, s)
+    assert ((references.framed == 1) == (s < middle)).all()
+    assert (references.whole == references.framed).all()
+    assert references.aim == pytest.approx(of.leg.curve(s)[:, [CAM_YAW, CAM_PITCH]])
 
 
 @pytest.mark.parametrize("condition", [ANG, LOOK_AT], ids=lambda c: c.name)
@@ -72,13 +72,13 @@ def test_the_papers_conditions_pass_through_the_authors_own_angles(condition):
     ]
     of = subject(mission(targets=(TOWER,)), shot(keys))
     s = np.array([m.s for m in of.leg.marks])
-    wanted = references(of, condition, s)
+    references = references_at(of, condition, s)
     for k, key in enumerate(keys):
         d = tuple(c - p for c, p in zip(TOWER.centre, key.at, strict=True))
         yaw, pitch = aim_at(d, (0.2, -0.15), HFOV, ASPECT)
         assert own_angles(of, key) == pytest.approx((yaw, pitch))
-        assert np.exp(1j * wanted.aim[k, 0]) == pytest.approx(np.exp(1j * yaw), abs=1e-6)
-        assert wanted.aim[k, 1] == pytest.approx(pitch, abs=1e-6)
-    dense = references(of, condition, np.linspace(s[0], s[-1], 200)).aim
+        assert np.exp(1j * references.aim[k, 0]) == pytest.approx(np.exp(1j * yaw), abs=1e-6)
+        assert references.aim[k, 1] == pytest.approx(pitch, abs=1e-6)
+    dense = references_at(of, condition, np.linspace(s[0], s[-1], 200)).aim
     assert np.abs(np.diff(dense, axis=0)).max() < 0.1  # no whole turns
-    assert (wanted.whole == 0).all()
+    assert (references.whole == 0).all()

@@ -101,21 +101,21 @@ def test_framing_costs_nothing_exactly_where_the_target_is_at_its_place(offset, 
     aim = aim_at(offset, uv, hfov, ASPECT)
     assume(aim is not None)
     half = tan(hfov / 2)
-    wanted = {
+    references = {
         "centre": offset,
         "place": uv,
         "half_width": half,
         "half_height": half / ASPECT,
         "framing": 1.0,
     }
-    assert node(pose(*aim), **wanted) == pytest.approx(0.0, abs=1e-12)
+    assert node(pose(*aim), **references) == pytest.approx(0.0, abs=1e-12)
 
     yaw, pitch = aim[0] + off[0], aim[1] + off[1]
     u, v, depth = view(yaw, pitch, hfov, ASPECT).project(offset)
     assume(depth > 1e-3)
     rays = [np.array([a * half, b * half / ASPECT, 1.0]) for a, b in (uv, (u, v))]
     one, two = (r / np.linalg.norm(r) for r in rays)
-    cost = node(pose(yaw, pitch), **wanted)
+    cost = node(pose(yaw, pitch), **references)
     in_half_frames = (one - two) / [half, half / ASPECT, half]
     assert cost == pytest.approx(float(np.sum(in_half_frames**2)), rel=1e-9, abs=1e-9)
     assert (cost > 1e-12) == (np.linalg.norm(in_half_frames) > 1e-6)
@@ -293,10 +293,10 @@ def test_the_way_to_the_next_node_costs_jerk_and_time():
 
 
 def test_a_node_is_drawn_to_its_state_and_along_the_path_to_its_place():
-    wanted = np.arange(STATES, dtype=float)
+    references = np.arange(STATES, dtype=float)
     weight = np.linspace(0.0, 2.0, STATES)
-    z = np.concatenate([wanted + 0.5, np.zeros(INPUTS)])
-    assert node(z, state=wanted, state_weight=weight) == pytest.approx(0.25 * weight.sum())
+    z = np.concatenate([references + 0.5, np.zeros(INPUTS)])
+    assert node(z, state=references, state_weight=weight) == pytest.approx(0.25 * weight.sum())
     z = pose(position=[1.0, 2.0, 3.0])
     assert node(z, tangent=[0.6, 0.0, 0.8], lag=5.0) == pytest.approx(5 * (0.6 + 2.4) ** 2)
     assert z[POSITION].tolist() == [1, 2, 3]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from shotc_casadi.clock import picture, program
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
-from shotc_casadi.clock.references import ClockSubject, references
+from shotc_casadi.clock.references import ClockSubject, references_at
 from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
 from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE, flown_cost
 from shotc_casadi.clock.several import pictured
@@ -73,10 +73,10 @@ def claim(done: Compilation, name: str) -> float:
 
 def task(of: ClockSubject) -> ClockProblem:
     breaks = breaks_of(of)
-    around, wanted = surroundings(of.path, of.drone, breaks), references(of, breaks)
+    around, references = surroundings(of.path, of.drone, breaks), references_at(of, breaks)
     guide = restrict(of.leg.curve.channels(0, 1, 2), breaks)
     planes = around.half_spaces(guide.ctrl, REACH_M, ROOM_SHARE)
-    return problem(of, breaks, wanted, planes, Use(NEARLY_SHARE), guess(guide, breaks, of.leg.curve))
+    return problem(of, breaks, references, planes, Use(NEARLY_SHARE), guess(guide, breaks, of.leg.curve))
 
 
 def turning(leg: ClockLeg) -> float:
@@ -103,7 +103,7 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
     eye, aim, one, lens = (ca.SX.sym("q", n) for n in (3, 2, picture.SUBJECT, 2))
     term = ca.Function("term", [one, eye, aim, lens], [picture.residuals(one, eye, (aim[0], aim[1]), lens)])
     half = tan(of.drone.hfov / 2)
-    wanted = [
+    references = [
         viewpoint.Wanted(tuple(centre), 0.4, 1.8, s.reference, s.size, *(s.view or (None, None)))
         for centre, s in zip(centres[0], framed, strict=True)
     ]
@@ -111,7 +111,7 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
     for _ in range(20):
         at = np.array([2.0, -7.0, 2.0]) + rng.uniform(-2, 2, 3)
         look = np.array([0.5 * pi, -0.1]) + rng.uniform(-0.2, 0.2, 2)
-        theirs = viewpoint._residuals((*at, *look), wanted, lens_of(of.drone), 0.0, (None, 1.0))
+        theirs = viewpoint._residuals((*at, *look), references, lens_of(of.drone), 0.0, (None, 1.0))
         assert theirs is not None
         ours = sum(float(ca.sumsqr(term(row, at, look, [half, half / of.drone.aspect]))) for row in rows)
         assert ours == pytest.approx(float(np.dot(theirs, theirs)), rel=2e-3, abs=1e-6)

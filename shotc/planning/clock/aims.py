@@ -63,22 +63,22 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
     if len(placed) == 1:
         return np.asarray(each[0])
     yaw = np.arctan2(np.sin(each[:, :, 0]).mean(axis=0), np.cos(each[:, :, 0]).mean(axis=0))
-    found = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
+    angles = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
     offsets = np.stack([_centres(mission, s, times) - places for s in placed])
     wanted = np.array([s.reference or (0.0, 0.0) for s in placed])
     for _ in range(ROUNDS):
-        here = _errors(drone, offsets, wanted, found)
+        here = _errors(drone, offsets, wanted, angles)
         slopes = np.stack(
             [
-                (_errors(drone, offsets, wanted, found + NUDGE_RAD * step) - here) / NUDGE_RAD
+                (_errors(drone, offsets, wanted, angles + NUDGE_RAD * step) - here) / NUDGE_RAD
                 for step in np.eye(2)
             ],
             axis=2,
         )
         normal = np.einsum("mri,mrj->mij", slopes, slopes) + 1e-9 * np.eye(2)
         down = np.einsum("mri,mr->mi", slopes, here)
-        found = found - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST_RAD, MOST_RAD)
-    return found
+        angles = angles - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST_RAD, MOST_RAD)
+    return angles
 
 
 def _aim(mission: MissionIR, drone: Drone, subject: PlacedSubject, times: Array, places: Array) -> Array:

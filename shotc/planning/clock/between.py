@@ -83,17 +83,17 @@ def standing_apart(
 ) -> tuple[Standing, Standing]:
     """Return what passes while the drone stands where such ways begin and end, and the clearances from it."""
     begin, end = float(course.start), float(course.end)
-    found = []
+    pairs = []
     for film, window, place in (
         (span[0], (begin - STAND_S, begin), course.ctrl[0, 0, :3]),
         (span[1], (end, end + STAND_S), course.ctrl[-1, -1, :3]),
     ):
         stands = np.tile(place, (1, 6, 1))
         linear_motions = (linearised(motion.what, np.array(window)) for motion in motions)
-        found.append(
+        pairs.append(
             Standing(tuple(_standing(linear, course, film, stands) for linear in linear_motions), stands)
         )
-    return found[0], found[1]
+    return pairs[0], pairs[1]
 
 
 def _standing(motion: LinearMotion, course: Piecewise, film: float, stands: Array) -> LinearMotion:

@@ -38,17 +38,17 @@ def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]
     """Return where keyframes bind the camera of a shot whose first frame is at mission time ``start``."""
     if not is_keyed(shot):
         return ()
-    found: list[Bound] = []
+    bounds: list[Bound] = []
     for index, (keyframe, at) in enumerate(zip(shot.keyframes, arrivals(shot), strict=True)):
         if not keyframe.placed:
             continue
         reach, leave = start + at, start + at + keyframe.hold
         if keyframe.beside is None:
-            found.append(Bound(index, keyframe.at, reach, leave))
+            bounds.append(Bound(index, keyframe.at, reach, leave))
             continue
         times = [reach] if keyframe.hold <= 0 else [reach, leave]
-        found += [Bound(index, place_of(mission, keyframe, t), t, t) for t in times]
-    return tuple(found)
+        bounds += [Bound(index, place_of(mission, keyframe, t), t, t) for t in times]
+    return tuple(bounds)
 
 
 def at_rest(breaks: Array) -> Rows:

@@ -79,11 +79,11 @@ class Keyed:
 
     def aims(self, times: Array, places: Array) -> Array:
         """Return the yaw and the pitch from places (M, 3) at times (M,), shape (M, 2), rad."""
-        found, (share, of) = np.zeros((len(times), 2)), self._shares(times)
+        angles, (share, of) = np.zeros((len(times), 2)), self._shares(times)
         for k in np.unique(of):
             here = of == k
-            found[here] = self._aims(self.stretches[k], share[here], times[here], places[here])
-        return found
+            angles[here] = self._aims(self.stretches[k], share[here], times[here], places[here])
+        return angles
 
     def framing(self, shot: str) -> tuple[Reference, ...]:
         """Return what is framed when; a hand-over from one target to another is cut in its middle."""

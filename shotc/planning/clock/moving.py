@@ -87,7 +87,7 @@ class LinearMotion:
 def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     """Return the targets that move, each a cylinder about its centre."""
     clearance = mission.rules.beside_target(drone.radius)
-    found = []
+    motions = []
     for target in mission.targets:
         if target.track is not None:
             half = target.height / 2
@@ -96,8 +96,8 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
             apart = clearance if kept is None else drone.radius + kept.metres + MARGIN_M
             required = kept is not None and kept.required
             at = partial(places, target.track)
-            found.append(Moving(name, part, clearance, at, apart=apart, required=required))
-    return tuple(found)
+            motions.append(Moving(name, part, clearance, at, apart=apart, required=required))
+    return tuple(motions)
 
 
 def linearised(what: Moving, breaks: Array) -> LinearMotion:
@@ -173,10 +173,10 @@ def relative_to(motion: LinearMotion, hulls: Array) -> Array:
 
 def _runs(too_near: Mask) -> list[IntArray]:
     """Return the pieces that are too near, in runs without a gap of more than one piece."""
-    found = np.flatnonzero(too_near)
-    if not len(found):
+    indices = np.flatnonzero(too_near)
+    if not len(indices):
         return []
-    return np.split(found, np.flatnonzero(np.diff(found) > 2) + 1)
+    return np.split(indices, np.flatnonzero(np.diff(indices) > 2) + 1)
 
 
 def _way_round(part: Solid, relative: Array, need: Array) -> Array:

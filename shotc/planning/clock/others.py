@@ -23,11 +23,11 @@ def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTraje
     flights : by drone, of those that are planned; the others count as standing on their pads
     """
     parked = {drone.name for drone in mission.parked}
-    found = []
+    motions = []
     for drone in mission.drones:
         if drone.name == name or drone.name in parked:
             continue
         flight = flights.get(drone.name)
         at = partial(standing_at, np.array(drone.home)) if flight is None else partial(flying, flight.curve)
-        found.append(Moving(drone_owner(drone), POINT, mission.rules.separation, at, always=True))
-    return tuple(found)
+        motions.append(Moving(drone_owner(drone), POINT, mission.rules.separation, at, always=True))
+    return tuple(motions)

@@ -82,27 +82,27 @@ class Surroundings:
         hulls : as in ``lacking``; reach : metres beyond its clearance within which a wall counts
         share : of the room that a piece has beyond a wall, kept
         """
-        found = []
+        planes = []
         for normals, offsets in self._bounds(hulls):
             slack = np.einsum("pmd,pd->pm", hulls, normals).min(axis=1) - offsets
             near = np.flatnonzero(slack < reach)
             ends = np.repeat((offsets[near] + kept(slack[near], share))[:, None], 2, axis=1)
-            found.append(beside(near, normals[near], ends))
-        return sides(self.motions, hulls).and_also(*found)
+            planes.append(beside(near, normals[near], ends))
+        return sides(self.motions, hulls).and_also(*planes)
 
     def _bounds(self, hulls: Array) -> Sequence[tuple[Array, Array]]:
         """Return normals (P, 3) and offsets (P,) of walls, and of the tangents of discs beside pieces."""
-        found = []
+        spans = []
         for wall in self.walls.walls:
             n = np.tile(np.array(wall.normal), (len(hulls), 1))
-            found.append((n, np.full(len(hulls), wall.offset)))
+            spans.append((n, np.full(len(hulls), wall.offset)))
         for disc in self.walls.discs:
             centre = np.array(disc.centre)
             away = hulls[:, :, :2].mean(axis=1) - centre
             away /= np.maximum(np.linalg.norm(away, axis=1), 1e-9)[:, None]
             n = np.column_stack([-away, np.zeros(len(hulls))])
-            found.append((n, n[:, :2] @ centre - disc.radius))
-        return found
+            spans.append((n, n[:, :2] @ centre - disc.radius))
+        return spans
 
 
 def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: bool = True) -> Surroundings:

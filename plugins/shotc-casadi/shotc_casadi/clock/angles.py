@@ -45,5 +45,5 @@ def turning(ray: Any, first: Any, second: Any, third: Any) -> Turning:
     acceleration = ca.jtimes(rate, ca.vertcat(r, r1), ca.vertcat(r1, r2))
     jerk = ca.jtimes(acceleration, ca.vertcat(r, r1, r2), ca.vertcat(r1, r2, r3))
     whole = ca.Function("turning", [r, r1, r2, r3], [ca.vertcat(rate, acceleration, jerk)], {"cse": True})
-    found = whole(ray, first, second, third)
-    return Turning(*ca.vertsplit(found))
+    turn = whole(ray, first, second, third)
+    return Turning(*ca.vertsplit(turn))

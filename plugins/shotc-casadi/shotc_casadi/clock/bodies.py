@@ -49,7 +49,7 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
 
     A drone that needs no distance is a point without clearance: there is nothing to be in.
     """
-    found = []
+    bodies = []
     for what in (motion.what for motion in around.motions):
         axes, half, middle = inscribed(what.part)
         longer = half + what.clearance
@@ -57,8 +57,8 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
             continue
         longest = float(longer[:2].max() if longer[2] > ENDLESS_M else longer.max())
         scale = (axes / longer).T
-        found.append(Body(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest))
-    return tuple(found)
+        bodies.append(Body(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest))
+    return tuple(bodies)
 
 
 class Ellipsoid(NamedTuple):
@@ -91,16 +91,16 @@ def inscribed(part: Solid) -> Ellipsoid:
     )
 
 
-def kept_from(bodies: Sequence[Body], wanted: ClockReferences, eyes: Array) -> ClockReferences:
+def kept_from(bodies: Sequence[Body], references: ClockReferences, eyes: Array) -> ClockReferences:
     """Return the references with the ellipsoids that come near places ``eyes`` at the nodes, (N + 1, 3).
 
     Those that came near before stay.
     """
     if not bodies:
-        return wanted
+        return references
     beside = np.array([body.longest * (body.distance(eyes) - body.reach) < NEAR_M for body in bodies])
-    if wanted.beside is not None:
-        beside |= wanted.beside
+    if references.beside is not None:
+        beside |= references.beside
     most = int(beside.sum(axis=0).max(initial=0))
     count = next((c for c in COUNTS if c >= most), most)
     table = np.zeros((len(eyes), count, BODY))
@@ -109,4 +109,4 @@ def kept_from(bodies: Sequence[Body], wanted: ClockReferences, eyes: Array) -> C
         for i, j in enumerate(np.flatnonzero(beside[:, k])):
             body = bodies[int(j)]
             table[k, i] = [*body.scale.T.ravel(), *body.centres[k], 0.0, body.reach**2]
-    return replace(wanted, bodies=table, beside=beside)
+    return replace(references, bodies=table, beside=beside)

@@ -21,31 +21,31 @@ SPREAD_S = 3.0  # seconds before and after such a stretch in which a guess goes 
 
 
 def guess_past(
-    curve: Piecewise, wanted: ClockReferences, occluders: Sequence[Occluder], filmed: Mask
+    curve: Piecewise, references: ClockReferences, occluders: Sequence[Occluder], filmed: Mask
 ) -> Piecewise:
     """Return a position curve led aside where something hides the subject in the film; its ends stay."""
     if not occluders:
         return curve
     breaks = curve.breaks
-    hidden = filmed & (occlusion_at(occluders, wanted, curve(breaks)) > 0.0)
+    hidden = filmed & (occlusion_at(occluders, references, curve(breaks)) > 0.0)
     values = [curve(breaks), *(curve.derivative(order)(breaks) for order in (1, 2))]
     at = np.flatnonzero(hidden)
     for run in np.split(at, np.flatnonzero(np.diff(breaks[at]) > BRIDGED_S) + 1) if len(at) else []:
-        way = _way_out(curve(breaks), wanted, occluders, run)
+        way = _way_out(curve(breaks), references, occluders, run)
         bump = _bump(breaks, (float(breaks[run[0]]), float(breaks[run[-1]])))
         for order in range(3):
             values[order] = values[order] + bump[order][:, None] * way
     return quintic_hermite(breaks, *values)
 
 
-def _way_out(eyes: Array, wanted: ClockReferences, occluders: Sequence[Occluder], run: IntArray) -> Array:
+def _way_out(eyes: Array, references: ClockReferences, occluders: Sequence[Occluder], run: IntArray) -> Array:
     """Return the shortest way out of the shadow for all nodes of a run, W, metres, shape (3,)."""
-    ray = (wanted.target[run, :3] - eyes[run]).mean(axis=0)
+    ray = (references.target[run, :3] - eyes[run]).mean(axis=0)
     side = np.array([-ray[1], ray[0], 0.0]) / max(float(np.hypot(ray[0], ray[1])), 1e-6)
-    best, least = np.zeros(3), float(occlusion_at(occluders, wanted, eyes)[run].max())
-    for far in wanted.usual * np.arange(1, TRIES + 1) / TRIES:
+    best, least = np.zeros(3), float(occlusion_at(occluders, references, eyes)[run].max())
+    for far in references.usual * np.arange(1, TRIES + 1) / TRIES:
         for way in (far * np.array([0.0, 0.0, 1.0]), far * side, -far * side):
-            occlusion = float(occlusion_at(occluders, wanted, eyes + way)[run].max())
+            occlusion = float(occlusion_at(occluders, references, eyes + way)[run].max())
             if occlusion < least:
                 best, least = way, occlusion
         if least < CLEAR:

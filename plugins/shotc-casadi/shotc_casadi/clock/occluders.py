@@ -91,7 +91,7 @@ def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occl
 
 
 def with_occluders(
-    occluders: Sequence[Occluder], wanted: ClockReferences, eyes: Array, filmed: Mask
+    occluders: Sequence[Occluder], references: ClockReferences, eyes: Array, filmed: Mask
 ) -> ClockReferences:
     """Return the references with the ellipsoids that come near the lines of sight from ``eyes`` (N + 1, 3).
 
@@ -99,12 +99,12 @@ def with_occluders(
     filmed : whether each node is in the film
     """
     if not occluders:
-        return wanted
-    points = wanted.centres
+        return references
+    points = references.centres
     occlusions = np.array([occluder.occlusion(eyes, points[:, occluder.before]) for occluder in occluders])
     near = (occlusions > -NEAR_DV) & filmed
-    if wanted.near is not None:
-        near |= wanted.near
+    if references.near is not None:
+        near |= references.near
     most = int(near.sum(axis=0).max(initial=0))
     count = next((c for c in COUNTS if c >= most), most)
     sight_lines = np.zeros((len(eyes), count, LINE))
@@ -118,12 +118,12 @@ def with_occluders(
                 1.0,
                 *points[k, occluder.before],
             ]
-    return replace(wanted, sight_lines=sight_lines, near=near, reach=np.full(len(eyes), np.inf))
+    return replace(references, sight_lines=sight_lines, near=near, reach=np.full(len(eyes), np.inf))
 
 
-def occlusion_at(occluders: Sequence[Occluder], wanted: ClockReferences, eyes: Array) -> Array:
+def occlusion_at(occluders: Sequence[Occluder], references: ClockReferences, eyes: Array) -> Array:
     """Return the most that anything covers each line of sight, d_v, above 0 hidden; shape (N + 1,)."""
-    occlusions = [occluder.occlusion(eyes, wanted.centres[:, occluder.before]) for occluder in occluders]
+    occlusions = [occluder.occlusion(eyes, references.centres[:, occluder.before]) for occluder in occluders]
     return np.asarray(np.max(occlusions, axis=0, initial=-np.inf))
 
 

@@ -104,7 +104,7 @@ def guess(curve: Piecewise, breaks: Array, camera: Piecewise | None = None) -> t
 def problem(
     subject: ClockSubject,
     breaks: Array,
-    wanted: ClockReferences,
+    references: ClockReferences,
     planes: HalfSpaces,
     use: Use,
     start: tuple[Array, Array],
@@ -115,7 +115,9 @@ def problem(
     """
     limits = subject.drone.limits
     table, count = _half_spaces(planes, len(breaks) - 1)
-    sizes = Sizes(count, wanted.sight_lines.shape[1], wanted.bodies.shape[1], wanted.subjects.shape[1])
+    sizes = Sizes(
+        count, references.sight_lines.shape[1], references.bodies.shape[1], references.subjects.shape[1]
+    )
     least = np.full(sizes.inputs, -inf)
     least[sizes.moves :] = 0.0
     if not sizes.subjects:
@@ -127,13 +129,13 @@ def problem(
     low[:3] = -inf, -inf, -use.share * limits.descent
     high = np.full_like(low, inf)
     high[:3] = jerk, speed, use.share * limits.climb
-    rows = [wanted.sight_lines, wanted.bodies, wanted.subjects]
+    rows = [references.sight_lines, references.bodies, references.subjects]
     flat = [row.reshape(len(breaks), -1) for row in rows]
     moves = start[1][:, : sizes.moves]
     made = ClockProblem(
         sizes,
-        np.column_stack([_parameters(subject, breaks, wanted), table, *flat]),
-        _unit(wanted),
+        np.column_stack([_parameters(subject, breaks, references), table, *flat]),
+        _unit(references),
         start[0],
         np.column_stack([moves, np.ones((len(moves), sizes.inputs - sizes.moves))]),
         _bounds(subject, breaks, sizes, use),
@@ -164,28 +166,28 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
     return low, high
 
 
-def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockReferences) -> Array:
+def _parameters(subject: ClockSubject, breaks: Array, references: ClockReferences) -> Array:
     leg, n = subject.leg, len(breaks) - 1
     length = np.append(np.diff(breaks), 0.0)
     filmed = (breaks >= leg.start - 1e-9) & (breaks < leg.end - 1e-9)
-    near, paid = 1.0 / wanted.usual**2, _unit(wanted)
-    binds, turn = _binds(subject, wanted), np.array(weights.TURN)
-    free = wanted.placed and not subject.together
+    near, paid = 1.0 / references.usual**2, _unit(references)
+    binds, turn = _binds(subject, references), np.array(weights.TURN)
+    free = references.placed and not subject.together
     turn = np.where(filmed[:, None], turn, (0.0 if free else weights.UNWATCHED) * turn)
     drone, half = subject.drone, np.tan(subject.drone.hfov / 2)
     unit = weights.TOGETHER if subject.together else binds
     values = {
         "length": length,
-        "ideal": wanted.ideal,
+        "ideal": references.ideal,
         "place": binds * near * _shared(np.where(filmed, 1.0, weights.FAINT) * length),
         "leash": np.full(n + 1, near / weights.LEASH**2),
-        "near": wanted.reach**-2.0,
-        "target": wanted.target,
+        "near": references.reach**-2.0,
+        "target": references.target,
         "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
-        "turn": turn if wanted.watches else np.zeros((n + 1, 6)),
+        "turn": turn if references.watches else np.zeros((n + 1, 6)),
         "steep": steepest(subject, breaks),
-        "free": np.where(filmed & wanted.watches, 0.0, UNFILMED),
-        "price": np.full(n + 1, weights.STEEP / wanted.usual),
+        "free": np.where(filmed & references.watches, 0.0, UNFILMED),
+        "price": np.full(n + 1, weights.STEEP / references.usual),
         "hidden": np.full(n + 1, weights.HIDDEN * unit),
         "field": weights.FIELD * _shared(length),
         "touch": np.full(n + 1, weights.TOUCH * unit),
@@ -197,25 +199,25 @@ def _parameters(subject: ClockSubject, breaks: Array, wanted: ClockReferences) -
     return np.column_stack(table)
 
 
-def _unit(wanted: ClockReferences) -> float:
+def _unit(references: ClockReferences) -> float:
     """Return what all weights are multiplied by for the solver.
 
     Where nothing is filmed a jerk costs next to nothing, and fatrop takes a small curvature for none: it adds
     to the diagonal, again and again, and creeps. Beside what is looked past the cost has hills between one
     side and the other, and costs that are large against the barrier strand it on the first: there they stay.
     """
-    if wanted.sight_lines.shape[1]:
+    if references.sight_lines.shape[1]:
         return 1.0
-    return weights.UNIT * wanted.usual**2
+    return weights.UNIT * references.usual**2
 
 
-def _binds(subject: ClockSubject, wanted: ClockReferences) -> float:
+def _binds(subject: ClockSubject, references: ClockReferences) -> float:
     """Return the weight of the place."""
     if len(subject.framed) > 1:
         return weights.LOOSE
-    if not wanted.placed or subject.held_whole:
+    if not references.placed or subject.held_whole:
         return weights.PLACE
-    return weights.YIELDS if wanted.yields or wanted.sight_lines.shape[1] else weights.PLACED
+    return weights.YIELDS if references.yields or references.sight_lines.shape[1] else weights.PLACED
 
 
 def _shared(stages: Array) -> Array:

@@ -22,8 +22,8 @@ ROWS = (*HELD, "jerk", "speed", "climb and descent")
 
 def solve(task: ClockProblem, solver: Solver) -> Solution:
     """Solve a problem from its first guess."""
-    found = solved(instance(task), solver)
-    return replace(found, inputs=found.inputs * task.units, objective=found.objective / task.unit)
+    solution = solved(instance(task), solver)
+    return replace(solution, inputs=solution.inputs * task.units, objective=solution.objective / task.unit)
 
 
 def instance(task: ClockProblem) -> Instance:

@@ -129,7 +129,7 @@ class ClockReferences:
         return 0 if self.near is None else int(self.near.sum())
 
 
-def references(subject: ClockSubject, t: Array) -> ClockReferences:
+def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
     """Return what a shot wants at mission times t, shape (N + 1,)."""
     ideal = _ideal_at(subject, t)
     watched, shot, n = subject.watched, subject.placed.shot, len(t)
@@ -212,11 +212,11 @@ def _over(subject: ClockSubject, centres: Array, ideal: Array) -> bool:
 
 def seen_at(subject: ClockSubject, t: Array) -> Array:
     """Return the centres of all that a shot shows at mission times t, shape (M, J, 3)."""
-    found = np.zeros((len(t), len(subject.framed), 3))
+    places = np.zeros((len(t), len(subject.framed), 3))
     for j, one in enumerate(subject.framed):
         target = subject.mission.target(one.target)
-        found[:, j] = [target.at(float(u)) for u in t]
-    return found
+        places[:, j] = [target.at(float(u)) for u in t]
+    return places
 
 
 def motion(mission: MissionIR, name: str, t: Array) -> Array:

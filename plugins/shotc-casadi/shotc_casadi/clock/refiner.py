@@ -51,26 +51,26 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
 
     name : of the refiner. A shot that cannot be refined keeps its guide, with an error that says why.
     """
-    told: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, ClockLeg)]
     for shot in [leg.shot for leg in legs]:
         ctx.progress(f"refine shot {shot}")
-        path, said = refine_one(path, shot, name)
-        told += said
-    return path, tuple(told)
+        path, messages = refine_one(path, shot, name)
+        diagnostics += messages
+    return path, tuple(diagnostics)
 
 
 def refine_one(path: PathIR, shot: str, name: str) -> tuple[PathIR, list[Diagnostic]]:
     """Return the path with one shot on its own clock refined, and what has to be said of it."""
     subject = subject_of(path, shot)
-    found = _tried(path, subject, name, unseen=given_up(path.stats, shot) is None)
-    if found.refined.leg is None and found.why == IN_PICTURE and prefers_free_pictures(subject.mission):
-        found = _tried(path, subject, name, unseen=False)
-    said = found.said
-    if said is None and found.refined.leg is None:
-        said = unrefined(path, shot, found.why)
-    stats = (*found.path.stats, *_stats(found.refined))
-    return replace(found.path, stats=stats), [] if said is None else [said]
+    tried = _tried(path, subject, name, unseen=given_up(path.stats, shot) is None)
+    if tried.refined.leg is None and tried.why == IN_PICTURE and prefers_free_pictures(subject.mission):
+        tried = _tried(path, subject, name, unseen=False)
+    message = tried.said
+    if message is None and tried.refined.leg is None:
+        message = unrefined(path, shot, tried.why)
+    stats = (*tried.path.stats, *_stats(tried.refined))
+    return replace(tried.path, stats=stats), [] if message is None else [message]
 
 
 class _Tried(NamedTuple):
@@ -85,7 +85,7 @@ class _Tried(NamedTuple):
 def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool) -> _Tried:
     """Refine a shot; unseen : whether the drones' pictures are to be kept free."""
     refined = refine_clock(subject, unseen=unseen)
-    said = _report(path, subject, refined, name)
+    message = _report(path, subject, refined, name)
     whole = held_whole(subject, refined, unseen=unseen)
     new, why = refined.leg, GUIDE_BETTER
     enough = no_less if subject.together else as_whole
@@ -96,18 +96,18 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool) -> _
     if any(one is not None and one.leg is not None for one, _ in reasons):
         why = IN_PICTURE
     taken, moved = _taken(path, reasons, unseen=unseen)
-    return _Tried(taken or replace(refined, leg=None), moved, why, said)
+    return _Tried(taken or replace(refined, leg=None), moved, why, message)
 
 
 def _taken(
-    path: PathIR, found: tuple[tuple[ClockRefined | None, str], ...], *, unseen: bool
+    path: PathIR, candidates: tuple[tuple[ClockRefined | None, str], ...], *, unseen: bool
 ) -> tuple[ClockRefined | None, PathIR]:
     """Return the first of a shot's refinements that may be flown, and the path with it.
 
-    found : each with the reason for which it leaves its place
+    candidates : each with the reason for which it leaves its place
     unseen : whether it has to keep the drones' pictures free, or not to come deeper into them
     """
-    for one, why in found:
+    for one, why in candidates:
         if one is None or one.leg is None:
             continue
         moved = with_leg(path, one.leg, why)

@@ -26,7 +26,7 @@ from shotc_casadi.clock.occluders import Occluder, with_occluders
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
 from shotc_casadi.clock.proof import Gap, astray, gap_in
-from shotc_casadi.clock.references import ClockReferences, ClockSubject, references
+from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
 from shotc_casadi.clock.several import turned
 from shotc_casadi.clock.side import Pass, guess_to_side, held, passes
 from shotc_casadi.solving import SOLVERS, Solution, by_one_of
@@ -108,7 +108,7 @@ class _Round:
     first : the solver that failed before one that did not
     """
 
-    wanted: ClockReferences
+    references: ClockReferences
     course: Piecewise
     start: tuple[Array, Array]
     over: tuple[Pass, ...]
@@ -145,38 +145,38 @@ def refine_clock(
 def _begun(shot: _Shot) -> _Round:
     """Return the first round: from the guide, led aside where it has to choose a side."""
     subject, guide = shot.subject, shot.guide
-    wanted = references(subject, shot.breaks)
-    over = () if subject.together else passes(subject, shot.breaks, wanted)
-    first = guess_past(guess_to_side(guide, over), wanted, shot.occluders, shot.shown)
+    references = references_at(subject, shot.breaks)
+    over = () if subject.together else passes(subject, shot.breaks, references)
+    first = guess_past(guess_to_side(guide, over), references, shot.occluders, shot.shown)
     course = first if shot.occluders else guide
-    return _Round(wanted, course, shot.guess(first), over, guess_aside=bool(over or shot.occluders))
+    return _Round(references, course, shot.guess(first), over, guess_aside=bool(over or shot.occluders))
 
 
 def _next(shot: _Shot, now: _Round) -> _Round:
     """Return the round after one: set up about its course, solved, and proved at every instant."""
-    wanted = with_occluders(shot.occluders, now.wanted, now.course(shot.breaks), shot.shown)
-    wanted = kept_from(shot.bodies, wanted, now.course(shot.breaks))
-    task = problem(shot.subject, shot.breaks, wanted, _planes(shot, now), now.use, now.start)
+    references = with_occluders(shot.occluders, now.references, now.course(shot.breaks), shot.shown)
+    references = kept_from(shot.bodies, references, now.course(shot.breaks))
+    task = problem(shot.subject, shot.breaks, references, _planes(shot, now), now.use, now.start)
     optional = now.best is not None or now.guess_aside
     solution, failed = attempt = by_one_of(SOLVERS[:1] if optional else SOLVERS, partial(solve, task))
     seconds = now.seconds + attempt.seconds
-    after = replace(now, wanted=wanted, rounds=now.rounds + 1, seconds=seconds, last=solution)
+    after = replace(now, references=references, rounds=now.rounds + 1, seconds=seconds, last=solution)
     if solution.status != "solved":
         return _unsolved(shot, after)
-    found = curve_of(shot.subject, shot.breaks, solution)
-    gap = gap_in(shot.subject.drone, shot.around, found)
-    after = replace(after, first=now.first or failed, gap=gap, course=found)
+    curve = curve_of(shot.subject, shot.breaks, solution)
+    gap = gap_in(shot.subject.drone, shot.around, curve)
+    after = replace(after, first=now.first or failed, gap=gap, course=curve)
     if gap is not None:
         return _tightened(after, gap)
     # What is looked past anew has a price that the motion before did not pay.
-    anew = wanted.screened > now.wanted.screened
-    return _improved(after, _Best(found, solution, task), anew=anew)
+    anew = references.screened > now.references.screened
+    return _improved(after, _Best(curve, solution, task), anew=anew)
 
 
 def _planes(shot: _Shot, now: _Round) -> HalfSpaces:
     """Return the half-spaces about the course of a round."""
     subject, leg = shot.subject, shot.subject.leg
-    planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, ROOM_SHARE), now.wanted, now.over)
+    planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, ROOM_SHARE), now.references, now.over)
     if not shot.unseen:
         return planes
     return planes.and_also(shot.around.free(subject.camera_task, (leg.start, leg.end), now.course))

@@ -43,11 +43,11 @@ def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool =
     before = plain.leg or subject.leg
     if _hidden(subject, before) <= GAIN_SHARE:
         return None
-    found = refine_clock(subject, occluders_of(subject, plain.breaks), unseen=unseen)
-    if found.leg is None:
+    freed = refine_clock(subject, occluders_of(subject, plain.breaks), unseen=unseen)
+    if freed.leg is None:
         return None
-    better = _hidden(subject, found.leg) < _hidden(subject, before) - GAIN_SHARE
-    return found if better and as_whole(subject, before, found.leg) else None
+    better = _hidden(subject, freed.leg) < _hidden(subject, before) - GAIN_SHARE
+    return freed if better and as_whole(subject, before, freed.leg) else None
 
 
 def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:
@@ -63,11 +63,11 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
     before = plain.leg or subject.leg
     if shown(subject, before).cropped <= SLACK_SHARE:
         return None
-    found = refine_clock(replace(subject, held_whole=True), unseen=unseen)
-    if found.leg is None:
+    refined = refine_clock(replace(subject, held_whole=True), unseen=unseen)
+    if refined.leg is None:
         return None
-    fewer = shown(subject, found.leg).cropped < shown(subject, before).cropped - SLACK_SHARE
-    return found if fewer and as_whole(subject, before, found.leg) else None
+    fewer = shown(subject, refined.leg).cropped < shown(subject, before).cropped - SLACK_SHARE
+    return refined if fewer and as_whole(subject, before, refined.leg) else None
 
 
 def _cropped_on_purpose(subject: ClockSubject) -> bool:

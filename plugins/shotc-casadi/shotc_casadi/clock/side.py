@@ -41,21 +41,21 @@ class Pass(NamedTuple):
     guess_offset: float
 
 
-def passes(subject: ClockSubject, breaks: Array, wanted: ClockReferences) -> tuple[Pass, ...]:
+def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) -> tuple[Pass, ...]:
     """Return the ways over the target that have room on their side, in their order."""
     leg = subject.leg
-    if not wanted.watches:
+    if not references.watches:
         return ()
     guide = leg.curve(breaks)[:, :3]
-    relative = guide[:, :2] - wanted.target[:, :2]
-    off = np.linalg.norm(guide - wanted.ideal, axis=1)
-    free = SIDESTEP_SHARE * np.sqrt(np.maximum(wanted.reach**2 - off**2, 0.0))
+    relative = guide[:, :2] - references.target[:, :2]
+    off = np.linalg.norm(guide - references.ideal, axis=1)
+    free = SIDESTEP_SHARE * np.sqrt(np.maximum(references.reach**2 - off**2, 0.0))
     distance = np.linalg.norm(relative, axis=1)
     filmed = (breaks >= leg.start) & (breaks < leg.end)
-    near = np.flatnonzero((distance < NEAR_SHARE * wanted.usual) & filmed)
+    near = np.flatnonzero((distance < NEAR_SHARE * references.usual) & filmed)
     if not len(near):
         return ()
-    found = []
+    over = []
     for run in np.split(near, np.flatnonzero(np.diff(near) > 1) + 1):
         nearest = int(run[distance[run].argmin()])
         stages = run[np.abs(breaks[run] - breaks[nearest]) <= HELD_S]
@@ -66,10 +66,10 @@ def passes(subject: ClockSubject, breaks: Array, wanted: ClockReferences) -> tup
         if offset[least] >= LEAST_M:
             level, far = (
                 np.column_stack([sides, 0 * sides[:, 0]]),
-                min(GUESS_SHARE * wanted.usual, float(free[nearest])),
+                min(GUESS_SHARE * references.usual, float(free[nearest])),
             )
-            found.append(Pass(stages, float(breaks[nearest]), level, offset, least, far))
-    return tuple(found)
+            over.append(Pass(stages, float(breaks[nearest]), level, offset, least, far))
+    return tuple(over)
 
 
 def _across(way: Array, away: Array) -> Array:
@@ -81,9 +81,9 @@ def _across(way: Array, away: Array) -> Array:
     return np.asarray(np.where((length > 1e-3) & ((across @ away)[:, None] > ALONG_SHARE), across, away))
 
 
-def held(planes: HalfSpaces, wanted: ClockReferences, over: Sequence[Pass]) -> HalfSpaces:
+def held(planes: HalfSpaces, references: ClockReferences, over: Sequence[Pass]) -> HalfSpaces:
     """Return half-spaces with those that keep the nodes near a target on their side."""
-    target = wanted.target[:, :3]
+    target = references.target[:, :3]
     for one in over:
         ends = [
             np.einsum("md,md->m", target[k], one.sides) + one.offset for k in (one.stages, one.stages + 1)

@@ -67,8 +67,8 @@ class Sizes(NamedTuple):
         Solvers have them in units that cost 1 a stage: multipliers begin at 1, and a price that is large
         beside that is what most of the steps of an interior-point method go into.
         """
-        found = {"hidden": self.moves} if self.occluders else {}
-        return found | ({"touch": self.inputs - 1} if self.bodies else {})
+        inputs = {"hidden": self.moves} if self.occluders else {}
+        return inputs | ({"touch": self.inputs - 1} if self.bodies else {})
 
     @property
     def limits(self) -> int:
