@@ -25,7 +25,7 @@ class Equivalent(NamedTuple):
 EQUIVALENTS: tuple[Equivalent, ...] = (
     Equivalent(
         "shotc/geom/separation.py",
-        "for low, high in slabs[:: max(1, len(slabs) // SAMPLES)]:",
+        "for low, high in slabs[:: max(1, len(slabs) // SAMPLE_SLABS)]:",
         "1  ->  2",
         "slabs are sampled for a first upper bound alone; branch and bound ends within the same gap",
     ),
