@@ -15,6 +15,7 @@ from shotc.ir.source import MissionSource
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
     from shotc.ir.show import Display, Fleet
+    from shotc.ir.terrain import Terrain
 
 Above = Literal["target", "ground", "origin"]
 """What a camera's height counts from: the target's foot then, the ground below it, or the plane z = 0."""
@@ -331,6 +332,7 @@ class MissionIR(NamedTuple):
     deferred : what only a later version can plan; planning refuses it, checking does not
     displays : the shots of fleets, in the order they are written
     files : (name, bytes) of the files that displays draw; no plan carries them
+    terrain : the ground where it is not the plane z = 0; a plan carries the file that it is made of
     source : what the mission was lowered from
     """
 
@@ -351,6 +353,7 @@ class MissionIR(NamedTuple):
     displays: "tuple[Display, ...]" = ()
     files: tuple[tuple[str, bytes], ...] = ()
     source: MissionSource = MissionSource()
+    terrain: "Terrain | None" = None
 
     @property
     def parked(self) -> tuple[Drone, ...]:
@@ -359,8 +362,12 @@ class MissionIR(NamedTuple):
         return tuple(drone for drone in self.drones if drone.name not in filming)
 
     def ground(self, x: float, y: float) -> float:
-        """Return z of the ground at a place, metres."""
-        return flat(x, y)
+        """Return z of the ground at a place, metres; beyond terrain it is taken for the plane z = 0."""
+        return flat(x, y) if self.terrain is None else self.terrain.z(x, y)
+
+    def lowest(self, place: Vec3, radius: float) -> float:
+        """Return the least z of the centre of a body over a place, metres; radius : of the body."""
+        return self.ground(place[0], place[1]) + self.rules.over_ground(radius)
 
     def base(self, above: Above, place: Vec2, target: Target, t: float) -> float:
         """Return z of what heights at a place count from where a target is at a mission time, metres."""

@@ -1,4 +1,4 @@
-"""What stands before a target: keep-out zones, the other targets and the other drones, instant by instant.
+"""What stands before a target: keep-out zones, terrain, other targets and other drones, instant by instant.
 
 A sight line goes from the camera to the target's centre; where that is within a zone, the zone hides it.
 Targets whose cylinders overlap or touch at that
@@ -15,6 +15,8 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import hidden
 from shotc.geom.pieces import Mask
+from shotc.geom.surface.sight import billboards
+from shotc.geom.surface.sight import hidden as hides
 from shotc.ir.bodies import flying, moved, parts_of_one
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
@@ -37,6 +39,10 @@ def hiders(
             away = moved(other, t)
             before = hidden(eyes - away, centres - away, (other.solid,))
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
+    if mission.terrain is not None:
+        # One ray a frame, to the centre, as for all that stands.
+        boards = billboards(eyes, centres, 0.0, 0.0)
+        yield f"terrain {mission.terrain.file}", hides(mission.terrain.ground.surface, boards, 1)[:, 0, 0]
     for flight in others:
         ball = flying(flight.curve, t)
         yield f"drone {flight.drone}", _behind(eyes, centres, ball, mission.drone(flight.drone).radius)

@@ -94,7 +94,9 @@ def _rows(value: NDArray[Any]) -> list[Any]:
 @cache
 def hints(kind: type) -> dict[str, Any]:
     """Return the resolved types of a record's fields, in their order."""
-    types = get_type_hints(kind, localns={"Display": Display, "Fleet": Fleet, "Track": Track})
+    # No plan holds a terrain: it holds the file that it is made of.
+    known = {"Display": Display, "Fleet": Fleet, "Track": Track, "Terrain": Any}
+    types = get_type_hints(kind, localns=known)
     return {name: types[name] for name in field_names(kind)}
 
 

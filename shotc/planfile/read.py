@@ -160,7 +160,7 @@ def _report(faults: list[FieldFault], name: str) -> list[Diagnostic]:
     return shown
 
 
-_APART = frozenset({"origins", "source_sha256", "files", "source"})
+_APART = frozenset({"origins", "source_sha256", "files", "source", "terrain"})
 """Fields of a mission that do not stand under `mission`."""
 
 _Spans = tuple[tuple[KeyPath, Span], ...]

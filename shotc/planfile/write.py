@@ -63,8 +63,8 @@ def seal(mission: Any) -> str:
 
 
 def encode_mission(mission: MissionIR) -> dict[str, Any]:
-    """Return the fields of a mission, without the map of its origins, its files and its text."""
-    names = (name for name in MissionIR._fields if name not in ("origins", "files", "source"))
+    """Return the fields of a mission, without the map of its origins, its files, its terrain and its text."""
+    names = (name for name in MissionIR._fields if name not in ("origins", "files", "source", "terrain"))
     return {name: encode(getattr(mission, name)) for name in names}
 
 

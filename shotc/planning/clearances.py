@@ -133,9 +133,9 @@ def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) ->
 def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -> Vec3 | None:
     """Return the nearest place out of an obstacle that is free of all, or None."""
     others = clearances_of(mission, drone)
-    low = mission.rules.over_ground(drone.radius)
     places = [outward(p, q) for q in obstacle.ways_out(p)]
-    free = [q for q in places if q[2] >= low - ROUNDING_M and all(o.lack(q) <= ROUNDING_M for o in others)]
+    high = [q for q in places if q[2] >= mission.lowest(q, drone.radius) - ROUNDING_M]
+    free = [q for q in high if all(o.lack(q) <= ROUNDING_M for o in others)]
     return min(free, key=lambda place: dist(p, place), default=None)
 
 

@@ -33,7 +33,8 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
     """Return the problem with every piece kept clear of all that is near; owners index space.owners."""
     index = {name: i for i, name in enumerate(around.space.owners)}
     planes = corridor(around.space, around.hulls, around.reach, around.share)
-    owner = np.array([index[o.owner] for o in around.space.obstacles], dtype=np.intp)
+    obstacles = [index[o.owner] for o in around.space.obstacles]
+    owner = np.array([*obstacles, *(index[g.owner] for g in around.space.terrain)], dtype=np.intp)
     half_spaces = (
         [rows_of(around.breaks, replace(planes, owner=owner[planes.owner]))] if len(planes.piece) else []
     )

@@ -22,6 +22,7 @@ from shotc.geom.solids import Solid
 from shotc.geom.taper import SLOPE, Taper
 from shotc.geom.vec import Vec3
 from shotc.ir.owners import Owner
+from shotc.planning.over_ground import OverGround
 
 COMFORT_M = 0.5  # kept beyond that by a curve where there is room, metres
 STEEPER_RATIO = 1.4  # times the slope of what is needed: planned curves leave their polylines a little
@@ -67,18 +68,26 @@ class FreeSpace:
     """All of it, for one drone.
 
     ends : places, metres, from which the clearances of obstacles that are nearer taper (``geom.taper``)
+    terrain : the heights above ground that is not flat, the least one first
     """
 
     obstacles: tuple[Obstacle, ...]
     walls: tuple[Wall, ...]
     discs: tuple[Disc, ...]
     ends: tuple[Vec3, ...] = ()
+    terrain: tuple[OverGround, ...] = ()
 
     @property
     def owners(self) -> tuple[Owner, ...]:
         """Everything that may stop a path, each once, in a fixed order."""
         names = [o.owner for o in self.obstacles] + [w.owner for w in self.walls]
-        return tuple(dict.fromkeys(names + [d.owner for d in self.discs]))
+        names += [d.owner for d in self.discs] + [g.owner for g in self.terrain]
+        return tuple(dict.fromkeys(names))
+
+    @property
+    def bounds(self) -> FreeSpace:
+        """The free space without its obstacles: walls, discs and the ground."""
+        return FreeSpace((), self.walls, self.discs, terrain=self.terrain)
 
     def without(self, owner: Owner) -> FreeSpace:
         """Return the free space with everything of one owner taken away."""
@@ -86,6 +95,7 @@ class FreeSpace:
             tuple(o for o in self.obstacles if o.owner != owner),
             tuple(w for w in self.walls if w.owner != owner),
             tuple(d for d in self.discs if d.owner != owner),
+            terrain=tuple(g for g in self.terrain if g.owner != owner),
         )
 
     def lent(self, metres: float) -> FreeSpace:
@@ -102,6 +112,7 @@ class FreeSpace:
             tuple(Obstacle(o.owner, o.part, max(0.0, o.clearance - of(o))) for o in self.obstacles),
             tuple(Wall(w.owner, w.normal, w.offset - of(w), w.clearance - of(w)) for w in self.walls),
             tuple(Disc(d.owner, d.centre, d.radius + of(d)) for d in self.discs),
+            terrain=tuple(g.lowered(metres.get(g.owner, 0.0)) for g in self.terrain),
         )
 
 
@@ -115,7 +126,15 @@ class Breach:
 
 
 def bounds_slack(space: FreeSpace, p: Array) -> Array:
-    """Return how far points (N, 3) are inside the nearest wall or disc, metres; shape (N,)."""
+    """Return how far points (N, 3) are inside the nearest wall, disc or height, metres; shape (N,)."""
+    slack = _linear_slack(space, p)
+    for ground in space.terrain:
+        slack = np.minimum(slack, ground.slack(p))
+    return slack
+
+
+def _linear_slack(space: FreeSpace, p: Array) -> Array:
+    """Return the same for walls and discs: what holds for control points holds for their curve."""
     slack = np.full(len(p), np.inf)
     for wall in space.walls:
         slack = np.minimum(slack, p @ np.array(wall.normal) - wall.offset)
@@ -134,6 +153,8 @@ def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach
     for d in space.discs:
         lack = float(np.linalg.norm(p[:2] - np.array(d.centre))) - d.radius
         found.append(Breach(d.owner, lack, 0.0))
+    for ground in space.terrain:
+        found.append(Breach(ground.owner, -float(ground.slack(p[None])[0]), max(0.0, ground.clearance)))
     return sorted((b for b in found if b.lack > tolerance), key=lambda b: -b.lack)
 
 
@@ -204,6 +225,7 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
     hulls : shape (P, m, 3), points whose hull holds each piece
     share : of the distance a piece has beyond the clearance, this much is kept, COMFORT_M at most
     A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
+    Owners are indices of obstacles; those of terrain come after them.
     """
     planes: list[HalfSpaces] = []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
@@ -223,7 +245,20 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
             slack = (along - o.clearance + less).min(axis=1)
         offset = (border + o.clearance + kept(slack, share))[:, None] - less
         planes.append(HalfSpaces(near, n, offset, np.full(len(near), j)))
+    for j, ground in enumerate(space.terrain):
+        planes.append(within_height(ground, hulls, (reach, share), len(space.obstacles) + j))
     return NO_HALF_SPACES.and_also(*planes)
+
+
+def within_height(ground: OverGround, hulls: Array, room: tuple[float, float], owner: int) -> HalfSpaces:
+    """Return half-spaces for a height above terrain.
+
+    room : reach and share, as of ``corridor``; owner : their index
+    """
+    reach, share = room
+    planes = ground.planes(hulls, reach, lambda slack: kept(slack, share))
+    offset = np.repeat(planes.offset[:, None], 6, axis=1)
+    return HalfSpaces(planes.piece, planes.normal, offset, np.full(len(planes.piece), owner))
 
 
 def taper(space: FreeSpace, obstacle: Obstacle) -> Taper:
@@ -250,7 +285,7 @@ def shortfall(space: FreeSpace, hulls: Array) -> Array:
 
     A piece whose ball about its middle keeps clear needs no plane; its number is that of the ball.
     """
-    worst = -bounds_slack(space, hulls.reshape(-1, 3)).reshape(hulls.shape[:2]).min(axis=1)
+    worst = -_linear_slack(space, hulls.reshape(-1, 3)).reshape(hulls.shape[:2]).min(axis=1)
     middle = hulls.mean(axis=1)
     size = np.linalg.norm(hulls - middle[:, None], axis=2).max(axis=1)
     for o in space.obstacles:
@@ -259,6 +294,8 @@ def shortfall(space: FreeSpace, hulls: Array) -> Array:
         if len(near):
             _, gap[near] = separate(o.part, hulls[near])
         worst = np.maximum(worst, o.clearance - gap)
+    for ground in space.terrain:
+        worst = np.maximum(worst, ground.lack(hulls))
     return np.asarray(worst)
 
 

@@ -14,6 +14,7 @@ from shotc.ir.owners import CEILING, GROUND, Owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.free_space import MARGIN_M, Disc, FreeSpace, Obstacle, Wall
+from shotc.planning.over_ground import heights_over
 
 
 class FreeSpaces(NamedTuple):
@@ -32,11 +33,16 @@ def flight_space(mission: MissionIR, drone: Drone) -> FreeSpace:
 
     A drone that films nothing stands on its pad; those that fly are no part of a free space.
     """
-    over_ground = mission.rules.over_ground(drone.radius)
-    walls = [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
-    if isfinite(most := mission.rules.max_height or inf):
+    over_ground, terrain = mission.rules.over_ground(drone.radius), mission.terrain
+    most = mission.rules.max_height or inf
+    walls = [] if terrain else [Wall(GROUND, (0.0, 0.0, 1.0), over_ground, over_ground)]
+    if isfinite(most) and terrain is None:
         walls.append(Wall(CEILING, (0.0, 0.0, -1.0), -most, 0.0))
-    return _space((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
+    space = _space((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
+    if terrain is None:
+        return space
+    heights = heights_over(terrain.ground, over_ground, most if isfinite(most) else None)
+    return replace(space, terrain=heights)
 
 
 def free_spaces_of(mission: MissionIR, drone: Drone) -> FreeSpaces:

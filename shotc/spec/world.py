@@ -1,6 +1,6 @@
 """The world of a mission and its targets: where it is, what stands or moves in it, where drones may fly."""
 
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -18,6 +18,7 @@ from shotc.spec.fields import (
     Speed,
     Velocity,
 )
+from shotc.spec.fieldtypes import Integer
 from shotc.spec.model import Model, OneOf
 from shotc.spec.places import Altitude, Latitude, Longitude
 
@@ -111,11 +112,28 @@ class TargetSpec(Model):
     )
 
 
+class TerrainSpec(Model):
+    """Ground that rises, of an elevation model."""
+
+    file: RelativePath = Field(description="GeoTIFF, ASCII grid (.asc), SRTM (.hgt) or CSV of x,y,z")
+    epsg: Annotated[int, Integer("Epsg", 1024, 32767)] | None = Field(
+        default=None, description="code of its system of coordinates, where the file does not say it"
+    )
+    datum: Literal["sea", "origin", "home"] = Field(
+        default="sea",
+        description="what its heights count from: sea level, as the origin's alt; the plane z = 0; or home, "
+        "which puts the ground at the first drone's home. Files in metres of the world count from z = 0",
+    )
+
+
 class WorldSpec(Model):
     """The world of a mission."""
 
     origin: OriginSpec | None = Field(default=None, description="place on earth of the point [0, 0, 0]")
     scene: RelativePath | None = Field(default=None, description="point cloud or mesh of the scene")
+    terrain: TerrainSpec | None = Field(
+        default=None, description="ground that rises; the plane z = 0 if silent"
+    )
     wind: NonNegativeSpeed = Field(
         default=0.0, description="wind to reckon with; taken off the drones' speed"
     )

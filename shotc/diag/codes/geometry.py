@@ -287,4 +287,16 @@ CODES: tuple[CodeInfo, ...] = (
         ),
         base=_ROOF.replace("rules: {max_height: 60}\n", ""),
     ),
+    CodeInfo(
+        "G025",
+        "beyond-terrain",
+        Severity.ERROR,
+        "a home or a shot lies where the terrain of the mission has no ground",
+        "`world.terrain` is the ground, and nothing is known beyond its posts or in their holes: no height above "
+        "ground can be planned there, and none proved. The note says where and by how much. Take an elevation model "
+        "that covers the flight, with a few hundred metres to spare, or fill its holes.",
+        "",
+        "",
+        "other",
+    ),
 )

@@ -16,7 +16,7 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.mavlink.build import Builder
-from shotc.emit.mavlink.clearance import keep_outs
+from shotc.emit.mavlink.clearance import Obstacle, keep_outs
 from shotc.emit.mavlink.compare import Error, compare, nearest_miss
 from shotc.emit.mavlink.dialect import DIALECTS, Dialect
 from shotc.emit.mavlink.fence import fence_of
@@ -44,7 +44,6 @@ from shotc.emit.mavlink.track import SAMPLE_STEP, Track, track_of
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
-from shotc.planning.clearances import Clearance
 
 COARSER = 16.0  # times the tolerances at most, first those of framing, then that of position
 HALVINGS = 6  # of the search for the least coarseness that fits into the autopilot's memory
@@ -94,7 +93,7 @@ class _Job:
     geo: Geo
     track: Track
     style: Style
-    obstacles: tuple[Clearance, ...]
+    obstacles: tuple[Obstacle, ...]
 
     @staticmethod
     def of(mission: MissionIR, flight: DroneTrajectory) -> _Job:

@@ -8,16 +8,23 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import footprint_distances
 from shotc.ir.mission import Drone, MissionIR
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
+from shotc.planning.obstacles import flight_space
+from shotc.planning.over_ground import OverGround
+
+Obstacle = Clearance | OverGround
+"""What straight legs may come nearer to than the plan does; flat ground is none of it."""
 
 
-def keep_outs(mission: MissionIR, drone: Drone) -> tuple[Clearance, ...]:
-    """Return keep-out zones, standing targets and parked drones, with the clearances they are held to."""
+def keep_outs(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
+    """Return keep-out zones, standing targets, parked drones and terrain, with what they are held to."""
     around = (*clearances_of(mission, drone), *from_parked(mission, drone))
-    return tuple(each for each in around if not each.inside)
+    return (*(each for each in around if not each.inside), *flight_space(mission, drone).terrain)
 
 
-def shortfall(obstacle: Clearance, points: Array) -> Array:
+def shortfall(obstacle: Obstacle, points: Array) -> Array:
     """Return by how much each point, shape (n, 3), is too near to the obstacle, metres; negative is free."""
+    if isinstance(obstacle, OverGround):
+        return -obstacle.slack(points)
     solid = obstacle.solid
     across = footprint_distances(solid, points[:, :2])
     above = np.maximum(np.maximum(solid.bottom - points[:, 2], points[:, 2] - solid.top), 0.0)

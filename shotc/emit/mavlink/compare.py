@@ -8,14 +8,13 @@ from math import ceil, floor
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.clearance import shortfall
+from shotc.emit.mavlink.clearance import Obstacle, shortfall
 from shotc.emit.mavlink.refly import STAY_PACE, Flown
 from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.clearances import Clearance
 
 Array = NDArray[np.float64]
 
@@ -62,7 +61,7 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown) -> Error:
     return Error(position, heading, screen, *worst, filmed, planned)
 
 
-def nearest_miss(obstacles: tuple[Clearance, ...], flown: Flown) -> tuple[str, float]:
+def nearest_miss(obstacles: tuple[Obstacle, ...], flown: Flown) -> tuple[str, float]:
     """Return the obstacle whose clearance is cut deepest, and by how much, m; ("", 0) if none is."""
     if not len(flown.position):
         return ("", 0.0)

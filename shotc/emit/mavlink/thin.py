@@ -12,12 +12,11 @@ from math import radians
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.clearance import shortfall
+from shotc.emit.mavlink.clearance import Obstacle, shortfall
 from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, select, turns_body
 from shotc.emit.mavlink.track import SAMPLE_STEP, Poses, Stretch, Track, project
 from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone
-from shotc.planning.clearances import Clearance
 
 Array = NDArray[np.float64]
 
@@ -61,7 +60,7 @@ class Thinner:
     track: Track
     drone: Drone
     style: Style
-    obstacles: tuple[Clearance, ...]
+    obstacles: tuple[Obstacle, ...]
     planned_shortfall: tuple[Array, ...]
 
     def legs(self, tolerance: Tolerance, *, even: bool = True) -> list[Leg]:
@@ -154,7 +153,7 @@ class Thinner:
         return Poses(flown, body, cam_yaw, pitch, planned.hfov)
 
 
-def thinner_of(track: Track, drone: Drone, style: Style, obstacles: tuple[Clearance, ...]) -> Thinner:
+def thinner_of(track: Track, drone: Drone, style: Style, obstacles: tuple[Obstacle, ...]) -> Thinner:
     """Return the thinner of one drone's track."""
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
     return Thinner(track, drone, style, obstacles, planned)

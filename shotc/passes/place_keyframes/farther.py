@@ -30,8 +30,12 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting
     aside = hypot(*setting.offset[:2]) > LEVEL
     level = aside and not keyframe.placed
     offset = _back(setting, fits, level=level)
-    floor = mission.rules.over_ground(mission.drone(shot.drone).radius)
-    if aside and not level and (offset is None or _place(keyframe, setting, offset)[2] < floor):
+    radius = mission.drone(shot.drone).radius
+
+    def low(place: Vec3) -> bool:
+        return place[2] < mission.lowest(place, radius)
+
+    if aside and not level and (offset is None or low(_place(keyframe, setting, offset))):
         level, offset = True, _back(setting, fits, level=True)
     if offset is None:
         return ""

@@ -17,7 +17,7 @@ SAME_SHARE = 1e-9
 ITERATED_SHARE = 1e-6
 """The same for places that are found by iteration, from how subjects are to appear."""
 
-APART = frozenset({"origins", "source", "files"})
+APART = frozenset({"origins", "source", "files", "terrain"})
 """Fields of a mission that are no part of what it asks for."""
 
 WRITTEN = {"promise": "require"}

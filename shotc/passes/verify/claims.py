@@ -97,3 +97,8 @@ def held(subject: str, limit: Limit, worst: Worst, drones: tuple[str, ...] = ())
 def bounded(flight: Flight, limit: Limit, bound: Bound) -> Claim:
     """Hold a proven bound against a limit."""
     return claim(flight, limit, Worst(bound.proven, bound.at))
+
+
+def less(bound: Bound, radius: float) -> Bound:
+    """Return a bound on a distance from a body's centre as one from its surface."""
+    return Bound(bound.proven - radius, bound.attained - radius, bound.at)

@@ -196,7 +196,7 @@ def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
     """Tell whether nothing stands near a keyframe, so that nothing explains why it is left."""
     mission, at, body = flight.mission, keyframe.at, flight.drone.radius + NEAR_M
     rules = mission.rules
-    if at[2] < rules.ground_clearance + body:
+    if at[2] < mission.ground(at[0], at[1]) + rules.ground_clearance + body:
         return False
     for zone in mission.zones:
         apart = signed_distance(zone.solid, at)

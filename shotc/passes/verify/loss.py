@@ -121,5 +121,5 @@ def _space(mission: MissionIR, drone: Drone, track: DroneTrajectory, time: float
             < drone.radius + rules.target_clearance + AT_EDGE_M
         ):
             yield f"the clearance of target `{target.name}` ({measure(rules.target_clearance, 'm')})"
-    if z < drone.radius + rules.ground_clearance + AT_EDGE_M:
+    if z < mission.ground(x, y) + drone.radius + rules.ground_clearance + AT_EDGE_M:
         yield f"ground clearance ({measure(rules.ground_clearance, 'm')})"

@@ -42,6 +42,7 @@ RULES = {
     "field of view max": Rule("V018"),
     "ground clearance": Rule("V009"),
     "height above ground": Rule("V047"),
+    "distance from terrain": Rule("V009"),
     "distance from home": Rule("V012", help=REPLAN),
     "rate at start and end": Rule("V012", help=REPLAN),
     "endurance": Rule("V013"),

@@ -7,18 +7,19 @@ apply, and the body may stand as near to a solid as its pad does, but no nearer.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf, isfinite
+from math import inf
 
 import numpy as np
 
 from shotc.geom.pieces import Pieces, cut, join
-from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_convex, sup_outside
+from shotc.geom.proof import Bound, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solids import Solid, distance
 from shotc.ir.mission import Target, Zone
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap
+from shotc.passes.verify.above_ground import above_ground
+from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
 DRIFT_M = 1e-6
 """Metres that take-off and landing may leave the vertical."""
@@ -33,18 +34,7 @@ def space(flight: Flight) -> Iterator[Claim]:
         else:
             yield _keep_in(flight, zone, free, upright)
     rules = flight.mission.rules
-    ground = Limit(
-        "ground clearance", rules.ground_clearance, "m", ("rules", "ground_clearance"), upper=False
-    )
-    aim = rules.ground_clearance + flight.drone.radius
-    low = inf_channel(free, 2, gap(aim))
-    if len(free):
-        yield bounded(flight, ground, less(low, flight.drone.radius))
-    if rules.max_height is not None and isfinite(rules.max_height):
-        limit = Limit("height above ground", rules.max_height, "m", ("rules", "max_height"))
-        whole = flight.track.curve.channels(0, 1, 2)
-        high = sup_convex(cut(whole, whole.start, whole.end), lambda c: c[..., 2], gap(rules.max_height))
-        yield bounded(flight, limit, high)
+    yield from above_ground(flight, free) if len(free) else ()
     for target in flight.mission.targets:
         near = (free, upright) if target.track is None else _split(flight, target)
         parts = (*near, rules.target_clearance)
@@ -89,11 +79,6 @@ def _keep_in(flight: Flight, zone: Zone, free: Pieces, upright: Pieces) -> Claim
         worst = bound if bound.proven > worst.proven else worst
     margin = Bound(-worst.proven, -worst.attained, worst.at)
     return bounded(flight, Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False), less(margin, radius))
-
-
-def less(bound: Bound, radius: float) -> Bound:
-    """Return a bound on a distance from a body's centre as one from its surface."""
-    return Bound(bound.proven - radius, bound.attained - radius, bound.at)
 
 
 def _vertical(flight: Flight, upright: Pieces) -> Iterator[Claim]:

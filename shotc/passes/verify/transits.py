@@ -19,8 +19,7 @@ from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.ir.transits import Apart, Way, from_target, from_zones, ways
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap
-from shotc.passes.verify.space import less
+from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
 ENDING = " on transits"
 """Of the constraints of these claims."""

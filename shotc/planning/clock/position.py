@@ -90,7 +90,7 @@ class Task:
     @property
     def walls(self) -> FreeSpace:
         """The free space without its obstacles."""
-        return FreeSpace((), self.space.walls, self.space.discs)
+        return self.space.bounds
 
 
 @dataclass(frozen=True, slots=True, eq=False)

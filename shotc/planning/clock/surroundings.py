@@ -28,7 +28,15 @@ from shotc.planning.clock.moving import (
 )
 from shotc.planning.clock.others import other_drones
 from shotc.planning.clock.visibility import Visibility, keep_free, visibility_of
-from shotc.planning.free_space import NO_HALF_SPACES, FreeSpace, HalfSpaces, beside, kept, shortfall
+from shotc.planning.free_space import (
+    NO_HALF_SPACES,
+    FreeSpace,
+    HalfSpaces,
+    beside,
+    kept,
+    shortfall,
+    within_height,
+)
 from shotc.planning.obstacles import free_spaces_of
 
 
@@ -88,6 +96,7 @@ class Surroundings:
             near = np.flatnonzero(slack < reach)
             ends = np.repeat((offsets[near] + kept(slack[near], share))[:, None], 2, axis=1)
             planes.append(beside(near, normals[near], ends))
+        planes += [within_height(ground, hulls, (reach, share), 0) for ground in self.walls.terrain]
         return sides(self.motions, hulls).and_also(*planes)
 
     def _bounds(self, hulls: Array) -> Sequence[tuple[Array, Array]]:
@@ -120,7 +129,7 @@ def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: boo
     moving = (*stands, *moving_targets(mission, drone), *other_drones(mission, drone.name, flown))
     return Surroundings(
         breaks,
-        FreeSpace((), space.walls, space.discs),
+        space.bounds,
         _led(path, drone, tuple(linearised(what, breaks) for what in moving), breaks),
         visibility_of(mission, drone, flown),
     )

@@ -65,7 +65,7 @@ def straight_line(space: FreeSpace, start: Array, end: Array) -> Line | NoWay | 
         near = breaches(space, p)
         if near:
             return TooNear(p, -1, near[0])
-    route = find_route(space, start, end)
+    route = over_ground(space, find_route(space, start, end))
     if route is None:
         return NoWay(start, end)
     steps = np.linalg.norm(np.diff(route, axis=0), axis=1)
@@ -103,11 +103,23 @@ def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoW
     ways = []
     shut = blocked(space, a, b)
     for k in range(len(kept) - 1):
-        route = find_route(space, a[k], b[k]) if shut[k].any() else np.stack([a[k], b[k]])
+        straight = np.stack([a[k], b[k]])
+        route = over_ground(space, find_route(space, a[k], b[k]) if shut[k].any() else straight)
         if route is None:
             return NoWay(a[k], b[k], (kept[k], kept[k + 1]))
         ways.append(route)
     return ways
+
+
+def over_ground(space: FreeSpace, route: Array | None) -> Array | None:
+    """Return a way, corners (K, 3), that keeps above ground; None where something hangs in that way."""
+    if route is None or not space.terrain:
+        return route
+    way = space.terrain[0].over(route, MARGIN_M)
+    if len(way) == len(route):
+        return way
+    inside = bounds_slack(space, way[1:-1]).min(initial=0.0) >= 0.0
+    return way if inside and not blocked(space, way[:-1], way[1:]).any() else None
 
 
 def _joined(
@@ -149,6 +161,9 @@ def _nearest_free(space: FreeSpace, p: Array) -> Array | None:
         tries += list(p + rays[out > 0] * out[out > 0, None])
         if o.part.top < FAR_M:
             tries.append(np.array([p[0], p[1], o.part.top + reach]))
+    for ground in space.terrain[:1]:
+        below = MARGIN_M - ground.slack(np.array(tries))
+        tries += [q + np.array([0.0, 0.0, lack]) for q, lack in zip(tries, below, strict=True) if lack > 0.0]
     for wall in space.walls:
         lack = wall.offset + MARGIN_M - float(p @ np.array(wall.normal))
         if lack > 0:

@@ -46,6 +46,7 @@ def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | Pa
     if outside:
         return PadBlocked(outside[0].owner, "outside", outside[0].lack, 0.0)
     half_spaces = [w.offset for w in flight.walls if w.normal[2] > 0.5]
+    half_spaces += [h for g in flight.terrain[:1] for h in g.lowest(home[None, :2]).tolist()]
     lowest = max([home[2] + LEAST_LIFT_M, *(f + PAD_MARGIN_M for f in half_spaces)])
     ceiling = min(((-w.offset, w.owner) for w in pad.walls if w.normal[2] < -0.5), default=None)
     if ceiling is not None and ceiling[0] < lowest:

@@ -25,7 +25,7 @@ from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, bounds_slack, taper
 from shotc.planning.obstacles import FreeSpaces
-from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
+from shotc.planning.path.lines import Line, NoWay, TooNear, over_ground, straight_line
 from shotc.planning.path.position import Stretch, solve_stretch
 from shotc.planning.path.route import find_route, length
 from shotc.planning.path.shots import Stuck
@@ -141,6 +141,7 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Line | None:
     route = None if away is None or back is None else find_route(full, away, back)
     if route is not None:
         found.append(_joined(a, route, b))
+    found = [way for way in (over_ground(flight, way) for way in found) if way is not None]
     best = min(found, key=length, default=None)
     most = inf if spaces.required else LONGER_RATIO * length(near) + LONGER_M
     return None if best is None or length(best) > most else _of(best)

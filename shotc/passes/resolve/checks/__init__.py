@@ -8,6 +8,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.covered import covered
+from shotc.passes.resolve.checks.covered_by_terrain import check_covered
 from shotc.passes.resolve.checks.framing import check_framing
 from shotc.passes.resolve.checks.framings import check_course
 from shotc.passes.resolve.checks.grammar import allowed, check_grammar
@@ -53,6 +54,8 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
     the order of the shots where all shots and homes do.
     """
+    if beyond := list(check_covered(mission)):
+        return beyond
     ideals = (fault for shot in mission.shots for fault in check_ideal(mission, shot))
     homes = [*check_homes(mission), *ideals, *passers_of(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]

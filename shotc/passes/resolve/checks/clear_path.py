@@ -63,10 +63,10 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
 def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator[float]:
     """Yield the least change up, and the least one down to ``least``, that free a path, metres."""
     drone = mission.drone(shot.drone)
-    around, floor = clearances_of(mission, drone), mission.rules.over_ground(drone.radius)
+    around = clearances_of(mission, drone)
 
     def blocked(k: Keyframe) -> bool:
-        if k.at[2] < floor - ROUNDING_M:
+        if k.at[2] < mission.lowest(k.at, drone.radius) - ROUNDING_M:
             return True
         met = next((i for i, o in enumerate(around) if o.lack(k.at) > ROUNDING_M), None)
         if met is not None:

@@ -26,9 +26,12 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
     faults: list[Diagnostic] = []
     for drone in mission.drones:
         label = mission.origins.value((*drone.path, "home"))
-        if drone.home[2] < -ROUNDING_M:
-            note = f"it is {-drone.home[2]:.2f} m under z = 0, the ground"
-            help_ = f"raise it by {at_least(-drone.home[2])} m, to z = 0"
+        ground = mission.ground(drone.home[0], drone.home[1])
+        under = ground - drone.home[2]
+        if under > ROUNDING_M:
+            z = f"{round(ground, 2) + 0.0:g}"
+            note = f"it is {under:.2f} m under z = {z}, the ground"
+            help_ = f"raise it by {at_least(under)} m, to z = {z}"
             message = f"the home of `{drone.name}` is underground"
             faults.append(Diagnostic("G006", message, (label,), (note,), help_))
             continue
@@ -89,7 +92,7 @@ def stands_free(mission: MissionIR, drone: Drone) -> bool:
 
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[str, str] | None:
     """Return what stands against a home, and the numbers; None where nothing does."""
-    top = max(drone.home[2], mission.rules.over_ground(drone.radius))
+    top = max(drone.home[2], mission.lowest(drone.home, drone.radius))
     room = take_off_room(drone.home, top, obstacle)
     if room >= drone.radius - ROUNDING_M:
         return None

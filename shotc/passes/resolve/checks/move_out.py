@@ -26,13 +26,14 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
     looks = keyframe.target is not None and keyframe.aim is None
     if not looks or (free is not None and _shown(mission, shot, keyframe, free)):
         return "move it to a free place" if free is None else move(p, free)
-    around, floor = clearances_of(mission, drone), mission.rules.over_ground(drone.radius)
+    around = clearances_of(mission, drone)
     centre = mission.target(str(keyframe.target)).centre
     places: list[Vec3] = []
     for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:WAYS]:
         for q in _farther(centre, way):
             place = outward(p, q)
-            if place[2] < floor - ROUNDING_M or any(o.lack(place) > ROUNDING_M for o in around):
+            low = mission.lowest(place, drone.radius)
+            if place[2] < low - ROUNDING_M or any(o.lack(place) > ROUNDING_M for o in around):
                 continue
             if _shown(mission, shot, keyframe, place):
                 places.append(place)

@@ -27,7 +27,7 @@ def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diag
     for path, keyframes in _by_line(shot).items():
         for fault in too_low(mission, shot, drone, path, keyframes):
             yield path, fault
-        raised = [_raised(k, mission.rules.over_ground(drone.radius)) for k in keyframes]
+        raised = [_raised(k, mission.lowest(k.at, drone.radius)) for k in keyframes]
         for obstacle in clearances_of(mission, drone):
             for fault in blocked(mission, shot, raised, obstacle, clear):
                 yield path, fault
@@ -51,15 +51,15 @@ def too_low(
     mission: MissionIR, shot: Shot, drone: Drone, path: KeyPath, keyframes: list[Keyframe]
 ) -> Iterator[Diagnostic]:
     """Yield the fault of a line with a keyframe that is too near to the ground."""
-    lowest = min(keyframes, key=lambda k: k.at[2])
-    floor = mission.rules.over_ground(drone.radius)
-    z = lowest.at[2]
-    if z >= floor - ROUNDING_M:
+    lowest = min(keyframes, key=lambda k: k.at[2] - mission.ground(k.at[0], k.at[1]))
+    floor, need = mission.lowest(lowest.at, drone.radius), mission.rules.over_ground(drone.radius)
+    z = lowest.at[2] - floor + need
+    if z >= need - ROUNDING_M:
         return
     where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
     note = (
         f"the ground clearance of {mission.rules.ground_clearance:.2f} m and the body radius of "
-        f"{drone.radius:.2f} m need {floor:.2f} m"
+        f"{drone.radius:.2f} m need {need:.2f} m"
     )
     label = _label(mission, shot, lowest)
     if not lowest.placed and (*shot.path, "altitude") in mission.origins.values:
@@ -67,7 +67,7 @@ def too_low(
     message = f"{_what(shot, lowest)} is too low: {where}"
     notes = (note, *_over_ground(mission, lowest, floor))
     to = f"to z = {at_least(floor)}" if lowest.beside is None else "that is, its offset or altitude"
-    help_ = f"raise it by {at_least(floor - z)} m, {to}"
+    help_ = f"raise it by {at_least(need - z)} m, {to}"
     yield Diagnostic("G001", message, (label,), notes, help_)
 
 

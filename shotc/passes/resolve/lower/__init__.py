@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.framed import Course
+from shotc.ir.ground import Ground as Heights
 from shotc.ir.ground import flat
 from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, TransitClearance, Zone
 from shotc.ir.source import MissionSource
@@ -18,12 +19,16 @@ from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.lower.show import Show, shown
+from shotc.passes.resolve.lower.terrain import read_terrain
 from shotc.passes.resolve.lower.tracks import read_tracks
 from shotc.passes.resolve.lower.world import Put, check_targets, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE, SHOW_RATE, TRANSIT_FILMED, TRANSIT_OTHER
 from shotc.spec.rules import RulesSpec
+
+if TYPE_CHECKING:
+    from shotc.ir.terrain import Terrain
 
 ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
 
@@ -64,8 +69,9 @@ class _World(NamedTuple):
     """All but the shots.
 
     put : puts a place into W; read : who reads the files, and has those that were read
-    astray : whether its places on earth lie too far from each other
+    astray : whether its places on earth lie too far from each other, or its ground is not known
     sound : whether every drone can fly as it is written
+    heights : z of the ground at x and y; terrain : of which it is, None where it is flat
     """
 
     put: Put
@@ -78,6 +84,8 @@ class _World(NamedTuple):
     faults: tuple[Diagnostic, ...]
     astray: bool
     sound: bool
+    heights: Heights
+    terrain: "Terrain | None"
 
 
 def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots:
@@ -90,6 +98,7 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots
         ir.origins,
         world.ground.read,
         partial(match_files, ir.folder, ir.origins),
+        world.heights,
     )
     return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, 0.0))
 
@@ -98,14 +107,18 @@ def _world(ir: LoadedMission) -> _World:
     spec, origins = ir.spec, ir.origins
     astray = check_earth(spec, origins)
     origin = geo_origin(spec)
-    put = partial(placed, origin or ANYWHERE, flat)
     read = Reader(ir.folder, origins)
     ground = Ground(origin, origins, read)
-    found_zones, zone_faults = zones(spec, put, origins)
+    terrain = None if astray else read_terrain(spec, partial(placed, origin or ANYWHERE, flat), ground)
+    astray = [*astray, terrain] if isinstance(terrain, Diagnostic) else astray
+    relief = None if isinstance(terrain, Diagnostic) else terrain
+    heights = flat if relief is None else relief.z
+    put = partial(placed, origin or ANYWHERE, heights)
+    found_zones, zone_faults = zones(spec, put, relief, origins)
     found_drones, drone_faults = drones(spec, put, origins)
     tracks, track_faults = read_tracks(spec, put, ground)
     found_targets = targets(spec, put, tracks)
-    buried = [] if astray else check_targets(found_targets, origins)
+    buried = [] if astray else check_targets(found_targets, heights, origins)
     return _World(
         put,
         ground,
@@ -116,6 +129,8 @@ def _world(ir: LoadedMission) -> _World:
         _rules(spec.rules),
         (*astray, *zone_faults, *drone_faults, *buried, *track_faults),
         astray=bool(astray),
+        heights=heights,
+        terrain=relief,
         sound=not has_errors(drone_faults),
     )
 
@@ -139,6 +154,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         fleets=show.fleets,
         displays=shots.displays,
         files=show.files,
+        terrain=world.terrain,
         source=MissionSource(ir.text, tuple(world.read.tables.items()), show.drawn, ir.chosen),
     )
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.ground import Ground, flat
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Above, Deferred, Drone, GeoOrigin, Keyframe, Promise, Rules, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
@@ -33,6 +34,7 @@ class Cast(NamedTuple):
     origins: OriginMap
     read: Callable[[str, KeyPath], bytes | Diagnostic]
     match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
+    ground: Ground = flat
 
 
 class Shots(NamedTuple):
@@ -78,6 +80,7 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
         match=cast.match,
         pace=spec.rules.pace,
         fleets=tuple(spec.fleets),
+        ground=cast.ground,
     )
     kind = cast.kinds[shot.kind]
     expansion = expanded(kind, shot, scene) if kind.foreign else kind.expand(shot, scene)

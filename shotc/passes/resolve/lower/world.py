@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from math import isclose
 from typing import TYPE_CHECKING, Any
 
@@ -10,11 +10,13 @@ from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
+from shotc.ir.ground import Ground
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic
+from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
 from shotc.spec.presets import PRESETS, Preset
@@ -23,6 +25,7 @@ from shotc.spec.world import ZoneSpec
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
     from shotc.ir.show import Fleet
+    from shotc.ir.terrain import Terrain
     from shotc.spec.fleets import FleetSpec
 
 Put = Callable[[Spot | Geodetic], Vec3]
@@ -33,13 +36,15 @@ _PUBLISHED = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": 
 LEAST_SPEED = 0.1  # m/s that the wind has to leave
 
 
-def zones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[tuple[Zone, ...], list[Diagnostic]]:
+def zones(
+    spec: MissionSpec, put: Put, terrain: Terrain | None, origins: OriginMap
+) -> tuple[tuple[Zone, ...], list[Diagnostic]]:
     """Return the zones as solids; a polygon that encloses nothing is a fault and no zone."""
     found: list[Zone] = []
     faults: list[Diagnostic] = []
     for name, zone in spec.world.zones.items():
         path = ("world", "zones", name)
-        solid = _solid(zone, put)
+        solid = _solid(zone, put, terrain)
         if isinstance(solid, str):
             label = origins.value((*path, "polygon", "points"))
             help_ = "list the corners in the order in which one walks round the zone"
@@ -49,11 +54,12 @@ def zones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[tuple[Zone, 
     return tuple(found), faults
 
 
-def _solid(zone: ZoneSpec, put: Put) -> Solid | str:
+def _solid(zone: ZoneSpec, put: Put, terrain: Terrain | None) -> Solid | str:
     """Return the solid of a zone, or what its polygon does wrong."""
     if zone.cylinder is not None:
-        c = zone.cylinder
-        return Cylinder(c.center, c.radius, c.height.low, c.height.high)
+        c, (x, y), r = zone.cylinder, zone.cylinder.center, zone.cylinder.radius
+        about = ((x - r, y - r), (x + r, y + r))
+        return Cylinder(c.center, r, *_heights(zone, c.height, terrain, about))
     if zone.box is not None:
         return box(put(zone.box.center), zone.box.size, zone.box.heading)
     assert zone.polygon is not None
@@ -65,8 +71,24 @@ def _solid(zone: ZoneSpec, put: Put) -> Solid | str:
     area = signed_area(ring)
     if abs(area) < LEAST_AREA:
         return "encloses no area"
-    height = zone.polygon.height
-    return Prism(ring if area > 0 else ring[::-1], height.low, height.high)
+    heights = _heights(zone, zone.polygon.height, terrain, ring)
+    return Prism(ring if area > 0 else ring[::-1], *heights)
+
+
+def _heights(zone: ZoneSpec, height: HeightRange, terrain: Terrain | None, ring: Sequence[Vec2]) -> Vec2:
+    """Return the lowest and the highest z of a zone whose heights may count from the ground.
+
+    ring : corners of a polygon round it
+    Of ground that rises, a zone to keep out of has the lowest and the highest about it, so that it is no
+    smaller than what is meant, and one to stay in is no larger.
+    """
+    if not height.ground or terrain is None:
+        return height.low, height.high
+    x, y = zip(*ring, strict=True)
+    low, high = terrain.span((min(x), min(y)), (max(x), max(y)))
+    if zone.keep == "in":
+        low, high = high, low
+    return low + height.low, high + height.high
 
 
 def _ring(points: tuple[Vec2, ...]) -> tuple[Vec2, ...]:
@@ -91,18 +113,19 @@ def targets(spec: MissionSpec, put: Put, tracks: Mapping[str, Track]) -> dict[st
     return bodies
 
 
-def check_targets(targets: Mapping[str, Target | None], origins: OriginMap) -> list[Diagnostic]:
+def check_targets(found: Mapping[str, Target | None], ground: Ground, origins: OriginMap) -> list[Diagnostic]:
     """Warn of targets a good part of which is under the ground, where a moving one begins."""
+    standing = [(t, ground(t.centre[0], t.centre[1])) for t in found.values() if t is not None]
     return [
         Diagnostic(
             "G018",
-            f"target `{target.name}` reaches {target.height / 2 - target.centre[2]:.2f} m into the ground",
+            f"target `{target.name}` reaches {z - target.foot[2]:.2f} m into the ground",
             (origins.value((*target.path, "at" if target.track is None else "track")),),
-            (f"`at` is the middle of its {target.height:.2f} m, and the ground is z = 0",),
-            f"if it stands on the ground, put its middle at z = {target.height / 2:g}",
+            (f"`at` is the middle of its {target.height:.2f} m, and the ground is z = {z:g}",),
+            f"if it stands on the ground, put its middle at z = {round(z + target.height / 2, 2):g}",
         )
-        for target in targets.values()
-        if target is not None and target.centre[2] < target.height * (0.5 - BURIED)
+        for target, z in standing
+        if target.foot[2] < z - target.height * BURIED
     ]
 
 

@@ -22,9 +22,9 @@ from shotc.ir.mission import Target, Zone
 from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Limit, gap
+from shotc.passes.verify.claims import Limit, gap, less
 from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone
-from shotc.passes.verify.space import DRIFT_M, less
+from shotc.passes.verify.space import DRIFT_M
 
 SEED_PIECES = 256
 """Pieces, the nearest by their boxes, of which the nearest place is found first."""

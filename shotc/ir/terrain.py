@@ -1,0 +1,58 @@
+"""The terrain of a mission: ground that rises, of triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isnan
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask
+from shotc.geom.surface.ground import Ground, height_at
+from shotc.geom.surface.near import nearest
+from shotc.geom.surface.tree import plan_boxes_meet, search, surface_of
+from shotc.ir.limits import Vec2
+from shotc.ir.origin import KeyPath
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Terrain:
+    """Ground of triangles, metres of W.
+
+    file : its name, as the mission writes it; path : where that is written
+    """
+
+    ground: Ground
+    file: str
+    path: KeyPath = ("world", "terrain", "file")
+
+    def raised(self, metres: float) -> Terrain:
+        """Return the same ground that much higher."""
+        tree = self.ground.surface
+        higher = surface_of(tree.triangles + np.array([0.0, 0.0, metres]))
+        return replace(self, ground=replace(self.ground, surface=higher))
+
+    def span(self, low: Vec2, high: Vec2) -> Vec2:
+        """Return the lowest and the highest z of the triangles about a box in the plan; 0 without any."""
+        tree = self.ground.surface
+
+        def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
+            return plan_boxes_meet(np.array([low])[item], np.array([high])[item], its_low, its_high)
+
+        z = tree.triangles[search(tree, 1, meets).triangle][..., 2]
+        return (float(z.min()), float(z.max())) if z.size else (0.0, 0.0)
+
+    def beyond(self, x: float, y: float) -> float:
+        """Return how far a place is from where the ground ends, metres."""
+        return float(nearest(self.ground.edge, np.array([[x, y, 0.0]])).distance[0])
+
+    def z(self, x: float, y: float) -> float:
+        """Return z of the ground at a place, metres, 0 where there is none."""
+        return self.height(x, y) or 0.0
+
+    def height(self, x: float, y: float) -> float | None:
+        """Return z of the ground at a place, metres; None where there is no ground."""
+        found = float(height_at(self.ground, np.array([[x, y]]))[0])
+        return None if isnan(found) else found

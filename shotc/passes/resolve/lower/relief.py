@@ -1,0 +1,61 @@
+"""An elevation model made the ground about a mission. It needs numpy, so it loads where one is named."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.terrain.posts import Posts, TerrainFault
+from shotc.geom.terrain.relief import Box, Relief, relief_of
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import GeoOrigin
+from shotc.ir.terrain import Terrain
+from shotc.kinds.base import bad_file
+from shotc.kinds.elevation.reader import read_elevation
+from shotc.kinds.files import FileFault
+from shotc.passes.resolve.lower.files import Ground
+from shotc.spec.world import TerrainSpec
+
+AROUND_M = 1000.0  # beyond the places that a mission writes down, in which its terrain is read
+
+
+def relief(written: TerrainSpec, data: bytes, places: Iterable[Vec3], files: Ground) -> Terrain | Diagnostic:
+    """Return the ground that an elevation model makes, or what is wrong with it.
+
+    places : of the mission, W, the first drone's home first; files : for the origin, and the lines of faults
+    """
+    name, path = written.file, ("world", "terrain", "file")
+
+    def fault(found: TerrainFault) -> Diagnostic:
+        return bad_file(files.origins, path, name, FileFault(found.message, found.line, found.help))
+
+    posts = read_elevation(name, data, written.epsg)
+    if not isinstance(posts, Posts):
+        return fault(posts)
+    every = list(places)
+    box = Box(
+        (min(p[0] for p in every) - AROUND_M, min(p[1] for p in every) - AROUND_M),
+        (max(p[0] for p in every) + AROUND_M, max(p[1] for p in every) + AROUND_M),
+    )
+    geo = files.origin
+    origin = None if geo is None else (geo.lat_deg, geo.lon_deg, geo.alt)
+    found = relief_of(posts, box, origin, _offset(written, posts, geo))
+    if not isinstance(found, Relief):
+        return fault(found)
+    terrain = Terrain(found.ground, name)
+    if written.datum != "home":
+        return terrain
+    home = every[0]
+    under = terrain.height(home[0], home[1])
+    if under is None:
+        return fault(TerrainFault("empty", "it has no ground at the first drone's home, which is its datum"))
+    return terrain.raised(home[2] - under)
+
+
+def _offset(written: TerrainSpec, posts: Posts, origin: GeoOrigin | None) -> float:
+    """Return what is added to heights so that they count as the origin's altitude does, metres.
+
+    Posts of W count from its origin; on the earth a height over the plane z = 0 is one over the origin.
+    """
+    on_earth = posts.system is not None and origin is not None
+    return origin.alt if on_earth and origin is not None and written.datum == "origin" else 0.0

@@ -1,0 +1,60 @@
+"""The terrain that a mission names, read about the places that the mission writes down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.limits import Vec3
+from shotc.kinds.base import Place
+from shotc.passes.resolve.lower.files import Ground
+from shotc.requirements import remedy
+from shotc.spec.fields import Geodetic
+from shotc.spec.mission import MissionSpec
+
+if TYPE_CHECKING:
+    from shotc.ir.terrain import Terrain
+
+FILE = ("world", "terrain", "file")
+
+
+def read_terrain(
+    spec: MissionSpec, put: Callable[[Place], Vec3], files: Ground
+) -> Terrain | Diagnostic | None:
+    """Return the ground that a mission names, what is wrong with it, or None where it names none.
+
+    put : places on flat ground into W; files : who reads files, and the origin
+    """
+    written = spec.world.terrain
+    if written is None:
+        return None
+    if find_spec("numpy") is None:
+        message = f"the terrain `{written.file}` needs numpy, not installed here"
+        return Diagnostic("P004", message, (files.origins.value(FILE),), help=remedy(["numpy"]))
+    data = files.read(written.file, FILE)
+    if isinstance(data, Diagnostic):
+        return data
+    from shotc.passes.resolve.lower.relief import relief
+
+    return relief(written, data, map(put, _places(spec)), files)
+
+
+def _places(spec: MissionSpec) -> Iterator[Place]:
+    """Yield the places that a mission writes down, homes first, whatever their heights count from."""
+    yield from (drone.home for drone in spec.drones.values())
+    for target in spec.targets.values():
+        track = target.track
+        written: tuple[Any, ...] = (target.at,)
+        if track is not None:
+            written = (track.start, *(track.points or ()))
+        yield from (place for place in written if place is not None)
+    for shot in spec.shots:
+        keyframes = getattr(shot, "keyframes", None) or ()
+        spots = (
+            getattr(shot, "at", None),
+            *(getattr(shot, "points", None) or ()),
+            *(k.at for k in keyframes),
+        )
+        yield from (spot for spot in spots if isinstance(spot, tuple | Geodetic))
