@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -119,6 +120,20 @@ def test_a_drone_flies_up_a_cliff_and_keeps_from_its_wall(tmp_path, height):
     assert room.min() >= 2.0
     assert claim(plan, "ground clearance").holds
     assert claim(plan, "distance from terrain").worst > 0.0
+
+
+def test_the_mission_over_real_elevation_data_is_planned():
+    path = Path(__file__).parents[2] / "specs" / "terrain" / "jacksboro-ridge.yaml"
+    found = planned(path)
+    assert found.plan is not None
+    assert {d.code for d in found.diagnostics} == set()
+    relief = found.plan.trajectory.keyframes.mission.terrain.ground.surface.triangles
+    assert np.ptp(relief[..., 2]) > 200.0
+    assert claim(found.plan, "ground clearance").holds
+    assert claim(found.plan, "height above ground").worst < 100.0
+    (run, tower) = (c.worst for c in found.plan.certificate if c.constraint.endswith(" in frame"))
+    assert run == tower == 1.0
+    assert api.verify_plan(plan_bytes(found.plan), "plan.json").plan is not None
 
 
 def test_a_flight_beyond_the_terrain_is_refused(tmp_path):
