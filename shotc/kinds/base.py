@@ -21,11 +21,11 @@ from shotc.ir.mission import (
     GeoOrigin,
     Ideal,
     Keyframe,
-    Rules,
     Subject,
     Target,
 )
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.rules import Rules
 from shotc.spec.fields import Geodetic, Relative
 from shotc.spec.heights import AboveGround
 from shotc.spec.places import Spot

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
         Ideal,
         Keyframe,
         MissionIR,
-        Rules,
         Subject,
         Target,
     )
@@ -48,6 +47,7 @@ if TYPE_CHECKING:
         PathIR,
     )
     from shotc.ir.phases import KeyframeTime, Phase, Reference
+    from shotc.ir.rules import Rules
     from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR, VerifiedIR
     from shotc.kinds.base import Expansion, Kind, Scene
     from shotc.kinds.moving import along, evenly, on_clock, timed
@@ -162,7 +162,7 @@ _HOMES = {
     "Refiner": "shotc.ir.passes",
     "Relative": "shotc.spec.fields",
     "RelativePath": "shotc.spec.fields",
-    "Rules": "shotc.ir.mission",
+    "Rules": "shotc.ir.rules",
     "Scene": "shotc.kinds.base",
     "Share": "shotc.spec.fields",
     "ShotBase": "shotc.spec.shot",

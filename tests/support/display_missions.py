@@ -6,8 +6,9 @@ from math import inf
 
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Limits, Timing, Vec3
-from shotc.ir.mission import MissionIR, Rules, Zone
+from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.origin import OriginMap
+from shotc.ir.rules import Rules
 from shotc.ir.show import Apart, Display, Fleet, Picture, Source
 
 LIMITS = Limits(6.0, 3.0, 2.0, 2.5, 8.0, 1.0, 2.0)

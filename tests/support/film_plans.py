@@ -20,14 +20,13 @@ from shotc.ir.mission import (
     Keyframe,
     MissionIR,
     Promise,
-    Rules,
     Shot,
     Target,
-    TransitClearance,
     Zone,
 )
 from shotc.ir.origin import OriginMap
 from shotc.ir.phases import KeyframeTime, Phase, Reference
+from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR, VerifiedIR
 from tests.support.records import replace

@@ -10,8 +10,9 @@ from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetGoals, Frame, GoalIR
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Limits, Timing
-from shotc.ir.mission import MissionIR, Rules
+from shotc.ir.mission import MissionIR
 from shotc.ir.origin import OriginMap
+from shotc.ir.rules import Rules
 from shotc.ir.show import Apart, Display, Fleet, Model, Picture, Sphere
 
 LIMITS = Limits(5.0, 3.0, 2.0, 3.0, 8.0, 1.0, 1.0)

@@ -10,9 +10,10 @@ from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.fleet import FleetTrajectory, Lights, Shown
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Limits, Timing, Vec3
-from shotc.ir.mission import GeoOrigin, MissionIR, Rules, Zone
+from shotc.ir.mission import GeoOrigin, MissionIR, Zone
 from shotc.ir.origin import OriginMap
 from shotc.ir.phases import Phase
+from shotc.ir.rules import Rules
 from shotc.ir.show import Apart, Box, Display, Fleet, Picture, Sphere
 from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
 

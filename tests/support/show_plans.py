@@ -7,10 +7,11 @@ import numpy as np
 from shotc.ir.fleet import FleetTrajectory, Lights, Shown
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Limits, Timing
-from shotc.ir.mission import GeoOrigin, MissionIR, Rules
+from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.ir.origin import OriginMap
 from shotc.ir.passes import PassContext
 from shotc.ir.phases import Phase
+from shotc.ir.rules import Rules
 from shotc.ir.show import Apart, Display, Fleet, Picture, Sphere, Torus
 from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
 from shotc.passes.verify import judge

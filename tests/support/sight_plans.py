@@ -7,8 +7,9 @@ from math import radians
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.mission import Drone, MissionIR, Promise, Rules
+from shotc.ir.mission import Drone, MissionIR, Promise
 from shotc.ir.phases import Phase
+from shotc.ir.rules import Rules
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.sight import sights

@@ -11,8 +11,9 @@ from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import KEYED, arrivals, in_order, place_of, settled
 from shotc.ir.limits import Timing, Vec3
-from shotc.ir.mission import Beside, Composition, Keyframe, MissionIR, Promise, Rules, Shot, Target
+from shotc.ir.mission import Beside, Composition, Keyframe, MissionIR, Promise, Shot, Target
 from shotc.ir.origin import OriginMap
+from shotc.ir.rules import Rules
 
 BEND = Track((0.0, 20.0, 40.0), ((0.0, 0.0, 1.0), (40.0, 0.0, 1.0), (40.0, 40.0, 1.0)), until=inf)
 MISSION = MissionIR(

@@ -263,8 +263,6 @@ def allows_mapping(path):
     names = {"at", "home", "origin", "center", "start", "viewpoint", "look_at", "timing", "points", "kind"}
     names |= {"separation", "frames", "altitude", "height"}
     point = len(path) > 1 and path[-1] == 2  # a height in a position may say what it counts from
-        len(path) > 1 and isinstance(path[-1], int) and path[-1] == 2
-    )  # a height may say what it counts from
     return point or path[-1] in names or (len(path) > 1 and path[-2] == "points") or path[:-1] == ("shots",)
 
 

@@ -9,7 +9,8 @@ from shotc.diag.registry import has_errors
 from shotc.ir.framed import Course
 from shotc.ir.ground import Ground as Heights
 from shotc.ir.ground import flat
-from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Rules, Target, TransitClearance, Zone
+from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Target, Zone
+from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
 from shotc.passes.resolve.lower.deferred import deferred_features

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.ground import Ground, flat
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Above, Deferred, Drone, GeoOrigin, Keyframe, Promise, Rules, Shot, Target
+from shotc.ir.mission import Above, Deferred, Drone, GeoOrigin, Keyframe, Promise, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.rules import Rules
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.lower.foreign import expanded
