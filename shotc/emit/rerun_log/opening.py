@@ -7,6 +7,7 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 
+from shotc.emit.hillshade import before, ground_heights
 from shotc.geom.bernstein import Array
 from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
@@ -26,6 +27,9 @@ AWAY = 2.6
 
 NEAREST = 6.0
 """Metres added to that distance."""
+
+OVER_GROUND = 3.0
+"""Least height of the eye above terrain, metres."""
 
 AHEAD = 10.0
 """How far ahead of it a camera without a subject is taken to look, metres."""
@@ -56,11 +60,12 @@ def first_stand(plan: VerifiedIR) -> Stand | None:
     mission = plan.trajectory.keyframes.mission
     subjects = [f.target for f in flight.framing if f.start - SAME_TIME <= time <= f.end + SAME_TIME]
     subjects = list(dict.fromkeys(subjects))
-    points = np.concatenate([_camera(flight, time, ahead=not subjects), *_bodies(mission, subjects, time)])
+    camera = _camera(flight, time, ahead=not subjects)
+    points = np.concatenate([camera, *_bodies(mission, subjects, time)])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, away = (low + high) / 2, AWAY * float(np.linalg.norm(high - low)) / 2 + NEAREST
-    eyes = [middle + away * _toward(k) for k in range(HEADINGS)]
-    covered = [_covered(mission, subjects, eye, time) for eye in eyes]
+    eyes = [_over_ground(mission, middle + away * _toward(k)) for k in range(HEADINGS)]
+    covered = [_covered(mission, subjects, (eye, camera[0]), time) for eye in eyes]
     x, y, z = eyes[int(np.argmin(covered))].tolist()
     return Stand((x, y, z), (float(middle[0]), float(middle[1]), float(middle[2])))
 
@@ -88,7 +93,21 @@ def _bodies(mission: MissionIR, subjects: list[str], time: float) -> list[Array]
     return bodies
 
 
-def _covered(mission: MissionIR, subjects: list[str], eye: Array, time: float) -> int:
-    """Return how many things stand between an eye and the subjects."""
+def _over_ground(mission: MissionIR, eye: Array) -> Array:
+    """Return an eye, raised where it is in the ground or too near to it."""
+    if mission.terrain is None:
+        return eye
+    least = ground_heights(mission, eye[None, :2])[0] + OVER_GROUND
+    return np.array([eye[0], eye[1], max(eye[2], least)])
+
+
+def _covered(mission: MissionIR, subjects: list[str], seen: tuple[Array, Array], time: float) -> int:
+    """Return how many things stand before the subjects, and whether ground stands before the camera.
+
+    seen : the eye, and the camera that it is to see, p_W (3,)
+    """
+    eye, camera = seen
     at, when = eye[None, :], np.array([time])
-    return sum(bool(hides[0]) for name in subjects for _, hides in hiders(mission, (), name, at, when))
+    things = sum(bool(hides[0]) for name in subjects for _, hides in hiders(mission, (), name, at, when))
+    terrain = mission.terrain
+    return things + (terrain is not None and bool(before(terrain.ground, eye, camera[None, :])[0]))

@@ -9,6 +9,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTICAL, WHITE, Rgb, rgba8, shade
+from shotc.emit.rerun_log.terrain_mesh import log_terrain
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid, triangles
@@ -42,7 +43,10 @@ def log_scene(stream: Any, plan: VerifiedIR) -> None:
     """Log what stands in the world; the ground goes as far as the plan's flights need."""
     mission = plan.trajectory.keyframes.mission
     stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-    _ground(stream, plan)
+    if mission.terrain is None:
+        _ground(stream, plan)
+    else:
+        log_terrain(stream, mission.terrain.ground)
     _zones(stream, mission)
     _targets(stream, mission, scene_time(plan))
     for drone in mission.drones:

@@ -15,7 +15,7 @@ from warnings import catch_warnings, filterwarnings
 import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.image import BboxImage
@@ -35,6 +35,9 @@ QUICK = 3
 
 LEAST_CAPITAL_PX = 9.0
 """Height of a capital letter in the smallest text of a page, pixels of the file."""
+
+SEAM = 0.6
+"""Width of the edges that close the seams between the quads of a net, points."""
 
 ELLIPSIS = "…"
 
@@ -177,6 +180,16 @@ class Canvas:
         picture = BboxImage(self._window(box), interpolation="bilinear", origin="upper")
         picture.set_data(pixels)
         self._add(picture, None)
+
+    def mesh(self, corners: Array, faces: Array, clip: Box) -> None:
+        """Fill the quads of a net, row by row, the last row on top; none where a corner is NaN.
+
+        corners : shape (m + 1, n + 1, 2); faces : colours, shape (m, n, 3)
+        """
+        net = QuadMesh(corners, antialiased=True, transform=self._inches, linewidths=SEAM)
+        net.set_facecolor(faces.reshape(-1, 3))
+        net.set_edgecolor(faces.reshape(-1, 3))  # or paper shows between two quads
+        self._add(net, clip)
 
     def disc(
         self, at: tuple[float, float], radius: float, face: Color | str, edge: Color | str, width: float

@@ -10,11 +10,13 @@ import numpy as np
 
 from shotc.emit.palette import CAMERA, INK, KEEP_OUT, QUIET, WHITE
 from shotc.emit.screen import guide_lines
+from shotc.emit.storyboard.camera_picture import Picture, picture
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, chip
 from shotc.emit.storyboard.content import Moment
 from shotc.emit.storyboard.labels import Label, write_labels
-from shotc.emit.storyboard.scene import Picture, draw_scene, name_places, picture
+from shotc.emit.storyboard.scene import draw_scene, name_places
 from shotc.emit.storyboard.subjects import Framed
+from shotc.geom.bernstein import Array
 from shotc.geom.camera import heading_of
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, MissionIR, frozen
@@ -188,7 +190,7 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, los
     away = [float(np.linalg.norm(np.subtract(mission.target(t).centre, pose[:3]))) for t in moment.targets]
     if away:
         facts.append(f"{' to '.join(dict.fromkeys(map(metres, (min(away), max(away)))))} away")
-    facts.append(f"alt {metres(float(pose[2]))}")
+    facts.append(_height(pose, mission))
     if moment.hold > 0:
         facts.append(f"hold {moment.hold:g} s")
     rows = [facts] if cell.width > WIDE else [facts[:2], facts[2:]]
@@ -201,6 +203,14 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, los
         x += canvas.write(x, y, words, style, cell.width) + 0.1
     if lost:
         canvas.write(x, y, f"also seen: {', '.join(lost)}", Type(7.8, QUIET), box.x + cell.width - x)
+
+
+def _height(pose: Array, mission: MissionIR) -> str:
+    x, y, z = (float(c) for c in pose[:3])
+    under = 0.0 if mission.terrain is None else mission.terrain.height(x, y)
+    if mission.terrain is None or under is None:
+        return f"alt {metres(z)}"
+    return f"{metres(z - under)} over ground"
 
 
 def metres(length: float) -> str:

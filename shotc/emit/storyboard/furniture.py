@@ -33,11 +33,17 @@ def corner(
     return min(rooms, key=lambda room: sum(room.meets(other) for other in content))
 
 
-def scale_bar(canvas: Canvas, sheet: Sheet, step: float, content: Sequence[Box]) -> Box:
-    """Draw the scale, and write how wide the sheet's squares are, metres; return the room that takes."""
+def scale_bar(
+    canvas: Canvas, sheet: Sheet, step: float, content: Sequence[Box], contours: float = 0.0
+) -> Box:
+    """Draw the scale, and write how wide the sheet's squares are, metres; return the room that takes.
+
+    contours : how far apart they are, metres; 0 where there are none
+    """
     length = round_length(0.26 * sheet.box.width / sheet.inches)
     width = length * sheet.inches
     text, style = f"{length:g} m · grid {step:g} m", Type(7.5, INK)
+    text += f" · contours {contours:g} m" if contours else ""
     room = corner(sheet.box, (max(width, canvas.extent(text, style)[0]) + 0.12, 0.31), LOWER_FIRST, content)
     x, y = room.x + 0.06, room.y + 0.07
     canvas.polygons([room.outline()], (*GROUND_FAR, 0.85))
@@ -69,17 +75,20 @@ def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
     return room
 
 
-def height_marks(canvas: Canvas, sheet: Sheet) -> list[Box]:
-    """Write heights along the right edge of a side view, away from the camera; return the room they take."""
+def height_marks(canvas: Canvas, sheet: Sheet, *, over_plane: bool = True) -> list[Box]:
+    """Write heights along the right edge of a side view, away from the camera; return the room they take.
+
+    over_plane : the ground is the plane z = 0, which shows where 0 is
+    """
     box, style = sheet.box, Type(7.5, QUIET, across="right", along="center_baseline")
     step = max(1.0, round_length(0.75 / sheet.inches))
     middle = sheet.centre[1]
     most = box.height / 2 / sheet.inches
     rooms = []
-    # The ground itself shows where 0 is.
-    for k in range(max(1, int(np.ceil((middle - most) / step))), int(np.floor((middle + most) / step)) + 1):
+    first = int(np.ceil((middle - most) / step))
+    for k in range(max(1, first) if over_plane else first, int(np.floor((middle + most) / step)) + 1):
         y = float(sheet.at(np.array([0.0, k * step]))[1])
-        text = f"{k * step:g} m"
+        text = f"{k * step:g} m".replace("-", "−")
         width = canvas.extent(text, style)[0]
         room = Box(box.right - width - 0.18, y - 0.08, width + 0.17, 0.16)
         if box.holds(room):

@@ -22,6 +22,14 @@ from shotc.emit.palette import (
 )
 from shotc.emit.storyboard.canvas import Box, Canvas, Type
 from shotc.emit.storyboard.content import Moment, ShotBoard, standing
+from shotc.emit.storyboard.contours import (
+    Relief,
+    contour_heights,
+    draw_profile,
+    draw_relief,
+    profile,
+    relief_of,
+)
 from shotc.emit.storyboard.furniture import height_marks, north_arrow, round_length, scale_bar, view_name
 from shotc.emit.storyboard.labels import Label, nearest_room, write_labels
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
@@ -46,7 +54,10 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     whole, mission = mission, standing(mission, board)
     sheet = sheet_of(box, board, mission)
     step = _step(sheet, grid)
-    _ground(canvas, sheet, step)
+    relief = relief_of(sheet, mission.terrain.ground) if mission.terrain and sheet.is_plan else None
+    _paper(canvas, sheet, step, relief)
+    if not sheet.is_plan:
+        _ground_below(canvas, sheet, board, mission)
     zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
     for moment in board.moments:
@@ -54,8 +65,10 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     _tracks(canvas, sheet, board, whole)
     _path(canvas, sheet, board, mission)
     _targets(canvas, sheet, mission)
-    taken = _furniture(canvas, sheet, (board, step), mission)
+    taken = _furniture(canvas, sheet, (step, relief), board, mission)
     _numbers(canvas, sheet, board, mission, taken)
+    if relief is not None:
+        taken += contour_heights(canvas, sheet, relief, taken + _content(sheet, board, mission))
     lost = _names(canvas, sheet, board, mission, taken)
     if lost:
         words = f"also here: {', '.join(lost)}"
@@ -69,11 +82,18 @@ def _step(sheet: Sheet, grid: float) -> float:
     return grid if most <= MOST_SQUARES * grid else round_length(most / 8)
 
 
-def _ground(canvas: Canvas, sheet: Sheet, step: float) -> None:
-    box = sheet.box
-    canvas.polygons([box.outline()], GROUND_FAR if sheet.is_plan else SKY_LOW)
+def _paper(canvas: Canvas, sheet: Sheet, step: float, relief: Relief | None) -> None:
+    canvas.polygons([sheet.box.outline()], GROUND_FAR if sheet.is_plan else SKY_LOW)
+    if relief is not None:
+        draw_relief(canvas, sheet, relief)
     squares(canvas, sheet, step)
-    if sheet.is_plan:
+
+
+def _ground_below(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) -> None:
+    """Draw the ground of a side view: the plane z = 0, or terrain where the path is, cut open."""
+    box = sheet.box
+    if mission.terrain is not None:
+        draw_profile(canvas, sheet, profile(sheet, mission.terrain.ground, board.path[:, :2].mean(axis=0)))
         return
     level = min(float(sheet.at(np.zeros(2))[1]), box.top)
     if level > box.y:
@@ -179,21 +199,29 @@ def _clear_of(strip: Array, marks: Array, start: int) -> int:
     return int(free[np.argmin(np.abs(free - start))]) if len(free) else start
 
 
-def _furniture(canvas: Canvas, sheet: Sheet, what: tuple[ShotBoard, float], mission: MissionIR) -> list[Box]:
-    """Draw directions, scale and how wide the squares are; return the room they take."""
-    board, step = what
+def _furniture(
+    canvas: Canvas, sheet: Sheet, what: tuple[float, Relief | None], board: ShotBoard, mission: MissionIR
+) -> list[Box]:
+    """Draw directions, scale, how wide the squares are and how far contours are apart; return the room."""
+    step, relief = what
+    content = _content(sheet, board, mission)
+    if sheet.is_plan:
+        taken = [north_arrow(canvas, sheet, content)]
+    else:
+        taken = height_marks(canvas, sheet, over_plane=mission.terrain is None)
+        taken.append(view_name(canvas, sheet, content + taken))
+    contours = 0.0 if relief is None else relief.step
+    return [*taken, scale_bar(canvas, sheet, step, content + taken, contours)]
+
+
+def _content(sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[Box]:
+    """Return the room of what a map is drawn for: path, frames, home, targets and zones."""
     content = [_square(at, 0.06) for at in sheet.place(board.path[::4])]
     content += [_square(sheet.place(m.pose[:3]), 2 * NUMBER) for m in board.moments]
     content.append(_square(sheet.place(np.array(board.drone.home)), 0.1))
     shapes = [_body(sheet, t) for t in mission.targets]
     shapes += [sheet.outline(z.solid) for z in mission.zones if z.keep == "out"]
-    content += [seen for shape in shapes if (seen := sheet.visible(shape)) is not None]
-    if sheet.is_plan:
-        taken = [north_arrow(canvas, sheet, content)]
-    else:
-        taken = height_marks(canvas, sheet)
-        taken.append(view_name(canvas, sheet, content + taken))
-    return [*taken, scale_bar(canvas, sheet, step, content + taken)]
+    return content + [seen for shape in shapes if (seen := sheet.visible(shape)) is not None]
 
 
 def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> None:

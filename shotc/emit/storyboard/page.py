@@ -26,6 +26,7 @@ from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.map import draw_map
+from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.rounding import at_least
 
@@ -86,7 +87,7 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
     heights = [place.height(board) for place, board in zip(layouts, boards, strict=True)]
     height = HEADING + sum(heights) + FOOTING
     canvas = Canvas(WIDTH, height, dpi)
-    grid = _grid_of(boards)
+    grid = _grid_of(boards, plan.trajectory.keyframes.mission)
     _heading(canvas, height, plan, boards, grid)
     top = height - HEADING
     for place, board, used in zip(layouts, boards, heights, strict=True):
@@ -96,9 +97,10 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
     return canvas.png()
 
 
-def _grid_of(boards: tuple[ShotBoard, ...]) -> float:
-    """Return one width of ground squares for all pictures: about a third of the usual altitude."""
-    heights = [abs(float(m.pose[2])) for board in boards for m in board.moments]
+def _grid_of(boards: tuple[ShotBoard, ...], mission: MissionIR) -> float:
+    """Return one width of ground squares for all pictures: about a third of the usual height over ground."""
+    poses = [m.pose for board in boards for m in board.moments]
+    heights = [abs(float(pose[2]) - mission.ground(float(pose[0]), float(pose[1]))) for pose in poses]
     return max(1.0, round_length(float(np.median(heights)) / 1.5)) if heights else 10.0
 
 

@@ -3,55 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
-from itertools import pairwise
-from math import dist, hypot, tan
+from math import dist, hypot
 
 import numpy as np
 
-from shotc.emit.palette import GROUND, GROUND_FAR, KEEP_OUT, SKY, SKY_LOW, SUBJECT, Rgb, shade
+from shotc.emit.hillshade import before
+from shotc.emit.palette import KEEP_OUT, SKY_LOW, SUBJECT, Rgb, shade
+from shotc.emit.storyboard.camera_picture import Picture
 from shotc.emit.storyboard.canvas import Box, Canvas
+from shotc.emit.storyboard.fan import FanPainter, fan_of
+from shotc.emit.storyboard.flat_ground import draw_flat, draw_sky
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import View, view
 from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
 from shotc.geom.solids import convex_parts
 from shotc.geom.vec import Vec3
 from shotc.ir.bodies import parts_of_one
 from shotc.ir.mission import MissionIR, Target, Zone
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 
 LIGHT = np.radians(215.0)
 """Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""
 
-REACH, FADES = 30, 12
-"""How many squares the ground grid goes out from under the camera, and in how many steps it fades."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Picture:
-    """A camera pose and the rectangle it is drawn into."""
-
-    camera: View
-    eye: Vec3
-    pitch: float
-    box: Box
-
-    def place(self, uv: Array) -> Array:
-        """Return page positions of screen points, shape (..., 2)."""
-        x = self.box.x + (uv[..., 0] + 1) / 2 * self.box.width
-        y = self.box.y + (uv[..., 1] + 1) / 2 * self.box.height
-        return np.stack([x, y], axis=-1)
-
-    def offset(self, target: Target) -> Vec3:
-        """Return the target's centre less the eye, W."""
-        x, y, z = target.centre
-        return (x - self.eye[0], y - self.eye[1], z - self.eye[2])
-
-
-def picture(pose: Array, aspect: float, box: Box) -> Picture:
-    """Return the picture of one pose, channels of shape (7,)."""
-    camera = view(float(pose[CAM_YAW]), float(pose[CAM_PITCH]), float(pose[HFOV]), aspect)
-    return Picture(camera, (float(pose[0]), float(pose[1]), float(pose[2])), float(pose[CAM_PITCH]), box)
+AT_FOOT = 0.985
+"""Ground up to this share of the way to a thing hides it; beyond is the ground that the thing stands on."""
 
 
 def draw_scene(
@@ -61,13 +34,28 @@ def draw_scene(
 
     subjects : the targets that are drawn in full colour; grid : width of a ground square, metres
     """
-    _sky_and_ground(canvas, shown)
-    _grid(canvas, shown, grid)
-    for thing in painting_order(shown.eye, _things(mission)):
-        if isinstance(thing, Target):
-            _target(canvas, shown, thing, SUBJECT if thing.name in subjects else shade(SUBJECT, 1.45))
-        else:
-            _zone(canvas, shown, thing)
+    things = painting_order(shown.eye, _things(mission))
+    if mission.terrain is None:
+        draw_flat(canvas, shown, grid)
+        for thing in things:
+            _thing(canvas, shown, thing, subjects)
+        return
+    draw_sky(canvas, shown, SKY_LOW)
+    away = [AT_FOOT * _distance(shown.eye, thing) for thing in things]
+    fan = fan_of(shown, mission.terrain.ground, away)
+    ground = FanPainter(canvas, shown, fan, grid)
+    for thing, distance in zip(things, away, strict=True):
+        # What is nearer than a thing comes after it, and so hides what it stands before.
+        ground.draw_beyond(distance)
+        _thing(canvas, shown, thing, subjects)
+    ground.draw_beyond(0.0)
+
+
+def _thing(canvas: Canvas, shown: Picture, thing: Target | Zone, subjects: Collection[str]) -> None:
+    if isinstance(thing, Target):
+        _target(canvas, shown, thing, SUBJECT if thing.name in subjects else shade(SUBJECT, 1.45))
+    else:
+        _zone(canvas, shown, thing)
 
 
 def _things(mission: MissionIR) -> list[Target | Zone]:
@@ -124,64 +112,6 @@ def _distance(eye: Vec3, thing: Target | Zone) -> float:
         float(np.hypot(q[0] - eye[0], q[1] - eye[1]))
         for q in (part.closest(eye) for part in convex_parts(solid))
     )
-
-
-def _sky_and_ground(canvas: Canvas, shown: Picture) -> None:
-    box = shown.box
-    canvas.polygons([box.outline()], SKY)
-    horizon = -tan(shown.pitch) / float(shown.camera.half_height)
-    if horizon < 1:
-        _bands(canvas, shown, (horizon, 1.0), SKY_LOW, SKY)
-    if horizon > -1:
-        _bands(canvas, shown, (horizon, -1.0), GROUND_FAR, GROUND)
-        level = np.array([[-1.0, min(horizon, 1.0)], [1.0, min(horizon, 1.0)]])
-        canvas.lines([shown.place(level)], shade(GROUND, 0.72), 0.9, box)
-
-
-def _bands(canvas: Canvas, shown: Picture, span: tuple[float, float], first: Rgb, last: Rgb) -> None:
-    # A soft gradient away from the horizon, over one screen height, in thin bands.
-    edges = span[0] + np.linspace(0.0, 1.0, 13) ** 1.5 * (2.0 if span[1] > 0 else -2.0)
-    edges[-1] = span[1] * 40.0
-    strips, colors = [], []
-    for i, (a, b) in enumerate(pairwise(edges)):
-        strips.append(shown.place(np.array([[-1.0, a], [1.0, a], [1.0, b], [-1.0, b]])))
-        share = i / 11
-        colors.append(tuple(p + (q - p) * share for p, q in zip(first, last, strict=True)))
-    canvas.polygons(strips, colors, colors, 0.3, shown.box)
-
-
-def _grid(canvas: Canvas, shown: Picture, grid: float) -> None:
-    reach = REACH * grid
-    centre = np.round(np.array(shown.eye[:2]) / grid) * grid
-    across = np.arange(-REACH, REACH + 1) * grid
-    # Short pieces near the camera, so that they can fade with distance.
-    along = np.sign(np.linspace(-1, 1, 41)) * np.linspace(-1, 1, 41) ** 2 * reach
-    lines = []
-    for axis in (0, 1):
-        points = np.zeros((len(across), len(along), 3))
-        points[..., axis] = centre[axis] + across[:, None]
-        points[..., 1 - axis] = centre[1 - axis] + along[None, :]
-        lines.append(points)
-    ground = np.concatenate(lines) - np.array(shown.eye)
-    pieces = np.stack([ground[:, :-1], ground[:, 1:]], axis=2).reshape(-1, 2, 3)
-    right, down, forward = shown.camera.to_camera((pieces[..., 0], pieces[..., 1], pieces[..., 2]))
-    seen = (forward > 0.05).all(axis=1)
-    uv = np.stack(
-        [
-            right[seen] / (forward[seen] * shown.camera.half_width),
-            -down[seen] / (forward[seen] * shown.camera.half_height),
-        ],
-        axis=-1,
-    )
-    far = np.hypot(pieces[seen][..., 0], pieces[seen][..., 1]).mean(axis=1) / reach
-    inside = (uv.min(axis=1) < 1).all(axis=1) & (uv.max(axis=1) > -1).all(axis=1) & (far < 1)
-    if not inside.any():
-        return
-    ends = shown.place(uv[inside])
-    strength = np.ceil(FADES * (1 - far[inside]) ** 2)
-    for level in np.unique(strength):
-        color = (*shade(GROUND, 0.66), 0.5 * float(level) / FADES)
-        canvas.pieces(ends[strength == level], color, 0.6, shown.box)
 
 
 def _target(canvas: Canvas, shown: Picture, target: Target, color: Rgb) -> None:
@@ -247,10 +177,24 @@ def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
         canvas.polygons(outlines, "none", (*shade(KEEP_OUT, 0.9), 0.95), 1.0, shown.box)
 
 
+def _is_behind_ground(eye: Vec3, mission: MissionIR, target: Target) -> bool:
+    if mission.terrain is None:
+        return False
+    x, y, _ = target.centre
+    low, high = _span(target)
+    axis = np.array([[x, y, z] for z in np.linspace(low, high, 9)])
+    return bool(before(mission.terrain.ground, np.array(eye), axis).all())
+
+
 def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]]:
-    """Return name, colour and page rectangle of everything that is in the picture, the near first."""
+    """Return name, colour and page rectangle of everything that is in the picture, the near first.
+
+    A target whose axis is behind ground is not in it.
+    """
     names = []
     for thing in reversed(painting_order(shown.eye, _things(mission))):
+        if isinstance(thing, Target) and _is_behind_ground(shown.eye, mission, thing):
+            continue
         if isinstance(thing, Target):
             shapes = [cylinder_outline(shown.camera, shown.offset(thing), thing.radius, thing.height)]
             color = shade(SUBJECT, 0.7)

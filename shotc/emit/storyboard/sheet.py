@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from shotc.emit.hillshade import ground_heights
 from shotc.emit.storyboard.canvas import Box
 from shotc.emit.storyboard.content import ShotBoard
 from shotc.geom.bernstein import Array
@@ -64,7 +65,8 @@ def sheet_of(box: Box, board: ShotBoard, mission: MissionIR) -> Sheet:
     axes = side_axes(board, mission) if rises(board.path) else np.eye(3)[:2]
     low, high = _extent(axes, board, mission)
     # A camera that stands still deserves as much ground as it sees.
-    least = max(10.0, 0.8 * float(np.median(np.abs(board.path[:, 2]))))
+    over = board.path[:, 2] - ground_heights(mission, board.path[:, :2])
+    least = max(10.0, 0.8 * float(np.median(np.abs(over))))
     span = np.maximum(high - low, least)
     border = min(BORDER, SHARE * box.height)
     inches = float(min((box.width - 2 * border) / span[0], (box.height - 2 * border) / span[1]))
@@ -115,8 +117,10 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
     subjects = [target for target in mission.targets if target.name in framed]
     shapes = [board.path @ axes.T, *(outline(axes, subject.solid) for subject in subjects)]
     low, high = _corners(shapes)
-    if axes[1, 2] != 0 and 0 < low[1] < high[1] - low[1]:
-        low = np.array([low[0], 0.0])
+    if axes[1, 2] != 0:
+        ground = _lowest_ground(board, mission)
+        if 0 < low[1] - ground < high[1] - low[1]:
+            low = np.array([low[0], ground])
     reach = np.maximum(high - low, 10.0) * (NEAR - 1) / 2
     things = [t.solid for t in mission.targets] + [z.solid for z in mission.zones if z.keep == "out"]
     pad = np.array([board.drone.home]) @ axes.T
@@ -129,6 +133,13 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
             shapes.append(np.clip(shape, low - most / 2, high + most / 2))
     below, above = _corners(shapes)
     return np.minimum(low, below), np.maximum(high, above)
+
+
+def _lowest_ground(board: ShotBoard, mission: MissionIR) -> float:
+    """Return z of the lowest ground under a path and its subjects, metres."""
+    framed = {target for m in board.moments for target in m.targets}
+    feet = [np.array([t.centre[:2]]) for t in mission.targets if t.name in framed]
+    return float(ground_heights(mission, np.concatenate([board.path[:, :2], *feet])).min())
 
 
 def _corners(shapes: Sequence[Array]) -> tuple[Array, Array]:

@@ -105,8 +105,10 @@ def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what
     width, height = panel.picture
     moment = _moment(plan, shot, number)
     picture = Box(panel.left, panel.top - NAMES - height, width, height)
-    grid = max(1.0, round_length(abs(float(moment.pose[2])) / 1.5))
-    draw_frame(canvas, Cell(picture, CELL), moment, plan.trajectory.keyframes.mission, grid)
+    mission = plan.trajectory.keyframes.mission
+    over = float(moment.pose[2]) - mission.ground(float(moment.pose[0]), float(moment.pose[1]))
+    grid = max(1.0, round_length(abs(over) / 1.5))
+    draw_frame(canvas, Cell(picture, CELL), moment, mission, grid)
     plot = Box(panel.left + 0.34, picture.y - caption_height(CELL) - PLOT + 0.1, CELL - 0.34, PLOT - 0.22)
     draw_error(canvas, plot, shot, (moment.time, top))
     for i, text in enumerate(_facts(shot.score)):

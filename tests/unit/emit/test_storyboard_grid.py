@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 from shotc.emit.storyboard import EMITTER, map, page
+from shotc.emit.storyboard.camera_picture import picture
 from shotc.emit.storyboard.canvas import Box, Canvas, house_style
 from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.map import MOST_SQUARES, draw_map
-from shotc.emit.storyboard.scene import draw_scene, picture
+from shotc.emit.storyboard.scene import draw_scene
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.show.emit.contact_sheet import EMITTER as CONTACT_SHEET
 from shotc.show.emit.contact_sheet import ground

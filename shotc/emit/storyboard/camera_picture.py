@@ -1,0 +1,47 @@
+"""A camera pose, and where what it sees is drawn on the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tan
+
+import numpy as np
+
+from shotc.emit.storyboard.canvas import Box
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import View, view
+from shotc.geom.vec import Vec3
+from shotc.ir.mission import Target
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """A camera pose and the rectangle it is drawn into."""
+
+    camera: View
+    eye: Vec3
+    pitch: float
+    box: Box
+
+    @property
+    def horizon(self) -> float:
+        """Where the horizon is: v of the screen, beyond [-1, 1] where it is not in the picture."""
+        return -tan(self.pitch) / float(self.camera.half_height)
+
+    def place(self, uv: Array) -> Array:
+        """Return page positions of screen points, shape (..., 2)."""
+        x = self.box.x + (uv[..., 0] + 1) / 2 * self.box.width
+        y = self.box.y + (uv[..., 1] + 1) / 2 * self.box.height
+        return np.stack([x, y], axis=-1)
+
+    def offset(self, target: Target) -> Vec3:
+        """Return the target's centre less the eye, W."""
+        x, y, z = target.centre
+        return (x - self.eye[0], y - self.eye[1], z - self.eye[2])
+
+
+def picture(pose: Array, aspect: float, box: Box) -> Picture:
+    """Return the picture of one pose, channels of shape (7,)."""
+    camera = view(float(pose[CAM_YAW]), float(pose[CAM_PITCH]), float(pose[HFOV]), aspect)
+    return Picture(camera, (float(pose[0]), float(pose[1]), float(pose[2])), float(pose[CAM_PITCH]), box)

@@ -1,0 +1,172 @@
+"""Terrain on the drawing beside a shot's pictures: hillshade and contours on a plan, else a profile."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.emit.hillshade import hillshade, shades
+from shotc.emit.palette import GROUND, GROUND_FAR, SKY_LOW, shade
+from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.emit.storyboard.furniture import round_length
+from shotc.emit.storyboard.sheet import Sheet
+from shotc.geom.bernstein import Array
+from shotc.geom.surface.ground import Ground, height_at
+
+FINE_IN = 0.05
+"""Between the places of a plan at which the ground's height is looked up, inches."""
+
+LEVELS = 10
+"""Contours of a plan, about."""
+
+LEAST_STEP_M = 0.5
+LABELLED = 5
+"""Every so manieth contour is bold and has its height, if at least two of them are on the plan."""
+
+MOST_LABELS = 6
+LINE, BOLD = 0.45, 0.9
+"""Widths of contours, points."""
+
+STRETCH = 400
+"""Places of a profile."""
+
+_TURN = np.array([0, 1, 2])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Relief:
+    """The ground that a plan shows.
+
+    nodes : W, on a net of equal cells from edge to edge of the sheet, South first, (r, c, 3); z is NaN where
+        there is no ground
+    step  : between contours, metres; 0 where the ground is level
+    """
+
+    nodes: Array
+    step: float
+
+    @property
+    def levels(self) -> Array:
+        """The heights of the contours, z of W."""
+        z = self.nodes[..., 2]
+        if self.step == 0.0:
+            return np.zeros(0)
+        return (
+            np.arange(np.ceil(np.nanmin(z) / self.step), np.floor(np.nanmax(z) / self.step) + 1) * self.step
+        )
+
+    @property
+    def told(self) -> Array:
+        """The heights of the contours that are bold and labelled."""
+        for every in (LABELLED, 2):
+            number = np.round(self.levels / self.step) if self.step else self.levels
+            found = self.levels[number % every == 0]
+            if len(found) >= 2:
+                return np.asarray(found)
+        return self.levels
+
+    @property
+    def triangles(self) -> Array:
+        """The net's triangles that are ground, (n, 3, 3)."""
+        a, b = self.nodes[:-1, :-1], self.nodes[:-1, 1:]
+        c, d = self.nodes[1:, 1:], self.nodes[1:, :-1]
+        both = [np.stack(corners, axis=2).reshape(-1, 3, 3) for corners in ((a, b, c), (a, c, d))]
+        found = np.concatenate(both)
+        return np.asarray(found[np.isfinite(found[..., 2]).all(axis=1)])
+
+
+def relief_of(sheet: Sheet, ground: Ground) -> Relief:
+    """Return the ground that a plan shows."""
+    half = np.array([sheet.box.width, sheet.box.height]) / 2 / sheet.inches
+    columns, rows = (int(np.ceil(side / FINE_IN)) + 1 for side in (sheet.box.width, sheet.box.height))
+    x = sheet.centre[0] + np.linspace(-half[0], half[0], columns)
+    y = sheet.centre[1] + np.linspace(-half[1], half[1], rows)
+    plan = np.stack(np.meshgrid(x, y), axis=-1)
+    z = height_at(ground, plan.reshape(-1, 2)).reshape(rows, columns)
+    found = z[np.isfinite(z)]
+    rise = float(np.ptp(found)) if found.size else 0.0
+    step = max(round_length(rise / LEVELS), LEAST_STEP_M) if rise > LEAST_STEP_M else 0.0
+    return Relief(np.concatenate([plan, z[..., None]], axis=-1), step)
+
+
+def draw_relief(canvas: Canvas, sheet: Sheet, relief: Relief) -> None:
+    """Draw hillshade and contours; where there is no ground, the sheet stays as it is."""
+    canvas.image(_pixels(relief), sheet.box)
+    triangles, told = relief.triangles, relief.told
+    for level in relief.levels:
+        bold = level in told
+        ends = contour(triangles, float(level))
+        if len(ends):
+            color = (*shade(GROUND, 0.45), 0.8 if bold else 0.55)
+            canvas.pieces(sheet.at(ends), color, BOLD if bold else LINE, sheet.box)
+
+
+def _pixels(relief: Relief) -> np.ndarray:
+    p = relief.nodes
+    normals = np.cross(p[1:, 1:] - p[:-1, :-1], p[1:, :-1] - p[:-1, 1:])
+    colors = shades(np.array(GROUND_FAR), hillshade(normals))
+    colors[np.isnan(normals).any(axis=-1)] = SKY_LOW
+    return np.round(colors[::-1] * 255).astype(np.uint8)
+
+
+def contour(triangles: Array, level: float) -> Array:
+    """Return where triangles (n, 3, 3) are at a height: pieces of lines in the plan, (k, 2, 2)."""
+    above = triangles[..., 2] >= level
+    count = above.sum(axis=1)
+    cut = (count == 1) | (count == 2)
+    lone = np.where(count == 1, above.argmax(axis=1), above.argmin(axis=1))[cut]
+    turned = np.take_along_axis(triangles[cut], ((lone[:, None] + _TURN) % 3)[..., None], axis=1)
+    tip, others = turned[:, :1], turned[:, 1:]
+    share = (level - tip[..., 2]) / (others[..., 2] - tip[..., 2])
+    return np.asarray(tip[..., :2] + share[..., None] * (others[..., :2] - tip[..., :2]))
+
+
+def contour_heights(canvas: Canvas, sheet: Sheet, relief: Relief, taken: Sequence[Box]) -> list[Box]:
+    """Write heights on a few contours, each near the middle where nothing else is; return their room."""
+    rooms: list[Box] = []
+    style = Type(6.8, shade(GROUND, 0.35), across="center", along="center_baseline", halo=GROUND_FAR)
+    box, triangles = sheet.box, relief.triangles
+    inner = Box(box.x + 0.05, box.y + 0.05, box.width - 0.1, box.height - 0.1)
+    middle = np.array([box.x + box.width / 2, box.y + box.height / 2])
+    levels = relief.told
+    for level in levels[:: max(1, -(-len(levels) // MOST_LABELS))]:
+        text = f"{level:g} m".replace("-", "−")
+        width, height = canvas.extent(text, style)
+        spots = sheet.at(contour(triangles, float(level))).mean(axis=1)
+        for x, y in spots[np.argsort(np.linalg.norm(spots - middle, axis=1), kind="stable")]:
+            room = Box(float(x) - width / 2, float(y) - height / 2, width, height)
+            if inner.holds(room) and not any(room.meets(other) for other in [*taken, *rooms]):
+                canvas.text(float(x), float(y), text, style)
+                rooms.append(room)
+                break
+    return rooms
+
+
+def profile(sheet: Sheet, ground: Ground, through: Array) -> Array:
+    """Return the ground in the vertical plane of a side view through a place (2,), on the sheet: (n, 2).
+
+    Along the view and z of W, metres; z is NaN where there is no ground.
+    """
+    half = sheet.box.width / 2 / sheet.inches
+    along = sheet.centre[0] + np.linspace(-half, half, STRETCH)
+    return profile_at(sheet.axes, ground, through, along)
+
+
+def profile_at(axes: Array, ground: Ground, through: Array, along: Array) -> Array:
+    """Return ``profile`` at places along the first of two axes, metres."""
+    way = axes[0, :2]
+    xy = through + (along - through @ way)[:, None] * way
+    return np.column_stack([along, height_at(ground, xy)])
+
+
+def draw_profile(canvas: Canvas, sheet: Sheet, line: Array) -> None:
+    """Draw the ground under a profile, as deep as the sheet goes."""
+    known = np.isfinite(line[:, 1])
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], known, [False]]).astype(int)))
+    for start, end in ends.reshape(-1, 2):
+        top = sheet.at(line[start:end])
+        low = np.array([[top[-1, 0], sheet.box.y], [top[0, 0], sheet.box.y]])
+        canvas.polygons([np.concatenate([top, low])], GROUND, clip=sheet.box)
+        canvas.lines([top], shade(GROUND, 0.6), 1.2, sheet.box)

@@ -1,0 +1,210 @@
+"""Terrain as a camera sees it: rings about the eye, drawn from the farthest to the nearest.
+
+A ring is cut into columns by directions that spread over the picture. Rings grow in proportion to their
+distance, so that all are of about one size on screen, however many triangles the ground has. Ground is
+a height over the plan, hence what is nearer in the plan is never behind what is farther: painting by rings
+is the exact order, and a ring that passes by the near side of a thing parts what it hides from what hides it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.emit.hillshade import hillshade, shades
+from shotc.emit.palette import GROUND, GROUND_FAR
+from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.canvas import Canvas
+from shotc.emit.storyboard.flat_ground import NEAR_M, draw_squares, squares
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.camera import View
+from shotc.geom.pieces import Mask
+from shotc.geom.surface.ground import Ground, height_at
+
+RINGS, COLUMNS = 96, 64
+"""Of the ground in one picture; where straight down is in it, twice as many columns all round."""
+
+FIRST = 0.05
+"""Radius of the first ring over the height of the eye above ground."""
+
+ROUND_NADIR = 1.2
+"""Half pictures from the middle up to which straight down is drawn all round."""
+
+UNDERFOOT = 1e-3
+"""Radius of the innermost ring where there is ground below the eye, metres."""
+
+HAZE = 20.0
+"""Distance at which ground has half faded into haze, over the height of the eye above ground."""
+
+FARTHEST_SCREEN = 50.0
+"""Screens from the middle beyond which places are not told apart: far outside, and safe to draw."""
+
+SAME_SLOPE = 1e-6
+LINE_PIECES = 160
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fan:
+    """Ground about an eye.
+
+    radius : of the rings, metres, ascending, (R,)
+    angle  : of the columns, W, ascending, (C,)
+    z      : of the ground at rings and columns less the eye's, metres, (R, C); NaN where there is none
+    over   : height of the eye above the ground under it, metres, at least 1
+    """
+
+    radius: Array
+    angle: Array
+    z: Array
+    over: float
+
+    @property
+    def points(self) -> Array:
+        """The ground at rings and columns, metres from the eye, (R, C, 3)."""
+        x = self.radius[:, None] * np.cos(self.angle)
+        y = self.radius[:, None] * np.sin(self.angle)
+        return np.stack([x, y, self.z], axis=-1)
+
+    @property
+    def horizon(self) -> Array:
+        """How steeply up one looks past the ground up to each ring, (R, C): rise over run."""
+        slope = self.z / self.radius[:, None]
+        return np.asarray(np.maximum.accumulate(np.where(np.isnan(slope), -np.inf, slope), axis=0))
+
+
+def fan_of(shown: Picture, ground: Ground, parts: Sequence[float] = ()) -> Fan:
+    """Return the ground that a picture may show; parts : radii that a ring has to have, metres."""
+    eye = np.array(shown.eye)
+    low, high = (box.reshape(-1, 3) for box in (ground.surface.low[-1], ground.surface.high[-1]))
+    low, high = low.min(axis=0), high.max(axis=0)
+    gap = np.maximum(np.maximum(low - eye, eye - high), 0.0)[:2]
+    reach = float(np.hypot(*np.maximum(np.abs(low - eye), np.abs(high - eye))[:2]))
+    under = float(height_at(ground, eye[None, :2])[0])
+    over = max(float(eye[2]) - (float(low[2]) if np.isnan(under) else under), 1.0)
+    first = min(max(FIRST * over, float(np.hypot(*gap))), reach / 2)
+    rings = np.geomspace(first, reach, RINGS)
+    if not gap.any():
+        rings[0] = UNDERFOOT  # straight down is no hole
+    inner = [part for part in parts if rings[0] < part < reach]
+    radius = np.unique(np.concatenate([rings, inner]))
+    angle = _directions(shown.camera)
+    fan = Fan(radius, angle, np.zeros((len(radius), len(angle))), over)
+    xy = eye[:2] + fan.points[..., :2].reshape(-1, 2)
+    return replace(fan, z=height_at(ground, xy).reshape(fan.z.shape) - eye[2])
+
+
+def _directions(camera: View) -> Array:
+    """Return the directions in the plan, of W, that a picture shows, spread evenly."""
+    yaw = float(np.arctan2(camera.sin_yaw, camera.cos_yaw))
+    _, down, forward = camera.to_camera((0.0, 0.0, -1.0))
+    if forward > 0 and abs(down) <= ROUND_NADIR * forward * camera.half_height:
+        return yaw + np.linspace(-np.pi, np.pi, 2 * COLUMNS)
+    side = np.linspace(-1.0, 1.0, 17)
+    u = np.concatenate([side, side, np.full(17, 1.0)]) * camera.half_width
+    v = np.concatenate([np.full(17, 1.0), np.full(17, -1.0), side]) * camera.half_height
+    along = camera.cos_pitch - camera.sin_pitch * v
+    half = float(np.max(np.abs(np.arctan2(u, along)))) + 0.02
+    return yaw + np.linspace(-1.0, 1.0, COLUMNS) * min(half, np.pi)
+
+
+class FanPainter:
+    """Draws a fan from the farthest ring to the nearest, bit by bit, with its squares draped over it.
+
+    grid : width of a square, metres
+    """
+
+    def __init__(self, canvas: Canvas, shown: Picture, fan: Fan, grid: float) -> None:
+        self._canvas, self._shown, self._fan, self._grid = canvas, shown, fan, grid
+        self._top = len(fan.radius) - 1
+        self._corners = _on_page(shown, fan)
+        self._faces = _faces(fan)
+        self._lines = draped(fan, squares(shown.eye, grid, LINE_PIECES))
+        self._away = np.hypot(self._lines[..., 0], self._lines[..., 1])
+
+    def draw_beyond(self, distance: float) -> None:
+        """Draw what is left of the ground beyond a distance in the plan, metres."""
+        radius, top = self._fan.radius, self._top
+        low = int(np.searchsorted(radius, distance * (1.0 - 1e-9)))
+        if low >= top:
+            return
+        self._top = low
+        rows = slice(low, top)
+        corners, faces = self._corners[low : top + 1][::-1], self._faces[rows][::-1]
+        self._canvas.mesh(corners, faces, self._shown.box)
+        # A piece that reaches over a ring is drawn on both sides: the nearer ground covers half of it.
+        now = (self._away.max(axis=1) > radius[low]) & (self._away.min(axis=1) <= radius[top])
+        if now.any():
+            draw_squares(self._canvas, self._shown, self._lines[now], self._grid)
+
+
+def _on_page(shown: Picture, fan: Fan) -> Array:
+    """Return where rings and columns are on the page, (R, C, 2); NaN behind the camera."""
+    points = fan.points
+    right, down, forward = shown.camera.to_camera((points[..., 0], points[..., 1], points[..., 2]))
+    depth = np.where(forward > NEAR_M, forward, np.nan)
+    uv = np.stack(
+        [right / (depth * shown.camera.half_width), -down / (depth * shown.camera.half_height)], axis=-1
+    )
+    return shown.place(np.clip(uv, -FARTHEST_SCREEN, FARTHEST_SCREEN))
+
+
+def _faces(fan: Fan) -> Array:
+    """Return the colours of the quads between rings and columns, (R - 1, C - 1, 3)."""
+    p = np.nan_to_num(fan.points)
+    light = hillshade(np.cross(p[1:, 1:] - p[:-1, :-1], p[:-1, 1:] - p[1:, :-1]))
+    colors = shades(np.array(GROUND), light)
+    away = 0.5 * (fan.radius[1:] + fan.radius[:-1])
+    haze = (away / (away + HAZE * max(fan.over, 10.0)))[:, None, None]
+    return np.asarray(colors + (np.array(GROUND_FAR) - colors) * haze)
+
+
+def draped(fan: Fan, lines: Array) -> Array:
+    """Return pieces of lines (n, 2, 3) laid on the ground of a fan, without those that ground hides.
+
+    Metres from the eye.
+    """
+    at = _Cell.of(fan, lines)
+    z = at.between(fan.z)
+    radius = np.hypot(lines[..., 0], lines[..., 1])
+    nearer = at.nearer(fan.horizon)
+    with np.errstate(invalid="ignore"):
+        seen = (at.inside & (z / np.maximum(radius, 1e-9) >= nearer - SAME_SLOPE)).all(axis=1)
+    laid = np.concatenate([lines[..., :2], z[..., None]], axis=-1)
+    return np.asarray(laid[seen])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Cell:
+    """Where points are in a fan: in the cell of a ring and a column, at shares (w, s) of it."""
+
+    ring: IntArray
+    column: IntArray
+    w: Array
+    s: Array
+    inside: Mask
+
+    @classmethod
+    def of(cls, fan: Fan, points: Array) -> _Cell:
+        radius = np.hypot(points[..., 0], points[..., 1])
+        middle = 0.5 * (fan.angle[0] + fan.angle[-1])
+        turn = (np.arctan2(points[..., 1], points[..., 0]) - middle + np.pi) % (2 * np.pi) - np.pi + middle
+        ring = np.clip(np.searchsorted(fan.radius, radius) - 1, 0, len(fan.radius) - 2).astype(np.intp)
+        column = np.clip(np.searchsorted(fan.angle, turn) - 1, 0, len(fan.angle) - 2).astype(np.intp)
+        w = (radius - fan.radius[ring]) / (fan.radius[ring + 1] - fan.radius[ring])
+        s = (turn - fan.angle[column]) / (fan.angle[column + 1] - fan.angle[column])
+        inside = (w >= 0) & (w <= 1) & (s >= 0) & (s <= 1)
+        return cls(ring, column, w, s, inside)
+
+    def nearer(self, value: Array) -> Array:
+        """Return what a value (R, C) is at the ring before the points."""
+        a, b = value[self.ring, self.column], value[self.ring, self.column + 1]
+        return np.asarray(np.where(np.isinf(a) | np.isinf(b), -np.inf, a + (b - a) * self.s))
+
+    def between(self, value: Array) -> Array:
+        """Return what a value (R, C) is at the points."""
+        r, c, w, s = self.ring, self.column, self.w, self.s
+        near = value[r, c] * (1 - s) + value[r, c + 1] * s
+        return np.asarray(near * (1 - w) + (value[r + 1, c] * (1 - s) + value[r + 1, c + 1] * s) * w)
