@@ -18,12 +18,13 @@ from shotc.spec.fields import (
     FieldOfView,
     Jerk,
     PitchRange,
-    Position,
     PositiveLength,
     Priority,
     Speed,
+    Stand,
 )
 from shotc.spec.fieldtypes import FieldType, Hinted, NamedOr
+from shotc.spec.heights import STANDING
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.presets import DEFAULT_MODEL, PRESETS
 from shotc.spec.quantities import Quantity, Tuple
@@ -147,7 +148,10 @@ class DroneSpec(Model):
     """A drone of the mission."""
 
     model: ModelName = Field(default=DEFAULT_MODEL, description="preset that fills in what is not given")
-    home: Position = Field(default=(0.0, 0.0, 0.0), description="where it stands before and after")
+    home: Stand = Field(
+        default=(0.0, 0.0, STANDING),
+        description="where it stands before and after; on the ground where no height is written",
+    )
     limits: LimitsSpec = section("what it may do")
     gimbal: GimbalSpec | None = Field(default=None, description="what its gimbal reaches")
     camera: CameraSpec = section("what its camera sees")

@@ -10,7 +10,7 @@ from pydantic import StrictBool
 from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.fieldtypes import Integer, NamedOr, Text
 from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
-from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position, Relative, Station
+from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position, Relative, Stand, Station
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
 from shotc.spec.sizes import SIZES
@@ -62,6 +62,7 @@ __all__ = [
     "ShotSize",
     "Size3",
     "Speed",
+    "Stand",
     "Station",
     "Switch",
     "Velocity",

@@ -33,9 +33,13 @@ class Altitude(NamedTuple):
 
 
 class AboveGround(NamedTuple):
-    """The height of a place over the ground there, metres."""
+    """The height of a place over the ground there, metres; stands : whether it is left out, and so 0."""
 
     height: float
+    stands: bool = False
+
+
+STANDING = AboveGround(0.0, stands=True)
 
 
 class HeightRange(NamedTuple):

@@ -8,7 +8,7 @@ from pydantic.json_schema import JsonSchemaValue
 from shotc.ir.limits import Vec3
 from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType, Text
-from shotc.spec.heights import HEIGHT, AboveGround
+from shotc.spec.heights import HEIGHT, STANDING, AboveGround
 from shotc.spec.model import Model
 from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import describe
@@ -17,6 +17,7 @@ _LENGTH = Quantity("Length", "length")
 _HINT = "write [x, y, z] in metres, or {lat: ..., lon: ..., height: ...}"
 _POINT3 = Tuple("Point3", (_LENGTH,) * 3, "[x, y, z]", _HINT)
 _SPOT = Tuple("Spot", (_LENGTH, _LENGTH, HEIGHT), "[x, y, z]", _HINT)
+_PLAN = Tuple("Point2", (_LENGTH, _LENGTH), "[x, y]")
 
 Spot = tuple[float, float, float | AboveGround]
 """x, y and z in metres, or x, y and a height over the ground there."""
@@ -81,7 +82,9 @@ class Geodetic(Model):
     lat: Latitude = Field(description="latitude, degrees north")
     lon: Longitude = Field(description="longitude, degrees east")
     height: Annotated[float | AboveGround, HEIGHT] = Field(
-        default=0.0, description="height over the plane through the origin, or {above: ground, height: ...}"
+        default=STANDING,
+        description="height over the plane through the origin, or {above: ground, height: ...}; "
+        "on the ground if silent",
     )
 
 
@@ -104,6 +107,24 @@ class PositionType(FieldType):
         return {"anyOf": [_SPOT.reference(), {"$model": Geodetic}]}
 
 
+class StandType(PositionType):
+    """A point of the world for what may stand on the ground: its height may be left out, as in ``[x, y]``."""
+
+    label = "Stand"
+
+    def read(self, value: Any) -> Spot | Geodetic:
+        """Return a position; one of two numbers is on the ground."""
+        if isinstance(value, list | tuple) and len(value) == 2:
+            x, y = _PLAN.read(value)
+            return (x, y, STANDING)
+        return super().read(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the ways to write it."""
+        return {"anyOf": [_PLAN.reference(), _SPOT.reference(), {"$model": Geodetic}]}
+
+
+Stand = Annotated[Spot | Geodetic, StandType()]
 POSITION = PositionType()
 Position = Annotated[Spot | Geodetic, POSITION]
 

@@ -16,6 +16,7 @@ from shotc.spec.fields import (
     RelativePath,
     Size3,
     Speed,
+    Stand,
     Velocity,
 )
 from shotc.spec.fieldtypes import Integer
@@ -102,7 +103,9 @@ class TargetSpec(Model):
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("at",), ("track",))),)
 
-    at: Position | None = Field(default=None, description="centre of a target that stands")
+    at: Stand | None = Field(
+        default=None, description="centre of a target that stands; on the ground where no height is written"
+    )
     track: TrackSpec | None = Field(default=None, description="motion of the centre of a target that moves")
     radius: PositiveLength = Field(description="radius of its cylinder")
     height: PositiveLength = Field(description="height of its cylinder")

@@ -79,10 +79,10 @@ CODES: tuple[CodeInfo, ...] = (
         "S008",
         "wrong-length",
         "a list has the wrong number of items",
-        "Positions have three values [x, y, z], screen points two [u, v], ranges two [lowest, highest]; a "
+        "Positions have three values [x, y, z], of what stands on the ground two; screen points two [u, v], ranges two [lowest, highest]; a "
         "polygon has at least three corners, a path at least two points.",
         LOOK,
-        ("home: [0, -60, 0]", "home: [0, -60]"),
+        ("home: [0, -60, 0]", "home: [0]"),
     ),
     slip(
         "S009",

@@ -11,7 +11,7 @@ import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
-from PIL import Image
+from PIL import Image, UnidentifiedImageError
 
 from shotc.geom.bernstein import Array
 from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
@@ -96,6 +96,8 @@ def _raster(data: bytes) -> Raster | TerrainFault:
         return TerrainFault("size", f"it has more than {MOST_POSTS} posts", None, "cut it to the mission")
     except Exception as error:  # noqa: BLE001  the reader's faults of foreign bytes
         reason = (str(error).splitlines() or [""])[0][:200] or type(error).__name__
+        if isinstance(error, UnidentifiedImageError):
+            return TerrainFault("format", "its bytes are no TIFF", None, SAVE_AS)
         if "truncated" in reason:
             return TerrainFault("truncated", f"Pillow says: {reason}", None, "copy the file anew")
         return TerrainFault("format", f"Pillow says: {reason}", None, SAVE_AS)

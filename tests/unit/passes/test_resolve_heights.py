@@ -169,3 +169,14 @@ def test_a_ring_keeps_its_bearing_from_the_axis():
     for i, k in enumerate(found.keyframes):
         turn = -2 * pi * i / (len(found.keyframes) - 1)
         assert k.at == pytest.approx((5 + 30 * sin(turn), 30 * cos(turn), 15.0))
+
+
+def test_what_stands_needs_no_height():
+    text = mission("kind: orbit, target: roof, radius: 30, altitude: 20", **{"at: [5, 0, 14]": "at: [5, 0]"})
+    text = text.replace("home: [0, -60, 0]", "home: [0, -60]")
+    found = resolve(text)
+    assert faults(text) == []
+    assert found.target("roof").centre == (5.0, 0.0, 2.0)
+    assert found.drone("cam").home == (0.0, -60.0, 0.0)
+    camera = mission("kind: static, look_at: roof, at: [30, 0]")
+    assert [d.code for d in faults(camera)] == ["S008"]

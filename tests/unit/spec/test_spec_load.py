@@ -12,6 +12,7 @@ from shotc.diag.codes import schema, units
 from shotc.diag.registry import registry
 from shotc.source.limits import MAX_FAULTS
 from shotc.source.yaml_tree import parse
+from shotc.spec.heights import STANDING
 from shotc.spec.load import load
 
 CODES = (*schema.CODES, *units.CODES)
@@ -85,7 +86,7 @@ PLACES = [
     ("empty-value", "{composition: thirds, pace: calm}", "", (11, 1, 6)),
     ("wrong-type", "home: [0, -60, 0]", "home: 3", (10, 29, 30)),
     ("wrong-type", "look_at: tower", "look_at: true", (13, 85, 89)),
-    ("wrong-length", "[0, -60, 0]", "[0, -60]", (10, 29, 37)),
+    ("wrong-length", "[0, -60, 0]", "[0]", (10, 29, 32)),
     ("unknown-value", "keep: out", "keep: outside", (6, 18, 25)),
     ("unknown-value", "pace: calm", "pace: lazy", (11, 36, 40)),
     ("unknown-value", "composition: thirds", "composition: third", (11, 22, 27)),
@@ -219,7 +220,7 @@ def test_the_whole_language_loads(loads, whole_language):
     assert spec.drones["cam1"].limits.yaw_rate == pytest.approx(1.0471975512)
     assert spec.drones["cam2"].camera.field_of_view == pytest.approx(2 * atan(6.6 / 9), abs=1e-9)
     assert spec.drones["cam2"].camera.aspect_ratio == pytest.approx(1.5)
-    assert spec.drones["cam3"].home == (0.0, 0.0, 0.0)
+    assert spec.drones["cam3"].home == (0.0, 0.0, STANDING)
     assert spec.shots[0].require.in_frame == 1.0
     assert spec.shots[0].keyframes[1].frame.points == ((-1 / 3, 0.0),)
     assert loaded.mission.origins.value(("shots", 1, "pitch")).span.line == 66

@@ -16,11 +16,11 @@ from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic
-from shotc.spec.heights import HeightRange
+from shotc.spec.heights import AboveGround, HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
 from shotc.spec.presets import PRESETS, Preset
-from shotc.spec.world import ZoneSpec
+from shotc.spec.world import TargetSpec, ZoneSpec
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
@@ -105,12 +105,21 @@ def targets(spec: MissionSpec, put: Put, tracks: Mapping[str, Track]) -> dict[st
     bodies: dict[str, Target | None] = {}
     for name, target in spec.targets.items():
         track = tracks.get(name)
-        centre = put(target.at) if target.at is not None else track.at(0.0) if track is not None else None
+        centre = _centre(target, put) if track is None else track.at(0.0)
         if centre is None:
             bodies[name] = None
         else:
             bodies[name] = Target(name, centre, target.radius, target.height, ("targets", name), track)
     return bodies
+
+
+def _centre(target: TargetSpec, put: Put) -> Vec3 | None:
+    """Return the centre of a target that stands; one without a height stands on the ground."""
+    if target.at is None:
+        return None
+    height = target.at.height if isinstance(target.at, Geodetic) else target.at[2]
+    x, y, z = put(target.at)
+    return (x, y, z + target.height / 2) if isinstance(height, AboveGround) and height.stands else (x, y, z)
 
 
 def check_targets(found: Mapping[str, Target | None], ground: Ground, origins: OriginMap) -> list[Diagnostic]:
