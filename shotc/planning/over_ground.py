@@ -7,12 +7,11 @@ the least one upside down.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.pieces import Pieces
+from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.surface.ground import Ground, NoGround, height_at
 from shotc.geom.surface.ground_planes import ground_planes
 from shotc.geom.surface.height import inf_height
@@ -22,11 +21,11 @@ from shotc.ir.owners import CEILING, GROUND, Owner
 
 OUTSIDE_M = 1e3  # what is lacking where there is no ground
 WIDTH_M, WIDTH_SHARE = 1.0, 0.1  # and of the reach: how far beyond a piece's box its plane is above ground
+NARROWER_M = (0.3, 0.0)
+"""The same where the plane would not leave a piece where it is, as one between slopes that rise beside it."""
+FITS_M = 1e-9  # by which a piece may be below its plane and still be where it is
 CLOSED_M = 5e-7  # gap to which heights of pieces are proved
-STEP_M = 2.0  # between the places at which the ground below a way is looked at
-STRIP_M = 3.0  # to either side of a way in which the ground counts
 _UPSIDE_DOWN = np.array([1.0, 1.0, -1.0])
-CORNERS_M = 15.0  # between corners of a way over the ground, at least
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,6 +53,14 @@ class OverGround:
         height = height_at(self.ground, xy)
         return np.where(np.isnan(height), OUTSIDE_M, height) + self.clearance
 
+    def highest(self, xy: Array) -> Array:
+        """Return the greatest heights at places (N, 2), metres of W; where there is no ground, any.
+
+        Of ground that is flipped.
+        """
+        height = height_at(self.ground, xy)
+        return np.where(np.isnan(height), np.inf, -height - self.clearance)
+
     def slack(self, p: Array) -> Array:
         """Return how far points (N, 3) are within the height that is asked, metres; shape (N,)."""
         height, z = height_at(self.ground, p[:, :2]), self._turned(p)[:, 2]
@@ -64,16 +71,23 @@ class OverGround:
 
         hulls : shape (P, m, 3); kept : the margin, given how much more than the clearance there is, metres
         """
-        hulls = self._turned(hulls)
-        found = ground_planes(self.ground, hulls, WIDTH_M + WIDTH_SHARE * reach, self.clearance, kept)
-        slack = np.einsum("rmd,rd->rm", hulls[found.piece], found.normal).min(axis=1) - found.offset
-        near = slack < reach
+        hulls, parts = self._turned(hulls), []
+        left = np.arange(len(hulls))
+        for width in (WIDTH_M + WIDTH_SHARE * reach, *NARROWER_M):
+            found = ground_planes(self.ground, hulls[left], width, self.clearance, kept)
+            found = replace(found, piece=left[found.piece])
+            slack = np.einsum("rmd,rd->rm", hulls[found.piece], found.normal).min(axis=1) - found.offset
+            fits = (slack >= -FITS_M) | (width == NARROWER_M[-1])
+            parts.append(_picked(found, fits & (slack < reach)))
+            left = found.piece[~fits]
+            if not len(left):
+                break
         return Planes(
-            found.piece[near],
-            found.triangle[near],
-            self._turned(found.normal[near]),
-            found.offset[near],
-            found.crowded,
+            np.concatenate([part.piece for part in parts]),
+            np.concatenate([part.triangle for part in parts]),
+            self._turned(np.concatenate([part.normal for part in parts])),
+            np.concatenate([part.offset for part in parts]),
+            np.zeros(len(hulls), dtype=bool),
         )
 
     def lack(self, hulls: Array) -> Array:
@@ -96,35 +110,6 @@ class OverGround:
     def _turned(self, p: Array) -> Array:
         return p * _UPSIDE_DOWN if self.flipped else p
 
-    def over(self, way: Array, margin: float) -> Array:
-        """Return a way, corners (K, 3), raised to where it keeps the clearance and a margin, metres.
-
-        Over each of its legs it follows the upper hull of the heights that are needed along it.
-        """
-        legs = [self._leg(a, b, margin) for a, b in pairwise(way)]
-        return np.concatenate([way[:1], *(leg[1:] for leg in legs)])
-
-    def _leg(self, a: Array, b: Array, margin: float) -> Array:
-        flat = float(np.linalg.norm(b[:2] - a[:2]))
-        count = int(np.ceil(flat / STEP_M))
-        if count < 2:
-            return np.stack([a, b])
-        share = np.linspace(0.0, 1.0, count + 1)
-        straight = a + share[:, None] * (b - a)
-        aside = np.array([a[1] - b[1], b[0] - a[0]]) / flat * STRIP_M
-        strip = [self.lowest(straight[:, :2] + k * aside) for k in (-1.0, 0.0, 1.0)]
-        needed = np.max(strip, axis=0) + margin
-        if (needed[1:-1] <= straight[1:-1, 2]).all():
-            return np.stack([a, b])
-        nodes = np.linspace(0.0, 1.0, max(2, int(flat / CORNERS_M)) + 1)
-        apart = float(nodes[1])
-        heights = [needed[np.abs(share - node) <= apart].max() for node in nodes]
-        heights[0], heights[-1] = a[2], b[2]
-        corners = np.array(_upper_hull(nodes, np.array(heights)))
-        way = a + nodes[corners, None] * (b - a)
-        way[:, 2] = np.array(heights)[corners]
-        return np.asarray(way)
-
 
 def heights_over(ground: Ground, least: float, greatest: float | None) -> tuple[OverGround, ...]:
     """Return the least height of a drone's centre above ground, and the greatest, if there is one, metres."""
@@ -135,18 +120,11 @@ def heights_over(ground: Ground, least: float, greatest: float | None) -> tuple[
     return low, OverGround(CEILING, replace(ground, surface=down), -greatest, flipped=True)
 
 
-def _upper_hull(along: Array, height: Array) -> list[int]:
-    """Return the indices of the upper hull of heights along a way."""
-    hull: list[int] = []
-    for i in range(len(along)):
-        while len(hull) > 1 and _below(along, height, (hull[-2], hull[-1], i)):
-            hull.pop()
-        hull.append(i)
-    return hull
-
-
-def _below(along: Array, height: Array, points: tuple[int, int, int]) -> bool:
-    """Tell whether the middle one of three points is on or below the line through the others."""
-    i, j, k = points
-    rise = (height[k] - height[i]) * (along[j] - along[i])
-    return bool((height[j] - height[i]) * (along[k] - along[i]) <= rise)
+def _picked(planes: Planes, which: Mask) -> Planes:
+    return Planes(
+        planes.piece[which],
+        planes.triangle[which],
+        planes.normal[which],
+        planes.offset[which],
+        planes.crowded,
+    )

@@ -16,6 +16,7 @@ from shotc.geom.solid_arrays.points import FAR_M, support
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.planning.free_space import MARGIN_M, Breach, FreeSpace, blocked, bounds_slack, breaches
+from shotc.planning.path.over import over_ground
 from shotc.planning.path.route import NODE_MARGIN_M, find_route
 
 TURN_LENGTH_M_RAD = 2.0  # metres of path parameter for each radian turned on the spot
@@ -109,17 +110,6 @@ def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoW
             return NoWay(a[k], b[k], (kept[k], kept[k + 1]))
         ways.append(route)
     return ways
-
-
-def over_ground(space: FreeSpace, route: Array | None) -> Array | None:
-    """Return a way, corners (K, 3), that keeps above ground; None where something hangs in that way."""
-    if route is None or not space.terrain:
-        return route
-    way = space.terrain[0].over(route, MARGIN_M)
-    if len(way) == len(route):
-        return way
-    inside = bounds_slack(space, way[1:-1]).min(initial=0.0) >= 0.0
-    return way if inside and not blocked(space, way[:-1], way[1:]).any() else None
 
 
 def _joined(

@@ -25,7 +25,8 @@ from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, bounds_slack, taper
 from shotc.planning.obstacles import FreeSpaces
-from shotc.planning.path.lines import Line, NoWay, TooNear, over_ground, straight_line
+from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
+from shotc.planning.path.over import over_ground
 from shotc.planning.path.position import Stretch, solve_stretch
 from shotc.planning.path.route import find_route, length
 from shotc.planning.path.shots import Stuck

@@ -11,6 +11,7 @@ from shotc.geom.surface.ground import ground_of
 from shotc.ir.owners import CEILING, GROUND
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches, corridor, shortfall
 from shotc.planning.over_ground import heights_over
+from shotc.planning.path.over import over_ground
 from tests.support.surfaces import grid
 
 RANDOM = np.random.default_rng(3)
@@ -77,7 +78,7 @@ def test_pieces_between_their_half_spaces_keep_both_heights(reach):
     for k in range(60):
         mine = planes.piece == k
         inside = hulls[k].mean(axis=0) + RANDOM.normal(size=(400, 3)) * [2, 2, 8]
-        box = hulls[k][:, :2].min(axis=0) - 3.0, hulls[k][:, :2].max(axis=0) + 3.0
+        box = hulls[k][:, :2].min(axis=0), hulls[k][:, :2].max(axis=0)
         inside = inside[((inside[:, :2] > box[0]) & (inside[:, :2] < box[1])).all(axis=1)]
         along = np.einsum("nd,rd->nr", inside, planes.normal[mine]) - planes.offset[mine].min(axis=1)
         kept = (along >= 0).all(axis=1)
@@ -86,17 +87,41 @@ def test_pieces_between_their_half_spaces_keep_both_heights(reach):
             assert (height(inside[kept]) <= 25.0 + 1e-9).all()
 
 
-def test_a_way_is_led_over_what_rises_with_corners_that_stand_apart():
-    x = np.arange(24) * 5.0
-    hill = grid(14.0 * np.exp(-(((x - 60) / 14) ** 2))[:, None] * np.ones(24), 5.0)
-    (low,) = heights_over(ground_of(hill.corners, hill.faces), 3.0, None)
-    a, b = np.array([10.0, 60.0, 4.0]), np.array([105.0, 58.0, 4.0])
-    way = low.over(np.stack([a, b]), 0.5)
+def test_a_piece_between_slopes_that_rise_beside_it_keeps_its_place():
+    """The floor of a gully 2 m wide: a plane above what lies a metre beside a piece would be above the piece."""
+    gully = grid(np.abs(np.arange(24) * 1.0 - 12.0)[:, None] * np.ones(24) * 2.0, 1.0)
+    (low,) = heights_over(ground_of(gully.corners, gully.faces), 3.0, None)
+    hulls = np.linspace([12.0, 6.0, 3.05], [12.0, 8.0, 3.05], 6)[None]
+    planes = low.planes(hulls, 2.0, lambda slack: 0.5 * slack)
+    room = np.einsum("rmd,rd->rm", hulls[planes.piece], planes.normal) - planes.offset[:, None]
+    assert len(room) == 1
+    assert room.min() >= 0.0
+
+
+def led_over(shape, heights, a, b):
+    terrain = heights_over(ground_of(shape.corners, shape.faces), *heights)
+    way = over_ground(FreeSpace((), (), (), terrain=terrain), np.array([a, b]))
+    along = np.concatenate([p + np.linspace(0, 1, 50)[:, None] * (q - p) for p, q in pairwise(way)])
     assert (way[0] == a).all()
     assert (way[-1] == b).all()
-    assert np.linalg.norm(np.diff(way[:, :2], axis=0), axis=1).min() >= 14.9
-    along = np.concatenate([p + np.linspace(0, 1, 50)[:, None] * (q - p) for p, q in pairwise(way)])
-    room = along[:, 2] - hill.height_at(along[:, 0], along[:, 1])
-    assert room.min() >= 3.3
-    high = np.stack([a, b]) + np.array([0.0, 0.0, 40.0])
-    assert len(low.over(high, 0.5)) == 2
+    return way, along[:, 2] - shape.height_at(along[:, 0], along[:, 1])
+
+
+def hill(height: float):
+    return grid(height * np.exp(-(((np.arange(24) * 5.0 - 60) / 14) ** 2))[:, None] * np.ones(24), 5.0)
+
+
+def test_a_way_is_led_over_what_rises_and_no_higher():
+    way, room = led_over(hill(14.0), (3.0, None), [10.0, 60.0, 4.0], [105.0, 58.0, 4.0])
+    assert room.min() >= 3.0
+    assert room[np.argmax(way[:, 2])] < 8.0
+    assert way[:, 2].max() < 14.0 + 3.0 + 2.0
+    assert np.linalg.norm(np.diff(way[:, :2], axis=0), axis=1).max() <= 16.0
+    high, _ = led_over(hill(14.0), (3.0, None), [10.0, 60.0, 44.0], [105.0, 58.0, 44.0])
+    assert len(high) == 2
+
+
+def test_a_way_is_led_down_into_a_valley_that_is_deeper_than_the_greatest_height():
+    _, room = led_over(hill(-60.0), (3.0, 30.0), [10.0, 60.0, 8.0], [105.0, 58.0, 8.0])
+    assert room.min() >= 3.0
+    assert room.max() <= 30.0

@@ -1,0 +1,67 @@
+"""Ways led over ground that rises, and below the greatest height above it."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
+from shotc.planning.profile import Section, cut, fewer, taut
+
+STEP_M = 1.0  # between the places at which the ground below a way is looked at
+STRIP_M = 3.0  # to either side of a way in which the ground counts
+ROOM_M = 0.5  # kept beyond the clearance and its margin
+GROWS = 0.1  # metres of that, and of the strip five times as much, for each metre from an end
+APART_M = 8.0  # corners that are nearer become one where there is room
+LONGEST_M = 15.0  # leg: its pieces are short, so that ground far beside it does not count
+PROVED_M = 1e-6  # by which a straight leg may fail to prove its heights
+
+
+def over_ground(space: FreeSpace, route: Array | None) -> Array | None:
+    """Return a way, corners (K, 3), within its heights above ground; None where something hangs there."""
+    if route is None or not space.terrain:
+        return route
+    legs = [_leg(space, a, b) for a, b in pairwise(route)]
+    if all(len(leg) == 2 for leg in legs):
+        return route
+    way = np.concatenate([route[:1], *(leg[1:] for leg in legs)])
+    inside = bounds_slack(space, way[1:-1]).min(initial=0.0) >= 0.0
+    return way if inside and not blocked(space, way[:-1], way[1:]).any() else None
+
+
+def _leg(space: FreeSpace, a: Array, b: Array) -> Array:
+    """Return the corners of a leg, straight in the plan: the shortest that keeps the heights."""
+    straight = np.stack([a, b])
+    flat = float(np.linalg.norm(b[:2] - a[:2]))
+    if flat < 2.0 * STEP_M or max(g.lack(straight[None])[0] for g in space.terrain) <= PROVED_M:
+        return straight
+    section = _section(space, a, b)
+    corners = cut(fewer(section, taut(section), APART_M), LONGEST_M)
+    way = a + corners[:, :1] / flat * (b - a)
+    way[:, 2] = corners[:, 1]
+    way[0], way[-1] = a, b
+    return np.asarray(way)
+
+
+def _section(space: FreeSpace, a: Array, b: Array) -> Section:
+    """Return the heights that are kept along a leg, in a strip that is narrow at its ends."""
+    flat = float(np.linalg.norm(b[:2] - a[:2]))
+    along = np.linspace(0.0, flat, int(np.ceil(flat / STEP_M)) + 1)
+    place = a[:2] + (along / flat)[:, None] * (b[:2] - a[:2])
+    left = np.array([a[1] - b[1], b[0] - a[0]]) / flat
+    room = np.minimum(ROOM_M, GROWS * np.minimum(along, flat - along))
+    wide = np.minimum(STRIP_M, 5.0 * room)[:, None] * left
+    strip, margin = [place - wide, place, place + wide], MARGIN_M + room
+    low = np.max([space.terrain[0].lowest(p) for p in strip], axis=0) + margin
+    high = np.full(len(along), np.inf)
+    for ground in space.terrain[1:]:
+        high = np.min([high, *(ground.highest(p) - margin for p in strip)], axis=0)
+    for wall in space.walls:
+        if wall.normal[2] < 0.0 and wall.normal[0] == wall.normal[1] == 0.0:
+            high = np.minimum(high, wall.offset / wall.normal[2] - margin)
+    low[1:-1] = np.max([low[:-2], low[1:-1], low[2:]], axis=0)
+    high[1:-1] = np.min([high[:-2], high[1:-1], high[2:]], axis=0)
+    low[[0, -1]] = high[[0, -1]] = a[2], b[2]
+    return Section(along, low, high)
