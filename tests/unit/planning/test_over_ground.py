@@ -88,7 +88,7 @@ def test_pieces_between_their_half_spaces_keep_both_heights(reach):
 
 
 def test_a_piece_between_slopes_that_rise_beside_it_keeps_its_place():
-    """The floor of a gully 2 m wide: a plane above what lies a metre beside a piece would be above the piece."""
+    """In a gully a plane above what lies a metre beside a piece would be above the piece."""
     gully = grid(np.abs(np.arange(24) * 1.0 - 12.0)[:, None] * np.ones(24) * 2.0, 1.0)
     (low,) = heights_over(ground_of(gully.corners, gully.faces), 3.0, None)
     hulls = np.linspace([12.0, 6.0, 3.05], [12.0, 8.0, 3.05], 6)[None]
