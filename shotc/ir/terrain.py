@@ -48,6 +48,10 @@ class Terrain:
         """Return how far a place is from where the ground ends, metres."""
         return float(nearest(self.ground.edge, np.array([[x, y, 0.0]])).distance[0])
 
+    def zs(self, xy: Array) -> Array:
+        """Return z of the ground at places (N, 2), metres, 0 where there is none; shape (N,)."""
+        return np.nan_to_num(height_at(self.ground, xy))
+
     def z(self, x: float, y: float) -> float:
         """Return z of the ground at a place, metres, 0 where there is none."""
         return self.height(x, y) or 0.0

@@ -7,6 +7,7 @@ the least one upside down.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -116,8 +117,13 @@ def heights_over(ground: Ground, least: float, greatest: float | None) -> tuple[
     low = OverGround(GROUND, ground, least)
     if greatest is None:
         return (low,)
-    down = surface_of(ground.surface.triangles * _UPSIDE_DOWN)
-    return low, OverGround(CEILING, replace(ground, surface=down), -greatest, flipped=True)
+    return low, OverGround(CEILING, _upside_down(ground), -greatest, flipped=True)
+
+
+@lru_cache(maxsize=2)
+def _upside_down(ground: Ground) -> Ground:
+    """Return ground upside down; kept, since a mission asks for it many times, and a tree takes a while."""
+    return replace(ground, surface=surface_of(ground.surface.triangles * _UPSIDE_DOWN))
 
 
 def _picked(planes: Planes, which: Mask) -> Planes:

@@ -35,6 +35,6 @@ def ideal_places(mission: MissionIR, shot: Shot, start: float, times: Array) -> 
     if ideal.above == "origin":
         return np.column_stack([x, y, up])
     if ideal.above == "ground":
-        ground = np.array([mission.ground(*place) for place in zip(x.tolist(), y.tolist(), strict=True)])
+        ground = 0.0 if mission.terrain is None else mission.terrain.zs(np.column_stack([x, y]))
         return np.column_stack([x, y, ground + up])
     return np.column_stack([x, y, z - target.height / 2 + up])

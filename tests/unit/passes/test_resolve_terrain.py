@@ -1,0 +1,147 @@
+"""Terrain as a mission names it: what stands on it, zones over it, what its heights count from, bad files."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.support.front_passes import resolved
+from tests.support.resolve_missions import faults
+from tests.support.terrain_missions import MIDDLE, cliff, relief, table, under
+
+TEXT = """\
+shotc: 1
+mission: hills
+world:
+  origin: {lat: 46.68, lon: 7.68, alt: 500}
+  terrain: {file: relief.csv}
+  zones:
+    wood: {keep: out, cylinder: {center: [40, 20], radius: 15, height: {above: ground, height: [0, 12]}}}
+    field: {keep: in, polygon: {points: [[-250, -250], [250, -250], [250, 250], [-250, 250]], height: [-200, 400]}}
+targets:
+  tower: {at: [120, 60], radius: 2, height: 20}
+drones:
+  cam: {model: x500, home: [0, 0]}
+shots:
+  - {id: round, kind: orbit, drone: cam, target: tower, radius: 35, altitude: {above: target, height: 25}}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "relief.csv").write_text(table(relief()))
+    return tmp_path
+
+
+def mission(folder, text=TEXT):
+    found, diagnostics = resolved(text, folder)
+    assert found is not None, diagnostics
+    return found
+
+
+def ground(x: float, y: float) -> float:
+    return float(under(relief(), np.array([[x, y, 0.0]]))[0])
+
+
+def test_what_stands_stands_on_the_terrain(folder):
+    found = mission(folder)
+    assert found.drone("cam").home == pytest.approx((0.0, 0.0, ground(0, 0)))
+    assert found.target("tower").foot == pytest.approx((120.0, 60.0, ground(120, 60)))
+    (shot,) = found.shots
+    assert {round(k.at[2] - ground(120, 60), 9) for k in shot.keyframes} == {25.0}
+
+
+def test_the_ground_is_the_triangles_of_the_posts(folder):
+    found = mission(folder)
+    points = np.random.default_rng(2).uniform(-MIDDLE + 1, MIDDLE - 1, (200, 3))
+    heights = [found.ground(float(x), float(y)) for x, y, _ in points]
+    assert heights == pytest.approx(under(relief(), points).tolist())
+    assert found.terrain is not None
+    assert found.terrain.zs(points[:, :2]) == pytest.approx(np.array(heights))
+
+
+def test_a_zone_over_the_ground_is_no_smaller_than_what_is_meant_and_a_fence_no_larger(folder):
+    wood = mission(folder).zones[0].solid
+    turn, share = np.meshgrid(np.linspace(0, 2 * np.pi, 60), np.linspace(0, 1, 20))
+    disc = np.stack([40 + 15 * share * np.cos(turn), 20 + 15 * share * np.sin(turn)], axis=-1).reshape(-1, 2)
+    heights = under(relief(), np.column_stack([disc, np.zeros(len(disc))]))
+    assert wood.bottom <= heights.min() + 1e-9
+    assert wood.top >= heights.max() + 12 - 1e-9
+    fence = (
+        "field: {keep: in, cylinder: {center: [0, 0], radius: 20, height: {above: ground, height: [3, 90]}}}"
+    )
+    text = "\n".join(f"    {fence}" if line.startswith("    field") else line for line in TEXT.splitlines())
+    inside = resolved(text, folder)[0]
+    assert inside is not None or [d.code for d in resolved(text, folder)[1]]
+    solid = next(z.solid for z in _lowered(text, folder).zones if z.name == "field")
+    near = under(relief(), np.column_stack([(disc - [40, 20]) * 20 / 15, np.zeros(len(disc))]))
+    assert solid.bottom >= near.max() + 3 - 1e-9
+    assert solid.top <= near.min() + 90 + 1e-9
+
+
+def _lowered(text, folder):
+    from shotc.ir.passes import PassContext
+    from shotc.passes.resolve.lower import lowered
+    from tests.support.front_passes import EMITTERS, KINDS, loaded
+
+    mission_, _ = loaded(text, folder)
+    assert mission_ is not None
+    return lowered(mission_, KINDS, EMITTERS, PassContext().progress).mission
+
+
+def test_home_may_be_the_datum(folder):
+    text = TEXT.replace("{file: relief.csv}", "{file: relief.csv, datum: home}").replace(
+        "[0, 0]}", "[0, 0, 7]}"
+    )
+    found = mission(folder, text)
+    assert found.ground(0.0, 0.0) == pytest.approx(7.0)
+    assert found.target("tower").foot[2] == pytest.approx(7.0 + ground(120, 60) - ground(0, 0))
+
+
+@pytest.mark.parametrize(("datum", "shift"), [("sea", -500.0), ("origin", 0.0)])
+def test_heights_of_posts_on_earth_count_from_their_datum(tmp_path, datum, shift):
+    rows = [
+        f"{46.68 + i * 1e-4:.4f},{7.68 + j * 1e-4:.4f},{520 + i}"
+        for i in range(-9, 10)
+        for j in range(-9, 10)
+    ]
+    (tmp_path / "relief.csv").write_text("lat,lon,alt\n" + "\n".join(rows) + "\n")
+    text = TEXT.replace("{file: relief.csv}", f"{{file: relief.csv, datum: {datum}}}")
+    found = _lowered(text, tmp_path)
+    assert found.ground(0.0, 0.0) == pytest.approx(520.0 + shift, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "code"),
+    [
+        (("home: [0, 0]", "home: [0, 0, -60]"), "G006"),
+        (("at: [120, 60]", "at: [120, 60, {above: ground, height: 0}]"), "G018"),
+        (("home: [0, 0]", "home: [0, 400]"), "G025"),
+        (("file: relief.csv", "file: other.csv"), "N008"),
+        (("datum", "datum"), ""),
+    ],
+)
+def test_faults_are_told_on_their_line(folder, change, code):
+    text = TEXT.replace(*change)
+    codes = [d.code for d in faults(text, folder)]
+    assert (codes[:1] == [code]) if code else (codes == [])
+
+
+@pytest.mark.parametrize("ending", ["csv", "asc", "hgt", "tif"])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_any_bytes_are_a_fault_of_the_file(tmp_path, ending, seed):
+    (tmp_path / f"relief.{ending}").write_bytes(np.random.default_rng(seed).bytes(2000))
+    (told,) = faults(TEXT.replace("relief.csv", f"relief.{ending}"), tmp_path)
+    assert told.code == "N009"
+    assert told.labels[0].span.line == 5
+    assert "0x" not in told.message
+
+
+def test_holes_are_beyond_the_ground(tmp_path):
+    shape = cliff()
+    lines = table(shape).splitlines()
+    kept = [line for line in lines if not line.startswith(("0,0,", "10,0,", "0,10,", "-10,0,", "0,-10,"))]
+    (tmp_path / "relief.csv").write_text("\n".join(kept) + "\n")
+    told = faults(TEXT.replace("home: [0, 0]", "home: [0, 0, 1]"), tmp_path)
+    assert [d.code for d in told] == ["G025"]
+    assert "the home of `cam` leaves the terrain" in told[0].message
