@@ -17,7 +17,7 @@ world:
   terrain: {file: relief.csv}
   zones:
     wood: {keep: out, cylinder: {center: [40, 20], radius: 15, height: {above: ground, height: [0, 12]}}}
-    field: {keep: in, polygon: {points: [[-250, -250], [250, -250], [250, 250], [-250, 250]], height: [-200, 400]}}
+    field: {keep: in, box: {center: [0, 0, 100], size: [500, 500, 600]}}
 targets:
   tower: {at: [120, 60], radius: 2, height: 20}
 drones:
