@@ -12,14 +12,13 @@ knot after knot, each begun where the last one ended. What is silent is free, an
   several, each place of the composition once.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import permutations
 from math import atan2, ceil, cos, dist, hypot, inf, pi, sin
 from typing import NamedTuple
 
 from shotc.geom.camera import aim_at
-from shotc.geom.line_of_sight import are_one, crosses
-from shotc.geom.solids import depth, distance
 from shotc.geom.vec import Vec2, Vec3, minus, plus
 from shotc.geom.viewpoint import (
     WHOLE_SIZE,
@@ -36,10 +35,10 @@ from shotc.geom.viewpoint import (
     whole,
 )
 from shotc.ir.begins import first_start
+from shotc.ir.hidden import hides, lacks, standing_before
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject, Target
-from shotc.ir.owners import Owner, target_owner, zone_owner
 
 KNOT = 0.5  # seconds between the knots of a course
 FEWEST, MOST = 8, 240  # stretches of a course
@@ -50,6 +49,7 @@ NEARLY = 0.02  # of cost by which another bearing is as good
 LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
 BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects do not go faster themselves
 BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed if one is clear
+RAISED = 4  # times that a camera over terrain is put over the ground that is below it
 AGAIN = 5  # times that a first pose is begun again at most
 SAME = 1e-6  # seconds
 SMALLER = tuple(WHOLE_SIZE * 0.95**k for k in range(60))
@@ -100,10 +100,10 @@ def lens_of(drone: Drone) -> Lens:
     return Lens(drone.hfov, drone.aspect, drone.gimbal.pitch)
 
 
-def room_of(mission: MissionIR, drone: Drone) -> Room:
-    """Return where a drone's camera may be."""
+def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> Room:
+    """Return where a drone's camera may be; ground : its height there, metres of W."""
     rules = mission.rules
-    return Room(rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
+    return Room(ground + rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
 
 
 def places_of(composition: Composition) -> list[Vec2]:
@@ -121,9 +121,27 @@ class _Scene:
         pieces = int(min(MOST, max(FEWEST, ceil(duration / KNOT))))
         self.mission, self.shot, self.start = mission, shot, start
         self.drone = mission.drone(shot.drone)
-        self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone)
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
         self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
+        self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone, self._ground())
+
+    def _ground(self) -> float:
+        """Return the highest ground below the subjects, metres of W."""
+        if self.mission.terrain is None:
+            return 0.0
+        places = (self.mission.target(s.target).at(t) for s in self.shot.subjects for t in self.looks)
+        return max(self.mission.ground(x, y) for x, y, _ in places)
+
+    def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> Room:
+        """Return where a camera may be that goes along beside a target, for where that is lowest.
+
+        The camera is over the ground at every place that it comes to, by the height of the target there.
+        """
+        need = []
+        for t in self.looks:
+            x, y, z = plus(target.at(t), offset)
+            need.append(self.mission.ground(x, y) - z + offset[2])
+        return room_of(self.mission, self.drone, max(need) + lowest[2])
 
     def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[Wanted, ...]:
         """Return all subjects as they are wanted at a time."""
@@ -155,48 +173,6 @@ class _Scene:
         return any(hides(self.mission, s.target, eye, t) is not None for s in self.shot.subjects)
 
 
-def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
-    """Yield the owner of every zone and target that a drone is too near to, and by how much."""
-    for zone in mission.zones:
-        if zone.keep == "out":
-            lack = drone.radius - distance(zone.solid, p)
-        else:
-            lack = drone.radius - depth(zone.solid, p)
-        if lack > SAME:
-            yield zone_owner(zone), lack
-    need = mission.rules.beside_target(drone.radius)
-    for target in mission.targets:
-        lack = need - distance(target.solid_at(t), p)
-        if lack > SAME:
-            yield target_owner(target), lack
-
-
-def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
-    """Return what stands between a camera and a target's middle or one of its sides, or None."""
-    return next((found for found in standing_before(mission, name, eye, t) if found is not None), None)
-
-
-def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
-    """Yield what stands between a camera and a target's middle, its left and its right side, or None.
-
-    What overlaps or touches the target is a part of the same thing, and hides nothing of it.
-    """
-    target = mission.target(name)
-    x, y, z = target.at(t)
-    level = max(hypot(x - eye[0], y - eye[1]), 1e-9)
-    aside = (-(y - eye[1]) / level * target.radius, (x - eye[0]) / level * target.radius)
-    points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
-    solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
-    others = (o for o in mission.targets if o.name != name and not _parts_of_one(o, target, t))
-    solids += [(o.name, o.solid_at(t)) for o in others]
-    for p in points:
-        yield next((n for n, solid in solids if crosses(solid, eye, p)), None)
-
-
-def _parts_of_one(a: Target, b: Target, t: float) -> bool:
-    return bool(are_one(minus(a.at(t), b.at(t)), a.radius + b.radius, 0.5 * (a.height + b.height)))
-
-
 def _before(mission: MissionIR, shot: Shot) -> Vec3:
     """Return where a drone is before a shot: at the end of its shot before, as written, or at home."""
     last: Shot | None = None
@@ -221,14 +197,16 @@ def _alone(scene: _Scene) -> Course:
     wanted = wanted_at(scene.mission, subject, scene.start)._replace(centre=lowest)
     sizes = SMALLER if subject.size is None else (subject.size,)
     places = places_of(subject.composition)
-    tried = ((_stood(scene, wanted, uv, size), uv) for size in sizes for uv in places)
+    tried = ((_stood(scene, wanted, uv, size), uv, size) for size in sizes for uv in places)
     fits = (
-        (offset, uv)
-        for offset, uv in tried
+        (offset, uv, size)
+        for offset, uv, size in tried
         if not wanted.whole or whole(_aimed(lowest, offset, uv, scene.lens), scene.lens, wanted)
     )
-    offset, uv = next(fits, None) or (_stood(scene, wanted, places[0], sizes[0]), places[0])
-    offset = offset if wanted.azimuth is not None else _clear_bearing(scene, target, offset)
+    first = (_stood(scene, wanted, places[0], sizes[0]), places[0], sizes[0])
+    offset, uv, size = next(fits, None) or first
+    if wanted.azimuth is None:
+        offset = _clear_bearing(scene, target, partial(_turned, scene, wanted, offset, (uv, size)))
     ideal = scene.shot.ideal
     assert ideal is not None
     shot = scene.shot._replace(
@@ -242,17 +220,31 @@ def _alone(scene: _Scene) -> Course:
 
 def _stood(scene: _Scene, wanted: Wanted, uv: Vec2, size: float) -> Vec3:
     """Return the camera's offset from a subject that it shows at a place on screen in a size."""
-    return stand(wanted._replace(uv=uv), scene.lens, scene.room, wanted.azimuth or 0.0, size)
+    azimuth, wanted = wanted.azimuth or 0.0, wanted._replace(uv=uv)
+    offset = stand(wanted, scene.lens, scene.room, azimuth, size)
+    if scene.mission.terrain is None:
+        return offset
+    target = scene.mission.target(scene.shot.subjects[0].target)
+    for _ in range(RAISED):  # higher up it is nearer in the plan, where the ground is another
+        room = scene.room_beside(target, wanted.centre, offset)
+        offset = stand(wanted, scene.lens, room, azimuth, size)
+    return offset
 
 
-def _clear_bearing(scene: _Scene, target: Target, offset: Vec3) -> Vec3:
-    """Return an offset, given to the North, on the bearing nearest to the drone's that is clear."""
+def _turned(scene: _Scene, wanted: Wanted, offset: Vec3, shown: tuple[Vec2, float], azimuth: float) -> Vec3:
+    """Return an offset, given to the North, on another bearing; shown : place on screen and size."""
+    if scene.mission.terrain is not None:
+        return _stood(scene, wanted._replace(azimuth=azimuth), *shown)
+    away = hypot(offset[0], offset[1])
+    return (away * sin(azimuth), away * cos(azimuth), offset[2])
+
+
+def _clear_bearing(scene: _Scene, target: Target, stood: Callable[[float], Vec3]) -> Vec3:
+    """Return the offset on the bearing nearest to the drone's that is clear; stood : offsets by bearing."""
     first = scene.comes_from(target.at(scene.start))
-    best, least = offset, (2.0, 2.0)
+    best, least = stood(0.0), (2.0, 2.0)
     for k in range(round(2 * pi / TURN)):
-        azimuth = first + TURN * ((k + 1) // 2) * (1 if k % 2 else -1)
-        away = hypot(offset[0], offset[1])
-        turned = (away * sin(azimuth), away * cos(azimuth), offset[2])
+        turned = stood(first + TURN * ((k + 1) // 2) * (1 if k % 2 else -1))
         found = scene.shares([(t, plus(target.at(t), turned)) for t in scene.looks])
         if found < least:
             best, least = turned, found

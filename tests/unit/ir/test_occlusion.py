@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.track import Track
-from shotc.ir.framed import hides
+from shotc.ir.hidden import hides
 from shotc.ir.mission import MissionIR, Target
 from shotc.ir.occlusion import hiders, others_of
 from shotc.ir.sampling import seen

@@ -128,7 +128,7 @@ def _blocked(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | N
 def _too_low(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | None:
     shot, subject = course.shot, course.shot.subjects[0]
     need = mission.rules.over_ground(mission.drone(shot.drone).radius)
-    z = min(pose[2] for pose in course.poses)
+    z = min(pose[2] - mission.ground(pose[0], pose[1]) for pose in course.poses)
     if z >= need - ROUNDING:
         return None
     where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"

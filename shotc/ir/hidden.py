@@ -1,0 +1,54 @@
+"""What stands in a camera's place, and between it and what it films."""
+
+from collections.abc import Iterator
+from math import hypot
+
+from shotc.geom.line_of_sight import are_one, crosses
+from shotc.geom.solids import depth, distance
+from shotc.geom.vec import Vec3, minus
+from shotc.ir.mission import Drone, MissionIR, Target
+from shotc.ir.owners import Owner, target_owner, zone_owner
+
+ROUNDING_M = 1e-6
+
+
+def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
+    """Yield the owner of every zone and target that a drone is too near to, and by how much."""
+    for zone in mission.zones:
+        if zone.keep == "out":
+            lack = drone.radius - distance(zone.solid, p)
+        else:
+            lack = drone.radius - depth(zone.solid, p)
+        if lack > ROUNDING_M:
+            yield zone_owner(zone), lack
+    need = mission.rules.beside_target(drone.radius)
+    for target in mission.targets:
+        lack = need - distance(target.solid_at(t), p)
+        if lack > ROUNDING_M:
+            yield target_owner(target), lack
+
+
+def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
+    """Return what stands between a camera and a target's middle or one of its sides, or None."""
+    return next((found for found in standing_before(mission, name, eye, t) if found is not None), None)
+
+
+def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
+    """Yield what stands between a camera and a target's middle, its left and its right side, or None.
+
+    What overlaps or touches the target is a part of the same thing, and hides nothing of it.
+    """
+    target = mission.target(name)
+    x, y, z = target.at(t)
+    level = max(hypot(x - eye[0], y - eye[1]), 1e-9)
+    aside = (-(y - eye[1]) / level * target.radius, (x - eye[0]) / level * target.radius)
+    points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
+    solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
+    others = (o for o in mission.targets if o.name != name and not _parts_of_one(o, target, t))
+    solids += [(o.name, o.solid_at(t)) for o in others]
+    for p in points:
+        yield next((n for n, solid in solids if crosses(solid, eye, p)), None)
+
+
+def _parts_of_one(a: Target, b: Target, t: float) -> bool:
+    return bool(are_one(minus(a.at(t), b.at(t)), a.radius + b.radius, 0.5 * (a.height + b.height)))
