@@ -56,7 +56,10 @@ def relief_of(posts: Posts, box: Box, origin: Vec3 | None, offset: float = 0.0) 
         if isinstance(found, TerrainFault):
             return found
         if origin is None:
-            return TerrainFault("origin", f"its posts are places in {found.name}, but W has no origin")
+            message = f"its posts are places in {found.name}, and the mission has no origin on earth"
+            return TerrainFault(
+                "origin", message, None, "give `world: {origin: {lat: ..., lon: ..., alt: ...}}`"
+            )
         system = found
     part = _part(posts, box, system, origin)
     if isinstance(part, TerrainFault):

@@ -58,7 +58,7 @@ def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFa
     if system is None and steps.x < DEGREES and abs(x).max() <= 360.0 and abs(y).max() <= 90.0:
         system = WGS84
     if system is None:
-        help_ = "give its `system`, such as EPSG:32632; the .prj file beside it tells"
+        help_ = "give its `epsg` beside `file`, such as `epsg: 32632`; the .prj file beside it tells"
         return TerrainFault(
             "system", "the file does not say in which system of coordinates it is", None, help_
         )
@@ -97,7 +97,10 @@ def _steps(values: dict[str, float]) -> Steps | TerrainFault:
         return TerrainFault("format", f"its header says {columns:g} columns and {rows:g} rows")
     if columns * rows > MOST_POSTS:
         return TerrainFault(
-            "size", f"it has {columns * rows:.0f} posts; {MOST_POSTS} are the most", None, "thin it"
+            "size",
+            f"its header says {columns:g} x {rows:g} posts; {MOST_POSTS} are the most",
+            None,
+            "thin it",
         )
     x, y = values.get("cellsize", values.get("dx", 0.0)), values.get("cellsize", values.get("dy", 0.0))
     if min(x, y) <= 0.0:

@@ -28,7 +28,7 @@ def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFau
     on_earth = "lat" in columns
     if system is not None and not (on_earth and system in GEOGRAPHIC):
         message = f"its columns say where its posts are, not EPSG:{system}"
-        return TerrainFault("system", message, None, "leave the system out")
+        return TerrainFault("system", message, None, "leave `epsg` out")
     rows = np.array(table.rows)
     names = ("lon", "lat", "alt") if on_earth else LAYOUTS[0]
     x, y, z = (rows[:, columns[name]] for name in names)

@@ -94,6 +94,8 @@ def _raster(data: bytes) -> Raster | TerrainFault:
                 return _pixels(image)
     except Image.DecompressionBombError:
         return TerrainFault("size", f"it has more than {MOST_POSTS} posts", None, "cut it to the mission")
+    except UnidentifiedImageError:
+        return TerrainFault("format", "it is no TIFF that can be read", None, SAVE_AS)
     except Exception as error:  # noqa: BLE001  the reader's faults of foreign bytes
         reason = (str(error).splitlines() or [""])[0][:200] or type(error).__name__
         if isinstance(error, UnidentifiedImageError):
@@ -130,11 +132,11 @@ def _system(keys: dict[int, int], given: int | None) -> int | TerrainFault:
     if code == USER_DEFINED:
         code = None
     if code is None and given is None:
-        help_ = "give its `system`, such as EPSG:32632"
+        help_ = "give its `epsg` beside `file`, such as `epsg: 32632`"
         return TerrainFault("system", "its tags name no system of coordinates with an EPSG code", None, help_)
     if code is not None and given is not None and code != given:
         message = f"its tags say EPSG:{code}, the mission says EPSG:{given}"
-        return TerrainFault("system", message, None, "leave the system out")
+        return TerrainFault("system", message, None, "leave `epsg` out")
     if PROJECTED not in keys and keys.get(ANGLES, DEGREES) != DEGREES:
         return TerrainFault("system", f"its angles are in the unit {keys[ANGLES]} of EPSG, not in degrees")
     found = code if code is not None else given

@@ -27,9 +27,7 @@ def read_srtm(name: str, data: bytes, system: int | None = None) -> Posts | Terr
         help_ = "name it by its south-west corner, such as N46E007.hgt"
         return TerrainFault("format", "its name does not say where it is", None, help_)
     if system is not None and system not in GEOGRAPHIC:
-        return TerrainFault(
-            "system", f"a tile is in WGS84, not in EPSG:{system}", None, "leave the system out"
-        )
+        return TerrainFault("system", f"a tile is in WGS84, not in EPSG:{system}", None, "leave `epsg` out")
     lat = int(corner[2]) * (1 if corner[1].upper() == "N" else -1)
     lon = int(corner[4]) * (1 if corner[3].upper() == "E" else -1)
     if not (-90 <= lat < 90 and -180 <= lon < 180):

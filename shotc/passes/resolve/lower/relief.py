@@ -32,7 +32,7 @@ def relief(written: TerrainSpec, data: bytes, places: Iterable[Vec3], files: Gro
     posts = read_elevation(name, data, written.epsg)
     if not isinstance(posts, Posts):
         return fault(posts)
-    every = list(places)
+    every = list(places) or [(0.0, 0.0, 0.0)]  # a mission of fleets alone has none
     box = Box(
         (min(p[0] for p in every) - AROUND_M, min(p[1] for p in every) - AROUND_M),
         (max(p[0] for p in every) + AROUND_M, max(p[1] for p in every) + AROUND_M),

@@ -88,7 +88,7 @@ def test_a_damaged_ascii_grid_is_told(old: bytes, new: bytes, kind: str, line: i
 def test_a_projected_ascii_grid_needs_its_system():
     found = fault("a.asc", files.ascii_grid(HEIGHTS, CORNER))
     assert found.kind == "system"
-    assert "EPSG" in found.help
+    assert "`epsg: 32632`" in found.help
 
 
 @pytest.fixture(scope="module")
