@@ -12,12 +12,13 @@ from functools import lru_cache
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.surface.ground import Ground, NoGround, height_at
 from shotc.geom.surface.ground_planes import ground_planes
 from shotc.geom.surface.height import inf_height
 from shotc.geom.surface.planes import Kept, Planes
-from shotc.geom.surface.tree import surface_of
+from shotc.geom.surface.tree import plan_boxes_meet, search, surface_of
 from shotc.ir.owners import CEILING, GROUND, Owner
 
 OUTSIDE_M = 1e3  # what is lacking where there is no ground
@@ -102,11 +103,22 @@ class OverGround:
         lack[found.piece] = found.offset - np.einsum("rmd,rd->rm", hulls[found.piece], found.normal).min(
             axis=1
         )
-        for i in np.flatnonzero(lack > 0.0):
+        for i in np.flatnonzero((lack > 0.0) | self._ends_below(hulls)):
             piece = Pieces(np.zeros(1), np.ones(1), hulls[[i]])
             bound = inf_height(piece, self.ground, lambda _: CLOSED_M)
             lack[i] = OUTSIDE_M if isinstance(bound, NoGround) else self.clearance - bound.proven
         return lack
+
+    def _ends_below(self, hulls: Array) -> Mask:
+        """Tell of pieces, shape (P, m, 3), whether the ground may end below them: a hole is in their box."""
+        low, high = hulls[..., :2].min(axis=1), hulls[..., :2].max(axis=1)
+
+        def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
+            return plan_boxes_meet(low[item], high[item], its_low, its_high)
+
+        below = np.zeros(len(hulls), dtype=bool)
+        below[search(self.ground.edge, len(hulls), meets).item] = True
+        return below
 
     def _turned(self, p: Array) -> Array:
         return p * _UPSIDE_DOWN if self.flipped else p

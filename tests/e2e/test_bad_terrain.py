@@ -62,3 +62,17 @@ def test_posts_on_earth_of_a_mission_that_is_nowhere_ask_for_its_origin(tmp_path
 def test_a_show_over_terrain_is_no_failure_of_the_compiler(tmp_path):
     (tmp_path / "relief.csv").write_text(table(relief()))
     assert all(not told.code.startswith("X") for told in faults(tmp_path, SHOW))
+
+
+def test_a_way_over_a_hole_of_the_terrain_is_told_at_the_shot_that_it_leads_to(tmp_path):
+    rows = table(relief()).splitlines(keepends=True)
+    xy = [tuple(map(float, row.split(",")[:2])) for row in rows[1:]]
+    hole = [row for row, (x, y) in zip(rows[1:], xy, strict=True) if abs(x - 60) > 15 or abs(y) > 15]
+    (tmp_path / "relief.csv").write_text("".join([rows[0], *hole]))
+    text = MISSION.replace("NAME", "relief.csv").replace("[60, 0, 5]", "[160, 0, {above: ground, height: 5}]")
+    text = text.replace("[0, 0, 0]", "[0, 0, {above: ground, height: 0}]")
+    text = text.replace("altitude: 12", "altitude: {above: ground, height: 12}")
+    told = [d for d in faults(tmp_path, text) if d.code == "G025"]
+    assert told
+    assert told[0].labels[0].span.line == 8
+    assert "beyond the ground of `relief.csv`" in told[0].notes[0]

@@ -125,3 +125,13 @@ def test_a_way_is_led_down_into_a_valley_that_is_deeper_than_the_greatest_height
     _, room = led_over(hill(-60.0), (3.0, 30.0), [10.0, 60.0, 8.0], [105.0, 58.0, 8.0])
     assert room.min() >= 3.0
     assert room.max() <= 30.0
+
+
+def test_nothing_is_proved_over_a_hole():
+    middle = np.abs(SHAPE.corners[SHAPE.faces].mean(axis=1)[:, :2] - 57.0).max(axis=1) > 6.0
+    (low,) = heights_over(ground_of(SHAPE.corners, SHAPE.faces[middle]), 3.0, None)
+    over = np.linspace([20.0, 57.0, 40.0], [90.0, 57.0, 40.0], 6)
+    beside = over + np.array([0.0, 20.0, 0.0])
+    lack = low.lack(np.stack([over, beside]))
+    assert lack[0] > 900
+    assert lack[1] <= 0.0

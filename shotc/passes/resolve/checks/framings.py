@@ -13,10 +13,10 @@ from shotc.ir.begins import first_start
 from shotc.ir.framed import (
     Course,
     course_of,
-    lacks,
     lens_of,
     wanted_at,
 )
+from shotc.ir.hidden import lacks
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.framing import beyond_gimbal

@@ -10,10 +10,13 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Pieces
+from shotc.geom.surface.ground import leaves
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import GROUND, Owner, owner_of
 from shotc.ir.path import PathDeviation
+from shotc.ir.terrain import Terrain
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import flight_space, pad_space
 from shotc.planning.path.angles import NOTICE_RAD, Cut
@@ -177,6 +180,12 @@ def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
 def _no_way(
     mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: NoWay
 ) -> Diagnostic:
+    ends = None if mission.terrain is None else _ground_ends(mission.terrain, what)
+    if ends is not None:
+        labels = _ends(mission, drone, shot, what.keyframes)[:1]
+        message = f"the way of `{drone.name}` {_leading(shot, what.keyframes)} leaves the terrain"
+        help_ = "take an elevation model that covers it, fill the holes of this one, or lead the way round"
+        return Diagnostic("G025", message, tuple(labels), (ends,), help_)
     openers = opening(space, what.start, what.end)
     gap = narrow_gap(space, what.start, what.end, openers)
     lower = lower_clearance(mission, drone, what.start, what.end)
@@ -202,6 +211,16 @@ def _no_way(
         tuple(notes),
         help_,
     )
+
+
+def _ground_ends(terrain: Terrain, what: NoWay) -> str | None:
+    """Say where there is no ground below the straight way between two places, if there is none somewhere."""
+    way = Pieces(np.zeros(1), np.ones(1), np.stack([what.start, what.end])[None])
+    out = leaves(terrain.ground, way)
+    if out is None:
+        return None
+    x, y = out.place
+    return f"at [{x:.1f}, {y:.1f}] it is {out.by:.1f} m beyond the ground of `{terrain.file}`"
 
 
 def _too_near(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: TooNear) -> Diagnostic:
