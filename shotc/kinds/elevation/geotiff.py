@@ -98,8 +98,6 @@ def _raster(data: bytes) -> Raster | TerrainFault:
         return TerrainFault("format", "it is no TIFF that can be read", None, SAVE_AS)
     except Exception as error:  # noqa: BLE001  the reader's faults of foreign bytes
         reason = (str(error).splitlines() or [""])[0][:200] or type(error).__name__
-        if isinstance(error, UnidentifiedImageError):
-            return TerrainFault("format", "its bytes are no TIFF", None, SAVE_AS)
         if "truncated" in reason:
             return TerrainFault("truncated", f"Pillow says: {reason}", None, "copy the file anew")
         return TerrainFault("format", f"Pillow says: {reason}", None, SAVE_AS)
