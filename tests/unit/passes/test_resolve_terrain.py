@@ -143,3 +143,13 @@ def test_holes_are_beyond_the_ground(tmp_path):
     told = faults(TEXT.replace("home: [0, 0]", "home: [0, 0, 1]"), tmp_path)
     assert [d.code for d in told] == ["G025"]
     assert "the home of `cam` leaves the terrain" in told[0].message
+
+
+def test_terrain_is_read_as_far_as_a_track_of_a_velocity_may_lead(tmp_path):
+    rows = [f"{x},{y},{x / 100:g}" for x in range(-300, 3001, 100) for y in (-300, 0, 300)]
+    (tmp_path / "relief.csv").write_text("x,y,z\n" + "\n".join(rows) + "\n")
+    near = _lowered(TEXT, tmp_path)
+    assert near.terrain.height(2900.0, 0.0) is None
+    rider = "  rider: {track: {start: [0, 0, 1], velocity: [9, 0, 0]}, radius: 1, height: 2}\n"
+    far = _lowered(TEXT.replace("drones:\n", rider + "drones:\n"), tmp_path)
+    assert far.terrain.height(2900.0, 0.0) == pytest.approx(29.0)

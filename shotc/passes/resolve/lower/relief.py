@@ -16,13 +16,14 @@ from shotc.kinds.files import FileFault
 from shotc.passes.resolve.lower.files import Ground
 from shotc.spec.world import TerrainSpec
 
-AROUND_M = 1000.0  # beyond the places that a mission writes down, in which its terrain is read
 
-
-def relief(written: TerrainSpec, data: bytes, places: Iterable[Vec3], files: Ground) -> Terrain | Diagnostic:
+def relief(
+    written: TerrainSpec, data: bytes, about: tuple[Iterable[Vec3], float], files: Ground
+) -> Terrain | Diagnostic:
     """Return the ground that an elevation model makes, or what is wrong with it.
 
-    places : of the mission, W, the first drone's home first; files : for the origin, and the lines of faults
+    about : places of the mission, W, the first drone's home first, and how far beyond them it is read, metres
+    files : for the origin, and the lines of faults
     """
     name, path = written.file, ("world", "terrain", "file")
 
@@ -32,10 +33,10 @@ def relief(written: TerrainSpec, data: bytes, places: Iterable[Vec3], files: Gro
     posts = read_elevation(name, data, written.epsg)
     if not isinstance(posts, Posts):
         return fault(posts)
-    every = list(places) or [(0.0, 0.0, 0.0)]  # a mission of fleets alone has none
+    every, beyond = list(about[0]) or [(0.0, 0.0, 0.0)], about[1]  # a mission of fleets alone has no place
     box = Box(
-        (min(p[0] for p in every) - AROUND_M, min(p[1] for p in every) - AROUND_M),
-        (max(p[0] for p in every) + AROUND_M, max(p[1] for p in every) + AROUND_M),
+        (min(p[0] for p in every) - beyond, min(p[1] for p in every) - beyond),
+        (max(p[0] for p in every) + beyond, max(p[1] for p in every) + beyond),
     )
     geo = files.origin
     origin = None if geo is None else (geo.lat_deg, geo.lon_deg, geo.alt)

@@ -17,6 +17,7 @@ from shotc.spec.mission import MissionSpec
 if TYPE_CHECKING:
     from shotc.ir.terrain import Terrain
 
+AROUND_M, FAR_M = 1_000.0, 10_000.0
 FILE = ("world", "terrain", "file")
 
 
@@ -38,7 +39,17 @@ def read_terrain(
         return data
     from shotc.passes.resolve.lower.relief import relief
 
-    return relief(written, data, map(put, _places(spec)), files)
+    return relief(written, data, (map(put, _places(spec)), _beyond(spec)), files)
+
+
+def _beyond(spec: MissionSpec) -> float:
+    """Return how far beyond the places that a mission writes down its terrain is read, metres.
+
+    Where files and velocities say where things go, it is as far as a mission reaches.
+    """
+    tracks = [target.track for target in spec.targets.values() if target.track is not None]
+    led = any(track.file is not None or track.velocity is not None for track in tracks)
+    return FAR_M if led or any(getattr(shot, "file", None) for shot in spec.shots) else AROUND_M
 
 
 def _places(spec: MissionSpec) -> Iterator[Place]:
