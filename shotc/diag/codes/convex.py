@@ -38,7 +38,7 @@ shots:
     target: lamp
     composition: center
     radius: 15
-    altitude: 8
+    altitude: {above: origin, height: 8}
     sweep: 90 deg
     start_azimuth: 90 deg
   - id: past

@@ -10,9 +10,10 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.begins import first_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.mission import Above, MissionIR, Shot
 from shotc.passes.resolve.lower.world import BURIED
 from shotc.planning.clearances import ROUNDING_M
+from shotc.rounding import at_least, up
 
 STEP_S = 0.5  # between the moments of a shot on its own clock that are looked at
 MOMENTS = 400  # of one shot, at most
@@ -84,7 +85,8 @@ def _below_foot(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[D
         f"the camera of shot `{shot.id}` is below the foot of target `{shot.subject}`",
         (mission.origins.value(key),),
         (f"it is at z = {deepest.at[2]:.2f} m, the target's foot at z = {deepest.foot:.2f} m",),
-        "raise it, or write `above: origin` with a height over the plane z = 0 if it is to be that low",
+        f"raise it, or write `altitude: {{above: origin, height: {_written([m.at[2] for m in way])}}}` "
+        "if it is to be that low",
     )
 
 
@@ -100,14 +102,31 @@ def _too_high(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[Dia
     message = f"the camera of shot `{shot.id}` is {high:.2f} m above the ground"
     if rule is None:
         note = f"most countries allow {LEGAL_M:.0f} m without a permit"
-        allow = f"write `max_height: {ceil(high)}` or `max_height: off` under `rules`"
+        allow = f"write `rules: {{max_height: {ceil(high)}}}` or `rules: {{max_height: off}}`"
         help_ = f"lower it by {high - LEGAL_M:.2f} m, or {allow}"
         yield Diagnostic("G024", message, (label,), (note,), help_)
         return
     beside = mission.origins.value(("rules", "max_height"), "the rule")
-    yield Diagnostic(
-        "G022", message, (label, beside), (), f"lower it by {high - most:.2f} m, or raise the rule"
-    )
+    help_ = f"lower it by {high - most:.2f} m, or write `rules: {{max_height: {ceil(high)}}}`"
+    yield Diagnostic("G022", message, (label, beside), (), help_)
+
+
+def raised(mission: MissionIR, shot: Shot, metres: float) -> str:
+    """Say how a shot is written that is so much higher, metres."""
+    key = (*shot.path, "altitude")
+    if shot.above is None or key not in mission.origins.values:
+        return f"raise it by {at_least(metres)} m"
+    way = moments(mission, shot)
+    value = _written([up(_height(mission, shot.above, moment) + metres) for moment in way])
+    counted = (*key, "above") in mission.origins.values
+    return f"write `altitude: {f'{{above: {shot.above}, height: {value}}}' if counted else value}`"
+
+
+def _height(mission: MissionIR, above: Above, moment: Moment) -> float:
+    """Return a camera's height over what it counts from, metres."""
+    if above == "origin":
+        return moment.at[2]
+    return moment.at[2] - (mission.ground(*moment.at[:2]) if above == "ground" else moment.foot or 0.0)
 
 
 def _span(values: list[float]) -> str:

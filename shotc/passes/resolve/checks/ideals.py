@@ -14,11 +14,11 @@ from shotc.ir.begins import known_start
 from shotc.ir.keyed import carriers, in_order, is_keyed
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.framing import beyond_gimbal
-from shotc.passes.resolve.checks.heights import moments
+from shotc.passes.resolve.checks.heights import moments, raised
 from shotc.passes.resolve.checks.keeping_up import check_speed
 from shotc.passes.resolve.checks.timing import timing_label
 from shotc.planning.clearances import ROUNDING_M
-from shotc.rounding import at_least, down, up
+from shotc.rounding import down, up
 
 
 def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
@@ -91,7 +91,7 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` is too low: {lowest:.2f} m over the ground",
         (mission.origins.value((*shot.path, key)),),
         (f"the ground clearance and the body radius need {need:.2f} m",),
-        f"raise it by {at_least(need - lowest)} m",
+        raised(mission, shot, need - lowest),
     )
 
 
