@@ -29,6 +29,7 @@ def sphere(radius: float, depth: int = 4) -> np.ndarray:
     return np.asarray(trimesh.creation.icosphere(depth, radius=radius).triangles)
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(seeds, st.integers(1, 40))
 def test_the_proven_distance_is_never_above_brute_force_and_within_a_millimetre(seed: int, count: int):
