@@ -8,11 +8,9 @@ from math import isnan
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import IntArray
-from shotc.geom.pieces import Mask
 from shotc.geom.surface.ground import Ground, height_at
 from shotc.geom.surface.near import nearest
-from shotc.geom.surface.tree import plan_boxes_meet, search, surface_of
+from shotc.geom.surface.tree import in_plan, surface_of
 from shotc.ir.limits import Vec2
 from shotc.ir.origin import KeyPath
 
@@ -37,11 +35,7 @@ class Terrain:
     def span(self, low: Vec2, high: Vec2) -> Vec2:
         """Return the lowest and the highest z of the triangles about a box in the plan; 0 without any."""
         tree = self.ground.surface
-
-        def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
-            return plan_boxes_meet(np.array([low])[item], np.array([high])[item], its_low, its_high)
-
-        z = tree.triangles[search(tree, 1, meets).triangle][..., 2]
+        z = tree.triangles[in_plan(tree, np.array([low]), np.array([high])).triangle][..., 2]
         return (float(z.min()), float(z.max())) if z.size else (0.0, 0.0)
 
     def beyond(self, x: float, y: float) -> float:

@@ -12,13 +12,12 @@ from functools import lru_cache
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.surface.ground import Ground, NoGround, height_at
 from shotc.geom.surface.ground_planes import ground_planes
 from shotc.geom.surface.height import inf_height
 from shotc.geom.surface.planes import Kept, Planes
-from shotc.geom.surface.tree import plan_boxes_meet, search, surface_of
+from shotc.geom.surface.tree import in_plan, surface_of
 from shotc.ir.owners import CEILING, GROUND, Owner
 
 OUTSIDE_M = 1e3  # what is lacking where there is no ground
@@ -112,12 +111,8 @@ class OverGround:
     def _ends_below(self, hulls: Array) -> Mask:
         """Tell of pieces, shape (P, m, 3), whether the ground may end below them: a hole is in their box."""
         low, high = hulls[..., :2].min(axis=1), hulls[..., :2].max(axis=1)
-
-        def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
-            return plan_boxes_meet(low[item], high[item], its_low, its_high)
-
         below = np.zeros(len(hulls), dtype=bool)
-        below[search(self.ground.edge, len(hulls), meets).item] = True
+        below[in_plan(self.ground.edge, low, high).item] = True
         return below
 
     def _turned(self, p: Array) -> Array:

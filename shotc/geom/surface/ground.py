@@ -12,10 +12,10 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, bernstein_basis
 from shotc.geom.bspline import IntArray
-from shotc.geom.pieces import Mask, Pieces
+from shotc.geom.pieces import Pieces
 from shotc.geom.surface.distance import SurfaceBound, inf_distance
 from shotc.geom.surface.near import AT_ONCE, nearest
-from shotc.geom.surface.tree import Surface, plan_boxes_meet, search, surface_of
+from shotc.geom.surface.tree import Surface, in_plan, surface_of
 from shotc.geom.surface.triangles import TINY
 
 EDGE = 1e-6
@@ -99,11 +99,7 @@ def under(ground: Ground, xy: Array) -> Under:
 
 
 def _under(surface: Surface, xy: Array, out: Under) -> None:
-    def meets(item: IntArray, low: Array, high: Array) -> Mask:
-        p = xy[item]
-        return plan_boxes_meet(p, p, low, high)
-
-    pairs = search(surface, len(xy), meets)
+    pairs = in_plan(surface, xy, xy)
     height = heights(surface.triangles[pairs.triangle], xy[pairs.item])
     inside = ~np.isnan(height)
     pairs, height = pairs.pick(inside), height[inside]

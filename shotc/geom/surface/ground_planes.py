@@ -16,10 +16,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.pieces import Mask
 from shotc.geom.surface.ground import Ground
 from shotc.geom.surface.planes import Kept, Planes
-from shotc.geom.surface.tree import Pairs, plan_boxes_meet, search
+from shotc.geom.surface.tree import Pairs, in_plan
 from shotc.geom.surface.triangles import TINY, cross, dot
 
 PIVOTS = 40
@@ -68,11 +67,7 @@ def ground_planes(ground: Ground, hulls: Array, width: float, clearance: float, 
 
 def _about(ground: Ground, low: Array, high: Array) -> Corners:
     """Return the corners of the triangles that meet boxes low-high (P, 2), cut to these."""
-
-    def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
-        return plan_boxes_meet(low[item], high[item], its_low, its_high)
-
-    pairs = search(ground.surface, len(low), meets)
+    pairs = in_plan(ground.surface, low, high)
     triangles = ground.surface.triangles[pairs.triangle]
     its_low, its_high = low[pairs.item][:, None], high[pairs.item][:, None]
     inside = (triangles[..., :2] >= its_low) & (triangles[..., :2] <= its_high)

@@ -155,6 +155,15 @@ def search(surface: Surface, count: int, meets: Meets, most: int | None = None) 
     return Pairs(item[keep], node[keep])
 
 
+def in_plan(surface: Surface, low: Array, high: Array) -> Pairs:
+    """Return the triangles whose boxes meet boxes low-high, shapes (K, 2 or 3), in the plan."""
+
+    def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
+        return plan_boxes_meet(low[item], high[item], its_low, its_high)
+
+    return search(surface, len(low), meets)
+
+
 def plan_boxes_meet(low: Array, high: Array, other_low: Array, other_high: Array) -> Mask:
     """Tell which boxes meet others in the plan, shapes (K, 2 or 3); shape (K,)."""
     # Column by column: a reduction over so short an axis takes far longer.
