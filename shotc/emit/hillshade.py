@@ -1,4 +1,4 @@
-"""Ground that rises, as pictures need it: its heights, its shades, and what it stands before."""
+"""Ground that rises, as pictures need it: its shades, and what it stands before."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
-from shotc.geom.surface.ground import Ground, height_at
-from shotc.ir.mission import MissionIR
+from shotc.geom.surface.ground import Ground
+from shotc.geom.surface.sight import lines_hidden
 
 LIGHT = np.array([-0.5, 0.5, np.sqrt(0.5)])
 """Where the light of a hillshade comes from, W: the north-west, half-way up, as on maps."""
@@ -15,18 +15,8 @@ LIGHT = np.array([-0.5, 0.5, np.sqrt(0.5)])
 CONTRAST = 0.9
 """How much lighter than level ground a slope towards the light is, and one that turns away darker."""
 
-LOOKS = 256
-"""Places of a sight line at which it is looked whether ground is before it."""
-
 ROOM_M = 0.05
 """How deep a sight line lies in the ground that hides, metres: what stands on ground touches it."""
-
-
-def ground_heights(mission: MissionIR, xy: Array) -> Array:
-    """Return z of the ground at places (n, 2), metres of W: 0 where the mission has none."""
-    if mission.terrain is None:
-        return np.zeros(len(xy))
-    return np.asarray(np.nan_to_num(height_at(mission.terrain.ground, xy)))
 
 
 def hillshade(normals: Array) -> Array:
@@ -43,11 +33,6 @@ def shades(color: Array, light: Array) -> Array:
 
 
 def before(ground: Ground, eye: Array, points: Array) -> Mask:
-    """Tell of points (n, 3) whether ground stands before them, seen from an eye (3,), metres of W.
-
-    Looked at in ``LOOKS`` places of each sight line: for pictures, not for proofs.
-    """
-    share = np.linspace(0.0, 1.0, LOOKS)[1:-1]
-    places = eye + share[None, :, None] * (points - eye)[:, None]
-    z = height_at(ground, places[..., :2].reshape(-1, 2)).reshape(places.shape[:2])
-    return np.asarray((np.nan_to_num(z, nan=-np.inf) > places[..., 2] + ROOM_M).any(axis=1))
+    """Tell of points (n, 3) whether ground stands before them, seen from an eye (3,), metres of W."""
+    up = np.array([0.0, 0.0, ROOM_M])
+    return lines_hidden(ground.surface, np.tile(eye + up, (len(points), 1)), points + up)

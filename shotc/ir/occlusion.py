@@ -15,8 +15,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import hidden
 from shotc.geom.pieces import Mask
-from shotc.geom.surface.sight import billboards
-from shotc.geom.surface.sight import hidden as hides
+from shotc.geom.surface.sight import lines_hidden
 from shotc.ir.bodies import flying, moved, parts_of_one
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
@@ -40,9 +39,7 @@ def hiders(
             before = hidden(eyes - away, centres - away, (other.solid,))
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
     if mission.terrain is not None:
-        # One ray a frame, to the centre, as for all that stands.
-        boards = billboards(eyes, centres, 0.0, 0.0)
-        yield f"terrain {mission.terrain.file}", hides(mission.terrain.ground.surface, boards, 1)[:, 0, 0]
+        yield f"terrain {mission.terrain.file}", lines_hidden(mission.terrain.ground.surface, eyes, centres)
     for flight in others:
         ball = flying(flight.curve, t)
         yield f"drone {flight.drone}", _behind(eyes, centres, ball, mission.drone(flight.drone).radius)

@@ -12,6 +12,7 @@ from shotc.geom.surface.ground import Ground, height_at
 from shotc.geom.surface.near import nearest
 from shotc.geom.surface.tree import in_plan, surface_of
 from shotc.ir.limits import Vec2
+from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 
 
@@ -42,10 +43,6 @@ class Terrain:
         """Return how far a place is from where the ground ends, metres."""
         return float(nearest(self.ground.edge, np.array([[x, y, 0.0]])).distance[0])
 
-    def zs(self, xy: Array) -> Array:
-        """Return z of the ground at places (N, 2), metres, 0 where there is none; shape (N,)."""
-        return np.nan_to_num(height_at(self.ground, xy))
-
     def z(self, x: float, y: float) -> float:
         """Return z of the ground at a place, metres, 0 where there is none."""
         return self.height(x, y) or 0.0
@@ -54,3 +51,10 @@ class Terrain:
         """Return z of the ground at a place, metres; None where there is no ground."""
         found = float(height_at(self.ground, np.array([[x, y]]))[0])
         return None if isnan(found) else found
+
+
+def ground_heights(mission: MissionIR, xy: Array) -> Array:
+    """Return z of the ground at places (N, 2), metres of W, as ``mission.ground`` for one; shape (N,)."""
+    if mission.terrain is None:
+        return np.zeros(len(xy))
+    return np.nan_to_num(height_at(mission.terrain.ground, xy))

@@ -7,13 +7,14 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 
-from shotc.emit.hillshade import before, ground_heights
+from shotc.emit.hillshade import before
 from shotc.geom.bernstein import Array
 from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import hiders
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.sampling import SAME_TIME
+from shotc.ir.terrain import ground_heights
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 HEADINGS = 8

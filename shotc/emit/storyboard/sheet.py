@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.emit.hillshade import ground_heights
 from shotc.emit.storyboard.canvas import Box
 from shotc.emit.storyboard.content import ShotBoard
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_YAW
+from shotc.ir.terrain import ground_heights
 
 BORDER, SHARE = 0.45, 0.17
 """Left free round the content: inches, and of a small sheet no more than this share of its height."""

@@ -88,6 +88,11 @@ def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
     return out.reshape(-1, n, n)
 
 
+def lines_hidden(surface: Surface, eyes: Array, points: Array) -> Mask:
+    """Tell of which lines of sight, from eyes (F, 3) to points (F, 3), a surface is in the way; (F,)."""
+    return np.asarray(hidden(surface, billboards(eyes, points, 0.0, 0.0), 1)[:, 0, 0])
+
+
 def _candidates(surface: Surface, boards: Billboards) -> Pairs:
     """Return the triangles whose boxes meet the boxes that slide from the eye to the billboard, growing."""
     on = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye

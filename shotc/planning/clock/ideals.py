@@ -8,6 +8,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.track_array import headings, places
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.terrain import ground_heights
 
 
 def ideal_places(mission: MissionIR, shot: Shot, start: float, times: Array) -> Array:
@@ -35,6 +36,5 @@ def ideal_places(mission: MissionIR, shot: Shot, start: float, times: Array) -> 
     if ideal.above == "origin":
         return np.column_stack([x, y, up])
     if ideal.above == "ground":
-        ground = 0.0 if mission.terrain is None else mission.terrain.zs(np.column_stack([x, y]))
-        return np.column_stack([x, y, ground + up])
+        return np.column_stack([x, y, ground_heights(mission, np.column_stack([x, y])) + up])
     return np.column_stack([x, y, z - target.height / 2 + up])

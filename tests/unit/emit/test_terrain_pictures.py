@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from shotc.emit.hillshade import before, ground_heights, hillshade, shades
+from shotc.emit.hillshade import before, hillshade, shades
 from shotc.emit.storyboard import EMITTER, map, scene
 from shotc.emit.storyboard.camera_picture import Picture, picture
 from shotc.emit.storyboard.canvas import Box, Canvas, house_style
@@ -22,7 +22,7 @@ from shotc.emit.storyboard.scene import draw_scene, name_places
 from shotc.emit.storyboard.sheet import sheet_of
 from shotc.geom.surface.ground import Ground, ground_of, height_at
 from shotc.ir.mission import MissionIR, Target
-from shotc.ir.terrain import Terrain
+from shotc.ir.terrain import Terrain, ground_heights
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
 from tests.support.surfaces import grid
