@@ -11,8 +11,9 @@ import numpy as np
 
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.fleet_rows import fleet_rows
-from shotc.emit.table_numbers import DEGREES, NUMBER, geodetic
+from shotc.emit.table_numbers import DEGREES, NUMBER
 from shotc.geom.bernstein import Array
+from shotc.geom.earth import of_world
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
@@ -86,7 +87,7 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
         pose[:, [HFOV]],
     ]
     if mission.origin is not None:
-        columns.append(geodetic(mission.origin, pose[:, :3]))
+        columns.append(of_world(pose[:, :3], mission.origin))
     formats = [NUMBER] * sum(c.shape[1] for c in columns)
     if mission.origin is not None:
         formats[-3:-1] = [DEGREES, DEGREES]

@@ -10,8 +10,9 @@ from math import pi
 
 import numpy as np
 
-from shotc.emit.table_numbers import DEGREES, NUMBER, geodetic
+from shotc.emit.table_numbers import DEGREES, NUMBER
 from shotc.geom.bernstein import Array
+from shotc.geom.earth import of_world
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
@@ -65,5 +66,5 @@ def _numbers(mission: MissionIR, track: FleetTrajectory, of: tuple[Array, Array]
     columns[1][:, -1] = columns[2][:, -1] = 0.0  # at or after the end the drones stand on their pads
     if mission.origin is not None:
         flat = columns[0].reshape(-1, 3)
-        columns.append(geodetic(mission.origin, flat).reshape(columns[0].shape))
+        columns.append(of_world(flat, mission.origin).reshape(columns[0].shape))
     return np.concatenate(columns, axis=2)

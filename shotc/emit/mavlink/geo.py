@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from pymap3d import enu2geodetic, geodetic2enu
 
 from shotc.emit.mavlink.items import Place
+from shotc.geom.earth import of_world, to_world
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import GeoOrigin
 
@@ -32,14 +32,13 @@ class Geo:
 
     def places(self, points: Array) -> list[Place]:
         """Return the global places of points of W, shape (n, 3), rounded as the files carry them."""
-        lat, lon, alt = _to_global(self.origin, points)
         return [
             Place(
                 round(float(a), DEGREE_DECIMALS),
                 round(float(o), DEGREE_DECIMALS),
                 round(float(h) - self.home_alt, METRE_DECIMALS) + 0.0,
             )
-            for a, o, h in zip(lat, lon, alt, strict=True)
+            for a, o, h in of_world(points, self.origin)
         ]
 
     def place(self, point: Vec3) -> Place:
@@ -48,25 +47,16 @@ class Geo:
 
     def point(self, place: Place) -> Array:
         """Return the point of W, shape (3,), of a global place."""
-        origin = self.origin
-        enu = geodetic2enu(
-            place.lat, place.lon, place.alt + self.home_alt, origin.lat_deg, origin.lon_deg, origin.alt
-        )
-        return np.array([float(c) for c in enu])
+        where = np.array([[place.lat, place.lon, place.alt + self.home_alt]])
+        return np.asarray(to_world(where, self.origin)[0])
 
 
 def tie(origin: GeoOrigin, home: Vec3) -> Geo:
     """Return the tie for a drone whose pad is at ``home`` in W."""
-    lat, lon, alt = _to_global(origin, np.array([home]))
+    lat, lon, alt = (float(c) for c in of_world(np.array([home]), origin)[0])
     return Geo(
         origin,
-        round(float(lat[0]), DEGREE_DECIMALS),
-        round(float(lon[0]), DEGREE_DECIMALS),
-        round(float(alt[0]), METRE_DECIMALS),
+        round(lat, DEGREE_DECIMALS),
+        round(lon, DEGREE_DECIMALS),
+        round(alt, METRE_DECIMALS),
     )
-
-
-def _to_global(origin: GeoOrigin, points: Array) -> tuple[Array, Array, Array]:
-    east, north, up = np.asarray(points, dtype=np.float64).T
-    lat, lon, alt = enu2geodetic(east, north, up, origin.lat_deg, origin.lon_deg, origin.alt)
-    return np.atleast_1d(lat), np.atleast_1d(lon), np.atleast_1d(alt)

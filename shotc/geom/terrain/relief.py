@@ -13,8 +13,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
+from shotc.geom.earth import of_world, to_world
 from shotc.geom.surface.ground import Ground, ground_of
-from shotc.geom.terrain.earth import of_world, to_world
 from shotc.geom.terrain.posts import Posts, TerrainFault
 from shotc.geom.terrain.systems import System, system_of
 from shotc.geom.vec import Vec3

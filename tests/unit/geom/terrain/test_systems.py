@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.geom import geodetic
-from shotc.geom.terrain.earth import of_world, to_world
+from shotc.geom.earth import of_world, to_world
 from shotc.geom.terrain.posts import TerrainFault
 from shotc.geom.terrain.systems import System, degrees_of_utm, system_of, utm_of_degrees
 
