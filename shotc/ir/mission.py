@@ -7,7 +7,7 @@ the mission file (see ``OriginMap``).
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Cylinder, Solid
-from shotc.ir.ground import flat
+from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rules import Rules
@@ -17,9 +17,6 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
     from shotc.ir.show import Display, Fleet
     from shotc.ir.terrain import Terrain
-
-Above = Literal["target", "ground", "origin"]
-"""What a camera's height counts from: the target's foot then, the ground below it, or the plane z = 0."""
 
 ViewAngles = tuple[float | None, float | None]
 
@@ -332,9 +329,7 @@ class MissionIR(NamedTuple):
 
     def base(self, above: Above, place: Vec2, target: Target, t: float) -> float:
         """Return z of what heights at a place count from where a target is at a mission time, metres."""
-        if above == "origin":
-            return 0.0
-        return self.ground(*place) if above == "ground" else target.foot_at(t)[2]
+        return counted_from(above, self.ground, place, target.foot_at(t)[2])
 
     def drone(self, name: str) -> Drone:
         """Return the drone of that name; KeyError if there is none."""

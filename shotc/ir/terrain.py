@@ -43,6 +43,10 @@ class Terrain:
         """Return how far a place is from where the ground ends, metres."""
         return float(nearest(self.ground.edge, np.array([[x, y, 0.0]])).distance[0])
 
+    def beyond_at(self, place: Vec2, by: float) -> str:
+        """Say that a place is so far beyond the ground, metres."""
+        return f"at [{place[0]:.1f}, {place[1]:.1f}] it is {by:.1f} m beyond the ground of `{self.file}`"
+
     def z(self, x: float, y: float) -> float:
         """Return z of the ground at a place, metres, 0 where there is none."""
         return self.height(x, y) or 0.0

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
 from shotc.geom.geodetic import above_ground
-from shotc.ir.ground import Ground, flat
+from shotc.ir.ground import Above, GroundHeight, counted_from, flat
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import (
-    Above,
     Beside,
     Composition,
     Deferred,
@@ -124,7 +123,7 @@ class Scene(NamedTuple):
     match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
     pace: float
     fleets: tuple[str, ...] = ()
-    ground: Ground = flat
+    ground: GroundHeight = flat
 
     def subject(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
         """Return the target called ``name``; ``path``, below the shot, is where the name is written."""
@@ -200,9 +199,7 @@ class Scene(NamedTuple):
 
     def _base(self, target: Target, above: Above | None, p: Vec3) -> float:
         """Return z of what heights count from at a point, metres."""
-        if above == "origin":
-            return 0.0
-        return self.ground(p[0], p[1]) if above == "ground" else target.foot[2]
+        return counted_from(above or "target", self.ground, (p[0], p[1]), target.foot[2])
 
     def keyframe(self, at: Vec3, target: str | None, **changes: Any) -> Keyframe:
         """Return a keyframe of a camera at ``at`` that looks at ``target`` and does not hold.
@@ -268,7 +265,7 @@ class Kind(NamedTuple):
         return self.package != OURS
 
 
-def placed(origin: GeoOrigin | None, ground: Ground, position: Place) -> Vec3:
+def placed(origin: GeoOrigin | None, ground: GroundHeight, position: Place) -> Vec3:
     """Return a position as a point of W; its height is z, or counts from the ground there."""
     if isinstance(position, Geodetic):
         assert origin is not None

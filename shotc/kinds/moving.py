@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 
+from shotc.ir.ground import Above
 from shotc.ir.keyed import KEYED
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Above, Ideal, Subject, Target
+from shotc.ir.mission import Ideal, Subject, Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.spec.shot import ShotBase
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from math import atan2, ceil, cos, hypot, pi, sin
 
+from shotc.ir.ground import Above
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Above, Ideal, Target
+from shotc.ir.mission import Ideal, Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.kinds.moving import evenly, timed
 from shotc.spec.shot import ShotBase

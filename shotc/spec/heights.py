@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.ir.mission import Above
+from shotc.ir.ground import Above
 from shotc.spec.faults import fault, read_each
 from shotc.spec.fieldtypes import FieldType
 from shotc.spec.model import Model

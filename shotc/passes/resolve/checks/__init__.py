@@ -12,7 +12,7 @@ from shotc.passes.resolve.checks.covered_by_terrain import check_covered
 from shotc.passes.resolve.checks.framing import check_framing
 from shotc.passes.resolve.checks.framings import check_course
 from shotc.passes.resolve.checks.grammar import allowed, check_grammar
-from shotc.passes.resolve.checks.heights import check_heights, check_reference
+from shotc.passes.resolve.checks.heights import check_heights, check_reference, way_of
 from shotc.passes.resolve.checks.home import check_homes
 from shotc.passes.resolve.checks.ideals import check_ideal
 from shotc.passes.resolve.checks.keyed import check_carried
@@ -54,17 +54,20 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
     the order of the shots where all shots and homes do.
     """
-    if beyond := list(check_covered(mission)):
+    filmed = [(shot, way_of(mission, shot)) for shot in mission.shots]
+    if beyond := list(check_covered(mission, filmed)):
         return beyond
-    ideals = (fault for shot in mission.shots for fault in check_ideal(mission, shot))
+    ideals = (fault for shot, way in filmed for fault in check_ideal(mission, shot, way))
     homes = [*check_homes(mission), *ideals, *passers_of(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     misplaced = {shot.path for shot, _ in wrong}
     sound = [shot for shot in mission.shots if shot.path not in misplaced]
-    faults = [*homes, *(d for shot in mission.shots for d in check_reference(mission, shot))]
+    faults = [*homes, *(d for shot, way in filmed for d in check_reference(mission, shot, way))]
     faults += [d for _, _, d in places]
-    faults += [d for shot in sound for d in check_heights(mission, shot)]
+    faults += [
+        d for shot, way in filmed if shot.path not in misplaced for d in check_heights(mission, shot, way)
+    ]
     faults += check_framing(mission, {path for _, path in wrong})
     if timing:
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
+from shotc.passes.resolve.checks.heights import as_counted
 from shotc.planning.clearances import ROUNDING_M, clearances_of
 from shotc.planning.framing.placing import place_shot
 
@@ -55,8 +56,7 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
         if by is not None:
             now = [distance_of(centre, k) if move is aside else altitude(k) for k in ends]
             value = span(now[0] + by, now[1] + by)
-            counted = move is above and (*shot.path, key, "above") in mission.origins.values
-            changes.append(Change(key, f"{{above: {shot.above}, height: {value}}}" if counted else value))
+            changes.append(Change(key, value if move is aside else as_counted(mission, shot, value)))
     return changes
 
 

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.checks.heights import moments
+from shotc.passes.resolve.checks.heights import Way
 
 if TYPE_CHECKING:  # missions on flat ground need no numpy
     from shotc.ir.terrain import Terrain
 
 
-def check_covered(mission: MissionIR) -> Iterator[Diagnostic]:
+def check_covered(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> Iterator[Diagnostic]:
     """Yield the homes, and the shots, that leave the terrain: no height above ground is known there."""
     terrain = mission.terrain
     if terrain is None:
@@ -23,9 +23,8 @@ def check_covered(mission: MissionIR) -> Iterator[Diagnostic]:
     for drone in mission.drones:
         home = (*drone.path, "home")
         yield from _outside(mission, terrain, f"the home of `{drone.name}`", home, [drone.home])
-    for shot in mission.shots:
-        way = [moment.at for moment in moments(mission, shot)]
-        yield from _outside(mission, terrain, f"shot `{shot.id}`", shot.path, way)
+    for shot, way in filmed:
+        yield from _outside(mission, terrain, f"shot `{shot.id}`", shot.path, [moment.at for moment in way])
 
 
 def _outside(
@@ -36,6 +35,5 @@ def _outside(
         return
     by, x, y = max(outside)
     labels = (mission.origins.value(path), mission.origins.value(terrain.path, "the terrain"))
-    note = f"at [{x:.1f}, {y:.1f}] it is {by:.1f} m beyond the ground of `{terrain.file}`"
     help_ = "take an elevation model that covers it, or fill the holes of this one"
-    yield Diagnostic("G025", f"{words} leaves the terrain", labels, (note,), help_)
+    yield Diagnostic("G025", f"{words} leaves the terrain", labels, (terrain.beyond_at((x, y), by),), help_)

@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.begins import first_start
+from shotc.ir.ground import counted_from
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Above, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.lower.world import BURIED
 from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import at_least, up
@@ -28,31 +29,34 @@ class Moment(NamedTuple):
     foot: float | None
 
 
-def check_heights(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+Way = tuple[Moment, ...]
+"""Where a shot's camera is to be, from its first frame to its last."""
+
+
+def check_heights(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
     """Yield the faults of a camera that is too low beside its target, or too high over the ground."""
-    way = moments(mission, shot)
     yield from _below_foot(mission, shot, way)
     yield from _too_high(mission, shot, way)
 
 
-def moments(mission: MissionIR, shot: Shot) -> list[Moment]:
+def way_of(mission: MissionIR, shot: Shot) -> Way:
     """Return where a shot's camera is to be: at keyframes, or along the ideal of one on its own clock."""
     target = next((t for t in mission.targets if t.name == shot.subject), None)  # None of a name that is told
     duration = shot.timing.duration
     if shot.ideal is None or duration is None:
         foot = None if target is None else target.foot[2]
-        return [Moment(k.at, foot) for k in shot.keyframes]
+        return tuple(Moment(k.at, foot) for k in shot.keyframes)
     start, pieces = first_start(mission, shot), max(1, min(MOMENTS, ceil(duration / STEP_S)))
     times = [start + duration * i / pieces for i in range(pieces + 1)]
-    return [
+    return tuple(
         Moment(ideal_place(mission, shot, start, t), None if target is None else target.foot_at(t)[2])
         for t in times
-    ]
+    )
 
 
-def check_reference(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+def check_reference(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
     """Tell a height that counts from a target's foot, where version 0.1 counted it from z = 0."""
-    key, way = (*shot.path, "altitude"), moments(mission, shot)
+    key = (*shot.path, "altitude")
     feet = [moment.foot for moment in way if moment.foot is not None]
     if shot.above != "target" or (*key, "above") in mission.origins.values or not feet:
         return
@@ -72,7 +76,7 @@ def check_reference(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     )
 
 
-def _below_foot(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[Diagnostic]:
+def _below_foot(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
     """Warn of a camera below the foot of its target, though its height counts from target or ground."""
     key = (*shot.path, "altitude")
     if shot.above in (None, "origin") or key not in mission.origins.values:
@@ -90,7 +94,7 @@ def _below_foot(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[D
     )
 
 
-def _too_high(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[Diagnostic]:
+def _too_high(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
     """Tell a camera above the rule of the mission; where that is silent, above what most countries allow."""
     rule = mission.rules.max_height
     most = LEGAL_M if rule is None else rule
@@ -111,22 +115,21 @@ def _too_high(mission: MissionIR, shot: Shot, way: list[Moment]) -> Iterator[Dia
     yield Diagnostic("G022", message, (label, beside), (), help_)
 
 
-def raised(mission: MissionIR, shot: Shot, metres: float) -> str:
+def raised(mission: MissionIR, shot: Shot, way: Way, metres: float) -> str:
     """Say how a shot is written that is so much higher, metres."""
-    key = (*shot.path, "altitude")
-    if shot.above is None or key not in mission.origins.values:
+    above = shot.above
+    if above is None or (*shot.path, "altitude") not in mission.origins.values:
         return f"raise it by {at_least(metres)} m"
-    way = moments(mission, shot)
-    value = _written([up(_height(mission, shot.above, moment) + metres) for moment in way])
-    counted = (*key, "above") in mission.origins.values
-    return f"write `altitude: {f'{{above: {shot.above}, height: {value}}}' if counted else value}`"
+    bases = (counted_from(above, mission.ground, at[:2], foot or 0.0) for at, foot in way)
+    heights = [up(at[2] - base + metres) for (at, _), base in zip(way, bases, strict=True)]
+    return f"write `altitude: {as_counted(mission, shot, _written(heights))}`"
 
 
-def _height(mission: MissionIR, above: Above, moment: Moment) -> float:
-    """Return a camera's height over what it counts from, metres."""
-    if above == "origin":
-        return moment.at[2]
-    return moment.at[2] - (mission.ground(*moment.at[:2]) if above == "ground" else moment.foot or 0.0)
+def as_counted(mission: MissionIR, shot: Shot, altitude: str) -> str:
+    """Write an altitude with what it counts from, where the shot says that."""
+    if (*shot.path, "altitude", "above") not in mission.origins.values:
+        return altitude
+    return f"{{above: {shot.above}, height: {altitude}}}"
 
 
 def _span(values: list[float]) -> str:

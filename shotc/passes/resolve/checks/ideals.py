@@ -14,14 +14,14 @@ from shotc.ir.begins import known_start
 from shotc.ir.keyed import carriers, in_order, is_keyed
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.framing import beyond_gimbal
-from shotc.passes.resolve.checks.heights import moments, raised
+from shotc.passes.resolve.checks.heights import Way, raised
 from shotc.passes.resolve.checks.keeping_up import check_speed
 from shotc.passes.resolve.checks.timing import timing_label
 from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import down, up
 
 
-def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+def check_ideal(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
     """Yield what is wrong with a shot on its own clock; one without a start from when it can begin."""
     if shot.ideal is None or shot.timing.duration is None:
         return
@@ -29,7 +29,7 @@ def check_ideal(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         return
     outside = list(_outside(mission, shot))
     yield from outside
-    yield from _low(mission, shot)
+    yield from _low(mission, shot, way)
     yield from _tilted(mission, shot)
     if not outside:
         yield from check_speed(mission, shot)
@@ -76,13 +76,13 @@ def _within(track: Track, duration: float) -> str:
     return "give the track rows after the start of the mission, which is time 0"
 
 
-def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
+def _low(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
     """Tell an altitude that is a number of the user's, and under the ground clearance."""
     ideal = shot.ideal
     if ideal is None or ideal.frame in ("about", "keyframes"):
         return
     need = mission.rules.over_ground(mission.drone(shot.drone).radius)
-    lowest = min(z - mission.ground(x, y) for (x, y, z), _ in moments(mission, shot))
+    lowest = min(z - mission.ground(x, y) for (x, y, z), _ in way)
     if lowest >= need - ROUNDING_M:
         return
     key = "altitude" if (*shot.path, "altitude") in mission.origins.values else "kind"
@@ -91,7 +91,7 @@ def _low(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` is too low: {lowest:.2f} m over the ground",
         (mission.origins.value((*shot.path, key)),),
         (f"the ground clearance and the body radius need {need:.2f} m",),
-        raised(mission, shot, need - lowest),
+        raised(mission, shot, way, need - lowest),
     )
 
 

@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.framed import Course
-from shotc.ir.ground import Ground as Heights
-from shotc.ir.ground import flat
+from shotc.ir.ground import GroundHeight, flat
 from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Target, Zone
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
 from shotc.passes.resolve.lower.deferred import deferred_features
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
-from shotc.passes.resolve.lower.files import Ground, Reader, match_files
+from shotc.passes.resolve.lower.files import Files, Reader, match_files
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
@@ -59,7 +58,7 @@ def lowered(
     world = _world(ir)
     progress("expanding the shots")
     shots = _shots(ir, world, kinds)
-    show = shown(ir, world.put, world.ground, shots.displays)
+    show = shown(ir, world.put, world.files, shots.displays)
     names = check_names(ir.spec, ir.origins, emitters)
     faults = once([*world.faults, *names, *shots.diagnostics, *show.diagnostics])
     mission, courses = with_framings(with_times(_mission(ir, world, shots, show)))
@@ -76,7 +75,7 @@ class _World(NamedTuple):
     """
 
     put: Put
-    ground: Ground
+    files: Files
     read: Reader
     zones: tuple[Zone, ...]
     drones: Mapping[str, Drone]
@@ -85,7 +84,7 @@ class _World(NamedTuple):
     faults: tuple[Diagnostic, ...]
     astray: bool
     sound: bool
-    heights: Heights
+    heights: GroundHeight
     terrain: "Terrain | None"
 
 
@@ -95,9 +94,9 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots
         world.drones,
         world.targets,
         world.rules,
-        world.ground.origin or (ANYWHERE if world.astray else None),
+        world.files.origin or (ANYWHERE if world.astray else None),
         ir.origins,
-        world.ground.read,
+        world.files.read,
         partial(match_files, ir.folder, ir.origins),
         world.heights,
     )
@@ -109,20 +108,20 @@ def _world(ir: LoadedMission) -> _World:
     astray = check_earth(spec, origins)
     origin = geo_origin(spec)
     read = Reader(ir.folder, origins)
-    ground = Ground(origin, origins, read)
-    terrain = None if astray else read_terrain(spec, partial(placed, origin or ANYWHERE, flat), ground)
+    files = Files(origin, origins, read)
+    terrain = None if astray else read_terrain(spec, partial(placed, origin or ANYWHERE, flat), files)
     astray = [*astray, terrain] if isinstance(terrain, Diagnostic) else astray
     relief = None if isinstance(terrain, Diagnostic) else terrain
     heights = flat if relief is None else relief.z
     put = partial(placed, origin or ANYWHERE, heights)
     found_zones, zone_faults = zones(spec, put, relief, origins)
     found_drones, drone_faults = drones(spec, put, origins)
-    tracks, track_faults = read_tracks(spec, put, ground)
+    tracks, track_faults = read_tracks(spec, put, files)
     found_targets = targets(spec, put, tracks)
     buried = [] if astray else check_targets(found_targets, heights, origins)
     return _World(
         put,
-        ground,
+        files,
         read,
         found_zones,
         found_drones,
@@ -140,7 +139,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
     spec = ir.spec
     return MissionIR(
         name=spec.mission,
-        origin=world.ground.origin,
+        origin=world.files.origin,
         wind=spec.world.wind,
         zones=world.zones,
         targets=tuple(t for t in world.targets.values() if t is not None),

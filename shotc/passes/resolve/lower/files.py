@@ -38,8 +38,8 @@ class Reader:
         return data
 
 
-class Ground(NamedTuple):
-    """What a recording is read with.
+class Files(NamedTuple):
+    """What the files of a mission are read with.
 
     origin : of W on the earth, if the mission gives one; read : the bytes of a file of the mission
     """

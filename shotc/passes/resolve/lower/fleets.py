@@ -12,7 +12,7 @@ from shotc.ir.show import Apart, Fleet
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
-from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.world import Put, becalmed, beyond_model, limits_of
 from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec
 from shotc.spec.mission import MissionSpec
@@ -21,19 +21,19 @@ from shotc.spec.presets import PRESETS
 ROWS = (("x", "y", "z"), ("lat", "lon", "height"))
 
 
-def fleets_of(spec: MissionSpec, put: Put, ground: Ground) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:
+def fleets_of(spec: MissionSpec, put: Put, files: Files) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:
     """Return the fleets whose layouts can be read, and what is wrong with the others."""
     fleets: list[Fleet] = []
     faults: list[Diagnostic] = []
     for name, written in spec.fleets.items():
         path = ("fleets", name)
-        pads = _pads(written, put, ground, path)
+        pads = _pads(written, put, files, path)
         if isinstance(pads, Diagnostic):
             faults.append(pads)
             continue
         fleet = _fleet(name, written, spec, pads)
-        wrong = [*becalmed("fleet", fleet, spec.world.wind, ground.origins), *_touching(fleet, ground)]
-        wrong += beyond_model("fleet", written, path, ground.origins)
+        wrong = [*becalmed("fleet", fleet, spec.world.wind, files.origins), *_touching(fleet, files)]
+        wrong += beyond_model("fleet", written, path, files.origins)
         faults += wrong
         if not has_errors(wrong):
             fleets.append(fleet)
@@ -63,29 +63,29 @@ def _apart(written: FleetSpec, separation: float) -> Apart:
     return Apart(own.shape, own.horizontal, own.vertical or own.horizontal, own.margin)
 
 
-def _touching(fleet: Fleet, ground: Ground) -> list[Diagnostic]:
+def _touching(fleet: Fleet, files: Files) -> list[Diagnostic]:
     """Refuse a separation at which the bodies of two drones may touch."""
     least = min(fleet.apart.horizontal, fleet.apart.vertical)
     bodies = 2 * fleet.radius
     if least >= bodies:
         return []
     path = (*fleet.path, "separation")
-    label = ground.origins.value(path if path in ground.origins.keys else ("rules", "separation"))
-    if path not in ground.origins.keys and ("rules", "separation") not in ground.origins.keys:
-        label = ground.origins.key(fleet.path)
+    label = files.origins.value(path if path in files.origins.keys else ("rules", "separation"))
+    if path not in files.origins.keys and ("rules", "separation") not in files.origins.keys:
+        label = files.origins.key(fleet.path)
     note = f"their centres may come within {least:.2f} m, and each body has a radius of {fleet.radius:.2f} m"
     message = f"two drones of fleet `{fleet.name}` may touch"
     return [Diagnostic("D003", message, (label,), (note,), f"ask for {bodies:.2f} m or more either way")]
 
 
-def _pads(written: FleetSpec, put: Put, ground: Ground, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
+def _pads(written: FleetSpec, put: Put, files: Files, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
     layout = written.layout
     if layout.grid is not None:
         return _grid(layout.grid, written.count, put)
     if layout.circle is not None:
         return _circle(layout.circle, written.count, put)
     assert layout.file is not None
-    return _from_file(layout.file, written.count, ground, (*path, "layout", "file"))
+    return _from_file(layout.file, written.count, files, (*path, "layout", "file"))
 
 
 def _grid(grid: GridSpec, count: int, put: Put) -> tuple[Vec3, ...]:
@@ -102,18 +102,18 @@ def _circle(circle: CircleSpec, count: int, put: Put) -> tuple[Vec3, ...]:
     return tuple((x + circle.radius * sin(a), y + circle.radius * cos(a), z) for a in turns)
 
 
-def _from_file(name: str, count: int, ground: Ground, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
-    data = ground.read(name, path)
+def _from_file(name: str, count: int, files: Files, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
+    data = files.read(name, path)
     if isinstance(data, Diagnostic):
         return data
     table = read_table(data, ROWS)
     if isinstance(table, FileFault):
-        return bad_file(ground.origins, path, name, table)
-    pads = in_world(table, name, ground.origin, ground.origins, path)
+        return bad_file(files.origins, path, name, table)
+    pads = in_world(table, name, files.origin, files.origins, path)
     if isinstance(pads, Diagnostic):
         return pads
     if len(pads) != count:
-        labels = (ground.origins.value(path), ground.origins.value((*path[:-2], "count"), "the count"))
+        labels = (files.origins.value(path), files.origins.value((*path[:-2], "count"), "the count"))
         note = f"`{name}` has {len(pads)} rows, and the fleet has {count} drones"
         help_ = f"write `count: {len(pads)}`, or give {count} rows"
         return Diagnostic("D004", "the layout has not one row a drone", labels, (note,), help_)

@@ -12,7 +12,7 @@ from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, Table, read_table
 from shotc.kinds.gpx import read_gpx  # brings an XML parser, which few missions need
 from shotc.kinds.located import in_world
-from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.files import Files
 
 PLACES = (("t", "x", "y", "z"), ("t", "lat", "lon", "height"))
 FACING = ((), ("heading",), ("heading_deg",))
@@ -26,20 +26,20 @@ class Recording(NamedTuple):
     lines: tuple[int, ...]
 
 
-def read_recording(file: str, ground: Ground, path: KeyPath) -> Recording | Diagnostic:
+def read_recording(file: str, files: Files, path: KeyPath) -> Recording | Diagnostic:
     """Return the motion that a file tells, which the mission names at ``path``.
 
     The times of a CSV file count from the start of the mission, those of a GPX file from its first point.
     """
-    data = ground.read(file, path)
+    data = files.read(file, path)
     if isinstance(data, Diagnostic):
         return data
     table = _timed_gpx(data) if file.lower().endswith(".gpx") else read_table(data, LAYOUTS)
     wrong = table if isinstance(table, FileFault) else _fault(table)
     if wrong is not None:
-        return bad_file(ground.origins, path, file, wrong)
+        return bad_file(files.origins, path, file, wrong)
     assert isinstance(table, Table)
-    points = in_world(table, file, ground.origin, ground.origins, path)
+    points = in_world(table, file, files.origin, files.origins, path)
     if isinstance(points, Diagnostic):
         return points
     times = _column(table, "t")

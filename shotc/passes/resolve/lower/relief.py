@@ -13,12 +13,12 @@ from shotc.ir.terrain import Terrain
 from shotc.kinds.base import bad_file
 from shotc.kinds.elevation.reader import read_elevation
 from shotc.kinds.files import FileFault
-from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.files import Files
 from shotc.spec.world import TerrainSpec
 
 
 def relief(
-    written: TerrainSpec, data: bytes, about: tuple[Iterable[Vec3], float], files: Ground
+    written: TerrainSpec, data: bytes, about: tuple[Iterable[Vec3], float], files: Files
 ) -> Terrain | Diagnostic:
     """Return the ground that an elevation model makes, or what is wrong with it.
 

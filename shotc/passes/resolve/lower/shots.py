@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.ground import Ground, flat
+from shotc.ir.ground import Above, GroundHeight, flat
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Above, Deferred, Drone, GeoOrigin, Keyframe, Promise, Shot, Target
+from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Shot, Target
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rules import Rules
 from shotc.kinds import moving
@@ -35,7 +35,7 @@ class Cast(NamedTuple):
     origins: OriginMap
     read: Callable[[str, KeyPath], bytes | Diagnostic]
     match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
-    ground: Ground = flat
+    ground: GroundHeight = flat
 
 
 class Shots(NamedTuple):

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.show import Display, Fleet
 from shotc.ir.source import KeptFiles
-from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.fleets import fleets_of
 from shotc.passes.resolve.lower.material import Material, digests, not_kept, read_material
 from shotc.passes.resolve.lower.world import Put
@@ -24,12 +24,12 @@ class Show(NamedTuple):
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def shown(ir: LoadedMission, put: Put, ground: Ground, displays: tuple[Display, ...]) -> Show:
+def shown(ir: LoadedMission, put: Put, files: Files, displays: tuple[Display, ...]) -> Show:
     """Resolve the fleets, and read what their displays draw."""
     if not ir.spec.fleets:
         return Show()
-    fleets, wrong = fleets_of(ir.spec, put, ground)
+    fleets, wrong = fleets_of(ir.spec, put, files)
     if isinstance(ir.folder, KeptFiles):
         return Show(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
-    files, missing = read_material(displays, ir.folder, ir.origins)
-    return Show(fleets, files, digests(files), (*wrong, *missing))
+    drawn, missing = read_material(displays, ir.folder, ir.origins)
+    return Show(fleets, drawn, digests(drawn), (*wrong, *missing))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Vec3
 from shotc.kinds.base import Place
-from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.files import Files
 from shotc.requirements import remedy
 from shotc.spec.fields import Geodetic
 from shotc.spec.mission import MissionSpec
@@ -22,7 +22,7 @@ FILE = ("world", "terrain", "file")
 
 
 def read_terrain(
-    spec: MissionSpec, put: Callable[[Place], Vec3], files: Ground
+    spec: MissionSpec, put: Callable[[Place], Vec3], files: Files
 ) -> Terrain | Diagnostic | None:
     """Return the ground that a mission names, what is wrong with it, or None where it names none.
 

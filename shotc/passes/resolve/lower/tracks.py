@@ -11,7 +11,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.passes.resolve.lower.files import Ground
+from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.recordings import Recording, read_recording
 from shotc.passes.resolve.lower.track_jumps import Course, check_gap, check_jump, check_velocity
 from shotc.passes.resolve.lower.world import Put
@@ -30,7 +30,7 @@ class Tracks(NamedTuple):
     diagnostics: tuple[Diagnostic, ...]
 
 
-def read_tracks(spec: MissionSpec, put: Put, ground: Ground) -> Tracks:
+def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
     """Return the motion of every target that moves."""
     tracks: dict[str, Track] = {}
     faults: list[Diagnostic] = []
@@ -38,18 +38,18 @@ def read_tracks(spec: MissionSpec, put: Put, ground: Ground) -> Tracks:
         if target.track is None:
             continue
         path: KeyPath = ("targets", name, "track")
-        track = _track(target.track, put, ground, path)
+        track = _track(target.track, put, files, path)
         if isinstance(track, Diagnostic):
             faults.append(track)
             continue
         course = Course(name, path, track.track, target.top_speed or TOP_SPEED)
         if target.track.file is not None:
             course = course._replace(file=target.track.file, lines=track.lines)
-        wrong = [fault for fault in _too_fast(target.track, course, ground.origins) if fault is not None]
+        wrong = [fault for fault in _too_fast(target.track, course, files.origins) if fault is not None]
         faults += wrong
         if not wrong:
             tracks[name] = track.track
-            gap = check_gap(course, ground.origins) if course.file else None
+            gap = check_gap(course, files.origins) if course.file else None
             faults += [] if gap is None else [gap]
     return Tracks(tracks, tuple(faults))
 
@@ -63,10 +63,10 @@ def _too_fast(spec: TrackSpec, course: Course, origins: OriginMap) -> Iterator[D
         yield check_jump(course, origins)
 
 
-def _track(spec: TrackSpec, put: Put, ground: Ground, path: KeyPath) -> Recording | Diagnostic:
+def _track(spec: TrackSpec, put: Put, files: Files, path: KeyPath) -> Recording | Diagnostic:
     """Return a track; only one from a file has lines."""
     if spec.file is not None:
-        recording = read_recording(spec.file, ground, (*path, "file"))
+        recording = read_recording(spec.file, files, (*path, "file"))
         if isinstance(recording, Diagnostic) or spec.begins is None:
             return recording
         return recording._replace(track=recording.track.beginning(spec.begins))
@@ -74,9 +74,9 @@ def _track(spec: TrackSpec, put: Put, ground: Ground, path: KeyPath) -> Recordin
         return Recording(Track((0.0,), (put(spec.start),), after=spec.velocity), ())
     points = [put(point) for point in spec.points or ()]
     track = (
-        _timed(points, spec.times, ground.origins, path)
+        _timed(points, spec.times, files.origins, path)
         if spec.times is not None
-        else _steady(points, spec.speed or inf, ground.origins, path)
+        else _steady(points, spec.speed or inf, files.origins, path)
     )
     return Recording(track, ()) if isinstance(track, Track) else track
 

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
-from shotc.ir.ground import Ground
+from shotc.ir.ground import GroundHeight
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import KeyPath, OriginMap
@@ -122,7 +122,9 @@ def _centre(target: TargetSpec, put: Put) -> Vec3 | None:
     return (x, y, z + target.height / 2) if isinstance(height, AboveGround) and height.stands else (x, y, z)
 
 
-def check_targets(found: Mapping[str, Target | None], ground: Ground, origins: OriginMap) -> list[Diagnostic]:
+def check_targets(
+    found: Mapping[str, Target | None], ground: GroundHeight, origins: OriginMap
+) -> list[Diagnostic]:
     """Warn of targets a good part of which is under the ground, where a moving one begins."""
     standing = [(t, ground(t.centre[0], t.centre[1])) for t in found.values() if t is not None]
     return [

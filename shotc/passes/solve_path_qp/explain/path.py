@@ -217,10 +217,7 @@ def _ground_ends(terrain: Terrain, what: NoWay) -> str | None:
     """Say where there is no ground below the straight way between two places, if there is none somewhere."""
     way = Pieces(np.zeros(1), np.ones(1), np.stack([what.start, what.end])[None])
     out = leaves(terrain.ground, way)
-    if out is None:
-        return None
-    x, y = out.place
-    return f"at [{x:.1f}, {y:.1f}] it is {out.by:.1f} m beyond the ground of `{terrain.file}`"
+    return None if out is None else terrain.beyond_at(out.place, out.by)
 
 
 def _too_near(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: TooNear) -> Diagnostic:
