@@ -15,8 +15,12 @@ from shotc.ir.source import MissionSource
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.geom.track import Track
+    from shotc.ir.obstacle_mesh import ObstacleMesh
     from shotc.ir.show import Display, Fleet
     from shotc.ir.terrain import Terrain
+
+ELSEWHERE_IN_PLANS = frozenset({"origins", "files", "source", "terrain", "meshes"})
+"""Fields of a mission that a plan does not hold as such: they are made of its text and its files."""
 
 ViewAngles = tuple[float | None, float | None]
 
@@ -291,6 +295,7 @@ class MissionIR(NamedTuple):
     displays : the shots of fleets, in the order they are written
     files : (name, bytes) of the files that displays draw; no plan carries them
     terrain : the ground where it is not the plane z = 0; a plan carries the file that it is made of
+    meshes : scenes and buildings, which stand
     source : what the mission was lowered from
     """
 
@@ -312,6 +317,7 @@ class MissionIR(NamedTuple):
     files: tuple[tuple[str, bytes], ...] = ()
     source: MissionSource = MissionSource()
     terrain: "Terrain | None" = None
+    meshes: "tuple[ObstacleMesh, ...]" = ()
 
     @property
     def parked(self) -> tuple[Drone, ...]:

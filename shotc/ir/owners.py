@@ -1,11 +1,14 @@
 """Who sets a limit on where a drone may be, and where the mission writes it down. Plain Python."""
 
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from shotc.ir.mission import Drone, MissionIR, Target, Zone
 from shotc.ir.origin import KeyPath
 
-OwnerKind = Literal["zone", "target", "drone", "ground", "ceiling"]
+if TYPE_CHECKING:  # a mission without any loads no arrays
+    from shotc.ir.obstacle_mesh import ObstacleMesh
+
+OwnerKind = Literal["zone", "target", "drone", "ground", "ceiling", "scene", "buildings"]
 
 
 class Owner(NamedTuple):
@@ -48,6 +51,11 @@ def drone_owner(drone: Drone) -> Owner:
     return Owner("drone", drone.name, drone.path)
 
 
+def mesh_owner(mesh: "ObstacleMesh") -> Owner:
+    """Return the owner of the triangles of a scene or of buildings."""
+    return Owner(mesh.kind, "", mesh.path)
+
+
 def owner_of(mission: MissionIR, text: str) -> Owner | None:
     """Return the owner that a plan names by a text; None for a text that names none."""
     known = (
@@ -56,5 +64,6 @@ def owner_of(mission: MissionIR, text: str) -> Owner | None:
         *map(zone_owner, mission.zones),
         *map(target_owner, mission.targets),
         *map(drone_owner, mission.drones),
+        *map(mesh_owner, mission.meshes),
     )
     return next((owner for owner in known if str(owner) == text), None)

@@ -23,6 +23,7 @@ class Rules(NamedTuple):
     half_angle : half the opening of the cone about a camera's axis that they keep out of, rad; None for
         the frame itself
     transits : kept on ways between shots
+    obstacle_clearance : from a drone's body to scenes and buildings
     max_height : of a drone's centre above the ground; infinite for none, None where the mission is silent
     """
 
@@ -33,6 +34,7 @@ class Rules(NamedTuple):
     half_angle: float | None = None
     transits: TransitClearance = TransitClearance()
     max_height: float | None = None
+    obstacle_clearance: float = 0.0
 
     def over_ground(self, radius: float) -> float:
         """Return the least height of the centre of a body over flat ground; radius : of the body, metres."""
@@ -41,3 +43,7 @@ class Rules(NamedTuple):
     def beside_target(self, radius: float) -> float:
         """Return the least distance of the centre of a body from a target; radius : of the body, metres."""
         return self.target_clearance + radius
+
+    def beside_obstacle(self, radius: float) -> float:
+        """Return the least distance of the centre of a body from scenes and buildings, metres."""
+        return self.obstacle_clearance + radius

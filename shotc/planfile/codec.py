@@ -95,7 +95,7 @@ def _rows(value: NDArray[Any]) -> list[Any]:
 def hints(kind: type) -> dict[str, Any]:
     """Return the resolved types of a record's fields, in their order."""
     # No plan holds a terrain: it holds the file that it is made of.
-    known = {"Display": Display, "Fleet": Fleet, "Track": Track, "Terrain": Any}
+    known = {"Display": Display, "Fleet": Fleet, "Track": Track, "Terrain": Any, "ObstacleMesh": Any}
     types = get_type_hints(kind, localns=known)
     return {name: types[name] for name in field_names(kind)}
 

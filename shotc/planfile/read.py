@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot, PlacedSubject
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import ELSEWHERE_IN_PLANS, MissionIR
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.path import Deviation
 from shotc.ir.source import Autopilot, Chosen, MissionSource
@@ -160,9 +160,6 @@ def _report(faults: list[FieldFault], name: str) -> list[Diagnostic]:
     return shown
 
 
-_APART = frozenset({"origins", "source_sha256", "files", "source", "terrain"})
-"""Fields of a mission that do not stand under `mission`."""
-
 _Spans = tuple[tuple[KeyPath, Span], ...]
 
 _DOCUMENT: dict[str, Any] = {
@@ -187,7 +184,7 @@ def _decode(document: Any, decoder: Decoder) -> tuple[TrajectoryIR, tuple[Claim,
     decoder.fields({"name": str, "version": str}, parts.get("tool"), "tool")
     source = _source(parts.get("source"), decoder)
     spans = decoder.fields({"keys": _Spans, "values": _Spans}, parts.get("origins"), "origins")
-    kinds = {k: v for k, v in hints(MissionIR).items() if k not in _APART}
+    kinds = {k: v for k, v in hints(MissionIR).items() if k not in {*ELSEWHERE_IN_PLANS, "source_sha256"}}
     fields = decoder.fields(kinds, parts.get("mission"), "mission")
     if decoder.faults or source is None:
         return None, ()  # type: ignore[return-value]

@@ -8,7 +8,7 @@ from hashlib import sha256
 from typing import Any
 
 from shotc import __version__
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import ELSEWHERE_IN_PLANS, MissionIR
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.planfile import layout
@@ -63,8 +63,8 @@ def seal(mission: Any) -> str:
 
 
 def encode_mission(mission: MissionIR) -> dict[str, Any]:
-    """Return the fields of a mission, without the map of its origins, its files, its terrain and its text."""
-    names = (name for name in MissionIR._fields if name not in ("origins", "files", "source", "terrain"))
+    """Return the fields of a mission that a plan holds."""
+    names = (name for name in MissionIR._fields if name not in ELSEWHERE_IN_PLANS)
     return {name: encode(getattr(mission, name)) for name in names}
 
 

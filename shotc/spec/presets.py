@@ -17,6 +17,7 @@ COMPOSITION = "thirds"
 SEPARATION = 3.0
 GROUND_CLEARANCE = 2.0
 TARGET_CLEARANCE = 1.0
+OBSTACLE_CLEARANCE = 2.0
 TRANSIT_FILMED = 5.0
 TRANSIT_OTHER = 3.0
 TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racing cars do

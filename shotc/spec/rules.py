@@ -65,6 +65,10 @@ class RulesSpec(Model):
     target_clearance: NonNegativeLength = Field(
         default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"
     )
+    obstacle_clearance: NonNegativeLength = Field(
+        default=presets.OBSTACLE_CLEARANCE,
+        description="least distance from a drone's body to the scene and to buildings",
+    )
     transit_clearance: TransitClearanceSpec | None = Field(
         default=None,
         description="distances from a drone's body to targets and keep-out zones between shots: required "

@@ -6,7 +6,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import ELSEWHERE_IN_PLANS, MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.records import field_names
 from shotc.units import clip
@@ -16,9 +16,6 @@ SAME_SHARE = 1e-9
 
 ITERATED_SHARE = 1e-6
 """The same for places that are found by iteration, from how subjects are to appear."""
-
-APART = frozenset({"origins", "source", "files", "terrain"})
-"""Fields of a mission that are no part of what it asks for."""
 
 WRITTEN = {"promise": "require"}
 """How a mission writes a field, where that is another word."""
@@ -64,7 +61,7 @@ def differences(written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = Tru
 
     same_text : whether both were lowered from one text, in which everything has to stand at one place
     """
-    passed = APART if same_text else APART | ELSEWHERE
+    passed = ELSEWHERE_IN_PLANS if same_text else ELSEWHERE_IN_PLANS | ELSEWHERE
     yield from _walk(written.mission, asked.mission, _Place("", (), passed))
     yield from _walk(written.shots, asked.shots, _Place("placed shots", ("shots",), passed | {"shot"}))
     if same_text:

@@ -161,7 +161,11 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
 
 def _rules(spec: RulesSpec) -> Rules:
     rules = Rules(spec.separation, spec.ground_clearance, spec.target_clearance)
-    rules = rules._replace(transits=_transits(spec), max_height=spec.max_height)
+    rules = rules._replace(
+        transits=_transits(spec),
+        max_height=spec.max_height,
+        obstacle_clearance=spec.obstacle_clearance,
+    )
     visibility = spec.mutual_visibility
     if visibility is None:
         return rules

@@ -1,0 +1,40 @@
+"""Meshes, clouds and buildings that stand in a mission's world, of triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from shotc.geom.bspline import IntArray
+from shotc.geom.surface.tree import Surface
+from shotc.ir.origin import KeyPath
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ObstacleMesh:
+    """What drones keep clear of and what hides that which is behind it: the triangles of one file.
+
+    kind    : the key of ``world`` that names the file
+    file    : its name, as the mission writes it
+    surface : the triangles, metres of W, and the tree of boxes round them
+    part    : shape (n,), of each triangle that the surface was made of, the number of what it belongs to
+    names   : of those parts: a building's name or id, a node of a scene
+    spacing : metres that every triangle stands for beyond itself: half the spacing of a cloud's points; 0 of
+        meshes and buildings. Every clearance is that much larger.
+    """
+
+    kind: Literal["scene", "buildings"]
+    file: str
+    surface: Surface
+    part: IntArray
+    names: tuple[str, ...]
+    spacing: float = 0.0
+
+    @property
+    def path(self) -> KeyPath:
+        """Where the mission names the file."""
+        return ("world", self.kind, "file")
+
+    def name_at(self, triangle: int) -> str:
+        """Return the name of what a triangle belongs to; triangle : of those that the surface was made of."""
+        return self.names[int(self.part[triangle])]
