@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.surface.tree import Surface
+from shotc.geom.pieces import Mask
+from shotc.geom.surface.inside import closed_parts, inside
+from shotc.geom.surface.tree import Surface, surface_of
 from shotc.ir.origin import KeyPath
 
 
@@ -19,6 +22,7 @@ class ObstacleMesh:
     surface : the triangles, metres of W, and the tree of boxes round them
     part    : shape (n,), of each triangle that the surface was made of, the number of what it belongs to
     names   : of those parts: a building's name or id, a node of a scene
+    closed  : which of those parts have an inside
     spacing : metres that every triangle stands for beyond itself: half the spacing of a cloud's points; 0 of
         meshes and buildings. Every clearance is that much larger.
     """
@@ -28,6 +32,7 @@ class ObstacleMesh:
     surface: Surface
     part: IntArray
     names: tuple[str, ...]
+    closed: Mask
     spacing: float = 0.0
 
     @property
@@ -35,6 +40,23 @@ class ObstacleMesh:
         """Where the mission names the file."""
         return ("world", self.kind, "file")
 
+    def holds(self, p: Array) -> Mask:
+        """Tell which points (K, 3) of W are inside of a closed part; (K,)."""
+        return inside(self.surface, self.part, self.closed, p)
+
     def name_at(self, triangle: int) -> str:
         """Return the name of what a triangle belongs to; triangle : of those that the surface was made of."""
         return self.names[int(self.part[triangle])]
+
+
+def obstacle_mesh(
+    kind: Literal["scene", "buildings"],
+    file: str,
+    triangles: Array,
+    parts: tuple[IntArray, tuple[str, ...]],
+    spacing: float = 0.0,
+) -> ObstacleMesh:
+    """Return triangles (n, 3, 3), metres of W, with their tree; parts : of each triangle, and their names."""
+    part, names = parts
+    closed = closed_parts(triangles, part, len(names))
+    return ObstacleMesh(kind, file, surface_of(triangles), part, names, closed, spacing)

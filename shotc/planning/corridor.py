@@ -34,7 +34,7 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
     index = {name: i for i, name in enumerate(around.space.owners)}
     planes = corridor(around.space, around.hulls, around.reach, around.share)
     obstacles = [index[o.owner] for o in around.space.obstacles]
-    owner = np.array([*obstacles, *(index[g.owner] for g in around.space.terrain)], dtype=np.intp)
+    owner = np.array([*obstacles, *(index[g.owner] for g in around.space.surfaces)], dtype=np.intp)
     half_spaces = (
         [rows_of(around.breaks, replace(planes, owner=owner[planes.owner]))] if len(planes.piece) else []
     )

@@ -22,6 +22,7 @@ from shotc.geom.solids import Solid
 from shotc.geom.taper import SLOPE, Taper
 from shotc.geom.vec import Vec3
 from shotc.ir.owners import Owner
+from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.over_ground import OverGround
 
 COMFORT_M = 0.5  # kept beyond that by a curve where there is room, metres
@@ -69,6 +70,7 @@ class FreeSpace:
 
     ends : places, metres, from which the clearances of obstacles that are nearer taper (``geom.taper``)
     terrain : the heights above ground that is not flat, the least one first
+    meshes : scenes and buildings
     """
 
     obstacles: tuple[Obstacle, ...]
@@ -76,18 +78,24 @@ class FreeSpace:
     discs: tuple[Disc, ...]
     ends: tuple[Vec3, ...] = ()
     terrain: tuple[OverGround, ...] = ()
+    meshes: tuple[BesideMesh, ...] = ()
+
+    @property
+    def surfaces(self) -> tuple[OverGround | BesideMesh, ...]:
+        """Everything that is of triangles."""
+        return (*self.terrain, *self.meshes)
 
     @property
     def owners(self) -> tuple[Owner, ...]:
         """Everything that may stop a path, each once, in a fixed order."""
         names = [o.owner for o in self.obstacles] + [w.owner for w in self.walls]
-        names += [d.owner for d in self.discs] + [g.owner for g in self.terrain]
+        names += [d.owner for d in self.discs] + [g.owner for g in self.surfaces]
         return tuple(dict.fromkeys(names))
 
     @property
     def bounds(self) -> FreeSpace:
-        """The free space without its obstacles: walls, discs and the ground."""
-        return FreeSpace((), self.walls, self.discs, terrain=self.terrain)
+        """The free space without its obstacles: walls, discs, the ground and meshes."""
+        return FreeSpace((), self.walls, self.discs, terrain=self.terrain, meshes=self.meshes)
 
     def without(self, owner: Owner) -> FreeSpace:
         """Return the free space with everything of one owner taken away."""
@@ -96,6 +104,7 @@ class FreeSpace:
             tuple(w for w in self.walls if w.owner != owner),
             tuple(d for d in self.discs if d.owner != owner),
             terrain=tuple(g for g in self.terrain if g.owner != owner),
+            meshes=tuple(m for m in self.meshes if m.owner != owner),
         )
 
     def lent(self, metres: float) -> FreeSpace:
@@ -113,6 +122,7 @@ class FreeSpace:
             tuple(Wall(w.owner, w.normal, w.offset - of(w), w.clearance - of(w)) for w in self.walls),
             tuple(Disc(d.owner, d.centre, d.radius + of(d)) for d in self.discs),
             terrain=tuple(g.lowered(metres.get(g.owner, 0.0)) for g in self.terrain),
+            meshes=tuple(m.lowered(metres.get(m.owner, 0.0)) for m in self.meshes),
         )
 
 
@@ -126,10 +136,10 @@ class Breach:
 
 
 def bounds_slack(space: FreeSpace, p: Array) -> Array:
-    """Return how far points (N, 3) are inside the nearest wall, disc or height, metres; shape (N,)."""
+    """Return how far points (N, 3) are inside the nearest of the space's bounds, metres; shape (N,)."""
     slack = _linear_slack(space, p)
-    for ground in space.terrain:
-        slack = np.minimum(slack, ground.slack(p))
+    for surface in space.surfaces:
+        slack = np.minimum(slack, surface.slack(p))
     return slack
 
 
@@ -153,8 +163,8 @@ def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach
     for d in space.discs:
         lack = float(np.linalg.norm(p[:2] - np.array(d.centre))) - d.radius
         found.append(Breach(d.owner, lack, 0.0))
-    for ground in space.terrain:
-        found.append(Breach(ground.owner, -float(ground.slack(p[None])[0]), max(0.0, ground.clearance)))
+    for surface in space.surfaces:
+        found.append(Breach(surface.owner, -float(surface.slack(p[None])[0]), max(0.0, surface.clearance)))
     return sorted((b for b in found if b.lack > tolerance), key=lambda b: -b.lack)
 
 
@@ -169,8 +179,9 @@ def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
 
 
 def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN_M) -> Mask:
-    """Tell for segments a-b, shapes (N, 3), and obstacles whether they come too near; (N, obstacles)."""
-    out = np.zeros((len(a), len(space.obstacles)), dtype=bool)
+    """Tell for segments a-b, shapes (N, 3), what they come too near to; (N, obstacles and then meshes)."""
+    solids = len(space.obstacles)
+    out = np.zeros((len(a), solids + len(space.meshes)), dtype=bool)
     low, high = np.minimum(a, b), np.maximum(a, b)
     for j, o in enumerate(space.obstacles):
         reach = o.clearance + margin
@@ -179,6 +190,8 @@ def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN_M) -> M
         if near.any():
             need = np.minimum(required(o, a[near], margin), required(o, b[near], margin))
             out[near, j] = segment_distances(o.part, a[near], b[near]) < need - 1e-9
+    for j, mesh in enumerate(space.meshes):
+        out[:, solids + j] = mesh.stops(a, b, margin)
     return out
 
 
@@ -225,7 +238,7 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
     hulls : shape (P, m, 3), points whose hull holds each piece
     share : of the distance a piece has beyond the clearance, this much is kept, COMFORT_M at most
     A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
-    Owners are indices of obstacles; those of terrain come after them.
+    Owners are indices of obstacles; those of surfaces come after them.
     """
     planes: list[HalfSpaces] = []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
@@ -245,18 +258,20 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
             slack = (along - o.clearance + less).min(axis=1)
         offset = (border + o.clearance + kept(slack, share))[:, None] - less
         planes.append(HalfSpaces(near, n, offset, np.full(len(near), j)))
-    for j, ground in enumerate(space.terrain):
-        planes.append(within_height(ground, hulls, (reach, share), len(space.obstacles) + j))
+    for j, surface in enumerate(space.surfaces):
+        planes.append(beside_surface(surface, hulls, (reach, share), len(space.obstacles) + j))
     return NO_HALF_SPACES.and_also(*planes)
 
 
-def within_height(ground: OverGround, hulls: Array, room: tuple[float, float], owner: int) -> HalfSpaces:
-    """Return half-spaces for a height above terrain.
+def beside_surface(
+    surface: OverGround | BesideMesh, hulls: Array, room: tuple[float, float], owner: int
+) -> HalfSpaces:
+    """Return half-spaces for a height above terrain, or beside a mesh.
 
     room : reach and share, as of ``corridor``; owner : their index
     """
     reach, share = room
-    planes = ground.planes(hulls, reach, lambda slack: kept(slack, share))
+    planes = surface.planes(hulls, reach, lambda slack: kept(slack, share))
     offset = np.repeat(planes.offset[:, None], 6, axis=1)
     return HalfSpaces(planes.piece, planes.normal, offset, np.full(len(planes.piece), owner))
 
@@ -294,8 +309,8 @@ def shortfall(space: FreeSpace, hulls: Array) -> Array:
         if len(near):
             _, gap[near] = separate(o.part, hulls[near])
         worst = np.maximum(worst, o.clearance - gap)
-    for ground in space.terrain:
-        worst = np.maximum(worst, ground.lack(hulls))
+    for surface in space.surfaces:
+        worst = np.maximum(worst, surface.lack(hulls))
     return np.asarray(worst)
 
 

@@ -10,8 +10,9 @@ from typing import NamedTuple
 from shotc.geom.solid_arrays.points import bounded
 from shotc.geom.solids import Cylinder, Prism, convex_parts, edges, hull_and_pockets
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.owners import CEILING, GROUND, Owner, target_owner, zone_owner
+from shotc.ir.owners import CEILING, GROUND, Owner, mesh_owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
+from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.free_space import MARGIN_M, Disc, FreeSpace, Obstacle, Wall
 from shotc.planning.over_ground import heights_over
@@ -39,10 +40,15 @@ def flight_space(mission: MissionIR, drone: Drone) -> FreeSpace:
     if isfinite(most) and terrain is None:
         walls.append(Wall(CEILING, (0.0, 0.0, -1.0), -most, 0.0))
     space = _space((*clearances_of(mission, drone), *from_parked(mission, drone)), walls, floors=True)
+    space = replace(space, meshes=_beside_meshes(mission, mission.rules.beside_obstacle(drone.radius)))
     if terrain is None:
         return space
     heights = heights_over(terrain.ground, over_ground, most if isfinite(most) else None)
     return replace(space, terrain=heights)
+
+
+def _beside_meshes(mission: MissionIR, clearance: float) -> tuple[BesideMesh, ...]:
+    return tuple(BesideMesh(mesh_owner(m), m, clearance + m.spacing) for m in mission.meshes)
 
 
 def free_spaces_of(mission: MissionIR, drone: Drone) -> FreeSpaces:
@@ -68,10 +74,11 @@ def _kept_on_ways(mission: MissionIR) -> dict[Owner, Apart | None]:
 def pad_space(mission: MissionIR, drone: Drone) -> FreeSpace:
     """Return the free space of take-off and landing: no clearances, no ground, no keep-in floors.
 
-    Zones and the targets' own bodies still bind, and so does the separation from parked drones.
+    Zones, meshes and the targets' own bodies still bind, and so does the separation from parked drones.
     """
     around = (*clearances_of(mission, drone, at_pad=True), *from_parked(mission, drone))
-    return _space(around, [], floors=False)
+    space = _space(around, [], floors=False)
+    return replace(space, meshes=_beside_meshes(mission, drone.radius))
 
 
 def _space(around: Iterable[Clearance], walls: list[Wall], *, floors: bool) -> FreeSpace:

@@ -124,6 +124,16 @@ _SPACE = (
         ),
     ),
     verified(
+        52,
+        "too-near-an-obstacle",
+        (
+            "the flight comes too near to the scene or to a building",
+            "Outside of take-off and landing the body has to stay `rules.obstacle_clearance` away from every triangle "
+            "of `world.scene` and `world.buildings`, in all directions; in take-off and landing it may stand as near "
+            "as its home does. The distance is proved over continuous time.",
+        ),
+    ),
+    verified(
         47,
         "too-high",
         (

@@ -81,7 +81,7 @@ def segment_distances(triangles: Array, a: Array, b: Array) -> Array:
     best = np.minimum(closest(triangles, a).distance, closest(triangles, b).distance)
     for corner in range(3):
         best = np.minimum(best, _between(triangles[:, corner], triangles[:, _NEXT[corner]], a, b))
-    return np.where(_pierces(triangles, a, b), 0.0, best)
+    return np.where(pierced(triangles, a, b), 0.0, best)
 
 
 def _between(a: Array, b: Array, c: Array, d: Array) -> Array:
@@ -97,8 +97,8 @@ def _between(a: Array, b: Array, c: Array, d: Array) -> Array:
     return np.asarray(np.sqrt(dot(gap, gap)))
 
 
-def _pierces(triangles: Array, a: Array, b: Array) -> Mask:
-    """Tell which segments pass through the inside of their triangles; edges are the business of others."""
+def pierced(triangles: Array, a: Array, b: Array) -> Mask:
+    """Tell which segments a-b, (K, 3) each, pass through triangles (K, 3, 3), their edges excepted."""
     edges = triangles[:, _NEXT] - triangles
     normal = cross(edges[:, 0], edges[:, 1])
     one, other = dot(a - triangles[:, 0], normal), dot(b - triangles[:, 0], normal)

@@ -19,6 +19,7 @@ from shotc.ir.phases import UPRIGHT
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.above_ground import above_ground
+from shotc.passes.verify.beside_meshes import beside_meshes
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
 DRIFT_M = 1e-6
@@ -35,6 +36,7 @@ def space(flight: Flight) -> Iterator[Claim]:
             yield _keep_in(flight, zone, free, upright)
     rules = flight.mission.rules
     yield from above_ground(flight, free) if len(free) else ()
+    yield from beside_meshes(flight, free, upright)
     for target in flight.mission.targets:
         near = (free, upright) if target.track is None else _split(flight, target)
         parts = (*near, rules.target_clearance)

@@ -33,9 +33,9 @@ from shotc.planning.free_space import (
     FreeSpace,
     HalfSpaces,
     beside,
+    beside_surface,
     kept,
     shortfall,
-    within_height,
 )
 from shotc.planning.obstacles import free_spaces_of
 
@@ -96,7 +96,7 @@ class Surroundings:
             near = np.flatnonzero(slack < reach)
             ends = np.repeat((offsets[near] + kept(slack[near], share))[:, None], 2, axis=1)
             planes.append(beside(near, normals[near], ends))
-        planes += [within_height(ground, hulls, (reach, share), 0) for ground in self.walls.terrain]
+        planes += [beside_surface(each, hulls, (reach, share), 0) for each in self.walls.surfaces]
         return sides(self.motions, hulls).and_also(*planes)
 
     def _bounds(self, hulls: Array) -> Sequence[tuple[Array, Array]]:

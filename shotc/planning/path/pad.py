@@ -16,6 +16,7 @@ from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 
 PAD_MARGIN_M = 0.1  # metres that the transit altitude keeps beyond what clearances ask
 LEAST_LIFT_M = 1.0  # metres above the pad at least
+STEP_M, HIGHEST_M = 0.5, 150.0  # metres between heights over a pad that are looked at, and how far up
 CUSTOM_LIFT_M = 3.0  # metres above the pad where nothing forbids it: below, PX4 refuses a mission's take-off
 
 
@@ -53,6 +54,7 @@ def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | Pa
         return PadBlocked(ceiling[1], "ceiling", lowest, ceiling[0])
     tops = [o.part.top + o.clearance + PAD_MARGIN_M for o in flight.obstacles if o.part.top < FAR_M]
     usual = max(lowest, home[2] + CUSTOM_LIFT_M)
+    tops += _beside_meshes(flight, home, usual)
     heights = [*sorted({usual, *(t for t in tops if t > usual)}), lowest]
     points = np.array([[home[0], home[1], z] for z in heights])
     inside = bounds_slack(flight, points) >= 0
@@ -66,10 +68,29 @@ def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | Pa
     return PadBlocked(near.owner, "beside", near.clearance, near.clearance - near.lack)
 
 
+def _beside_meshes(flight: FreeSpace, home: Array, above: float) -> list[float]:
+    """Return heights over a pad, from one on, at which meshes begin to be far enough."""
+    column = above + np.arange(0.0, HIGHEST_M, STEP_M)
+    points = np.column_stack([np.tile(home[:2], (len(column), 1)), column])
+    free = np.ones(len(column), dtype=bool)
+    for mesh in flight.meshes:
+        free &= mesh.slack(points) >= PAD_MARGIN_M
+    begins = free & ~np.concatenate([[True], free[:-1]])
+    return [float(z) for z in column[begins]]
+
+
 def _in_column(pad: FreeSpace, home: Array, top: Array) -> PadBlocked | None:
     hits = []
     for o in pad.obstacles:
         has = float(segment_distances(o.part, home[None], top[None])[0])
         if has < o.clearance - 1e-9:
             hits.append((o.part.bottom, PadBlocked(o.owner, "above", o.clearance, has)))
+    for mesh in pad.meshes:
+        at = home + np.linspace(0.0, 1.0, 1 + int(np.ceil((top[2] - home[2]) / STEP_M)))[:, None] * (
+            top - home
+        )
+        if mesh.stops(home[None], top[None], 0.0)[0]:
+            away = mesh.clearance + mesh.slack(at)
+            k = int(away.argmin())
+            hits.append((float(at[k, 2]), PadBlocked(mesh.owner, "above", mesh.clearance, float(away[k]))))
     return min(hits, key=lambda hit: hit[0])[1] if hits else None

@@ -1,5 +1,7 @@
 """The shortest way between two points round and over obstacles: A* on a visibility graph.
 
+Where meshes are in the way, voxels tell it (``planning.path.voxels``).
+
 Obstacles are grown into convex prisms; the graph's nodes are the corners of the grown footprints at a
 few heights; an edge is free where the segment misses every grown prism, which clipping a segment
 against half-spaces decides exactly. Climbing and flying over an obstacle cost extra, so that what can
@@ -21,6 +23,7 @@ from shotc.geom.solid_arrays.points import FAR_M, distances
 from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Solid
 from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, blocked, bounds_slack
+from shotc.planning.path.voxels import route_through
 
 ROUTE_MARGIN_M = 2 * MARGIN_M  # the route leaves the corridor some play
 NODE_MARGIN_M = 2.4 * MARGIN_M  # nodes stand clear of the prisms that edges are tested against
@@ -52,6 +55,15 @@ def find_route(space: FreeSpace, start: Array, end: Array) -> Array | None:
     first = blocked(space, start[None], end[None], MARGIN_M)[0]
     if not first.any():
         return np.stack([start, end])
+    solids = len(space.obstacles)
+    way = None if first[solids:].any() else _round_solids(space, first[:solids], start, end)
+    if not space.meshes or (way is not None and not blocked(space, way[:-1], way[1:])[:, solids:].any()):
+        return way
+    return route_through(space, start, end)
+
+
+def _round_solids(space: FreeSpace, first: Mask, start: Array, end: Array) -> Array | None:
+    """Return the way round solids, some of which stop the straight one; meshes may be in its way."""
     grown = [_grow(o) for o in space.obstacles]
     near = _search(_Scene(space, grown, 1.0), first, start, end)
     if near is not None:
