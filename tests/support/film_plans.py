@@ -118,7 +118,7 @@ def orbit_mission(*, origin: bool = True) -> MissionIR:
         zones=(TREE, FIELD),
         targets=(TOWER,),
         drones=(_drone(),),
-        rules=Rules(3.0, 2.0, 1.0, transits=TransitClearance(5.0, 3.0)),
+        rules=Rules(3.0, 2.0, 1.0, transits=TransitClearance(5.0, 3.0), obstacle_clearance=2.0),
         shots=(_shot(),),
         rate=50.0,
         emit=("csv", "mavlink", "rerun"),

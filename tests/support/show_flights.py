@@ -74,7 +74,7 @@ def mission(n: int = 60, **changes: object) -> MissionIR:
         zones=(FIELD, MAST),
         targets=(),
         drones=(),
-        rules=Rules(3.0, 2.0, 1.0),
+        rules=Rules(3.0, 2.0, 1.0, obstacle_clearance=2.0),
         shots=(),
         rate=5.0,
         emit=("skyc",),

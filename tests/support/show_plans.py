@@ -63,7 +63,7 @@ def mission(**changes: object) -> MissionIR:
         zones=(),
         targets=(),
         drones=(),
-        rules=Rules(3.0, 2.0, 1.0),
+        rules=Rules(3.0, 2.0, 1.0, obstacle_clearance=2.0),
         shots=(),
         rate=5.0,
         emit=("csv",),

@@ -10,9 +10,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces
+from shotc.geom.proof import Bound
 from shotc.geom.surface.distance import inf_distance
 from shotc.geom.surface.near import nearest
+from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
@@ -28,7 +31,7 @@ def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Cla
     for mesh in flight.mission.meshes:
         name, body = f"distance from {mesh.kind}", radius + mesh.spacing
         if len(free):
-            bound = inf_distance(free, mesh.surface, gap(body + least))
+            bound = _signed(inf_distance(free, mesh.surface, gap(body + least)), mesh, home)
             limit = Limit(name, least, "m", ("rules", "obstacle_clearance"), upper=False)
             yield bounded(flight, limit, less(bound, body))
         if len(upright):
@@ -37,3 +40,8 @@ def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Cla
             bound = inf_distance(upright, mesh.surface, gap(near))
             limit = Limit(f"{name} at home", near - body, "m", mesh.path, upper=False)
             yield bounded(flight, limit, less(bound, body))
+
+
+def _signed(bound: Bound, mesh: ObstacleMesh, home: Array) -> Bound:
+    """Return a bound of the distance, negative for a flight that begins inside of what is closed."""
+    return Bound(-bound.attained, -bound.attained, bound.at) if mesh.holds(home)[0] else bound

@@ -71,7 +71,8 @@ def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner,
 
 def _least_loan(space: FreeSpace, start: Array, end: Array) -> float | None:
     """Return the least clearance to give up everywhere so that a way opens, by bisection."""
-    most = LACK_SHARE * min((o.clearance for o in space.obstacles), default=0.0)
+    clearances = [*(o.clearance for o in space.obstacles), *(m.clearance for m in space.meshes)]
+    most = LACK_SHARE * min(clearances, default=0.0)
     if most <= 0.0 or find_route(space.lent(most), start, end) is None:
         return None
     low, high = 0.0, most

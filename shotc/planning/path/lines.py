@@ -12,6 +12,7 @@ from math import pi
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import FAR_M, support
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
@@ -21,6 +22,7 @@ from shotc.planning.path.route import NODE_MARGIN_M, find_route
 
 TURN_LENGTH_M_RAD = 2.0  # metres of path parameter for each radian turned on the spot
 SAME_PLACE_M = 1e-3  # metres
+RINGS_M = np.geomspace(0.1, 60.0, 33)  # metres about a place beside a mesh, at which a free one is sought
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -151,6 +153,8 @@ def _nearest_free(space: FreeSpace, p: Array) -> Array | None:
         tries += list(p + rays[out > 0] * out[out > 0, None])
         if o.part.top < FAR_M:
             tries.append(np.array([p[0], p[1], o.part.top + reach]))
+    if any(mesh.slack(p[None])[0] < MARGIN_M for mesh in space.meshes):
+        tries += list((p + RINGS_M[:, None, None] * directions(32, (0.0, 0.5, 1.0))).reshape(-1, 3))
     for ground in space.terrain[:1]:
         below = MARGIN_M - ground.slack(np.array(tries))
         tries += [q + np.array([0.0, 0.0, lack]) for q, lack in zip(tries, below, strict=True) if lack > 0.0]

@@ -23,7 +23,7 @@ from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
-from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, bounds_slack, taper
+from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, blocked, bounds_slack, taper
 from shotc.planning.obstacles import FreeSpaces
 from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
 from shotc.planning.path.over import over_ground
@@ -143,6 +143,7 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Line | None:
     if route is not None:
         found.append(_joined(a, route, b))
     found = [way for way in (over_ground(flight, way) for way in found) if way is not None]
+    found = [way for way in found if not blocked(flight.bounds, way[:-1], way[1:]).any()]
     best = min(found, key=length, default=None)
     most = inf if spaces.required else LONGER_RATIO * length(near) + LONGER_M
     return None if best is None or length(best) > most else _of(best)
