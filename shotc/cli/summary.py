@@ -13,6 +13,7 @@ from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.measures import measure, told_apart
+from shotc.ir.mission import MissionIR
 from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation, from_what_was_asked
 from shotc.ir.phases import Phase
@@ -99,8 +100,18 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     mission, flown = plan.trajectory.keyframes.mission, plan.trajectory
     facts += [("bent", text) for text in _bent(from_what_was_asked(mission, flown.deviations))]
     facts += [("refined", text) for text in _refined(plan)]
+    facts += [("smoothed", text) for text in _smoothed(mission)]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
     return facts + [("note", note) for note in notes]
+
+
+def _smoothed(mission: MissionIR) -> list[str]:
+    """Tell how far smoothing moves the recorded tracks of targets."""
+    return [
+        f"the track of {target.name} lies up to {at_least(target.track.smoothed)} m from what is recorded"
+        for target in mission.targets
+        if target.track is not None and target.track.smoothed > 0.0
+    ]
 
 
 def _refined(plan: VerifiedIR) -> list[str]:

@@ -24,6 +24,7 @@ class Track(NamedTuple):
         direction in which it moves
     after : its velocity from the last row on, m/s
     since, until : seconds between which anything is known; it stands at its first row before that
+    smoothed : the farthest that a row was moved by smoothing, metres
     """
 
     times: tuple[float, ...]
@@ -32,6 +33,7 @@ class Track(NamedTuple):
     after: Vec3 = (0.0, 0.0, 0.0)
     since: float = 0.0
     until: float = inf
+    smoothed: float = 0.0
 
     def at(self, t: float) -> Vec3:
         """Return the place at a time, metres."""

@@ -278,6 +278,12 @@ def placed(origin: GeoOrigin | None, ground: GroundHeight, position: Place) -> V
     return (x, y, z + ground(x, y)) if isinstance(height, AboveGround) else (x, y, z)
 
 
+def stands(position: Place) -> bool:
+    """Tell whether a position leaves its height out, so that what is there stands on the ground."""
+    height = position.height if isinstance(position, Geodetic) else position[2]
+    return isinstance(height, AboveGround) and height.stands
+
+
 def unknown_target(origins: OriginMap, path: KeyPath, name: str, known: Mapping[str, object]) -> Diagnostic:
     """Return the diagnostic of a target name that the mission does not define."""
     help_ = nearest(name, known) if known else "define it under `targets`"

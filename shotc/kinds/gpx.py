@@ -15,7 +15,8 @@ def read_gpx(data: bytes, *, timed: bool = False) -> Table | FileFault:
     """Read the track points of a GPX file, or its route points if it has no track: lat, lon, ele.
 
     A document type declaration is refused, for entities could grow without bound.
-    timed : also read when the points were passed, as a first column t: seconds from the first point on
+    timed : also read when the points were passed, as a first column t: seconds from the first point on. Such
+        a track may have no elevations at all; it has no column ele then
     """
     reader = _Gpx(timed)
     wrong = feed(data, reader)
@@ -27,14 +28,21 @@ def read_gpx(data: bytes, *, timed: bool = False) -> Table | FileFault:
     if not points:
         return FileFault("the file has no track points", help="export a track (`trkpt`) or a route (`rtept`)")
     lines = tuple(point.line for point in points)
+    level = [point.line for point in points if len(point.place) < len(PLACE)]
+    if level and not (timed and len(level) == len(points)):
+        return FileFault("a point has no elevation", level[0], "give every point an `<ele>`")
     if not timed:
         return Table(PLACE, tuple(point.place for point in points), lines)
     rows = _timed(points)
-    return rows if isinstance(rows, FileFault) else Table(("t", *PLACE), rows, lines)
+    columns = ("t", *(PLACE[:2] if level else PLACE))
+    return rows if isinstance(rows, FileFault) else Table(columns, rows, lines)
 
 
 class _Point:
-    """A point of the file; place : lat, lon, ele; line : on which it begins; time : as written, if it is."""
+    """A point of the file.
+
+    place : lat, lon and, if it has one, ele; line : on which it begins; time : as written, if it is
+    """
 
     __slots__ = ("line", "place", "time")
 
@@ -106,9 +114,8 @@ class _Gpx:
             return
         kind, lat, lon, line = self._open
         self._open = None
-        if "ele" not in self._texts:
-            self._stop("a point has no elevation", "give every point an `<ele>`", line)
-        row = row_of(line, (lat, lon, self._texts["ele"].strip()), PLACE)
+        ele = (self._texts["ele"].strip(),) if "ele" in self._texts else ()
+        row = row_of(line, (lat, lon, *ele), PLACE[: 2 + len(ele)])
         if isinstance(row, FileFault):
             self._stop(row.message, row.help, line)
         else:

@@ -14,12 +14,12 @@ def in_world(
 ) -> list[Vec3] | Diagnostic:
     """Return a table's places as points of W, or what keeps those on the earth from it.
 
-    A `height` is z, over the ground; an `ele` counts from the sea.
+    A `height` is z, over the ground; an `ele` counts from the sea. Without any height z is 0.
     name : of the file, which the mission names at ``path``
     """
     if "x" in table.columns:
-        i, j, k = (table.columns.index(column) for column in ("x", "y", "z"))
-        return [(row[i], row[j], row[k]) for row in table.rows]
+        i, j = (table.columns.index(column) for column in ("x", "y"))
+        return list(zip(_column(table, i), _column(table, j), _heights(table, "z"), strict=True))
     label = (origins.value(path),)
     if origin is None:
         message = f"`{name}` gives latitudes and longitudes, but the mission has no origin"
@@ -32,7 +32,8 @@ def in_world(
         return Diagnostic(
             "G015", message, label, help="add `alt`, its height above sea level, to `world.origin`"
         )
-    i, j, k = (table.columns.index(column) for column in ("lat", "lon", "ele" if above_sea else "height"))
+    i, j = (table.columns.index(column) for column in ("lat", "lon"))
+    heights = _heights(table, "ele" if above_sea else "height")
     for number, row in enumerate(table.rows, 1):
         found = stray(origin, row[i], row[j])
         if found is not None:
@@ -41,4 +42,13 @@ def in_world(
             return Diagnostic("G017", found.message, label, notes, found.help)
     base = (origin.lat_deg, origin.lon_deg, origin.alt)
     put = to_world if above_sea else above_ground
-    return [put((row[i], row[j], row[k]), base) for row in table.rows]
+    return [put((row[i], row[j], height), base) for row, height in zip(table.rows, heights, strict=True)]
+
+
+def _column(table: Table, i: int) -> list[float]:
+    return [row[i] for row in table.rows]
+
+
+def _heights(table: Table, name: str) -> list[float]:
+    """Return a column of heights, metres; 0 of a table without."""
+    return _column(table, table.columns.index(name)) if name in table.columns else [0.0] * len(table.rows)

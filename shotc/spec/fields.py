@@ -10,7 +10,7 @@ from pydantic import StrictBool
 from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.fieldtypes import Integer, NamedOr, Text
 from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
-from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, Position, Relative, Stand, Station
+from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, OnMap, Plan, Position, Relative, Stand, Station
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
 from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
 from shotc.spec.sizes import SIZES
@@ -44,9 +44,11 @@ __all__ = [
     "NonNegativeDuration",
     "NonNegativeLength",
     "NonNegativeSpeed",
+    "OnMap",
     "Pace",
     "Pitch",
     "PitchRange",
+    "Plan",
     "Point2",
     "Position",
     "PositiveLength",

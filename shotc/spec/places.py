@@ -5,7 +5,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.ir.limits import Vec3
+from shotc.ir.limits import Vec2, Vec3
+from shotc.spec.degrees import instead_of
 from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType, Text
 from shotc.spec.heights import HEIGHT, STANDING, AboveGround
@@ -76,11 +77,16 @@ Longitude = Annotated[float, DegreesType("Longitude", 180.0)]
 Altitude = Annotated[float, Quantity("Altitude", "length", -500.0, 9000.0)]
 
 
-class Geodetic(Model):
-    """A place on the earth (WGS84); with ``world.origin`` it is a point of the world frame."""
+class OnMap(Model):
+    """A place on the map of the earth (WGS84)."""
 
     lat: Latitude = Field(description="latitude, degrees north")
     lon: Longitude = Field(description="longitude, degrees east")
+
+
+class Geodetic(OnMap):
+    """A place on the earth (WGS84); with ``world.origin`` it is a point of the world frame."""
+
     height: Annotated[float | AboveGround, HEIGHT] = Field(
         default=STANDING,
         description="height over the plane through the origin, or {above: ground, height: ...}; "
@@ -88,7 +94,34 @@ class Geodetic(Model):
     )
 
 
-class PositionType(FieldType):
+class PlaceType(FieldType):
+    """Where something is: metres of the world, or latitude and longitude."""
+
+
+class PlanType(PlaceType):
+    """A place on the map: ``[x, y]`` or ``{lat, lon}``."""
+
+    label = "Plan"
+
+    def read(self, value: Any) -> Vec2 | OnMap:
+        """Return x and y of W in metres, or a place on the earth."""
+        if isinstance(value, dict | OnMap):
+            return OnMap.model_validate(value)
+        if not isinstance(value, list | tuple):
+            help_ = instead_of(value, heights=False) or "write [x, y] in metres, or {lat: ..., lon: ...}"
+            raise fault("wrong-type", f"expected a place on the map, got {describe(value)}", help_)
+        x, y = _PLAN.read(value)
+        return (x, y)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it."""
+        return {"anyOf": [_PLAN.reference(), {"$model": OnMap}]}
+
+
+Plan = Annotated[Vec2 | OnMap, PlanType()]
+
+
+class PositionType(PlaceType):
     """A point of the world: ``[x, y, z]`` or ``{lat, lon, height}``; heights may count from the ground."""
 
     label = "Position"
@@ -98,7 +131,8 @@ class PositionType(FieldType):
         if isinstance(value, dict | Geodetic):
             return Geodetic.model_validate(value)
         if not isinstance(value, list | tuple):
-            raise fault("wrong-type", f"expected a position, got {describe(value)}", _HINT)
+            help_ = instead_of(value) or _HINT
+            raise fault("wrong-type", f"expected a position, got {describe(value)}", help_)
         x, y, z = _SPOT.read(value)
         return (x, y, z)
 
@@ -124,7 +158,8 @@ class StandType(PositionType):
         return {"anyOf": [_PLAN.reference(), _SPOT.reference(), {"$model": Geodetic}]}
 
 
-Stand = Annotated[Spot | Geodetic, StandType()]
+STAND = StandType()
+Stand = Annotated[Spot | Geodetic, STAND]
 POSITION = PositionType()
 Position = Annotated[Spot | Geodetic, POSITION]
 
@@ -143,7 +178,7 @@ class Relative(Model):
     )
 
 
-class StationType(FieldType):
+class StationType(PlaceType):
     """Where a keyframe's camera is: a position, or a place that counts from a target."""
 
     label = "Station"
@@ -154,7 +189,8 @@ class StationType(FieldType):
             return Relative.model_validate(value)
         if isinstance(value, list | tuple | dict | Geodetic):
             return POSITION.read(value)
-        raise fault("wrong-type", f"expected a position, got {describe(value)}", _STATION_HINT)
+        help_ = instead_of(value) or _STATION_HINT
+        raise fault("wrong-type", f"expected a position, got {describe(value)}", help_)
 
     def schema(self) -> JsonSchemaValue:
         """Return the ways to write it."""
@@ -165,18 +201,20 @@ _STATION_HINT = f"{_HINT}, or {{from: a target, offset: [east, north, up]}}"
 Station = Annotated[Spot | Geodetic | Relative, StationType()]
 
 
-class LookAtType(FieldType):
-    """What to look at: the name of a target, or a position."""
+class LookAtType(PlaceType):
+    """What to look at: the name of a target, or a position, on the ground where it has no height."""
 
     label = "LookAt"
 
     def read(self, value: Any) -> str | Spot | Geodetic:
         """Return a target's name or a position."""
-        return NAME.read(value) if isinstance(value, str) else POSITION.read(value)
+        if help_ := instead_of(value):
+            raise fault("wrong-type", f"expected a target or a position, got {describe(value)}", help_)
+        return NAME.read(value) if isinstance(value, str) else STAND.read(value)
 
     def schema(self) -> JsonSchemaValue:
         """Return the two ways to write it."""
-        return {"anyOf": [NAME.reference(), POSITION.reference()]}
+        return {"anyOf": [NAME.reference(), STAND.reference()]}
 
 
 LookAt = Annotated[str | Spot | Geodetic, LookAtType()]

@@ -6,12 +6,13 @@ from pydantic import Field
 
 from shotc.spec.fields import (
     Angle,
+    Duration,
     Heights,
+    Length,
     Name,
     NonNegativeDuration,
     NonNegativeSpeed,
-    Point2,
-    Position,
+    Plan,
     PositiveLength,
     RelativePath,
     Size3,
@@ -35,7 +36,7 @@ class OriginSpec(Model):
 class CylinderSpec(Model):
     """An upright cylinder."""
 
-    center: Point2 = Field(description="axis, [x, y]")
+    center: Plan = Field(description="axis, [x, y] or {lat, lon}")
     radius: PositiveLength = Field(description="radius")
     height: Heights = Field(description="[bottom, top], z in the world, or above ground")
 
@@ -43,7 +44,7 @@ class CylinderSpec(Model):
 class PolygonSpec(Model):
     """An upright prism over a simple polygon."""
 
-    points: tuple[Point2, ...] = Field(
+    points: tuple[Plan, ...] = Field(
         min_length=3, max_length=200, description="corners in order, [[x, y], ...]"
     )
     height: Heights = Field(description="[bottom, top], z in the world, or above ground")
@@ -52,7 +53,7 @@ class PolygonSpec(Model):
 class BoxSpec(Model):
     """An upright box."""
 
-    center: Position = Field(description="middle of the box")
+    center: Stand = Field(description="middle of the box; it stands on the ground where no height is written")
     size: Size3 = Field(description="[width, depth, height]; width lies east at heading 0")
     heading: Angle = Field(default=0.0, description="compass bearing of the depth")
 
@@ -73,24 +74,45 @@ class TrackSpec(Model):
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (
         OneOf(
-            (("file",), ("file", "begins"), ("start", "velocity"), ("points", "speed"), ("points", "times"))
+            (
+                ("file",),
+                ("file", "begins"),
+                ("file", "smooth"),
+                ("file", "begins", "smooth"),
+                ("start", "velocity"),
+                ("points", "speed"),
+                ("points", "times"),
+            )
         ),
     )
 
     file: RelativePath | None = Field(
         default=None,
         description="CSV file of t,x,y,z or t,lat,lon,height and maybe heading (rad) or heading_deg; or a "
-        "GPX file with times, which count from its first point",
+        "GPX file with times, which count from its first point. Without heights it stands on the ground",
+    )
+    smooth: Duration | None = Field(
+        default=None,
+        description="standard deviation, over time, of the weights by which the file's rows are smoothed",
+    )
+    lift: Length | None = Field(
+        default=None,
+        description="height of the target's centre over the places of the track, or over the ground where "
+        "they have no height: half its own there if silent, else 0",
     )
     begins: NonNegativeDuration | None = Field(
         default=None,
         description="when the file's first row happens, from mission start; the others come as long after it "
         "as in the file",
     )
-    start: Position | None = Field(default=None, description="where the target is at time 0")
+    start: Stand | None = Field(
+        default=None, description="where the target is at time 0; it stands where no height is written"
+    )
     velocity: Velocity | None = Field(default=None, description="[east, north, up]")
-    points: tuple[Position, ...] | None = Field(
-        default=None, min_length=2, description="points passed in order"
+    points: tuple[Stand, ...] | None = Field(
+        default=None,
+        min_length=2,
+        description="points passed in order; it stands at those where no height is written",
     )
     speed: Speed | None = Field(default=None, description="speed along the points, from time 0")
     times: tuple[NonNegativeDuration, ...] | None = Field(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._placed import PLACED
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 
@@ -299,4 +300,5 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    *PLACED,
 )

@@ -96,3 +96,108 @@ def test_a_height_above_sea_level_is_recognised() -> None:
     assert "428.0 m above sea level would be z = 20.0" in d.notes[-1]
     assert "z = 2.60 to 59.40" in d.help
     assert faults(on_earth("id: a, kind: orbit, target: tower, radius: 50, altitude: 59.4")) == []
+
+
+VALLEY = """\
+shotc: 1
+mission: valley
+world:
+  origin: {lat: 46.6812, lon: 7.6791, alt: 558}
+  zones:
+    tree: {keep: out, cylinder: {center: [60, 60], radius: 3, height: [0, 12]}}
+    wood: {keep: out, polygon: {points: [[90, 60], [99, 60], [99, 70]], height: [0, 12]}}
+    hut: {keep: out, box: {center: [60, -90, 2], size: [4, 4, 4]}}
+targets:
+  tower: {at: [0, 0, 12], radius: 4, height: 24}
+  rider: {track: {points: [[-90, 90, 0.9], [-80, 90, 0.9]], speed: 2}, radius: 0.4, height: 1.8}
+drones:
+  cam1: {model: x500, home: [0, -60]}
+shots:
+  - {id: a, kind: static, drone: cam1, at: [0, -50, 15], look_at: [1, 0, 12]}
+  - id: b
+    kind: keyframes
+    drone: cam1
+    keyframes: [{at: [0, -50, 15], look_at: tower}, {at: [8, -50, 15], look_at: tower}]
+  - {id: c, kind: follow-path, drone: cam1, look_at: tower, points: [[0, -55, 15], [9, -50, 15]]}
+"""
+PASTED = [
+    ("home: ", "[0, -60]", "[46.68, 7.68]", "{lat: 46.68, lon: 7.68}"),
+    ("at: ", "[0, 0, 12]", "[46.68, 7.68, 12]", "{lat: 46.68, lon: 7.68, height: 12}"),
+    ("at: ", "[0, 0, 12]", "[7.68, 46.68, 12]", "{lat: 46.68, lon: 7.68, height: 12}"),
+    ("", "[-90, 90, 0.9]", "[46.68, 7.68, 0.9]", "{lat: 46.68, lon: 7.68, height: 0.9}"),
+    ("at: ", "[8, -50, 15]", "[46.68, 7.68, {above: ground, height: 9}]",
+     "{lat: 46.68, lon: 7.68, height: {above: ground, height: 9}}"),
+    ("look_at: ", "[1, 0, 12]", "[46.68, 7.68]", "{lat: 46.68, lon: 7.68}"),
+    ("", "[9, -50, 15]", "[46.68, 7.68, 15]", "{lat: 46.68, lon: 7.68, height: 15}"),
+    ("center: ", "[60, 60]", "[46.68, 7.68]", "{lat: 46.68, lon: 7.68}"),
+    ("", "[90, 60]", "[46.68, 7.68]", "{lat: 46.68, lon: 7.68}"),
+    ("center: ", "[60, -90, 2]", "[46.68, 7.68, 2]", "{lat: 46.68, lon: 7.68, height: 2}"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("key", "right", "slip", "place"), PASTED)
+def test_degrees_written_as_metres_are_told_with_what_to_write(
+    key: str, right: str, slip: str, place: str
+) -> None:
+    assert key + right in VALLEY
+    assert "G045" not in {d.code for d in faults(VALLEY)}
+    text = VALLEY.replace(key + right, key + slip)
+    (told,) = [d for d in faults(text) if d.code == "G045"]
+    assert told.help == f"write `{key}{place}`"
+    assert "47.3 m from the origin in metres" in told.notes[0]
+    marked = told.labels[0].span
+    assert text.splitlines()[marked.line - 1][marked.column - 1 : marked.end_column - 1] == slip
+    assert not {"G045", "S007"} & {d.code for d in faults(text.replace(slip, place))}
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("46.68, 7.68", "{lat: 46.68, lon: 7.68}"),
+        ("46.68012 7.68034", "{lat: 46.68012, lon: 7.68034}"),
+        ("(46.68, -7.68, 560 m)", "{lat: 46.68, lon: -7.68, height: 560}"),
+        ("46.68° S, 7.68° W", "{lat: -46.68, lon: -7.68}"),
+        ("46°40'48.0\\\"N 7°40'48.0\\\"E", "{lat: 46.68, lon: 7.68}"),
+    ],
+)
+@pytest.mark.parametrize(
+    "right", ["home: [0, -60]", "at: [0, 0, 12]", "at: [8, -50, 15]", "look_at: [1, 0, 12]"]
+)
+def test_a_pasted_text_is_told_with_what_to_write(right: str, text: str, place: str) -> None:
+    pasted = VALLEY.replace(right, f'{right.partition(":")[0]}: "{text}"')
+    (told,) = faults(pasted)
+    assert (told.code, told.help) == ("S007", f"write `{place}`")
+
+
+def test_a_pasted_text_of_a_zone_has_no_height() -> None:
+    (told,) = faults(VALLEY.replace("[60, 60]", '"46.68, 7.68, 560"'))
+    assert told.help == "write `{lat: 46.68, lon: 7.68}`"
+
+
+def test_metres_that_are_no_degrees_of_this_place_are_not_told() -> None:
+    for place in ("[46.7, 7.7, 12]", "[46.2, 7.68, 12]", "[-46.68, 7.68, 12]", "[47, 8, 12]"):
+        assert "G045" not in {
+            d.code for d in faults(VALLEY.replace("[0, 0, 12], radius", f"{place}, radius"))
+        }
+    at_zero = VALLEY.replace("lat: 46.6812, lon: 7.6791", "lat: 0.01, lon: 0.02")
+    assert "G045" not in {d.code for d in faults(at_zero.replace("at: [0, 0, 12]", "at: [0.01, 0.02, 12]"))}
+
+
+def test_places_on_earth_of_zones_are_where_they_are_in_metres() -> None:
+    east = faults(VALLEY.replace("center: [60, 60]", "center: {lat: 51, lon: 7.68}"))
+    assert [d.code for d in east] == ["G017"]
+    assert (
+        faults(
+            VALLEY.replace("world:\n  origin: {lat: 46.6812, lon: 7.6791, alt: 558}", "world:").replace(
+                "center: [60, 60]", "center: {lat: 51, lon: 7.68}"
+            )
+        )[0].code
+        == "G015"
+    )
+
+
+def test_many_slips_are_told_one_by_one_up_to_ten() -> None:
+    points = ", ".join(f"[46.68{i}, 7.68{i}, 15]" for i in range(10, 30))
+    found = [d for d in faults(VALLEY.replace("[0, -55, 15], [9, -50, 15]", points)) if d.code == "G045"]
+    assert len(found) == 10
+    assert found[-1].notes[-1] == "10 more places of this mission are so"

@@ -114,7 +114,6 @@ def test_the_time_of_an_extension_is_not_the_points(tmp_path: Path) -> None:
         ((stamp(1), ""), "<ele>409</ele>", "t.gpx, line 3", "a point has no time"),
         ((stamp(1), "<time>noon</time>"), "<ele>409</ele>", "t.gpx, line 3", "`noon` is not a time"),
         ((stamp(1), "<time></time>"), "<ele>409</ele>", "t.gpx, line 3", "`` is not a time"),
-        ((stamp(1), stamp(2)), "", "t.gpx, line 2", "no elevation"),
         ((stamp(1),), "<ele>409</ele>", "t.gpx, line 2", "one row"),
         ((stamp(1), stamp(5), stamp(4)), "<ele>409</ele>", "t.gpx, line 4", "do not rise"),
     ],
@@ -143,7 +142,7 @@ def test_a_gpx_that_is_no_track_names_its_line(
         ("t,x,y,z,heading\n0,0,0,1,0\n9,5,0,1,90\n", 3, "`90` is out of bounds for `heading`"),
         ("t,x,lat,z\n0,0,0,1\n", 1, "both metres and degrees"),
         ("t,x,x,z\n0,0,0,1\n", 1, "names `x` twice"),
-        ("t,x,y\n0,0,0\n", 1, "other columns"),
+        ("t,x\n0,0\n", 1, "other columns"),
         ("time,x,y,z\n0,0,0,1\n", 1, "other columns"),
     ],
 )
@@ -357,3 +356,62 @@ def test_as_many_rows_as_are_read_are_checked(tmp_path: Path, place: str) -> Non
     )
     text = written(recorded(tmp_path, f"t,{place},heading\n" + "".join(rows)), earth=True)
     assert resolved(text, tmp_path)[1] == []
+
+
+def above(track: str, *, earth: bool = False) -> str:
+    """Return the mission with a shot whose height counts from the foot, wherever that is."""
+    text = written(track, timing="duration: 2", earth=earth)
+    return text.replace("altitude: 4", "altitude: {above: target, height: 4}")
+
+
+def test_a_lift_puts_the_centre_over_what_is_recorded(tmp_path: Path) -> None:
+    lifted = track_of(above(recorded(tmp_path, "t,x,y,z\n0,0,0,2\n9,9,0,4\n") + ", lift: 0.9 m"), tmp_path)
+    assert [p[2] for p in lifted.points] == [2.9, 4.9]
+    road = above(recorded(tmp_path, gpx(stamp(7), stamp(17)), "t.gpx") + ", lift: 0.9", earth=True)
+    assert track_of(road, tmp_path).points[0] == pytest.approx((0.0, 0.0, 1.8), abs=1e-6)
+    points = track_of(above("points: [[0, 0, 2], [9, 0, 4]], speed: 1, lift: 0.5"))
+    assert [p[2] for p in points.points] == [2.5, 4.5]
+
+
+@pytest.mark.parametrize(("lift", "z"), [("", 0.9), (", lift: 1.2", 1.2)])
+@pytest.mark.parametrize(
+    "track",
+    [
+        "points: [[0, 0], [9, 0]], speed: 1",
+        "points: [[0, 0], {lat: 47.377, lon: 8.5417}], speed: 1",
+        "start: [0, 0], velocity: [1, 0, 0]",
+        "file: xy.csv",
+        "file: degrees.csv",
+        "file: level.gpx",
+    ],
+)
+def test_a_track_without_heights_stands_on_the_ground(
+    tmp_path: Path, track: str, lift: str, z: float
+) -> None:
+    (tmp_path / "xy.csv").write_text("t,x,y\n0,0,0\n9,9,0\n")
+    (tmp_path / "degrees.csv").write_text("t,lat,lon\n0,47.3769,8.5417\n10,47.377,8.5417\n")
+    (tmp_path / "level.gpx").write_text(gpx(stamp(0), stamp(9), ele=""))
+    found = track_of(above(track + lift, earth=True), tmp_path)
+    assert {round(p[2], 9) for p in found.points} == {z}
+
+
+def test_a_point_of_many_without_its_elevation_is_told(tmp_path: Path) -> None:
+    rows = gpx(stamp(0), stamp(9)).replace("<ele>408.9</ele>", "", 1)
+    told = only(written(recorded(tmp_path, rows, "t.gpx"), earth=True), tmp_path)
+    assert (told.code, told.notes) == ("N009", ("t.gpx, line 2",))
+    assert "no elevation" in told.message
+
+
+def test_smoothing_moves_rows_and_says_how_far(tmp_path: Path) -> None:
+    rows = "t,x,y,z\n" + "".join(f"{t},{t},{0.5 * (t % 2)},0.9\n" for t in range(30))
+    raw = track_of(written(recorded(tmp_path, rows)), tmp_path)
+    calm = track_of(written(recorded(tmp_path, rows) + ", smooth: 2 s"), tmp_path)
+    assert (raw.smoothed, calm.times) == (0.0, raw.times)
+    assert calm.smoothed == pytest.approx(0.25, abs=0.08)
+    assert max(abs(y - 0.25) for _, y, _ in calm.points[4:-4]) < 0.02
+    assert max(abs(a[1] - b[1]) for a, b in zip(raw.points, calm.points, strict=True)) == calm.smoothed
+
+
+def test_smoothing_is_for_recordings() -> None:
+    told = only(written("points: [[0, 0], [9, 0]], speed: 1, smooth: 2 s"))
+    assert told.code == "S005"

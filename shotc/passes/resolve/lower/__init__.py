@@ -19,6 +19,7 @@ from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.lower.show import Show, shown
+from shotc.passes.resolve.lower.slips import check_slips
 from shotc.passes.resolve.lower.terrain import read_terrain
 from shotc.passes.resolve.lower.tracks import read_tracks
 from shotc.passes.resolve.lower.world import Put, check_targets, drones, resolve_drone, targets, zones
@@ -60,7 +61,8 @@ def lowered(
     shots = _shots(ir, world, kinds)
     show = shown(ir, world.put, world.files, shots.displays)
     names = check_names(ir.spec, ir.origins, emitters)
-    faults = once([*world.faults, *names, *shots.diagnostics, *show.diagnostics])
+    slips = check_slips(ir.spec, world.files.origin, ir.origins)
+    faults = once([*world.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
     mission, courses = with_framings(with_times(_mission(ir, world, shots, show)))
     return Lowered(mission, courses, tuple(faults), world.astray, world.sound)
 

@@ -11,7 +11,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.earth import stray
-from shotc.spec.fields import Geodetic
+from shotc.spec.fields import OnMap
 from shotc.spec.mission import MissionSpec
 
 
@@ -41,7 +41,7 @@ def check_earth(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
     return [Diagnostic("G017", found.message, labels, notes, found.help)]
 
 
-def _without_origin(places: list[tuple[KeyPath, Geodetic]], origins: OriginMap) -> Diagnostic:
+def _without_origin(places: list[tuple[KeyPath, OnMap]], origins: OriginMap) -> Diagnostic:
     return Diagnostic(
         "G015",
         "a position in latitude and longitude, but the mission has no origin",
@@ -55,8 +55,8 @@ def _count(number: int) -> tuple[str, ...]:
     return (f"{number} positions of this mission are so",) if number > 1 else ()
 
 
-def _geodetic(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Geodetic]]:
-    if isinstance(value, Geodetic):
+def _geodetic(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, OnMap]]:
+    if isinstance(value, OnMap):
         yield path, value
     elif isinstance(value, BaseModel):
         for name in type(value).model_fields:

@@ -14,16 +14,21 @@ from shotc.kinds.gpx import read_gpx  # brings an XML parser, which few missions
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.lower.files import Files
 
-PLACES = (("t", "x", "y", "z"), ("t", "lat", "lon", "height"))
+PLACES = (("t", "x", "y", "z"), ("t", "lat", "lon", "height"), ("t", "x", "y"), ("t", "lat", "lon"))
 FACING = ((), ("heading",), ("heading_deg",))
 LAYOUTS = tuple((*place, *facing) for place in PLACES for facing in FACING)
+HEIGHTS = {"z", "height", "ele"}
 
 
 class Recording(NamedTuple):
-    """A recorded track; lines : of the file, one a row."""
+    """A recorded track.
+
+    lines : of the file, one a row; level : whether its rows have no heights, so that all of them are at z = 0
+    """
 
     track: Track
     lines: tuple[int, ...]
+    level: bool = False
 
 
 def read_recording(file: str, files: Files, path: KeyPath) -> Recording | Diagnostic:
@@ -44,7 +49,7 @@ def read_recording(file: str, files: Files, path: KeyPath) -> Recording | Diagno
         return points
     times = _column(table, "t")
     track = Track(times, tuple(points), _headings(table), since=times[0], until=times[-1])
-    return Recording(track, table.lines)
+    return Recording(track, table.lines, level=not HEIGHTS & set(table.columns))
 
 
 def _headings(table: Table) -> tuple[float, ...]:

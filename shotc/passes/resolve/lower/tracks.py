@@ -8,16 +8,20 @@ from math import dist, hypot, inf
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.smoothed import farthest, smoothed
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.base import stands
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.recordings import Recording, read_recording
 from shotc.passes.resolve.lower.track_jumps import Course, check_gap, check_jump, check_velocity
 from shotc.passes.resolve.lower.world import Put
+from shotc.spec.heights import STANDING
 from shotc.spec.mission import MissionSpec
+from shotc.spec.places import Geodetic, Spot
 from shotc.spec.presets import TOP_SPEED
-from shotc.spec.world import TrackSpec
+from shotc.spec.world import TargetSpec, TrackSpec
 
 SAME = 1e-6  # metres within which two points are one
 FEW = 12  # times that are written out in a help
@@ -38,7 +42,7 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
         if target.track is None:
             continue
         path: KeyPath = ("targets", name, "track")
-        track = _track(target.track, put, files, path)
+        track = _track(target.track, _standing(target, put), files, path)
         if isinstance(track, Diagnostic):
             faults.append(track)
             continue
@@ -48,10 +52,38 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
         wrong = [fault for fault in _too_fast(target.track, course, files.origins) if fault is not None]
         faults += wrong
         if not wrong:
-            tracks[name] = track.track
+            tracks[name] = _finished(target, track, put)
             gap = check_gap(course, files.origins) if course.file else None
             faults += [] if gap is None else [gap]
     return Tracks(tracks, tuple(faults))
+
+
+def _standing(target: TargetSpec, put: Put) -> Put:
+    """Return what puts the places of a track into W: its centre, over the ground where it has no height."""
+    assert target.track is not None
+    lift = target.track.lift
+    stood = target.height / 2 if lift is None else lift
+
+    def centre(place: Spot | Geodetic) -> Vec3:
+        x, y, z = put(place)
+        return (x, y, z + (stood if stands(place) else lift or 0.0))
+
+    return centre
+
+
+def _finished(target: TargetSpec, recording: Recording, put: Put) -> Track:
+    """Return a track as it is flown after: what is recorded is smoothed and lifted."""
+    spec, track = target.track, recording.track
+    assert spec is not None
+    if spec.file is None:
+        return track
+    if spec.smooth is not None:
+        calm = smoothed(track, spec.smooth)
+        track = calm._replace(smoothed=farthest(track.points, calm.points))
+    centre = _standing(target, put)
+    if recording.level:
+        return track._replace(points=tuple(centre((x, y, STANDING)) for x, y, _ in track.points))
+    return track._replace(points=tuple(centre(p) for p in track.points))
 
 
 def _too_fast(spec: TrackSpec, course: Course, origins: OriginMap) -> Iterator[Diagnostic | None]:

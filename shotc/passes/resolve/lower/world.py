@@ -14,9 +14,10 @@ from shotc.ir.ground import GroundHeight
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.kinds.base import stands
 from shotc.spec.drones import DroneSpec, LimitsSpec
-from shotc.spec.fields import Geodetic
-from shotc.spec.heights import AboveGround, HeightRange
+from shotc.spec.fields import Geodetic, OnMap
+from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
 from shotc.spec.presets import PRESETS, Preset
@@ -57,13 +58,17 @@ def zones(
 def _solid(zone: ZoneSpec, put: Put, terrain: Terrain | None) -> Solid | str:
     """Return the solid of a zone, or what its polygon does wrong."""
     if zone.cylinder is not None:
-        c, (x, y), r = zone.cylinder, zone.cylinder.center, zone.cylinder.radius
+        c, (x, y), r = zone.cylinder, on_map(zone.cylinder.center, put), zone.cylinder.radius
         about = ((x - r, y - r), (x + r, y + r))
-        return Cylinder(c.center, r, *_heights(zone, c.height, terrain, about))
+        return Cylinder((x, y), r, *_heights(zone, c.height, terrain, about))
     if zone.box is not None:
-        return box(put(zone.box.center), zone.box.size, zone.box.heading)
+        solid = box(put(zone.box.center), zone.box.size, zone.box.heading)
+        if not stands(zone.box.center):
+            return solid
+        over = HeightRange(0.0, zone.box.size[2], ground=True)
+        return Prism(solid.points, *_heights(zone, over, terrain, solid.points))
     assert zone.polygon is not None
-    ring = _ring(zone.polygon.points)
+    ring = _ring(tuple(on_map(p, put) for p in zone.polygon.points))
     if len(ring) < 3:
         return f"has {len(ring)} different corners, not three or more"
     if not is_simple(ring):
@@ -73,6 +78,14 @@ def _solid(zone: ZoneSpec, put: Put, terrain: Terrain | None) -> Solid | str:
         return "encloses no area"
     heights = _heights(zone, zone.polygon.height, terrain, ring)
     return Prism(ring if area > 0 else ring[::-1], *heights)
+
+
+def on_map(place: Vec2 | OnMap, put: Put) -> Vec2:
+    """Return x and y of a place on the map, metres of W."""
+    if not isinstance(place, OnMap):
+        return place
+    x, y, _ = put(Geodetic(lat=place.lat, lon=place.lon, height=0.0))
+    return (x, y)
 
 
 def _heights(zone: ZoneSpec, height: HeightRange, terrain: Terrain | None, ring: Sequence[Vec2]) -> Vec2:
@@ -117,9 +130,8 @@ def _centre(target: TargetSpec, put: Put) -> Vec3 | None:
     """Return the centre of a target that stands; one without a height stands on the ground."""
     if target.at is None:
         return None
-    height = target.at.height if isinstance(target.at, Geodetic) else target.at[2]
     x, y, z = put(target.at)
-    return (x, y, z + target.height / 2) if isinstance(height, AboveGround) and height.stands else (x, y, z)
+    return (x, y, z + target.height / 2) if stands(target.at) else (x, y, z)
 
 
 def check_targets(

@@ -1,0 +1,33 @@
+"""G045 and on: places that say something else than what is meant, and places beyond what is known."""
+
+from __future__ import annotations
+
+from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._slips import slip
+from shotc.diag.model import Severity
+
+_ON_EARTH = """\
+shotc: 1
+mission: pasted
+world: {origin: {lat: 46.6812, lon: 7.6791, alt: 558}}
+targets:
+  tower: {at: [0, 0, 12], radius: 4, height: 24}
+drones:
+  cam1: {model: x500, home: [0, -60, 0]}
+shots:
+  - {id: look, kind: static, drone: cam1, at: {lat: 46.6808, lon: 7.6791, height: 12}, look_at: tower}
+"""
+
+PLACED: tuple[CodeInfo, ...] = (
+    slip(
+        "G045",
+        "degrees-as-metres",
+        "a position in metres looks like latitude and longitude",
+        "A list `[x, y, z]` is in metres from the world's origin. Here its first two numbers are a latitude and "
+        "a longitude, in this order or in the other, of a place within 10 km of that origin, as maps and files "
+        "give it: in metres it is next to the origin, wherever it was meant to be. The help has the same place "
+        "in degrees. Nothing is told near 0 N, 0 E, nor of numbers that are good to a tenth of a degree only.",
+        _ON_EARTH,
+        ("at: {lat: 46.6808, lon: 7.6791, height: 12}", "at: [46.6808, 7.6791, 12]"),
+    )._replace(severity=Severity.WARNING),
+)

@@ -1,0 +1,85 @@
+"""Recorded places without their noise: local regression over time. Plain Python.
+
+Every row is put where a parabola has it: the one that fits the rows about it best, by least squares with the
+weights of a normal distribution over time (local regression of degree 2; Cleveland and Devlin, J. Am. Stat.
+Assoc. 83, 1988). What moves evenly, or with one acceleration, stays as it is, and so do its ends.
+"""
+
+from collections.abc import Sequence
+from math import dist, exp
+
+from shotc.geom.track import Track
+from shotc.geom.vec import Vec3
+
+REACH_DEVIATIONS = 3.0  # standard deviations within which rows count
+SAME_SHARE = 1e-9  # of the standard deviation, within which times are the same
+
+_Weights = tuple[float, ...]
+
+
+def smoothed(track: Track, deviation: float) -> Track:
+    """Return a track with its places, and headings, smoothed; deviation : of the weights, seconds."""
+    columns = [*zip(*track.points, strict=True), *([track.headings] if track.headings else [])]
+    x, y, z, *facing = _filtered(track.times, columns, deviation)
+    points = tuple(zip(x, y, z, strict=True))
+    return track._replace(points=points, headings=tuple(facing[0]) if facing else ())
+
+
+def farthest(before: Sequence[Vec3], after: Sequence[Vec3]) -> float:
+    """Return the largest distance between places and what became of them, metres."""
+    return max((dist(p, q) for p, q in zip(before, after, strict=True)), default=0.0)
+
+
+def _filtered(
+    times: Sequence[float], columns: Sequence[Sequence[float]], deviation: float
+) -> list[list[float]]:
+    """Return columns of numbers at rising times, smoothed."""
+    reach, first, end = REACH_DEVIATIONS * deviation, 0, 0
+    out: list[list[float]] = [[] for _ in columns]
+    known: dict[tuple[int, ...], _Weights] = {}
+    for t in times:
+        while times[first] < t - reach:
+            first += 1
+        while end < len(times) and times[end] <= t + reach:
+            end += 1
+        offsets = [(s - t) / deviation for s in times[first:end]]
+        # Rows at one rate have the same weights over and over.
+        key = tuple(round(u / SAME_SHARE) for u in offsets)
+        if key not in known:
+            known[key] = _weights(offsets)
+        for column, kept in zip(columns, out, strict=True):
+            kept.append(sum(w * v for w, v in zip(known[key], column[first:end], strict=True)))
+    return out
+
+
+def _weights(offsets: Sequence[float]) -> _Weights:
+    """Return what each row counts for in the value at offset 0; offsets in standard deviations, rising.
+
+    The value of the parabola at 0 is e w V (V' w V)^-1, by Cramer's rule on its moments; of fewer than three
+    rows it is the row at 0 itself, through which a line of two leads, too.
+    """
+    if len(offsets) < 3:
+        return tuple(1.0 if u == 0.0 else 0.0 for u in offsets)
+    weights = [exp(-0.5 * u * u) for u in offsets]
+    s0, s1, s2, s3, s4 = (sum(w * u**k for w, u in zip(weights, offsets, strict=True)) for k in range(5))
+    a, b, c = s2 * s4 - s3 * s3, s2 * s3 - s1 * s4, s1 * s3 - s2 * s2
+    whole = s0 * a + s1 * b + s2 * c
+    return tuple(w * (a + b * u + c * u * u) / whole for w, u in zip(weights, offsets, strict=True))
+
+
+def scatter(track: Track, deviation: float, start: float, end: float) -> list[tuple[float, Vec3]]:
+    """Return the rows of a track between two times: when, and how far from their smoothed places, metres."""
+    inside = [t for t in track.times if start <= t <= end]
+    if not inside:
+        return []
+    reach = REACH_DEVIATIONS * deviation
+    near = [i for i, t in enumerate(track.times) if inside[0] - reach <= t <= inside[-1] + reach]
+    part = track._replace(
+        times=tuple(track.times[i] for i in near), points=tuple(track.points[i] for i in near), headings=()
+    )
+    calm = smoothed(part, deviation)
+    return [
+        (t, (p[0] - q[0], p[1] - q[1], p[2] - q[2]))
+        for t, p, q in zip(part.times, part.points, calm.points, strict=True)
+        if start <= t <= end
+    ]
