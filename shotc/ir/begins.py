@@ -28,6 +28,17 @@ def first_start(mission: MissionIR, shot: Shot) -> float:
     return max([known_start(mission, shot) or 0.0, *known])
 
 
+def film_end(mission: MissionIR) -> float:
+    """Return when the last shot has ended, or if that is not known the longest time in the air, seconds."""
+    ends: list[float] = []
+    for shot in mission.shots:
+        begin, duration = known_start(mission, shot), shot.timing.duration
+        if begin is None or duration is None:
+            return max((drone.endurance for drone in mission.drones), default=0.0)
+        ends.append(begin + duration)
+    return max(ends, default=0.0)
+
+
 @lru_cache(maxsize=8)
 def _starts(shots: Same[tuple[Shot, ...]]) -> dict[str, float | None]:
     """Return when each shot can begin, by id; asked for many times in a mission, and the same each time."""

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isnan
+from math import inf, isfinite, isnan
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Pieces
 from shotc.geom.surface.ground import Ground, height_at
+from shotc.geom.surface.height import least_where_ground
 from shotc.geom.surface.near import nearest
 from shotc.geom.surface.tree import in_plan, surface_of
-from shotc.ir.limits import Vec2
+from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
+
+CLOSED_M = 1e-3
+"""Gap to which the least height of a way is found."""
+WAYS_AT_ONCE = 4_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,6 +53,23 @@ class Terrain:
     def beyond_at(self, place: Vec2, by: float) -> str:
         """Say that a place is so far beyond the ground, metres."""
         return f"at [{place[0]:.1f}, {place[1]:.1f}] it is {by:.1f} m beyond the ground of `{self.file}`"
+
+    def least_over(self, times: Sequence[float], points: Sequence[Vec3]) -> Vec2 | None:
+        """Return when a way that goes straight from point to point is least above ground, and by how much.
+
+        times : seconds, rising; points : metres of W. Seconds, and metres, negative below the ground; None
+        where no part of the way is over ground
+        """
+        t, p = np.array(times), np.array(points)
+        found: list[tuple[float, float]] = []
+        for i in range(0, len(t) - 1, WAYS_AT_ONCE):
+            which = slice(i, min(i + WAYS_AT_ONCE, len(t) - 1) + 1)
+            start, end = p[which][:-1], p[which][1:]
+            ways = Pieces(t[which][:-1], t[which][1:], np.stack([start, end], axis=1))
+            least = least_where_ground(ways, self.ground, lambda _: CLOSED_M)
+            found.append((least.attained, least.at))
+        over, at = min(found, default=(inf, 0.0))
+        return (at, over) if isfinite(over) else None
 
     def z(self, x: float, y: float) -> float:
         """Return z of the ground at a place, metres, 0 where there is none."""

@@ -30,4 +30,16 @@ PLACED: tuple[CodeInfo, ...] = (
         _ON_EARTH,
         ("at: {lat: 46.6808, lon: 7.6791, height: 12}", "at: [46.6808, 7.6791, 12]"),
     )._replace(severity=Severity.WARNING),
+    CodeInfo(
+        "G046",
+        "no-ground-to-count-from",
+        Severity.ERROR,
+        "a target, track or zone counts its height from the ground where the terrain has none",
+        "A height that is left out, or `{above: ground, height: ...}`, counts from `world.terrain`, and nothing is "
+        "known beyond its posts or in their holes. The note says where and by how much. Take an elevation model that "
+        "covers the place, or write its height as z.",
+        "",
+        "",
+        "other",
+    ),
 )

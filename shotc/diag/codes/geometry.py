@@ -220,7 +220,9 @@ CODES: tuple[CodeInfo, ...] = (
         "a target reaches into the ground",
         "`at` is the middle of a target, not its foot: a tower 24 m high that stands on the ground has its "
         "middle at z = 12. A target that lies a good deal under the ground is framed where nobody sees it. "
-        "Give its middle.",
+        "Give its middle. One that moves goes straight from row to row of its track, which may lead through a rise "
+        "between them; it is told of where it is deepest of all its way. `lift` puts its middle over what is "
+        "recorded; rows nearer to each other follow the ground.",
         ("tower: {at: [0, 0, 12]", "tower: {at: [0, 0, 0]"),
     ),
     _code(

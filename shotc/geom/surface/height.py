@@ -45,6 +45,11 @@ def sup_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGro
     return SurfaceBound(-least.proven, -least.attained, least.at, least.piece, least.triangle)
 
 
+def least_where_ground(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound:
+    """Bound the infimum as ``inf_height``, of what of the curves is above ground; inf of none."""
+    return _least(pieces, ground, gap, 1.0)
+
+
 def _least(pieces: Pieces, ground: Ground, gap: Gap, sign: float) -> SurfaceBound:
     known = Search()
     if len(pieces):

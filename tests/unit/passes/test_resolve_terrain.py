@@ -153,3 +153,86 @@ def test_terrain_is_read_as_far_as_a_track_of_a_velocity_may_lead(tmp_path):
     rider = "  rider: {track: {start: [0, 0, 1], velocity: [9, 0, 0]}, radius: 1, height: 2}\n"
     far = _lowered(TEXT.replace("drones:\n", rider + "drones:\n"), tmp_path)
     assert far.terrain.height(2900.0, 0.0) == pytest.approx(29.0)
+
+
+TRACKED = (
+    TEXT.replace("shots:\n", "  second: {model: x500, home: [0, 40]}\nshots:\n")
+    .replace(
+        "tower: {at: [120, 60], radius: 2, height: 20}", "rider: {track: TRACK, radius: 0.5, height: 1.8}"
+    )
+    .replace("target: tower", "target: rider, timing: {start: 20, duration: 5}")
+)
+
+
+def deepest(start: tuple[float, float, float], end: tuple[float, float, float]) -> float:
+    way = np.linspace(start, end, 20_001)
+    return float((way[:, 2] - 0.9 - under(relief(), way)).min())
+
+
+def test_a_track_that_leads_through_a_rise_between_its_points_is_told_and_a_lift_mends_it(folder):
+    ends = [(x, y, ground(x, y) + 0.9) for x, y in ((-100.0, -60.0), (150.0, 90.0))]
+    depth = -deepest(*ends)
+    assert depth > 1.0
+    track = "{points: [[-100, -60], [150, 90]], speed: 5}"
+    text = TRACKED.replace("TRACK", track)
+    (told,) = [d for d in faults(text, folder) if d.code == "G018"]
+    assert told.message == f"target `rider` reaches {depth:.2f} m into the ground on its way"
+    assert text.splitlines()[told.labels[0].span.line - 1].lstrip().startswith("rider:")
+    time = float(told.notes[0].split("t = ")[1].split(" s")[0])
+    assert 0.0 < time < 80.0
+    lift = float(told.help.split("lift: ")[1].split(" m")[0])
+    assert lift == pytest.approx(depth + 0.9, abs=0.011)
+    mended = TRACKED.replace("TRACK", f"{track[:-1]}, lift: {lift}}}")
+    assert "G018" not in {d.code for d in faults(mended, folder)}
+
+
+def test_a_recording_is_looked_at_along_all_its_rows(folder):
+    rows = [(t, -100 + t, -60 + 0.6 * t) for t in range(0, 250, 5)]
+    for bury, codes in ((0.0, set()), (4.0, {"G018"})):
+        text = "t,x,y,z\n" + "".join(
+            f"{t},{x},{y},{ground(x, y) + 1.9 - bury * (t == 200)}\n" for t, x, y in rows
+        )
+        (folder / "ride.csv").write_text(text)
+        found = faults(TRACKED.replace("TRACK", "{file: ride.csv}"), folder)
+        assert {d.code for d in found} & {"G018"} == codes
+
+
+BEYOND = [
+    ("tower: {at: [120, 60]", "tower: {at: [450, 0]", "target `tower`", 150.0),
+    ("tower: {at: [120, 60]", "tower: {at: [0, 0, {above: ground, height: 9}]", "", 0.0),
+    ("tower: {at: [120, 60]", "tower: {at: [450, 0, 12]", "", 0.0),
+    ("center: [40, 20], radius: 15", "center: [40, 290], radius: 15", "zone `wood`", 5.0),
+    ("at: [120, 60]", "track: {points: [[0, 0], [0, 400]], speed: 3}", "target `tower`", 100.0),
+    ("at: [120, 60]", "track: {start: [0, 320], velocity: [0, -3, 0]}", "target `tower`", 20.0),
+    ("at: [120, 60]", "track: {file: gone.csv}", "target `tower`", 10.0),
+]
+
+
+@pytest.mark.parametrize(("right", "wrong", "what", "by"), BEYOND)
+def test_what_counts_from_ground_that_there_is_not_is_told(folder, right, wrong, what, by):
+    (folder / "gone.csv").write_text("t,x,y\n0,0,0\n90,310,0\n")
+    text = TEXT.replace(right, wrong).replace("radius: 35,", "radius: 35, timing: {start: 15, duration: 5},")
+    told = [d for d in faults(text, folder) if d.code == "G046"]
+    assert [what in d.message for d in told] == [True] * bool(what)
+    if told:
+        place = wrong.split(":")[0]
+        assert place in text.splitlines()[told[0].labels[0].span.line - 1]
+        assert f"it is {by:.1f} m beyond the ground of `relief.csv`" in told[0].notes[0]
+
+
+def test_terrain_is_read_about_zones_that_stand_on_it(tmp_path):
+    x, y = np.meshgrid(np.arange(-400, 4000, 40.0), np.arange(-400, 401, 40.0), indexing="ij")
+    rows = np.column_stack([x.ravel(), y.ravel(), 0.01 * x.ravel()])
+    (tmp_path / "relief.csv").write_text("x,y,z\n" + "".join(f"{a:g},{b:g},{c:g}\n" for a, b, c in rows))
+    far = TEXT.replace("center: [40, 20]", "center: [3000, 20]")
+    assert mission(tmp_path, far).zones[0].solid.bottom == pytest.approx(30.0, abs=1.0)
+
+
+def test_a_box_without_a_height_stands_on_the_ground(folder):
+    zone = "cylinder: {center: [40, 20], radius: 15, height: {above: ground, height: [0, 12]}}"
+    assert zone in TEXT
+    solid = mission(folder, TEXT.replace(zone, "box: {center: [40, 20], size: [8, 6, 5]}")).zones[0].solid
+    x, y = np.meshgrid(np.linspace(36, 44, 50), np.linspace(17, 23, 50))
+    heights = under(relief(), np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]))
+    assert solid.bottom <= heights.min()
+    assert solid.top >= heights.max() + 5 - 1e-9

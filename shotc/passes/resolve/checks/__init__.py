@@ -7,6 +7,7 @@ from shotc.diag.registry import has_errors
 from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
+from shotc.passes.resolve.checks.counted import check_counted
 from shotc.passes.resolve.checks.covered import covered
 from shotc.passes.resolve.checks.covered_by_terrain import check_covered
 from shotc.passes.resolve.checks.framing import check_framing
@@ -21,6 +22,7 @@ from shotc.passes.resolve.checks.passers import passers_of
 from shotc.passes.resolve.checks.places import check_places
 from shotc.passes.resolve.checks.show import check_show
 from shotc.passes.resolve.checks.timing import check_timing
+from shotc.passes.resolve.checks.underground import check_underground
 from shotc.passes.resolve.lower import Lowered
 from shotc.spec.load import LoadedMission
 
@@ -39,7 +41,10 @@ def check(ir: LoadedMission, what: Lowered) -> list[Diagnostic]:
 def _judged(ir: LoadedMission, what: Lowered, *, order: bool) -> list[Diagnostic]:
     """Return what can be told from numbers alone; ``order`` is whether names and waits all stand."""
     mission = what.mission
+    if unknown := list(check_counted(mission, ir.spec, what.level)):
+        return unknown
     faults = [
+        *check_underground(mission, ir.spec, what.level),
         *_static_faults(mission, timing=what.sound, order=order),
         *check_parked(ir.spec, mission),
     ]

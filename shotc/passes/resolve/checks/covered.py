@@ -11,7 +11,7 @@ from shotc.geom.line_of_sight import crosses
 from shotc.geom.solids import Solid
 from shotc.geom.vec import Vec3
 from shotc.ir.allow import HIDDEN
-from shotc.ir.begins import known_start
+from shotc.ir.begins import film_end
 from shotc.ir.mission import MissionIR, Shot, Target, Zone
 
 HALVES = 40  # of a stretch of a track, to where it meets a zone
@@ -29,7 +29,7 @@ def covered(mission: MissionIR) -> Iterator[Diagnostic]:
 
     A target is not told of where every shot that films it says that it may be hidden.
     """
-    end = _end(mission)
+    end = film_end(mission)
     for target in mission.targets:
         filming = [shot for shot in mission.shots if target.name in _filmed(shot)]
         if filming and all(HIDDEN in shot.allow for shot in filming):
@@ -69,17 +69,6 @@ def _way(target: Target, end: float) -> Iterator[Moment]:
     """Yield where a target's centre is at the start of the mission, at corners of its way, and at the end."""
     rows = () if target.track is None else target.track.times
     yield from (Moment(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < end), end))
-
-
-def _end(mission: MissionIR) -> float:
-    """Return when the last shot has ended, as far as that is known, else the longest time in the air."""
-    ends: list[float] = []
-    for shot in mission.shots:
-        begin, duration = known_start(mission, shot), shot.timing.duration
-        if begin is None or duration is None:
-            return max((drone.endurance for drone in mission.drones), default=0.0)
-        ends.append(begin + duration)
-    return max(ends, default=0.0)
 
 
 def _filmed(shot: Shot) -> set[str | None]:

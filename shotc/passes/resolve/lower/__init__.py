@@ -22,7 +22,7 @@ from shotc.passes.resolve.lower.show import Show, shown
 from shotc.passes.resolve.lower.slips import check_slips
 from shotc.passes.resolve.lower.terrain import read_terrain
 from shotc.passes.resolve.lower.tracks import read_tracks
-from shotc.passes.resolve.lower.world import Put, check_targets, drones, resolve_drone, targets, zones
+from shotc.passes.resolve.lower.world import Put, drones, resolve_drone, targets, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE, SHOW_RATE, TRANSIT_FILMED, TRANSIT_OTHER
@@ -40,6 +40,7 @@ class Lowered(NamedTuple):
     courses : of its framings, in the order of the shots
     astray : whether its places on earth lie too far from each other
     sound : whether every drone can fly as it is written
+    level : targets whose tracks are of files without heights
     """
 
     mission: MissionIR
@@ -47,6 +48,7 @@ class Lowered(NamedTuple):
     faults: tuple[Diagnostic, ...]
     astray: bool
     sound: bool
+    level: frozenset[str]
 
 
 def lowered(
@@ -64,7 +66,7 @@ def lowered(
     slips = check_slips(ir.spec, world.files.origin, ir.origins)
     faults = once([*world.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
     mission, courses = with_framings(with_times(_mission(ir, world, shots, show)))
-    return Lowered(mission, courses, tuple(faults), world.astray, world.sound)
+    return Lowered(mission, courses, tuple(faults), world.astray, world.sound, world.level)
 
 
 class _World(NamedTuple):
@@ -73,6 +75,7 @@ class _World(NamedTuple):
     put : puts a place into W; read : who reads the files, and has those that were read
     astray : whether its places on earth lie too far from each other, or its ground is not known
     sound : whether every drone can fly as it is written
+    level : targets whose tracks are of files without heights
     heights : z of the ground at x and y; terrain : of which it is, None where it is flat
     """
 
@@ -86,6 +89,7 @@ class _World(NamedTuple):
     faults: tuple[Diagnostic, ...]
     astray: bool
     sound: bool
+    level: frozenset[str]
     heights: GroundHeight
     terrain: "Terrain | None"
 
@@ -118,9 +122,8 @@ def _world(ir: LoadedMission) -> _World:
     put = partial(placed, origin or ANYWHERE, heights)
     found_zones, zone_faults = zones(spec, put, relief, origins)
     found_drones, drone_faults = drones(spec, put, origins)
-    tracks, track_faults = read_tracks(spec, put, files)
-    found_targets = targets(spec, put, tracks)
-    buried = [] if astray else check_targets(found_targets, heights, origins)
+    tracks = read_tracks(spec, put, files)
+    found_targets = targets(spec, put, tracks.tracks)
     return _World(
         put,
         files,
@@ -129,11 +132,12 @@ def _world(ir: LoadedMission) -> _World:
         found_drones,
         found_targets,
         _rules(spec.rules),
-        (*astray, *zone_faults, *drone_faults, *buried, *track_faults),
+        (*astray, *zone_faults, *drone_faults, *tracks.diagnostics),
         astray=bool(astray),
         heights=heights,
         terrain=relief,
         sound=not has_errors(drone_faults),
+        level=tracks.level,
     )
 
 

@@ -7,11 +7,12 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.limits import Vec3
+from shotc.ir.limits import Vec2, Vec3
 from shotc.kinds.base import Place
 from shotc.passes.resolve.lower.files import Files
+from shotc.passes.resolve.lower.world import zone_counts_from_ground
 from shotc.requirements import remedy
-from shotc.spec.fields import Geodetic
+from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.mission import MissionSpec
 
 if TYPE_CHECKING:
@@ -61,6 +62,7 @@ def _places(spec: MissionSpec) -> Iterator[Place]:
         if track is not None:
             written = (track.start, *(track.points or ()))
         yield from (place for place in written if place is not None)
+    yield from _zones(spec)
     for shot in spec.shots:
         keyframes = getattr(shot, "keyframes", None) or ()
         spots = (
@@ -69,3 +71,21 @@ def _places(spec: MissionSpec) -> Iterator[Place]:
             *(k.at for k in keyframes),
         )
         yield from (spot for spot in spots if isinstance(spot, tuple | Geodetic))
+
+
+def _zones(spec: MissionSpec) -> Iterator[Place]:
+    """Yield the middles and corners of the zones whose heights count from the ground."""
+    for zone in spec.world.zones.values():
+        if not zone_counts_from_ground(zone):
+            continue
+        if zone.box is not None:
+            yield zone.box.center
+        elif zone.cylinder is not None:
+            yield _on_plane(zone.cylinder.center)
+        elif zone.polygon is not None:
+            yield from map(_on_plane, zone.polygon.points)
+
+
+def _on_plane(place: Vec2 | OnMap) -> Place:
+    """Return a place of the map at z = 0."""
+    return Geodetic(lat=place.lat, lon=place.lon, height=0.0) if isinstance(place, OnMap) else (*place, 0.0)

@@ -28,16 +28,21 @@ FEW = 12  # times that are written out in a help
 
 
 class Tracks(NamedTuple):
-    """The tracks that can be used, by target, and what is wrong with the others."""
+    """The tracks that can be used, by target, and what is wrong with the others.
+
+    level : the targets whose tracks are of files without heights
+    """
 
     tracks: Mapping[str, Track]
     diagnostics: tuple[Diagnostic, ...]
+    level: frozenset[str]
 
 
 def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
     """Return the motion of every target that moves."""
     tracks: dict[str, Track] = {}
     faults: list[Diagnostic] = []
+    level: set[str] = set()
     for name, target in spec.targets.items():
         if target.track is None:
             continue
@@ -53,9 +58,10 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
         faults += wrong
         if not wrong:
             tracks[name] = _finished(target, track, put)
+            level |= {name} if track.level else set()
             gap = check_gap(course, files.origins) if course.file else None
             faults += [] if gap is None else [gap]
-    return Tracks(tracks, tuple(faults))
+    return Tracks(tracks, tuple(faults), frozenset(level))
 
 
 def _standing(target: TargetSpec, put: Put) -> Put:

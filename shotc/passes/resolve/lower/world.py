@@ -10,11 +10,10 @@ from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
-from shotc.ir.ground import GroundHeight
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Target, Zone
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.kinds.base import stands
+from shotc.kinds.base import counts_from_ground, stands
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.heights import HeightRange
@@ -53,6 +52,14 @@ def zones(
         else:
             found.append(Zone(name, zone.keep, solid, path))
     return tuple(found), faults
+
+
+def zone_counts_from_ground(zone: ZoneSpec) -> bool:
+    """Tell whether the heights of a zone count from the ground."""
+    if zone.box is not None:
+        return counts_from_ground(zone.box.center)
+    shape = zone.cylinder or zone.polygon
+    return shape is not None and shape.height.ground
 
 
 def _solid(zone: ZoneSpec, put: Put, terrain: Terrain | None) -> Solid | str:
@@ -132,24 +139,6 @@ def _centre(target: TargetSpec, put: Put) -> Vec3 | None:
         return None
     x, y, z = put(target.at)
     return (x, y, z + target.height / 2) if stands(target.at) else (x, y, z)
-
-
-def check_targets(
-    found: Mapping[str, Target | None], ground: GroundHeight, origins: OriginMap
-) -> list[Diagnostic]:
-    """Warn of targets a good part of which is under the ground, where a moving one begins."""
-    standing = [(t, ground(t.centre[0], t.centre[1])) for t in found.values() if t is not None]
-    return [
-        Diagnostic(
-            "G018",
-            f"target `{target.name}` reaches {z - target.foot[2]:.2f} m into the ground",
-            (origins.value((*target.path, "at" if target.track is None else "track")),),
-            (f"`at` is the middle of its {target.height:.2f} m, and the ground is z = {z:g}",),
-            f"if it stands on the ground, put its middle at z = {round(z + target.height / 2, 2):g}",
-        )
-        for target, z in standing
-        if target.foot[2] < z - target.height * BURIED
-    ]
 
 
 def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, Drone], list[Diagnostic]]:

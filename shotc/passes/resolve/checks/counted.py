@@ -1,0 +1,101 @@
+"""Heights that count from the ground where the terrain of a mission has none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from math import cos, pi, sin
+from typing import TYPE_CHECKING, NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.solids import Cylinder, Solid, edges
+from shotc.ir.ground import flat
+from shotc.ir.limits import Vec2
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.kinds.base import Place, counts_from_ground, placed
+from shotc.passes.resolve.lower.world import zone_counts_from_ground
+from shotc.spec.mission import MissionSpec
+from shotc.spec.world import TargetSpec
+
+if TYPE_CHECKING:  # missions on flat ground need no numpy
+    from shotc.ir.terrain import Terrain
+
+ROUND = 16  # places on a rim that are looked at
+SIDE = 8  # places on a side that are looked at
+
+
+class _Counted(NamedTuple):
+    """Something whose height counts from the ground: what it is, where that is written, and where it lies."""
+
+    words: str
+    path: KeyPath
+    places: tuple[Vec2, ...]
+
+
+def check_counted(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[Diagnostic]:
+    """Yield the targets, tracks and zones that count from ground that there is not.
+
+    level : names of targets whose tracks are of files without heights
+    """
+    terrain = mission.terrain
+    if terrain is None:
+        return
+    for counted in (*_targets(mission, spec, level), *_zones(mission, spec)):
+        worst = max(_beyond(terrain, counted.places), default=None)
+        if worst is None:
+            continue
+        by, place = worst
+        yield Diagnostic(
+            "G046",
+            f"the height of {counted.words} counts from the ground, and the terrain has none there",
+            (mission.origins.value(counted.path), mission.origins.value(terrain.path, "the terrain")),
+            (terrain.beyond_at(place, by),),
+            "take an elevation model that covers it, or write its height as z",
+        )
+
+
+def _beyond(terrain: Terrain, places: Iterable[Vec2]) -> Iterator[tuple[float, Vec2]]:
+    for x, y in places:
+        if terrain.height(x, y) is None:
+            yield terrain.beyond(x, y), (x, y)
+
+
+def _targets(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[_Counted]:
+    for target in mission.targets:
+        written, words = spec.targets[target.name], f"target `{target.name}`"
+        for key, place in _written(written):
+            if counts_from_ground(place):
+                x, y, _ = placed(mission.origin, flat, place)
+                yield _Counted(words, (*target.path, *key), ((x, y),))
+        if target.name in level and target.track is not None:
+            places = tuple((x, y) for x, y, _ in target.track.points)
+            yield _Counted(words, (*target.path, "track", "file"), places)
+
+
+def _written(target: TargetSpec) -> Iterator[tuple[KeyPath, Place]]:
+    """Yield the places that a target is given, with their keys below it."""
+    if target.at is not None:
+        yield ("at",), target.at
+    if target.track is None:
+        return
+    if target.track.start is not None:
+        yield ("track", "start"), target.track.start
+    for i, point in enumerate(target.track.points or ()):
+        yield ("track", "points", i), point
+
+
+def _zones(mission: MissionIR, spec: MissionSpec) -> Iterator[_Counted]:
+    for zone in mission.zones:
+        if zone_counts_from_ground(spec.world.zones[zone.name]):
+            yield _Counted(f"zone `{zone.name}`", zone.path, tuple(_footprint(zone.solid)))
+
+
+def _footprint(solid: Solid) -> Iterator[Vec2]:
+    """Yield places along the outline of a zone on the map, metres of W."""
+    if isinstance(solid, Cylinder):
+        turns = [2 * pi * k / ROUND for k in range(ROUND)]
+        x, y = solid.centre
+        yield from ((x + solid.radius * cos(a), y + solid.radius * sin(a)) for a in turns)
+        return
+    for (ax, ay), (bx, by) in edges(solid.points):
+        yield from ((ax + (bx - ax) * k / SIDE, ay + (by - ay) * k / SIDE) for k in range(SIDE))

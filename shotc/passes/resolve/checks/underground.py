@@ -1,0 +1,94 @@
+"""Targets a good part of which is under the ground: where they stand, or anywhere along their tracks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.track import Track
+from shotc.ir.begins import film_end
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR, Target
+from shotc.kinds.base import stands
+from shotc.passes.resolve.lower.world import BURIED
+from shotc.rounding import at_least
+from shotc.spec.mission import MissionSpec
+from shotc.spec.world import TrackSpec
+
+
+class _Deepest(NamedTuple):
+    """Where the foot of a target that moves is deepest: when, and how high it is over the ground, metres."""
+
+    time: float
+    over: float
+
+
+def check_underground(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[Diagnostic]:
+    """Warn of every target that is deeper in the ground than its place may be rounded.
+
+    level : names of targets whose tracks are of files without heights
+    """
+    for target in mission.targets:
+        written = spec.targets[target.name].track
+        if target.track is None or written is None:
+            yield from _standing(mission, target)
+        else:
+            yield from _moving(mission, target, written, level=target.name in level)
+
+
+def _standing(mission: MissionIR, target: Target) -> Iterator[Diagnostic]:
+    x, y, _ = target.centre
+    if mission.terrain is not None and mission.terrain.height(x, y) is None:
+        return
+    z = mission.ground(x, y)
+    if target.foot[2] >= z - target.height * BURIED:
+        return
+    yield Diagnostic(
+        "G018",
+        f"target `{target.name}` reaches {z - target.foot[2]:.2f} m into the ground",
+        (mission.origins.value((*target.path, "at")),),
+        (f"`at` is the middle of its {target.height:.2f} m, and the ground is z = {z:g}",),
+        f"if it stands on the ground, put its middle at z = {round(z + target.height / 2, 2):g}",
+    )
+
+
+def _moving(mission: MissionIR, target: Target, written: TrackSpec, *, level: bool) -> Iterator[Diagnostic]:
+    assert target.track is not None
+    deepest = _deepest(mission, target, target.track)
+    if deepest is None or deepest.over >= -target.height * BURIED:
+        return
+    x, y, z = target.foot_at(deepest.time)
+    key = "file" if written.file is not None else "start" if written.points is None else "points"
+    stood = target.height / 2 if level or _without_heights(written) else 0.0
+    lift = (stood if written.lift is None else written.lift) - deepest.over
+    yield Diagnostic(
+        "G018",
+        f"target `{target.name}` reaches {-deepest.over:.2f} m into the ground on its way",
+        (mission.origins.value((*target.path, "track", key)),),
+        (
+            f"deepest at t = {deepest.time:.2f} s, at ({x:.1f}, {y:.1f}): its foot is at z = {z:.2f}, "
+            f"the ground at z = {z - deepest.over:.2f}",
+            "it goes straight from row to row, and the rows are its middle",
+        ),
+        f"write `lift: {at_least(lift)} m` in the track, or give rows nearer to each other there",
+    )
+
+
+def _deepest(mission: MissionIR, target: Target, track: Track) -> _Deepest | None:
+    """Return where a target is deepest in the ground, of all its way; None where there is no ground."""
+    end = max(film_end(mission), track.times[-1])
+    times = (*track.times, *([end] if any(track.after) and end > track.times[-1] else []))
+    feet: list[Vec3] = [target.foot_at(t) for t in times]
+    if mission.terrain is None or len(times) < 2:
+        over = [z - mission.ground(x, y) for x, y, z in feet]
+        lowest = min(range(len(over)), key=over.__getitem__)
+        return _Deepest(times[lowest], over[lowest])
+    found = mission.terrain.least_over(times, feet)
+    return None if found is None else _Deepest(*found)
+
+
+def _without_heights(written: TrackSpec) -> bool:
+    """Tell whether no place of a track in the mission has a height."""
+    places = (written.start,) if written.points is None else written.points
+    return all(place is not None and stands(place) for place in places)
