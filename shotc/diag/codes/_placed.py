@@ -42,4 +42,18 @@ PLACED: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "G047",
+        "shaky-recording",
+        Severity.WARNING,
+        "the noise of a recorded track shakes the picture of a shot that follows it",
+        "A camera keeps its subject where it is wanted on screen, and where the recording jumps, so does the rest of "
+        "the picture. Receivers stray by a metre or two, more in height. The number is how far the rows that the shot "
+        "films lie from their course, the track smoothed over 1 s, across the line of sight of the shot's ideal, as a "
+        "share of half a frame's width: root mean square, 0.01 of which nobody sees. `smooth` in the track takes the "
+        "noise; the summary of the plan tells how far it moves the track.",
+        "",
+        "",
+        "other",
+    ),
 )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import pi, radians
+from math import cos, pi, radians, sin
 from pathlib import Path
+from random import Random
 
 import pytest
 
@@ -403,15 +404,51 @@ def test_a_point_of_many_without_its_elevation_is_told(tmp_path: Path) -> None:
 
 
 def test_smoothing_moves_rows_and_says_how_far(tmp_path: Path) -> None:
-    rows = "t,x,y,z\n" + "".join(f"{t},{t},{0.5 * (t % 2)},0.9\n" for t in range(30))
+    rows = "t,x,y,z\n" + "".join(f"{t},{t},{0.2 * (t % 2)},0.9\n" for t in range(30))
     raw = track_of(written(recorded(tmp_path, rows)), tmp_path)
     calm = track_of(written(recorded(tmp_path, rows) + ", smooth: 2 s"), tmp_path)
     assert (raw.smoothed, calm.times) == (0.0, raw.times)
-    assert calm.smoothed == pytest.approx(0.25, abs=0.08)
-    assert max(abs(y - 0.25) for _, y, _ in calm.points[4:-4]) < 0.02
+    assert calm.smoothed == pytest.approx(0.1, abs=0.03)
+    assert max(abs(y - 0.1) for _, y, _ in calm.points[4:-4]) < 0.02
     assert max(abs(a[1] - b[1]) for a, b in zip(raw.points, calm.points, strict=True)) == calm.smoothed
 
 
 def test_smoothing_is_for_recordings() -> None:
     told = only(written("points: [[0, 0], [9, 0]], speed: 1, smooth: 2 s"))
     assert told.code == "S005"
+
+
+def noisy_gpx(deviation: float) -> str:
+    """A ride as receivers record it: a row a second, metres of noise that lasts, elevations to a tenth."""
+    random, drift, rows = Random(5), [0.0, 0.0, 0.0], []
+    for t in range(60):
+        drift = [
+            0.7 * d + random.gauss(0, s * deviation) for d, s in zip(drift, (0.4, 0.4, 0.8), strict=True)
+        ]
+        north, east = 60 * sin(0.1 * t) + drift[0], 60 * (1 - cos(0.1 * t)) + drift[1]
+        place = f'lat="{47.3769 + north / 111_200:.7f}" lon="{8.5417 + east / 75_400:.7f}"'
+        time = f"<time>2024-05-01T12:00:{t:02d}Z</time>"
+        rows.append(f"<trkpt {place}><ele>{412 + 0.15 * t + drift[2]:.1f}</ele>{time}</trkpt>")
+    return f"<gpx><trk><trkseg>{''.join(rows)}</trkseg></trk></gpx>"
+
+
+def shaken(folder: Path, data: str, more: str = "") -> list[Diagnostic]:
+    track = f"{recorded(folder, data, 't.gpx')}, lift: 0.9{more}"
+    text = written(track, timing="start: 15, duration: 20", earth=True)
+    found = resolved(text.replace("altitude: 4", "altitude: {above: target, height: 4}"), folder)[1]
+    return found
+
+
+def test_a_noisy_recording_is_told_with_a_number_and_smoothing_mends_it(tmp_path: Path) -> None:
+    (told,) = shaken(tmp_path, noisy_gpx(1.0))
+    assert (told.code, told.help) == ("G047", "write `smooth: 2 s` in the track")
+    assert 0.02 < float(told.message.split("by ")[1].split(" of half")[0]) < 0.2
+    assert "m (rms) from their course" in told.notes[0]
+    assert shaken(tmp_path, noisy_gpx(1.0), ", smooth: 2 s") == []
+    (still,) = shaken(tmp_path, noisy_gpx(1.0), ", smooth: 0.3 s")
+    assert still.code == "G047"
+
+
+def test_a_calm_recording_is_not_told(tmp_path: Path) -> None:
+    assert shaken(tmp_path, noisy_gpx(0.0)) == []
+    assert shaken(tmp_path, noisy_gpx(0.05)) == []

@@ -20,6 +20,7 @@ from shotc.passes.resolve.checks.keyed import check_carried
 from shotc.passes.resolve.checks.parked import check_parked
 from shotc.passes.resolve.checks.passers import passers_of
 from shotc.passes.resolve.checks.places import check_places
+from shotc.passes.resolve.checks.shake import check_shake
 from shotc.passes.resolve.checks.show import check_show
 from shotc.passes.resolve.checks.timing import check_timing
 from shotc.passes.resolve.checks.underground import check_underground
@@ -70,9 +71,9 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     sound = [shot for shot in mission.shots if shot.path not in misplaced]
     faults = [*homes, *(d for shot, way in filmed for d in check_reference(mission, shot, way))]
     faults += [d for _, _, d in places]
-    faults += [
-        d for shot, way in filmed if shot.path not in misplaced for d in check_heights(mission, shot, way)
-    ]
+    kept = [(shot, way) for shot, way in filmed if shot.path not in misplaced]
+    faults += [d for shot, way in kept for d in check_heights(mission, shot, way)]
+    faults += [d for shot, way in kept for d in check_shake(mission, shot, way)]
     faults += check_framing(mission, {path for _, path in wrong})
     if timing:
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
