@@ -48,7 +48,8 @@ class BesideMesh:
         margin : metres kept beyond the clearance, less where an end is nearer (``free_space.margin_at``)
         """
         room = np.minimum(margin, 0.5 * np.maximum(np.minimum(self.slack(a), self.slack(b)), 0.0))
-        return comes_within(self.mesh.surface, a, b, self.clearance + room - 1e-9)
+        near = comes_within(self.mesh.surface, a, b, self.clearance + room - 1e-9)
+        return np.asarray(near | self.mesh.holds(a) | self.mesh.holds(b))
 
     def planes(self, hulls: Array, reach: float, kept: Kept) -> Planes:
         """Return half-spaces for the pieces that come within ``reach`` metres of the clearance.

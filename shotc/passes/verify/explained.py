@@ -16,12 +16,17 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
+from scipy.sparse.csgraph import connected_components
 
 from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.surface.near import nearest
 from shotc.ir.bodies import flying, moved
 from shotc.ir.mission import MissionIR, Target
+from shotc.ir.obstacle_mesh import ObstacleMesh
+from shotc.ir.owners import mesh_owner
 from shotc.ir.path import Deviation
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
 from shotc.passes.verify.claims import Flight
@@ -32,7 +37,7 @@ NEAR_M = 1.0
 PICTURE_SHARE = 0.5
 """Share of the distance to its target by which a shot may be left for its picture."""
 
-THINGS = ("zone ", "target ", "drone ", "ground")
+THINGS = ("zone ", "target ", "drone ", "ground", "scene", "buildings")
 """What causes begin with that name something."""
 
 
@@ -48,7 +53,7 @@ def in_the_way(flight: Flight, way: Way, *, placed: bool = False) -> dict[str, f
 
     placed : whether the author gave the place, which then binds but where something comes
     """
-    stands = () if placed else _zones(flight, way)
+    stands = () if placed else (*_zones(flight, way), *_meshes(flight, way))
     detours = (*stands, *_targets(flight, way, placed=placed), *_drones(flight, way))
     return {name: detour for name, detour in detours if detour > 0.0}
 
@@ -107,6 +112,34 @@ def _zones(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
         elif apart.min() < body:
             yield f"zone {zone.name}", _size(zone.solid) + 2.0 * body
     yield "ground", mission.rules.ground_clearance + body - float(way.places[:, 2].min())
+
+
+def _meshes(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
+    """Yield how far meshes lead a drone: over what is near its way, or round the widest of it."""
+    body = flight.mission.rules.beside_obstacle(flight.drone.radius)
+    for mesh in flight.mission.meshes:
+        near = body + mesh.spacing + NEAR_M
+        found = nearest(mesh.surface, way.places)
+        met = (found.distance < near) | mesh.holds(way.places)
+        if met.any():
+            low, high = _boxes(mesh, np.unique(mesh.part[mesh.surface.source[found.triangle[met]]]))
+            over = float(high[:, 2].max() - way.places[:, 2].min())
+            yield str(mesh_owner(mesh)), max(over, _widest(low - near, high + near)) + 2.0 * near
+
+
+def _boxes(mesh: ObstacleMesh, parts: IntArray) -> tuple[Array, Array]:
+    """Return the lower and the upper corners of boxes round parts of a mesh, shapes (K, 3), metres."""
+    of = mesh.part[mesh.surface.source]
+    corners = [mesh.surface.triangles[of == part].reshape(-1, 3) for part in parts]
+    return np.array([c.min(axis=0) for c in corners]), np.array([c.max(axis=0) for c in corners])
+
+
+def _widest(low: Array, high: Array) -> float:
+    """Return the widest of what boxes that touch make together, from corner to corner in the plan, metres."""
+    touch = ((low[:, None] <= high) & (high[:, None] >= low))[..., :2].all(axis=2)
+    count, of = connected_components(touch)
+    spans = [high[of == k, :2].max(axis=0) - low[of == k, :2].min(axis=0) for k in range(count)]
+    return float(np.linalg.norm(spans, axis=1).max())
 
 
 def _targets(flight: Flight, way: Way, *, placed: bool) -> Iterator[tuple[str, float]]:

@@ -18,6 +18,7 @@ from shotc.planning.clock.between import lacking, sides_apart, standing_apart
 from shotc.planning.clock.bounds import Bound, at_rest, limits_of
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.ideals import ideal_places
+from shotc.planning.clock.layered import led_round
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion_rows, shortfalls, sides
 from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.run_up import RunUp
@@ -201,8 +202,8 @@ class _Round:
 def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
     """Return the position curve under half-spaces that keep pictures free."""
     breaks, base = task.clock.breaks, _base(task)
-    ideal = _ideal(task, breaks)
-    chords = np.stack([ideal[:-1], ideal[1:]], axis=1)
+    led = led_round(task.walls, [m.what for m in task.motions], breaks, _ideal(task, breaks))
+    chords = np.stack([led[:-1], led[1:]], axis=1)
     now = _Round(chords)
     while not now.ended and now.rounds < ROUNDS:
         problem = _walled(task, base, now.hulls, now.reach, now.share)
