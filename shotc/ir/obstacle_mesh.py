@@ -8,7 +8,7 @@ from typing import Literal
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
-from shotc.geom.surface.inside import closed_parts, inside
+from shotc.geom.surface.inside import bodies, inside
 from shotc.geom.surface.tree import Surface, surface_of
 from shotc.ir.origin import KeyPath
 
@@ -22,7 +22,8 @@ class ObstacleMesh:
     surface : the triangles, metres of W, and the tree of boxes round them
     part    : shape (n,), of each triangle that the surface was made of, the number of what it belongs to
     names   : of those parts: a building's name or id, a node of a scene
-    closed  : which of those parts have an inside
+    body    : shape (n,), likewise the number of the connected body that each belongs to
+    closed  : which of those bodies have an inside
     spacing : metres that every triangle stands for beyond itself: half the spacing of a cloud's points; 0 of
         meshes and buildings. Every clearance is that much larger.
     """
@@ -32,6 +33,7 @@ class ObstacleMesh:
     surface: Surface
     part: IntArray
     names: tuple[str, ...]
+    body: IntArray
     closed: Mask
     spacing: float = 0.0
 
@@ -41,8 +43,8 @@ class ObstacleMesh:
         return ("world", self.kind, "file")
 
     def holds(self, p: Array) -> Mask:
-        """Tell which points (K, 3) of W are inside of a closed part; (K,)."""
-        return inside(self.surface, self.part, self.closed, p)
+        """Tell which points (K, 3) of W are inside of a closed body; (K,)."""
+        return inside(self.surface, self.body, self.closed, p)
 
     def name_at(self, triangle: int) -> str:
         """Return the name of what a triangle belongs to; triangle : of those that the surface was made of."""
@@ -58,5 +60,5 @@ def obstacle_mesh(
 ) -> ObstacleMesh:
     """Return triangles (n, 3, 3), metres of W, with their tree; parts : of each triangle, and their names."""
     part, names = parts
-    closed = closed_parts(triangles, part, len(names))
-    return ObstacleMesh(kind, file, surface_of(triangles), part, names, closed, spacing)
+    made = bodies(triangles)
+    return ObstacleMesh(kind, file, surface_of(triangles), part, names, made.body, made.closed, spacing)

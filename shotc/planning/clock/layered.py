@@ -24,6 +24,7 @@ from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 RINGS_M = (1.0, 2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0)  # metres of places from their ideal
 TURNS, RISES_RAD = 12, (0.0, 0.5, 1.0)
 CHANGE_S = 2.0  # seconds: a change of so many times a distance from the ideal costs as much as that distance
+FASTEST_M_S = 12.0  # by which a distance from the ideal may change
 BLOCKED = 1e9  # cost of what is not free
 LEAST_S = 0.4  # seconds between layers at least
 
@@ -52,11 +53,11 @@ def _course(space: FreeSpace, near: Sequence[Moving], times: Array, ideal: Array
     """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free."""
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
     shifts = np.concatenate([np.zeros((1, 3)), rings.reshape(-1, 3)])
-    places = ideal[:, None] + shifts
-    free = _free(space, near, times, places)
-    step = np.diff(times)
-    stay = np.where(free, (shifts**2).sum(axis=1) * np.gradient(times)[:, None], BLOCKED)
-    change = CHANGE_S**2 * ((shifts[:, None] - shifts[None]) ** 2).sum(axis=2)
+    places, step = ideal[:, None] + shifts, np.diff(times)
+    room = _room(space, near, times, places)
+    stay = np.where(room >= 0.0, (shifts**2).sum(axis=1) * np.gradient(times)[:, None], BLOCKED)
+    apart = np.linalg.norm(shifts[:, None] - shifts[None], axis=2)
+    change = np.where(apart <= FASTEST_M_S * step.max(), (CHANGE_S * apart) ** 2, BLOCKED)
     shut = np.zeros((len(step), len(shifts), len(shifts)), dtype=bool)
     tested = np.zeros(len(step), dtype=bool)
     while True:
@@ -68,18 +69,18 @@ def _course(space: FreeSpace, near: Sequence[Moving], times: Array, ideal: Array
         if not len(stopped):
             return np.asarray(shifts[chosen])
         for k in stopped:
-            shut[k] = _shut(space, places[k], places[k + 1], (free[k], free[k + 1]))
+            shut[k] = _shut(space, places[k : k + 2], room[k : k + 2], change < BLOCKED)
         tested[stopped] = True
 
 
-def _free(space: FreeSpace, near: Sequence[Moving], times: Array, places: Array) -> Mask:
-    """Tell which places of layers (L, C, 3) are far enough from everything at their times; (L, C)."""
-    free = bounds_slack(space, places.reshape(-1, 3)).reshape(places.shape[:2]) >= MARGIN_M
+def _room(space: FreeSpace, near: Sequence[Moving], times: Array, places: Array) -> Array:
+    """Return how much room beyond what is needed places of layers (L, C, 3) have at their times; (L, C)."""
+    room = bounds_slack(space, places.reshape(-1, 3)).reshape(places.shape[:2])
     for what in near:
         beside = places - what.at(times)[:, None]
-        far = distances(what.part, beside.reshape(-1, 3)).reshape(free.shape)
-        free &= far >= what.clearance + MARGIN_M
-    return np.asarray(free)
+        far = distances(what.part, beside.reshape(-1, 3)).reshape(room.shape)
+        room = np.minimum(room, far - what.clearance)
+    return np.asarray(room - MARGIN_M)
 
 
 def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Array, float]:
@@ -96,11 +97,17 @@ def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Arra
     return np.array(chosen[::-1]), float(cost.min())
 
 
-def _shut(space: FreeSpace, a: Array, b: Array, free: tuple[Mask, Mask]) -> Mask:
-    """Tell which ways from places of one layer to those of the next one, (C, 3) each, are stopped; (C, C)."""
-    shut = np.ones((len(a), len(b)), dtype=bool)
-    i, j = np.nonzero(free[0][:, None] & free[1][None])
-    shut[i, j] = _stopped(space, a[i], b[j])
+def _shut(space: FreeSpace, places: Array, room: Array, near: Mask) -> Mask:
+    """Tell which ways from places of one layer to those of the next one are stopped; (C, C).
+
+    places : (2, C, 3), and their room (2, C), metres; near : the ways that count, (C, C)
+    A way between two places that have more room than it is long is free.
+    """
+    long = np.linalg.norm(places[0][:, None] - places[1][None], axis=2)
+    free = near & (room[0] >= 0.0)[:, None] & (room[1] >= 0.0)
+    shut: Mask = ~free
+    i, j = np.nonzero(free & (room[0][:, None] + room[1] < long))
+    shut[i, j] = _stopped(space, places[0][i], places[1][j])
     return shut
 
 

@@ -1,4 +1,4 @@
-"""What is inside of closed parts, and which parts are closed."""
+"""What is inside of closed bodies, and which bodies are closed."""
 
 from __future__ import annotations
 
@@ -40,6 +40,7 @@ def test_what_is_in_two_houses_that_overlap_is_inside():
     one = house(*BOX)
     made = mesh(one, turned(one, 0.4, (1.0, 0.5)))
     assert made.closed.tolist() == [True, True]
+    assert len(set(made.body.tolist())) == 2
     assert made.holds(np.array([[0.5, 0.2, 1.0], [0.5, 0.2, 9.0]])).tolist() == [True, False]
 
 
@@ -52,5 +53,24 @@ def test_what_is_open_has_no_inside():
         turned(cone(2.0, 1.0, 6.0)[:-1], 0.0, (40, 0)),
         house(*BOX) + np.array([20.0, 0.0, 0.0]),
     )
-    assert made.closed.tolist() == [False, False, True, True]
+    of = {made.name_at(k): bool(made.closed[made.body[k]]) for k in range(len(made.part))}
+    assert of == {"part 0": False, "part 1": False, "part 2": True, "part 3": True}
     assert made.holds(np.array([[0.0, 0.0, 1.0], [20.0, 0.0, 1.0]])).tolist() == [False, True]
+
+
+def test_a_scene_of_one_part_has_the_bodies_that_it_is_made_of():
+    far = house(*BOX) + np.array([20.0, 0.0, 0.0])
+    made = mesh(np.concatenate([house(*BOX), far, quad((-5, -5, 9), (5, -5, 9), (5, 5, 9), (-5, 5, 9))]))
+    assert sorted(made.closed.tolist()) == [False, True, True]
+    assert made.holds(np.array([[0.0, 0.5, 1.0], [20.0, 0.5, 1.0], [10.0, 0.0, 1.0]])).tolist() == [
+        True,
+        True,
+        False,
+    ]
+
+
+def test_points_of_a_cloud_have_no_inside():
+    p = np.random.default_rng(1).normal(size=(50, 1, 3))
+    made = mesh(np.repeat(p, 3, axis=1))
+    assert not made.closed.any()
+    assert not made.holds(np.zeros((3, 3))).any()

@@ -23,8 +23,10 @@ from shotc.passes.verify.explained import (
     in_the_way,
 )
 from tests.support.film_plans import orbit_plan
+from tests.support.mesh_spaces import with_meshes
 from tests.support.records import replace
 from tests.support.resealed_plans import Document, resealed
+from tests.support.scenes import house
 
 EAST = Way(np.linspace([-50.0, 0.0, 30.0], [50.0, 0.0, 30.0], 101), np.linspace(0.0, 20.0, 101))
 
@@ -116,3 +118,16 @@ def limit_of(document: Document) -> float:
     (found,) = (c for c in document["certificate"] if c["constraint"] == "distance from its place")
     assert found["hard"]
     return float(found["limit"])
+
+
+def test_houses_explain_as_much_as_it_takes_to_go_over_or_round_what_is_near() -> None:
+    one = flight()
+    near = one.mission.rules.beside_obstacle(one.drone.radius) + NEAR_M
+    row = [house(8.0, 6.0, 31.0, 33.0) + np.array([10.0 * k, 0.0, 0.0]) for k in range(3)]
+    far = house(300.0, 300.0, 31.0, 33.0) + np.array([0.0, 900.0, 0.0])
+    there = replace(one, mission=with_meshes(one.mission, *row, far))
+    wide = np.hypot(28.0 + 2.0 * near, 6.0 + 2.0 * near)
+    assert in_the_way(there, EAST) == {"scene": pytest.approx(wide + 2.0 * near)}
+    assert in_the_way(replace(one, mission=with_meshes(one.mission, far)), EAST) == {}
+    told = [PathDeviation("a", 9.0, 0.0, "scene"), PathDeviation("a", 4.0, 0.0, "buildings")]
+    assert believed(told, in_the_way(there, EAST)) == [9.0]

@@ -1,0 +1,66 @@
+"""Courses of shots on their own clock, led round meshes."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from shotc.geom.solids import Cylinder
+from shotc.ir.owners import Owner
+from shotc.planning.clock.layered import led_round
+from shotc.planning.clock.moving import Moving
+from shotc.planning.free_space import FreeSpace, blocked
+from tests.support.mesh_spaces import CLEARANCE, space_of
+from tests.support.scenes import house, turned
+from tests.support.surfaces import distances
+
+TIMES = np.linspace(0.0, 20.0, 41)
+STRAIGHT = np.column_stack([np.linspace(-20.0, 20.0, 41), np.zeros(41), np.full(41, 5.0)])
+
+
+def test_a_free_course_is_its_ideal():
+    space = space_of(turned(house(6.0, 6.0, 5.0, 7.0), 0.0, (0.0, 20.0)))
+    assert led_round(space, (), TIMES, STRAIGHT) is STRAIGHT
+    assert led_round(FreeSpace((), (), ()), (), TIMES, STRAIGHT) is STRAIGHT
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_a_course_through_a_house_leads_round_it_and_comes_back(turn):
+    made = turned(house(9.0, 8.0, 6.0, 9.0), turn, (0.0, 1.0))
+    space = space_of(made)
+    course = led_round(space, (), TIMES, STRAIGHT)
+    assert not blocked(space, course[:-1], course[1:], 0.0).any()
+    dense = np.concatenate([np.linspace(a, b, 20) for a, b in pairwise(course)])
+    assert distances(made, dense).min() >= CLEARANCE
+    off = np.linalg.norm(course - STRAIGHT, axis=1)
+    assert off[[0, -1]].max() < 2.0
+    assert off.max() < 12.0
+
+
+def test_a_course_inside_of_a_building_all_the_while_leads_beside_it():
+    hall = turned(house(60.0, 16.0, 30.0, 35.0), 0.0, (0.0, -6.0))
+    course = led_round(space_of(hall), (), TIMES, STRAIGHT)
+    assert (course[:, 1] >= 2.0 + CLEARANCE).all()
+
+
+def test_a_course_keeps_clear_of_what_moves_beside_a_house():
+    made = turned(house(9.0, 8.0, 6.0, 9.0), 0.0, (0.0, 3.0))
+    bus = Moving(
+        Owner("target", "bus", ("targets", "bus")),
+        Cylinder((0.0, 0.0), 3.0, -3.0, 3.0),
+        2.0,
+        lambda t: np.column_stack([2.0 * t - 20.0, np.full(len(t), -6.0), np.full(len(t), 3.0)]),
+    )
+    course = led_round(space_of(made), (bus,), TIMES, STRAIGHT)
+    beside = np.hypot(*(course - bus.at(TIMES))[:, :2].T)
+    apart = np.hypot(np.maximum(beside - 3.0, 0.0), np.maximum(course[:, 2] - 6.0, 0.0))
+    assert apart.min() >= 2.0
+    assert apart.min() < 4.0
+    assert distances(made, course).min() >= CLEARANCE
+
+
+def test_where_no_course_is_free_the_ideal_is_returned():
+    hall = house(400.0, 400.0, 100.0, 120.0)
+    assert led_round(space_of(hall), (), TIMES, STRAIGHT) is STRAIGHT
