@@ -14,10 +14,11 @@ from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
 from shotc.geom.camera import ROUNDING_M
 from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
+from shotc.ir.bodies import shapes
 from shotc.ir.comparison import FlownShot, Score, Trace
 from shotc.ir.path import X, Y, Z
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import cameras, subjects
+from shotc.ir.sampling import beside_cameras, cameras, subjects
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.framing import view_of
@@ -106,5 +107,7 @@ def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) 
         return None
     t = view.times
     share = (t - phase.start) / (phase.end - phase.start)
-    points = points_in_frame(cameras(mission, track, t), mission.target(target).solid)
+    filmed = mission.target(target)
+    eyes = beside_cameras(cameras(mission, track, t), filmed, t)
+    points = points_in_frame(eyes, filmed.centre, shapes(filmed, t))
     return Trace(target, t, share, view.error, view.frames.margin, points.astype(np.float64))

@@ -1,4 +1,4 @@
-"""The pinhole camera and what a cylinder looks like in it.
+"""The pinhole camera, and how far in its frame what has a shape is (``geom.shapes``).
 
 Frames: W is East, North, Up; C is x right, y down, z forward; roll is zero. Yaw is counter-clockwise
 from East, pitch is positive up. Screen (u, v) lies in [-1, 1]^2, u right, v up. The functions use
@@ -6,7 +6,7 @@ plain arithmetic only, so they take floats and numpy arrays alike (``S`` below i
 """
 
 from math import atan2, cos, hypot, pi, sin, sqrt, tan
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from shotc.geom.vec import Vec2, Vec3, direction
 
@@ -14,6 +14,7 @@ ROUNDING_M = 1e-6
 """Metres out of the frame that are rounding, as in every other limit: a target may touch the frame's edge."""
 
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
+Offset = tuple[S, S, S]
 
 
 class OnScreen(NamedTuple):
@@ -54,65 +55,13 @@ def view(yaw: float, pitch: float, hfov: float, aspect: float) -> View:
     return View(cos(yaw), sin(yaw), cos(pitch), sin(pitch), half, half / aspect)
 
 
-class FrustumMargins(NamedTuple):
-    """How far inside each plane of the frustum, metres; negative is cropped."""
+class UnitVector(NamedTuple):
+    """A direction in C, and how much of it is W's up."""
 
-    left: S
     right: S
-    bottom: S
-    top: S
-
-
-def frustum_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> FrustumMargins:
-    """Return how far inside each frustum plane a whole upright cylinder lies, metres.
-
-    offset : its centre less the camera, W. Order left, right, bottom, top; negative is cropped.
-    Exact: a cylinder lies inside a plane with inward unit normal n through the camera iff
-    n.p >= h/2 |n.up| + r sqrt(1 - (n.up)^2).
-    """
-    right, down, forward = camera.to_camera(offset)
-    across = 1.0 / (1.0 + camera.half_width**2) ** 0.5
-    along = 1.0 / (1.0 + camera.half_height**2) ** 0.5
-    # World up in C is (0, -cos pitch, sin pitch).
-    up_side = camera.half_width * across * camera.sin_pitch
-    up_bottom = along * (camera.half_height * camera.sin_pitch + camera.cos_pitch)
-    up_top = along * (camera.half_height * camera.sin_pitch - camera.cos_pitch)
-
-    def reach(n_up: S) -> S:
-        return height / 2 * abs(n_up) + radius * abs(1.0 - n_up * n_up) ** 0.5
-
-    side = reach(up_side)
-    return FrustumMargins(
-        across * (camera.half_width * forward + right) - side,
-        across * (camera.half_width * forward - right) - side,
-        along * (camera.half_height * forward - down) - reach(up_bottom),
-        along * (camera.half_height * forward + down) - reach(up_top),
-    )
-
-
-def point_margins(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> FrustumMargins:
-    """Return how far inside each frustum plane the least of four points of a cylinder lies, metres.
-
-    Arguments and order as in ``frustum_margins``. The points are those of Gebhardt and Hilliges, Eq. 4-7:
-    the axis at top and bottom, and half-way up a radius to either side, square to the line of sight. World
-    up stands for the camera's, which is right at any pitch. The points lie within the outline of the
-    cylinder, mostly not on it, so that they may all be in a frame that crops the target.
-    """
-    x, y, z = offset
-    level = (x * x + y * y + 1e-18) ** 0.5
-    aside = (-y / level * radius, x / level * radius)
-    points = (
-        (x, y, z + height / 2),
-        (x, y, z - height / 2),
-        (x + aside[0], y + aside[1], z),
-        (x - aside[0], y - aside[1], z),
-    )
-    a, b, c, d = (frustum_margins(camera, point, 0.0, 0.0) for point in points)
-
-    def least(plane: int) -> S:
-        return _smaller(_smaller(a[plane], b[plane]), _smaller(c[plane], d[plane]))
-
-    return FrustumMargins(least(0), least(1), least(2), least(3))
+    down: S
+    forward: S
+    up: S
 
 
 class ScreenBox(NamedTuple):
@@ -124,41 +73,95 @@ class ScreenBox(NamedTuple):
     v_max: S
 
 
-def silhouette_bounds(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> ScreenBox:
-    """Return the exact screen box (u_min, u_max, v_min, v_max) of an upright cylinder.
+class Reaching(Protocol):
+    """What extends about its centre."""
 
-    offset : its centre less the camera, W. Meaningless unless the whole cylinder is in front of the
-    camera (see ``nearest_depth``). The outline of a cylinder is the hull of its two rims, and the
-    screen extremes of a rim are the roots of a quadratic.
+    def reach(self, camera: View, n: UnitVector, /) -> S:
+        """Return how far it reaches from its centre along a unit vector, metres."""
+
+
+class Shape(Reaching, Protocol):
+    """What a target is like about its centre, as far as a camera sees it (``geom.shapes``)."""
+
+    @property
+    def height(self) -> float:
+        """How high it is, metres."""
+
+    def half_width(self, across: tuple[S, S], /) -> S:
+        """Return how far it reaches along a level unit vector of W, metres."""
+
+    def nearest_depth(self, camera: View, offset: Offset, /) -> S:
+        """Return the depth of its point nearest to the image plane, metres; offset : of its centre, W."""
+
+    def bounds(self, camera: View, offset: Offset, /) -> ScreenBox:
+        """Return the exact screen box of its outline; offset : of its centre, W."""
+
+
+class FrustumMargins(NamedTuple):
+    """How far inside each plane of the frustum, metres; negative is cropped."""
+
+    left: S
+    right: S
+    bottom: S
+    top: S
+
+
+def frustum_margins(camera: View, offset: Offset, shape: Reaching | None = None) -> FrustumMargins:
+    """Return how far inside each frustum plane all of a shape lies, metres; of a point where none is given.
+
+    offset : its centre less the camera, W. Order left, right, bottom, top; negative is cropped.
+    Exact: a body lies inside a plane with inward unit normal n through the camera iff n.p is at least how
+    far it reaches from its centre p along -n: an upright cylinder h/2 |n.up| + r sqrt(1 - (n.up)^2).
     """
-    low = _rim_bounds(camera, (offset[0], offset[1], offset[2] - height / 2), radius)
-    high = _rim_bounds(camera, (offset[0], offset[1], offset[2] + height / 2), radius)
-    return ScreenBox(
-        _smaller(low[0], high[0]),
-        -_smaller(-low[1], -high[1]),
-        _smaller(low[2], high[2]),
-        -_smaller(-low[3], -high[3]),
+    right, down, forward = camera.to_camera(offset)
+    across = 1.0 / (1.0 + camera.half_width**2) ** 0.5
+    along = 1.0 / (1.0 + camera.half_height**2) ** 0.5
+    margins = (
+        across * (camera.half_width * forward + right),
+        across * (camera.half_width * forward - right),
+        along * (camera.half_height * forward - down),
+        along * (camera.half_height * forward + down),
     )
+    if shape is None:
+        return FrustumMargins(*margins)
+    # World up in C is (0, -cos pitch, sin pitch).
+    side, level = camera.half_width * across, camera.half_height * along
+    up_side = side * camera.sin_pitch
+    up_bottom = along * (camera.half_height * camera.sin_pitch + camera.cos_pitch)
+    up_top = along * (camera.half_height * camera.sin_pitch - camera.cos_pitch)
+    outwards = (
+        UnitVector(-across, 0.0, -side, -up_side),
+        UnitVector(across, 0.0, -side, -up_side),
+        UnitVector(0.0, along, -level, -up_bottom),
+        UnitVector(0.0, -along, -level, -up_top),
+    )
+    return FrustumMargins(*(m - shape.reach(camera, n) for m, n in zip(margins, outwards, strict=True)))
 
 
-def nearest_depth(camera: View, offset: tuple[S, S, S], radius: S, height: S) -> S:
-    """Return the depth of the cylinder's point nearest to the image plane, metres (negative: behind)."""
-    forward = camera.to_camera(offset)[2]
-    return forward - height / 2 * abs(camera.sin_pitch) - radius * abs(camera.cos_pitch)
+def point_margins(camera: View, offset: Offset, shape: Shape) -> FrustumMargins:
+    """Return how far inside each frustum plane the least of four points of a target lies, metres.
 
+    Arguments and order as in ``frustum_margins``. The points are those of Gebhardt and Hilliges, Eq. 4-7:
+    the axis at top and bottom, and half-way up its half width to either side, square to the line of sight.
+    World up stands for the camera's, which is right at any pitch. The points lie within the outline of a
+    cylinder, mostly not on it, so that they may all be in a frame that crops the target.
+    """
+    x, y, z = offset
+    level = (x * x + y * y + 1e-18) ** 0.5
+    radius, height = shape.half_width((-y / level, x / level)), shape.height
+    aside = (-y / level * radius, x / level * radius)
+    points = (
+        (x, y, z + height / 2),
+        (x, y, z - height / 2),
+        (x + aside[0], y + aside[1], z),
+        (x - aside[0], y - aside[1], z),
+    )
+    a, b, c, d = (frustum_margins(camera, point) for point in points)
 
-def _rim_bounds(camera: View, centre: tuple[S, S, S], radius: S) -> tuple[S, S, S, S]:
-    # Rim in C: (x + r sin, y + r sin(pitch) cos, z + r cos(pitch) cos). The extremes m of x/z and
-    # y/z satisfy (x - m z)^2 = sum of squares of the harmonic terms, a quadratic in m.
-    x, y, z = camera.to_camera(centre)
-    lean_y, lean_z = radius * camera.sin_pitch, radius * camera.cos_pitch
-    a = z * z - lean_z * lean_z
-    b = x * z
-    root = abs(b * b - a * (x * x - radius * radius)) ** 0.5
-    c = y * z - lean_y * lean_z
-    fall = abs(c * c - a * (y * y - lean_y * lean_y)) ** 0.5
-    width, tall = a * camera.half_width, a * camera.half_height
-    return (b - root) / width, (b + root) / width, -(c + fall) / tall, -(c - fall) / tall
+    def least(plane: int) -> S:
+        return _smaller(_smaller(a[plane], b[plane]), _smaller(c[plane], d[plane]))
+
+    return FrustumMargins(least(0), least(1), least(2), least(3))
 
 
 def _smaller(a: S, b: S) -> S:

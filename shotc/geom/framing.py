@@ -12,18 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import (
-    ROUNDING_M,
-    View,
-    frustum_margins,
-    nearest_depth,
-    point_margins,
-    silhouette_bounds,
-)
+from shotc.geom.camera import ROUNDING_M, Shape, View, frustum_margins, point_margins
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solid_arrays.segments import blocks
-from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.solids import Solid
+from shotc.geom.vec import Vec3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,7 +51,7 @@ class Frames:
     u, v   : screen position of its centre; NaN where the centre is behind the camera
     depth  : of its centre, metres
     size   : height of its silhouette over the frame's height; NaN unless all of it is in front
-    margin : how far inside the nearest edge of the frustum the whole cylinder lies, metres
+    margin : how far inside the nearest edge of the frustum all of it lies, metres
     hidden : whether another solid stands on the line of sight to its centre
     """
 
@@ -74,31 +68,32 @@ class Frames:
         return np.asarray(self.margin >= -ROUNDING_M)
 
 
-def frames(cameras: Cameras, target: Cylinder, hiding: Sequence[Solid] = ()) -> Frames:
-    """Look at one target from every pose; ``hiding`` are the solids that may stand before it."""
+def frames(cameras: Cameras, centre: Vec3, shape: Shape, hiding: Sequence[Solid] = ()) -> Frames:
+    """Look at one target from every pose.
+
+    centre : p_W; shape : maybe one for every pose; hiding : the solids that may stand before it
+    """
     camera = cameras.view
-    centre = _centre(target)
-    x, y, z = (centre - cameras.position).T
-    radius, height = target.radius, target.top - target.bottom
+    x, y, z = (np.array(centre) - cameras.position).T
     with np.errstate(divide="ignore", invalid="ignore"):
         u, v, depth = camera.project((x, y, z))
     seen = depth > 0
-    size = _size(camera, (x, y, z), radius, height)
-    margins = frustum_margins(camera, (x, y, z), radius, height)
+    size = _size(camera, (x, y, z), shape)
+    margins = frustum_margins(camera, (x, y, z), shape)
     return Frames(
         np.where(seen, u, np.nan),
         np.where(seen, v, np.nan),
         depth,
         size,
         np.min(margins, axis=0),
-        hidden(cameras.position, centre, hiding),
+        hidden(cameras.position, np.array(centre), hiding),
     )
 
 
-def points_in_frame(cameras: Cameras, target: Cylinder) -> Mask:
+def points_in_frame(cameras: Cameras, centre: Vec3, shape: Shape) -> Mask:
     """Tell in which frames the four points of ``camera.point_margins`` are in the frame, shape (M,)."""
-    x, y, z = (_centre(target) - cameras.position).T
-    margins = point_margins(cameras.view, (x, y, z), target.radius, target.top - target.bottom)
+    x, y, z = (np.array(centre) - cameras.position).T
+    margins = point_margins(cameras.view, (x, y, z), shape)
     return np.asarray(np.min(margins, axis=0) >= 0.0)
 
 
@@ -124,12 +119,8 @@ def margin_rate(reach: float, speed: float, turn: float, zoom: float, aspect: fl
     return speed + reach * (turn + 0.5 * zoom * max(aspect, 1.0 / aspect))
 
 
-def _size(camera: View, offset: tuple[Array, Array, Array], radius: float, height: float) -> Array:
-    whole = nearest_depth(camera, offset, radius, height) > 0
+def _size(camera: View, offset: tuple[Array, Array, Array], shape: Shape) -> Array:
+    whole = shape.nearest_depth(camera, offset) > 0
     with np.errstate(divide="ignore", invalid="ignore"):
-        _, _, low, high = silhouette_bounds(camera, offset, radius, height)
+        _, _, low, high = shape.bounds(camera, offset)
     return np.where(whole, 0.5 * (high - low), np.nan)
-
-
-def _centre(target: Cylinder) -> Array:
-    return np.array([*target.centre, 0.5 * (target.bottom + target.top)])

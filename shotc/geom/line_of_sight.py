@@ -1,7 +1,6 @@
-"""Whether a solid stands between two points, and which solids do not count. Plain Python."""
+"""Whether a solid stands between two points. Plain Python."""
 
 from math import dist
-from typing import Any
 
 from shotc.geom.solids import (
     Cylinder,
@@ -14,10 +13,6 @@ from shotc.geom.solids import (
 )
 from shotc.geom.vec import Vec2, Vec3
 
-S = Any  # float or NDArray[float64]; arithmetic is the same for both
-
-TOUCH_M = 1e-6  # metres of rounding, so that what stands on something touches it
-
 
 def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
     """Tell whether the straight line from one point to another meets a solid."""
@@ -29,15 +24,6 @@ def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
     if isinstance(solid, Cylinder):
         return dist(solid.centre, closest_on_segment(first, last, solid.centre)) <= solid.radius
     return _meets(solid, first, last)
-
-
-def are_one(offset: tuple[S, S, S], across: S, tall: S) -> S:
-    """Tell whether two upright cylinders overlap or touch: parts of one thing, which do not hide each other.
-
-    offset : between their centres; across : sum of their radii; tall : half the sum of their heights, metres
-    """
-    x, y, z = offset
-    return (x * x + y * y <= (across + TOUCH_M) ** 2) & (abs(z) <= tall + TOUCH_M)
 
 
 def _level(solid: Solid, a: Vec3, b: Vec3) -> tuple[float, float] | None:

@@ -23,7 +23,7 @@ def outside(cameras: Cameras, places: Array, radius: float) -> Array:
     than the distance from the picture: over a corner of the frame it is less.
     """
     camera, away = cameras.view, _away(cameras, places)
-    edges = frustum_margins(camera, away, 0.0, 0.0)
+    edges = frustum_margins(camera, away)
     return np.asarray(-np.min([*edges, camera.to_camera(away)[2]], axis=0) - radius)
 
 

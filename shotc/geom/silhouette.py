@@ -1,4 +1,4 @@
-"""Outlines of solids as a camera sees them: cylinders in closed form, prisms by the hull of their corners.
+"""Outlines of solids as a camera sees them: of prisms by the hull of their corners, else in closed form.
 
 The outline is taken of the cone of sight: the contour of the solid as seen from the camera's place
 is built in W and clipped at a near plane before it is projected, so a solid that reaches behind the
@@ -7,12 +7,13 @@ camera is drawn right, too. Screen coordinates are those of ``geom.camera``.
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.camera import View
+from shotc.geom.shapes import BodyShape, BoxShape, CylinderShape
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_hull, convex_parts
 from shotc.geom.vec import Vec2, Vec3
 
@@ -62,6 +63,84 @@ def cylinder_contour(offset: Array, radius: float, height: float, count: int = 4
     return np.asarray(np.where(inside[..., None, None], np.nan, loop))
 
 
+def box_contour(offset: Array, box: BoxShape) -> Array:
+    """Return the closed contour of an upright box seen from a point, as offsets from that point.
+
+    offset : shape (..., 3), centre of the box less the eye, W, metres; its course may be one for each
+    Result has shape (..., 6, 3), all NaN where the eye is inside the box. Of a contour of four corners the
+    last one stands there three times.
+
+    Contour is an edge between a side that faces the eye and one that does not: of each pair of sides the
+    eye is beyond one, beyond the other, or between them.
+    """
+    half = np.array([box.length, box.width, box.height]) / 2
+    c, s = np.broadcast_arrays(np.asarray(box.ahead[0]), np.asarray(box.ahead[1]))
+    along, across = offset[..., 0] * c + offset[..., 1] * s, offset[..., 1] * c - offset[..., 0] * s
+    eye = -np.stack([along, across, offset[..., 2]], axis=-1)
+    beyond = (eye > half).astype(np.intp) - (eye < -half)
+    which = (beyond + 1) @ np.array([9, 3, 1])
+    corners = half * _CONTOURS[which]
+    turned = np.stack(
+        [
+            corners[..., 0] * c[..., None] - corners[..., 1] * s[..., None],
+            corners[..., 0] * s[..., None] + corners[..., 1] * c[..., None],
+            corners[..., 2],
+        ],
+        axis=-1,
+    )
+    return np.asarray(offset[..., None, :] + turned)
+
+
+def _contour_of(beyond: tuple[int, int, int]) -> list[tuple[int, ...]]:
+    """Return the corners (+-1, +-1, +-1) of a cube round its contour; beyond : which sides face the eye."""
+    if beyond == (0, 0, 0):
+        return [(0, 0, 0)]
+    corners = list(product((-1, 1), repeat=3))
+
+    def faces(axis: int, side: int) -> bool:
+        return beyond[axis] == side
+
+    def neighbours(a: tuple[int, ...]) -> list[tuple[int, ...]]:
+        found = []
+        for axis in range(3):
+            b = tuple(-x if i == axis else x for i, x in enumerate(a))
+            first, second = (i for i in range(3) if i != axis)
+            if faces(first, a[first]) != faces(second, a[second]):
+                found.append(b)
+        return found
+
+    first = next(corner for corner in corners if neighbours(corner))
+    loop = [first]
+    while True:
+        left = [b for b in neighbours(loop[-1]) if b not in loop]
+        if not left:
+            return loop
+        loop.append(left[0])
+
+
+def _contours() -> Array:
+    rows = []
+    for beyond in product((-1, 0, 1), repeat=3):
+        loop = _contour_of((beyond[0], beyond[1], beyond[2]))
+        rows.append([*loop, *[loop[-1]] * (6 - len(loop))])
+    table = np.array(rows, dtype=np.float64)
+    table[13] = np.nan  # the eye is inside
+    return table
+
+
+_CONTOURS = _contours()
+
+
+def shape_contour(offset: Array, shape: BodyShape, count: int = 48) -> Array:
+    """Return the closed contour of a body seen from a point, shape (..., K, 3), as offsets from that point.
+
+    offset : shape (..., 3), its centre less the eye, W; count : points of each rim of a cylinder
+    """
+    if isinstance(shape, BoxShape):
+        return box_contour(offset, shape)
+    return cylinder_contour(offset, shape.radius, shape.height, count)
+
+
 def project_loop(camera: View, loop: Array) -> Array:
     """Return the screen polygon of one closed contour.
 
@@ -84,15 +163,15 @@ def project_loops(camera: View, loops: Array) -> list[Array]:
     return [_scaled(_clip_near(loop), *pair) for loop, pair in zip(points, half, strict=True)]
 
 
-def cylinder_outline(camera: View, offset: Vec3, radius: float, height: float, count: int = 48) -> Array:
-    """Return the screen polygon of an upright cylinder, shape (K, 2); offset: centre less camera, W."""
-    return project_loop(camera, cylinder_contour(np.asarray(offset, dtype=np.float64), radius, height, count))
+def shape_outline(camera: View, offset: Vec3, shape: BodyShape, count: int = 48) -> Array:
+    """Return the screen polygon of a body, shape (K, 2); offset : its centre less the camera, W."""
+    return project_loop(camera, shape_contour(np.asarray(offset, dtype=np.float64), shape, count))
 
 
 def solid_outlines(camera: View, eye: Vec3, solid: Solid, count: int = 48) -> list[Array]:
     """Return one convex screen polygon, shape (K, 2), for each convex part of a solid that is in view."""
     outlines = [
-        cylinder_outline(camera, *_seen_from(eye, part), count)
+        shape_outline(camera, *_seen_from(eye, part), count)
         if isinstance(part, Cylinder)
         else _prism_outline(camera, eye, part)
         for part in convex_parts(solid)
@@ -128,10 +207,10 @@ def edge_strips(solid: Solid, count: int = 48) -> list[Array]:
     return rings + uprights
 
 
-def _seen_from(eye: Vec3, solid: Cylinder) -> tuple[Vec3, float, float]:
+def _seen_from(eye: Vec3, solid: Cylinder) -> tuple[Vec3, CylinderShape]:
     middle = (solid.bottom + solid.top) / 2
     offset = (solid.centre[0] - eye[0], solid.centre[1] - eye[1], middle - eye[2])
-    return offset, solid.radius, solid.top - solid.bottom
+    return offset, CylinderShape(solid.radius, solid.top - solid.bottom)
 
 
 def _prism_outline(camera: View, eye: Vec3, prism: Prism) -> Array:

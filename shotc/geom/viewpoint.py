@@ -12,7 +12,8 @@ from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
 from operator import mul
 from typing import NamedTuple
 
-from shotc.geom.camera import aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import aim_at, frustum_margins, view
+from shotc.geom.shapes import TargetShape
 from shotc.geom.vec import Vec2, Vec3, minus
 
 Pose = tuple[float, float, float, float, float]
@@ -49,14 +50,13 @@ class Room(NamedTuple):
 class Wanted(NamedTuple):
     """A subject at one instant, and how it is to appear; None is free.
 
-    centre : W, m; radius, height : of its cylinder, m
+    centre : W, m; shape : as it is then
     uv : place on screen; size : of its outline, over the frame's height
     azimuth : compass bearing from it to the camera, rad; elevation : of the camera above it, rad
     """
 
     centre: Vec3
-    radius: float
-    height: float
+    shape: TargetShape
     uv: Vec2 | None = None
     size: float | None = None
     azimuth: float | None = None
@@ -105,24 +105,18 @@ def size_from(wanted: Wanted, lens: Lens, offset: Vec3) -> float:
     if aim is None:
         return float("nan")
     camera = view(*aim, lens.hfov, lens.aspect)
-    if nearest_depth(camera, back, wanted.radius, wanted.height) <= 0:
+    if wanted.shape.nearest_depth(camera, back) <= 0:
         return inf
-    _, _, low, high = silhouette_bounds(camera, back, wanted.radius, wanted.height)
+    _, _, low, high = wanted.shape.bounds(camera, back)
     return float(0.5 * (high - low))
-
-
-def gap(wanted: Wanted, offset: Vec3) -> float:
-    """Return the distance from a subject's cylinder to a place ``offset`` off its centre, metres."""
-    across = max(0.0, hypot(offset[0], offset[1]) - wanted.radius)
-    return hypot(across, max(0.0, abs(offset[2]) - wanted.height / 2))
 
 
 def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
     """Return the distance from a subject's centre, along a unit vector, at which its clearance is kept."""
-    low, high = 0.0, wanted.radius + wanted.height + near + 1.0
+    low, high = 0.0, wanted.shape.radius + wanted.shape.height + near + 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        if gap(wanted, _times(toward, middle)) < near:
+        if wanted.shape.gap(_times(toward, middle)) < near:
             low = middle
         else:
             high = middle
@@ -187,9 +181,9 @@ def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Seen | None:
     """Return how a subject appears from a pose; None where it reaches behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
-    if nearest_depth(camera, offset, wanted.radius, wanted.height) <= 0:
+    if wanted.shape.nearest_depth(camera, offset) <= 0:
         return None
-    left, right, low, high = silhouette_bounds(camera, offset, wanted.radius, wanted.height)
+    left, right, low, high = wanted.shape.bounds(camera, offset)
     u, v, _ = camera.project(offset)
     screen = 0.0 if wanted.uv is None else hypot(u - wanted.uv[0], v - wanted.uv[1])
     chord = hypot(*_off_view(wanted, offset))
@@ -201,7 +195,7 @@ def whole(pose: Pose, lens: Lens, wanted: Wanted) -> bool:
     """Tell whether all of a subject is in the frame."""
     offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
-    return bool(min(frustum_margins(camera, offset, wanted.radius, wanted.height)) >= 0.0)
+    return bool(min(frustum_margins(camera, offset, wanted.shape)) >= 0.0)
 
 
 def middle_of(subjects: Sequence[Wanted]) -> Vec3:
@@ -213,7 +207,7 @@ def middle_of(subjects: Sequence[Wanted]) -> Vec3:
 def first_pose(subjects: Sequence[Wanted], lens: Lens, room: Room, azimuth: float) -> Pose:
     """Return a pose from which all subjects are in front of the camera, at a bearing from their middle."""
     middle = middle_of(subjects)
-    spread = max(hypot(*minus(s.centre, middle)) + s.radius + s.height / 2 for s in subjects)
+    spread = max(hypot(*minus(s.centre, middle)) + s.shape.radius + s.shape.height / 2 for s in subjects)
     half = min(tan(lens.hfov / 2), tan(lens.hfov / 2) / lens.aspect)
     away = spread * (1.0 + 1.0 / half) + room.near
     level = direction(azimuth, 0.0)
@@ -323,10 +317,10 @@ def _residuals(
     sized = any(s.size is not None for s in subjects)
     for s in subjects:
         offset = minus(s.centre, eye)
-        if nearest_depth(camera, offset, s.radius, s.height) <= 1e-3:
+        if s.shape.nearest_depth(camera, offset) <= 1e-3:
             return None
         u, v, _ = camera.project(offset)
-        left, right, low, high = silhouette_bounds(camera, offset, s.radius, s.height)
+        left, right, low, high = s.shape.bounds(camera, offset)
         if not high > low:
             return None
         if s.uv is None:
@@ -342,7 +336,7 @@ def _residuals(
         found += _off_view(s, offset)
         if s.elevation is None:
             found.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
-        found.append(HARD_WEIGHT * max(0.0, near - gap(s, offset)))
+        found.append(HARD_WEIGHT * max(0.0, near - s.shape.gap(offset)))
     if since is not None:
         found += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
         found.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, since.eye)) - since.way))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.line_of_sight import are_one
 from shotc.geom.pieces import Mask
-from shotc.geom.track_array import places
-from shotc.ir.mission import Target
+from shotc.geom.shapes import TargetShape, bodies_of, touch
+from shotc.geom.track_array import headings, places
+from shotc.ir.target import Target
 
 
 def moved(target: Target, t: Array) -> Array:
@@ -23,9 +23,32 @@ def parts_of_one(a: Target, b: Target, t: Array) -> Mask:
 
     They are parts of one thing then, as a lantern and its tower, and neither hides the other.
     """
-    apart = np.array(a.centre) + moved(a, t) - np.array(b.centre) - moved(b, t)
-    x, y, z = apart.T
-    return np.asarray(are_one((x, y, z), a.radius + b.radius, 0.5 * (a.height + b.height)))
+    x, y, z = (np.array(a.centre) + moved(a, t) - np.array(b.centre) - moved(b, t)).T
+    one = np.zeros(len(t), dtype=np.bool_)
+    for p in bodies_of(shapes(a, t)):
+        for q in bodies_of(shapes(b, t)):
+            off = np.array(p.offset) - np.array(q.offset)
+            one |= touch(p.shape, q.shape, (x + off[0], y + off[1], z + off[2]))
+    return one
+
+
+def shapes(target: Target, t: Array) -> TargetShape:
+    """Return the shape of a target at mission times of shape (M,); its course is an array where it turns."""
+    if target.track is None or not target.shape.turns:
+        return target.shape
+    yaw = headings(target.track, t)
+    return target.shape.facing((np.cos(yaw), np.sin(yaw)))
+
+
+def beside_body(target: Target, points: Array, t: Array) -> Array:
+    """Return places at mission times, (M, 3), as they are to a target's body at mission time 0."""
+    away = np.asarray(points - moved(target, t))
+    if target.track is None or not target.shape.turns:
+        return away
+    turn = headings(target.track, t) - target.track.heading(0.0)
+    x, y, z = (away - np.array(target.centre)).T
+    back = np.column_stack([x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn), z])
+    return np.asarray(back + np.array(target.centre))
 
 
 def standing_at(place: Array, times: Array) -> Array:

@@ -38,7 +38,8 @@ from shotc.ir.begins import first_start
 from shotc.ir.hidden import hides, lacks, standing_before
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import is_keyed, settled
-from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject, Target
+from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject
+from shotc.ir.target import Target
 
 KNOT = 0.5  # seconds between the knots of a course
 FEWEST, MOST = 8, 240  # stretches of a course
@@ -92,7 +93,7 @@ def wanted_at(mission: MissionIR, subject: Subject, t: float) -> Wanted:
     target = mission.target(subject.target)
     azimuth, elevation = subject.view or (None, None)
     uv = subject.composition.points[0] if len(subject.composition.points) == 1 else None
-    return Wanted(target.at(t), target.radius, target.height, uv, subject.size, azimuth, elevation)
+    return Wanted(target.at(t), target.shape_at(t), uv, subject.size, azimuth, elevation)
 
 
 def lens_of(drone: Drone) -> Lens:

@@ -3,11 +3,13 @@
 from collections.abc import Iterator
 from math import hypot
 
-from shotc.geom.line_of_sight import are_one, crosses
+from shotc.geom.line_of_sight import crosses
+from shotc.geom.shapes import bodies_of, touch
 from shotc.geom.solids import depth, distance
-from shotc.geom.vec import Vec3, minus
-from shotc.ir.mission import Drone, MissionIR, Target
+from shotc.geom.vec import Vec3, minus, plus
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import Owner, target_owner, zone_owner
+from shotc.ir.target import Target
 
 ROUNDING_M = 1e-6
 
@@ -23,7 +25,7 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
             yield zone_owner(zone), lack
     need = mission.rules.beside_target(drone.radius)
     for target in mission.targets:
-        lack = need - distance(target.solid_at(t), p)
+        lack = need - distance(target.kept_clear_at(t), p)
         if lack > ROUNDING_M:
             yield target_owner(target), lack
 
@@ -41,7 +43,9 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
     target = mission.target(name)
     x, y, z = target.at(t)
     level = max(hypot(x - eye[0], y - eye[1]), 1e-9)
-    aside = (-(y - eye[1]) / level * target.radius, (x - eye[0]) / level * target.radius)
+    across = (-(y - eye[1]) / level, (x - eye[0]) / level)
+    width = target.shape_at(t).half_width(across)
+    aside = (across[0] * width, across[1] * width)
     points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
     solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
     others = (o for o in mission.targets if o.name != name and not _parts_of_one(o, target, t))
@@ -51,4 +55,7 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
 
 
 def _parts_of_one(a: Target, b: Target, t: float) -> bool:
-    return bool(are_one(minus(a.at(t), b.at(t)), a.radius + b.radius, 0.5 * (a.height + b.height)))
+    apart, own, other = minus(a.at(t), b.at(t)), bodies_of(a.shape_at(t)), bodies_of(b.shape_at(t))
+    return any(
+        bool(touch(p.shape, q.shape, minus(plus(apart, p.offset), q.offset))) for p in own for q in other
+    )

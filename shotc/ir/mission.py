@@ -6,15 +6,15 @@ the mission file (see ``OriginMap``).
 
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
-from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.solids import Solid
 from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rules import Rules
 from shotc.ir.source import MissionSource
+from shotc.ir.target import Target
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
-    from shotc.geom.track import Track
     from shotc.ir.obstacle_mesh import ObstacleMesh
     from shotc.ir.show import Display, Fleet
     from shotc.ir.terrain import Terrain
@@ -44,49 +44,6 @@ class Zone(NamedTuple):
     keep: Literal["in", "out"]
     solid: Solid
     path: KeyPath
-
-
-class Target(NamedTuple):
-    """A camera target: an upright cylinder about its centre.
-
-    centre : where it stands, or is at mission time 0; track : how it moves, None where it stands
-    """
-
-    name: str
-    centre: Vec3
-    radius: float
-    height: float
-    path: KeyPath
-    track: "Track | None" = None
-
-    @property
-    def foot(self) -> Vec3:
-        """The lowest point of its axis where it stands, or is at mission time 0."""
-        x, y, z = self.centre
-        return (x, y, z - self.height / 2)
-
-    @property
-    def solid(self) -> Cylinder:
-        """Its body where it stands, or is at mission time 0."""
-        return _upright(self, self.centre)
-
-    def solid_at(self, t: float) -> Cylinder:
-        """Return its body at a mission time."""
-        return _upright(self, self.at(t))
-
-    def foot_at(self, t: float) -> Vec3:
-        """Return the lowest point of its axis at a mission time, metres."""
-        x, y, z = self.at(t)
-        return (x, y, z - self.height / 2)
-
-    def at(self, t: float) -> Vec3:
-        """Return its centre at a mission time, metres."""
-        return self.centre if self.track is None else self.track.at(t)
-
-
-def _upright(target: Target, centre: Vec3) -> Cylinder:
-    x, y, z = centre
-    return Cylinder((x, y), target.radius, z - target.height / 2, z + target.height / 2)
 
 
 class Gimbal(NamedTuple):
@@ -296,6 +253,7 @@ class MissionIR(NamedTuple):
     files : (name, bytes) of the files that displays draw; no plan carries them
     terrain : the ground where it is not the plane z = 0; a plan carries the file that it is made of
     meshes : scenes and buildings, which stand
+    groups : targets that are several bodies in one picture; these are among the targets
     source : what the mission was lowered from
     """
 
@@ -318,6 +276,7 @@ class MissionIR(NamedTuple):
     source: MissionSource = MissionSource()
     terrain: "Terrain | None" = None
     meshes: "tuple[ObstacleMesh, ...]" = ()
+    groups: tuple[Target, ...] = ()
 
     @property
     def parked(self) -> tuple[Drone, ...]:
@@ -342,8 +301,12 @@ class MissionIR(NamedTuple):
         return next_named(self.drones, name)
 
     def target(self, name: str) -> Target:
-        """Return the target of that name; KeyError if there is none."""
-        return next_named(self.targets, name)
+        """Return the target of that name, be it one body or a group; KeyError if there is none."""
+        return next_named((*self.targets, *self.groups), name)
+
+    def parts_of(self, name: str) -> tuple[str, ...]:
+        """Return the names of the bodies of a target: its own, or those of a group."""
+        return self.target(name).parts or (name,)
 
     def shot(self, name: str | None) -> "Shot":
         """Return the shot of that id; KeyError if there is none."""
@@ -369,7 +332,10 @@ def frozen(mission: MissionIR, time: float) -> MissionIR:
     if all(target.track is None for target in mission.targets):
         return mission
     return mission._replace(
-        targets=tuple(target._replace(centre=target.at(time), track=None) for target in mission.targets)
+        targets=tuple(
+            target._replace(centre=target.at(time), shape=target.shape_at(time), track=None)
+            for target in mission.targets
+        )
     )
 
 

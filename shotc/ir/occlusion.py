@@ -1,7 +1,7 @@
 """What stands before a target: keep-out zones, terrain, other targets and other drones, instant by instant.
 
 A sight line goes from the camera to the target's centre; where that is within a zone, the zone hides it.
-Targets whose cylinders overlap or touch at that
+Targets whose bodies overlap or touch at that
 instant are parts of one thing and do not hide each other. A drone is a ball of its radius, in flight and on
 its pad.
 """
@@ -16,7 +16,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.framing import hidden
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.sight import lines_hidden
-from shotc.ir.bodies import flying, moved, parts_of_one
+from shotc.ir.bodies import beside_body, flying, moved, parts_of_one
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 
@@ -35,8 +35,7 @@ def hiders(
             yield f"zone {zone.name}", hidden(eyes, centres, (zone.solid,))
     for other in mission.targets:
         if other.name != target:
-            away = moved(other, t)
-            before = hidden(eyes - away, centres - away, (other.solid,))
+            before = hidden(beside_body(other, eyes, t), beside_body(other, centres, t), (other.solid,))
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
     if mission.terrain is not None:
         yield f"terrain {mission.terrain.file}", lines_hidden(mission.terrain.ground.surface, eyes, centres)

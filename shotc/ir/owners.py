@@ -2,8 +2,9 @@
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from shotc.ir.mission import Drone, MissionIR, Target, Zone
+from shotc.ir.mission import Drone, MissionIR, Zone
 from shotc.ir.origin import KeyPath
+from shotc.ir.target import Target
 
 if TYPE_CHECKING:  # a mission without any loads no arrays
     from shotc.ir.obstacle_mesh import ObstacleMesh

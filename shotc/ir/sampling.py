@@ -16,12 +16,13 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, Frames, frames
 from shotc.geom.pieces import Mask
 from shotc.geom.track_array import rate_seen_from, seen_from
-from shotc.ir.bodies import moved
+from shotc.ir.bodies import moved, shapes
 from shotc.ir.fleet import Colors, Lights
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import hiders
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
+from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 
 SAME_TIME = 1e-9
@@ -89,9 +90,13 @@ def seen(
     covered = np.zeros(len(t), dtype=bool)
     for _, hides in hiders(mission, others, target, eyes.position, t):
         covered |= hides
-    # From a camera that moves with the target, the target stands.
-    still = replace(eyes, position=eyes.position - moved(filmed, t))
-    return replace(frames(still, filmed.solid), hidden=covered)
+    still = beside_cameras(eyes, filmed, t)
+    return replace(frames(still, filmed.centre, shapes(filmed, t)), hidden=covered)
+
+
+def beside_cameras(eyes: Cameras, target: Target, t: Array) -> Cameras:
+    """Return cameras at times (M,) as they are where the target stands at its centre."""
+    return replace(eyes, position=eyes.position - moved(target, t))
 
 
 def beside(curve: Piecewise, target: Target) -> Piecewise:

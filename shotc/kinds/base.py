@@ -12,19 +12,10 @@ from shotc.geom.camera import yaw_of
 from shotc.geom.geodetic import above_ground
 from shotc.ir.ground import Above, GroundHeight, counted_from, flat
 from shotc.ir.limits import Vec2, Vec3
-from shotc.ir.mission import (
-    Beside,
-    Composition,
-    Deferred,
-    Drone,
-    GeoOrigin,
-    Ideal,
-    Keyframe,
-    Subject,
-    Target,
-)
+from shotc.ir.mission import Beside, Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Subject
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rules import Rules
+from shotc.ir.target import Target
 from shotc.spec.fields import Geodetic, Relative
 from shotc.spec.heights import AboveGround
 from shotc.spec.places import Spot

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from shotc.ir.mission import Target
+from shotc.ir.target import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import axis_of, filmed, line
 from shotc.spec.fields import Angle, CameraAltitudeSpan, Name, PositiveLength

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from shotc.ir.ground import Above
 from shotc.ir.keyed import KEYED
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Ideal, Subject, Target
+from shotc.ir.mission import Ideal, Subject
+from shotc.ir.target import Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.spec.shot import ShotBase
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator
 
-from shotc.ir.mission import Target
+from shotc.ir.target import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import axis_of, filmed, ring
 from shotc.spec.faults import fault

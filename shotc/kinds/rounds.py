@@ -10,7 +10,8 @@ from math import atan2, ceil, cos, hypot, pi, sin
 
 from shotc.ir.ground import Above
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Ideal, Target
+from shotc.ir.mission import Ideal
+from shotc.ir.target import Target
 from shotc.kinds.base import Expansion, Scene
 from shotc.kinds.moving import evenly, timed
 from shotc.spec.shot import ShotBase

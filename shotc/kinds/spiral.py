@@ -5,7 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from shotc.ir.mission import Target
+from shotc.ir.target import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.orbit import Sweep
 from shotc.kinds.rounds import axis_of, filmed, ring

@@ -6,7 +6,8 @@ from typing import Literal
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Beside, Composition, Target
+from shotc.ir.mission import Beside, Composition
+from shotc.ir.target import Target
 from shotc.kinds.base import STILL, Expansion, Kind, Scene
 from shotc.rounding import at_most
 from shotc.spec.fields import CameraAltitude, Name, Velocity

@@ -30,7 +30,6 @@ if TYPE_CHECKING:
         Keyframe,
         MissionIR,
         Subject,
-        Target,
     )
     from shotc.ir.passes import Outcome, PassContext, Refiner
     from shotc.ir.path import (
@@ -48,6 +47,7 @@ if TYPE_CHECKING:
     )
     from shotc.ir.phases import KeyframeTime, Phase, Reference
     from shotc.ir.rules import Rules
+    from shotc.ir.target import Target
     from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR, VerifiedIR
     from shotc.kinds.base import Expansion, Kind, Scene
     from shotc.kinds.moving import along, evenly, on_clock, timed
@@ -172,7 +172,7 @@ _HOMES = {
     "Station": "shotc.spec.fields",
     "Subject": "shotc.ir.mission",
     "Switch": "shotc.spec.fields",
-    "Target": "shotc.ir.mission",
+    "Target": "shotc.ir.target",
     "TrajectoryIR": "shotc.ir.trajectory",
     "Vec2": "shotc.ir.limits",
     "Vec3": "shotc.ir.limits",

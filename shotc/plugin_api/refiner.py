@@ -8,14 +8,15 @@ from __future__ import annotations
 from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
-from shotc.geom.camera import ROUNDING_M, View, aim_at, frustum_margins, silhouette_bounds
+from shotc.geom.camera import ROUNDING_M, UnitVector, View, aim_at, frustum_margins
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import worst_of_runs
+from shotc.geom.shapes import BodyShape, BoxShape, CylinderShape, TargetShape, bodies_of
 from shotc.geom.solid_arrays.points import bounded, distances
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
 from shotc.geom.vec import wrapped
-from shotc.ir.bodies import flying, moved, parts_of_one
+from shotc.ir.bodies import flying, moved, parts_of_one, shapes
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.needs import with_need
@@ -71,12 +72,15 @@ __all__ = [
     "UNWATCHED",
     "AngleTask",
     "Array",
+    "BodyShape",
     "Bound",
+    "BoxShape",
     "CameraTask",
     "Clock",
     "ClockDeviation",
     "ClockLeg",
     "Cylinder",
+    "CylinderShape",
     "Deviation",
     "Drone",
     "DroneTrajectory",
@@ -97,11 +101,14 @@ __all__ = [
     "Solid",
     "Status",
     "Surroundings",
+    "TargetShape",
     "TimedPath",
+    "UnitVector",
     "View",
     "aim_at",
     "aims_at",
     "beside",
+    "bodies_of",
     "bounded",
     "bounds_of",
     "camera_task_of",
@@ -133,8 +140,8 @@ __all__ = [
     "restrict",
     "rough_times",
     "seen",
+    "shapes",
     "shortfall",
-    "silhouette_bounds",
     "smoother",
     "spline",
     "steady",

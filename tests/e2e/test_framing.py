@@ -10,7 +10,8 @@ import pytest
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
-from shotc.ir.mission import Composition, Target
+from shotc.ir.mission import Composition
+from shotc.ir.target import Target
 from tests.e2e.conftest import Plan, Planned, each_mission
 from tests.support.csv_tables import Table
 from tests.support.solid_distances import least_on_the_way, signed_distance

@@ -8,26 +8,17 @@ from math import atan2, pi, radians
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.vec import direction
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Limits, Timing
-from shotc.ir.mission import (
-    Composition,
-    Drone,
-    GeoOrigin,
-    Gimbal,
-    Keyframe,
-    MissionIR,
-    Promise,
-    Shot,
-    Target,
-    Zone,
-)
+from shotc.ir.mission import Composition, Drone, GeoOrigin, Gimbal, Keyframe, MissionIR, Promise, Shot, Zone
 from shotc.ir.origin import OriginMap
 from shotc.ir.phases import KeyframeTime, Phase, Reference
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR, VerifiedIR
 from tests.support.records import replace
 
@@ -36,7 +27,7 @@ HFOV = radians(70)
 AZIMUTHS = np.linspace(-pi / 2, pi / 2, 5)
 """Where the keyframes of the half orbit stand, radians from East."""
 
-TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))
+TOWER = Target("tower", (0.0, 0.0, 12.0), CylinderShape(4.0, 24.0), ("targets", "tower"))
 TREE = Zone("tree", "out", Cylinder((-20.0, 10.0), 3.0, 0.0, 12.0), ("world", "zones", "tree"))
 FIELD = Zone(
     "field",

@@ -7,19 +7,21 @@ from math import cos, pi, radians, sin
 import numpy as np
 
 from shotc.geom.camera import aim_at
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, Solid, distance
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Target, Zone
+from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Zone
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, MovingLeg, PathIR, PathLeg
+from shotc.ir.target import Target
 from shotc.passes.solve_path_qp import SolvePathQp
 from tests.support.film_plans import orbit_mission
 from tests.support.records import replace
 
 HFOV, ASPECT = radians(70), 16 / 9
 FIELD = Prism(((-80.0, -80.0), (80.0, -80.0), (80.0, 80.0), (-80.0, 80.0)), 2.0, 60.0)
-TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))
+TOWER = Target("tower", (0.0, 0.0, 12.0), CylinderShape(4.0, 24.0), ("targets", "tower"))
 
 
 def codes(outcome: Outcome[PathIR]) -> list[str]:

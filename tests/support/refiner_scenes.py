@@ -20,8 +20,9 @@ from shotc_casadi.walls import half_spaces
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.solids import Cylinder
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import MovingLeg, PathIR
+from shotc.ir.target import Target
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.path_scenes import TOWER, block, circle, mission, out, planned, shot
 

@@ -7,6 +7,7 @@ ship from 500 m, at 15 and at 110 deg.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ from shotc.plugin_api.refiner import (
     subdivide,
 )
 from shotc_casadi.conditions import OURS
+from shotc_casadi.extents import EXTENT, Extent
 from shotc_casadi.references import References, Subject, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
@@ -44,11 +46,21 @@ def insides(subject: Subject, references: References, s: Array, q: Array) -> Arr
     offset = (references.centre - q[:, :3]).T
     wide, tall = fields_of_view(subject, s)
     view = View(np.cos(q[:, 3]), np.sin(q[:, 3]), np.cos(q[:, 4]), np.sin(q[:, 4]), wide, tall)
-    metres = frustum_margins(view, (offset[0], offset[1], offset[2]), references.radius, references.height)
+    metres = np.min([frustum_margins(view, *body) for body in _bodies(references, offset)], axis=0)
     away = np.linalg.norm(offset, axis=0)
     halves = (wide, wide, tall, tall)
     rows = [(m + ROUNDING_M) * np.hypot(1.0, h) / (h * away) for m, h in zip(metres, halves, strict=True)]
     return np.column_stack(rows)
+
+
+def _bodies(references: References, offset: Array) -> Iterator[tuple[tuple[Array, Array, Array], Extent]]:
+    """Yield offset and extent of every body of the targets; offset : of their centres, (3, M)."""
+    alone = np.zeros((EXTENT, offset.shape[1]))
+    alone[3], alone[4] = references.radius, references.height
+    bodies = np.moveaxis(references.extents, 0, -1) if references.extents.shape[1] else alone[None]
+    for body in map(Extent.of, bodies):
+        x, y, z = offset + body.offset
+        yield (x, y, z), body
 
 
 def asked_at_first(subject: Subject, nodes: Stages, references: References) -> References:

@@ -76,6 +76,7 @@ def problem(
         input_bounds=_input_bounds(inputs),
         held=_held(subject, walls, margins),
         driven=(np.array([-inf]), np.array([(_pace(subject, margins) * subject.drone.limits.jerk) ** 2])),
+        extents=references.extents.shape[1],
     )
 
 
@@ -146,8 +147,9 @@ def _parameters(
         "nominal": 1.0 / np.append(np.diff(stages.t), 1.0),
     }
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
-    whole = np.column_stack([*table, _planes(walls, margins)])
-    assert whole.shape[1] == size(walls.shape[1])
+    extents = references.extents
+    whole = np.column_stack([*table, extents.reshape(n + 1, -1), _planes(walls, margins)])
+    assert whole.shape[1] == size(walls.shape[1], extents.shape[1])
     return whole
 
 

@@ -30,6 +30,7 @@ from shotc.plugin_api.refiner import (
     steady,
 )
 from shotc_casadi.conditions import Condition
+from shotc_casadi.extents import EXTENT, between, count_of, extents_of
 from shotc_casadi.sight import sight_point
 from shotc_casadi.walls import NodePlanes
 
@@ -41,6 +42,7 @@ class References:
     """One row a node.
 
     centre (N + 1, 3), radius, height, place (N + 1, 2), aim (N + 1, 2) : as in symbols.FIELDS
+    extents : of the target's bodies, (N + 1, K, EXTENT); K is 0 where radius and height tell all
     framed : where the target is to be at its place; whole : where it is to be in the frame
     inside : half frames that it is to be inside the left, right, bottom and top edge then, (N + 1, 4)
     """
@@ -53,6 +55,7 @@ class References:
     framed: Array
     whole: Array
     inside: Array
+    extents: Array
 
 
 Beside = Callable[[Array], NodePlanes]
@@ -127,6 +130,8 @@ def _framed(subject: Subject, s: Array) -> References:
         made.centre[here] = (1 - share) * np.array(first.centre) + share * np.array(second.centre)
         made.radius[here] = ((1 - share) * first.radius + share * second.radius)[:, 0]
         made.height[here] = ((1 - share) * first.height + share * second.height)[:, 0]
+        bodies = [extents_of(target.shape, made.extents.shape[1], 1) for target in (first, second)]
+        made.extents[here] = between(bodies[0], bodies[1], share)
         made.place[here] = (1 - share) * np.array(a.reference) + share * np.array(b.reference)
         made.framed[here] = 1.0
         made.whole[here] = 1.0
@@ -152,7 +157,14 @@ def _unframed(subject: Subject, s: Array) -> References:
         framed=np.zeros(n),
         whole=np.zeros(n),
         inside=np.zeros((n, 4)),
+        extents=np.zeros((n, _bodies(subject), EXTENT)),
     )
+
+
+def _bodies(subject: Subject) -> int:
+    """Return how many extents the targets of a shot take."""
+    names = {k.target for k in subject.placed.keyframes if k.target is not None}
+    return count_of([subject.mission.target(name).shape for name in names])
 
 
 def _keys(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:

@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 
 from shotc_casadi.conditions import Visibility
+from shotc_casadi.extents import EXTENT, Extent, rounded
 
 STATES, INPUTS = 16, 6
 WIDTH = STATES + INPUTS
@@ -48,7 +49,8 @@ FIELDS = {
     "pace": 1,
     "nominal": 1,
 }
-"""The parameters of a stage and their sizes; half-spaces (normal and offset) follow.
+"""The parameters of a stage and their sizes; the target's bodies, where it is no cylinder, and half-spaces
+(normal and offset) follow.
 
 centre, radius, height : the target's cylinder, W, metres
 place : (u, v) wanted of its centre; half_width, half_height : tan of half the fields of view
@@ -92,14 +94,16 @@ class Stage:
         return self.end_cost + self.passing + ca.sumsqr(self.passing_roots)
 
 
-def stage(visibility: Visibility, planes: int) -> Stage:
-    """Return a stage with that many half-spaces to stay in.
+def stage(visibility: Visibility, planes: int, extents: int = 0) -> Stage:
+    """Return a stage with that many half-spaces to stay in, of a target of that many bodies.
+
+    extents : 0 where the target is one upright cylinder
 
     held is horizontal speed squared, acceleration squared, then the half-spaces' slacks (metres);
     driven is jerk squared.
     """
     z = ca.SX.sym("z", STATES + INPUTS)
-    p = ca.SX.sym("p", size(planes))
+    p = ca.SX.sym("p", size(planes, extents))
     x, u = z[:STATES], z[STATES:]
     given = cut(p, FIELDS)
     position = x[POSITION]
@@ -113,7 +117,8 @@ def stage(visibility: Visibility, planes: int) -> Stage:
         + given["lag"] * ca.dot(given["tangent"], position - given["state"][POSITION]) ** 2
     )
     if visibility != "none":
-        node += given["visibility"] * _cropped(visibility, x, view, distance, given)
+        bodies = _bodies(p, view, x, given, extents)
+        node += given["visibility"] * _cropped(visibility, x, bodies, distance, given)
     length = u[LENGTH]
     passing = (
         length * (given["jerk"] * ca.sumsqr(u[JERK]) + given["time"])
@@ -128,9 +133,9 @@ def stage(visibility: Visibility, planes: int) -> Stage:
     return Stage(z, p, _following(x, u), node, passing, held, ca.sumsqr(u[JERK]))
 
 
-def size(planes: int) -> int:
+def size(planes: int, extents: int = 0) -> int:
     """Return how many parameters a stage has."""
-    return sum(FIELDS.values()) + 4 * planes
+    return sum(FIELDS.values()) + EXTENT * extents + 4 * planes
 
 
 def cut(p: Any, fields: Mapping[str, int]) -> dict[str, Any]:
@@ -183,39 +188,79 @@ def _aiming(x: Any, given: dict[str, Any]) -> Any:
     return ca.cos(aim[1]) ** 2 * (x[YAW] - aim[0]) ** 2 + (x[PITCH] - aim[1]) ** 2
 
 
-def _cropped(visibility: Visibility, x: Any, view: tuple[Any, Any, Any], distance: Any, given: Any) -> Any:
+class _Body(NamedTuple):
+    """A body of the target as the camera sees it: its centre (right, up, forward), how large it is, and the
+    halves of its sides, turned into the camera, none of a cylinder.
+    """
+
+    view: tuple[Any, Any, Any]
+    radius: Any
+    height: Any
+    sides: tuple[tuple[Any, Any, Any], ...] = ()
+
+
+def _bodies(
+    p: Any, view: tuple[Any, Any, Any], x: Any, given: dict[str, Any], extents: int
+) -> tuple[_Body, ...]:
+    """Return the bodies of the target in the camera; view : of the target's centre."""
+    if not extents:
+        return (_Body(view, given["radius"], given["height"]),)
+    bodies, at = [], sum(FIELDS.values())
+    for first in range(at, at + EXTENT * extents, EXTENT):
+        extent = Extent.of(p[first : first + EXTENT])
+        off = _to_camera(extent.offset, x[YAW], x[PITCH])
+        seen = (view[0] + off[0], view[1] + off[1], view[2] + off[2])
+        sides = (_to_camera((a[0], a[1], 0.0), x[YAW], x[PITCH]) for a in (extent.along, extent.across))
+        bodies.append(_Body(seen, extent.radius, extent.height, tuple(sides)))
+    return tuple(bodies)
+
+
+def _cropped(visibility: Visibility, x: Any, bodies: tuple[_Body, ...], distance: Any, given: Any) -> Any:
     """Return c_v: squared half frames by which the target is less inside the frame than it is to be.
 
     How far it is from a plane of the frustum, over what half a frame is at the target's distance.
     """
     sin, cos = ca.sin(x[PITCH]), ca.cos(x[PITCH])
     exact = visibility == "silhouette"
-    points = [view] if exact else _hull_points(view, x, given)
     cost = 0.0
     for index, (axis, sign) in enumerate(EDGES):
         half = given["half_height" if axis == UP else "half_width"]
         normal = ca.sqrt(1 + half**2)
-        reach = _reach((half * sin + (sign * cos if axis == UP else 0)) / normal, given) if exact else 0.0
-        for point in points:
-            gap = half * point[AHEAD] + sign * point[axis] - normal * reach
-            cost += ca.fmax(0, given["inside"][index] - gap / (half * distance)) ** 2
+        up = (half * sin + (sign * cos if axis == UP else 0)) / normal
+        for body in bodies:
+            reach = _reach(up, body, (half / normal, sign / normal, axis)) if exact else 0.0
+            for point in [body.view] if exact else _hull_points(body, x):
+                gap = half * point[AHEAD] + sign * point[axis] - normal * reach
+                cost += ca.fmax(0, given["inside"][index] - gap / (half * distance)) ** 2
     return cost
 
 
-def _reach(up: Any, given: dict[str, Any]) -> Any:
-    """Return how far a cylinder reaches along a unit normal whose upward component is ``up``."""
-    return given["height"] / 2 * ca.sqrt(up**2 + 1e-8) + given["radius"] * ca.sqrt(1 - up**2 + 1e-6)
+def _reach(up: Any, body: _Body, plane: tuple[Any, Any, int]) -> Any:
+    """Return how far a body reaches along a unit normal.
+
+    up : the normal's upward component; plane : its components ahead and along an axis, and which that is
+    """
+    far = body.height / 2 * ca.sqrt(up**2 + 1e-8) + body.radius * ca.sqrt(1 - up**2 + 1e-6)
+    ahead, aside, axis = plane
+    for side in body.sides:
+        far += rounded(ahead * side[AHEAD] + aside * side[axis], side[0] ** 2 + side[1] ** 2 + side[2] ** 2)
+    return far
 
 
-def _hull_points(view: tuple[Any, Any, Any], x: Any, given: dict[str, Any]) -> list[tuple[Any, Any, Any]]:
+def _hull_points(body: _Body, x: Any) -> list[tuple[Any, Any, Any]]:
     """Return top, bottom, left and right of Eq. 4-7 in the camera, up as in the world.
 
     Left and right are as high in the picture as the middle, at a right angle to what leads there: that is
     known wherever the camera looks at its target, from straight above, too.
     """
-    right, up, ahead = view
-    half, sin, cos = given["height"] / 2, ca.sin(x[PITCH]), ca.cos(x[PITCH])
-    aside = given["radius"] / ca.sqrt(right**2 + ahead**2 + 1e-9)
+    right, up, ahead = body.view
+    half, sin, cos = body.height / 2, ca.sin(x[PITCH]), ca.cos(x[PITCH])
+    level = ca.sqrt(right**2 + ahead**2 + 1e-9)
+    wide = body.radius
+    for side in body.sides:
+        part = (ahead * side[RIGHT] - right * side[AHEAD]) / level
+        wide += rounded(part, side[0] ** 2 + side[1] ** 2 + side[2] ** 2)
+    aside = wide / level
     across, along = aside * ahead, -aside * right
     return [
         (right, up + half * cos, ahead + half * sin),

@@ -125,7 +125,9 @@ def touching(of):
     tower = of.mission.targets[0]
 
     def least(height):
-        made = of._replace(mission=of.mission._replace(targets=(tower._replace(height=height),)))
+        made = of._replace(
+            mission=of.mission._replace(targets=(tower._replace(shape=tower.shape._replace(height=height)),))
+        )
         s = nodes.s[nodes.pins]
         return insides(made, references_at(made, OURS, s), s, turned(made, 0.0)(s)).min(), made
 
@@ -164,7 +166,9 @@ def test_a_camera_goes_level_through_keyframes_at_which_the_target_touches_the_e
 
 def test_beside_a_keyframe_at_the_edge_nodes_ask_for_what_backing_off_can_give():
     of = arc()
-    near = of._replace(mission=of.mission._replace(targets=(of.mission.targets[0]._replace(height=1e3),)))
+    tower = of.mission.targets[0]
+    tall = tower._replace(shape=tower.shape._replace(height=1e3))
+    near = of._replace(mission=of.mission._replace(targets=(tall,)))
     nodes = nodes_of(near)
     asked = asked_at_first(near, nodes, references_at(near, OURS, nodes.s)).inside
     own = insides(near, references_at(near, OURS, nodes.s), nodes.s, turned(near, 0.0)(nodes.s))

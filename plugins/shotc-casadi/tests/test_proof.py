@@ -49,7 +49,7 @@ def test_a_target_that_sticks_out_between_nodes_is_found():
     worst = 0.0
     for x, y, z, yaw, pitch in found(s):
         d = (-x, -y, 12.0 - z)
-        inside = frustum_margins(view(yaw, pitch, HFOV, ASPECT), d, TOWER.radius, TOWER.height)
+        inside = frustum_margins(view(yaw, pitch, HFOV, ASPECT), d, TOWER.shape)
         worst = max(worst, *(-m / (sin(a) * hypot(*d)) for m, a in zip(inside, HALVES, strict=True)))
     assert worst > 0.01
     assert check.cropped == pytest.approx(worst, rel=0.02)

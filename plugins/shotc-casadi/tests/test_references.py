@@ -10,13 +10,14 @@ from shotc_casadi.conditions import ANG, LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.references import own_angles, references_at
 
 from shotc.geom.camera import aim_at
-from shotc.ir.mission import Target
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.ir.target import Target
 from tests.support.path_scenes import ASPECT, HFOV, TOWER, framed, free, mission, shot
 from tests.support.records import replace as changed
 from tests.support.refiner_scenes import subject
 
-MAST = Target("mast", (30.0, 30.0, 5.0), 1.0, 10.0, ("targets", "mast"))
+MAST = Target("mast", (30.0, 30.0, 5.0), CylinderShape(1.0, 10.0), ("targets", "mast"))
 
 
 def test_the_place_asked_is_that_of_the_leg():

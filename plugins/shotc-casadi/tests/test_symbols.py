@@ -33,6 +33,7 @@ from shotc_casadi.symbols import (
 )
 
 from shotc.geom.camera import View, aim_at, frustum_margins, view
+from shotc.geom.shapes import CylinderShape
 
 ANGLE = st.floats(-pi, pi)
 PITCHES = st.floats(radians(-85), radians(40))
@@ -141,7 +142,7 @@ def scene(look, hfov, asked, offset, cylinder):
     }
     seen = View(cos(yaw), sin(yaw), cos(pitch), sin(pitch), half, half / ASPECT)
     half_frames = [h / hypot(1, h) * hypot(*offset) for h in (half, half, half / ASPECT, half / ASPECT)]
-    margins = np.array(frustum_margins(seen, offset, radius, height)) / half_frames
+    margins = np.array(frustum_margins(seen, offset, CylinderShape(radius, height))) / half_frames
     return fields, seen, margins, (1e-4 * height / 2 + 1e-3 * radius) / np.array(half_frames)
 
 

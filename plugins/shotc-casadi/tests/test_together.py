@@ -19,6 +19,7 @@ from shotc_casadi.clock.shown import no_less, shown
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom import viewpoint
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.framed import lens_of
 from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg, PathIR
@@ -104,7 +105,9 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
     term = ca.Function("term", [one, eye, aim, lens], [picture.residuals(one, eye, (aim[0], aim[1]), lens)])
     half = tan(of.drone.hfov / 2)
     references = [
-        viewpoint.Wanted(tuple(centre), 0.4, 1.8, s.reference, s.size, *(s.view or (None, None)))
+        viewpoint.Wanted(
+            tuple(centre), CylinderShape(0.4, 1.8), s.reference, s.size, *(s.view or (None, None))
+        )
         for centre, s in zip(centres[0], framed, strict=True)
     ]
     rng = np.random.default_rng(5)
@@ -131,7 +134,7 @@ def test_a_subject_behind_the_camera_has_a_finite_cost_that_falls_as_the_camera_
 def test_two_who_stand_beside_the_axis_are_filmed_from_the_place_on_it() -> None:
     drone = subject(CORNER).drone
     away = 2.0 / (0.3 * tan(drone.hfov / 2))
-    known = viewpoint.Wanted((2.0, 0.0, 4.0), 0.4, 1.8)
+    known = viewpoint.Wanted((2.0, 0.0, 4.0), CylinderShape(0.4, 1.8))
     seen = viewpoint.judged((0.0, -away, 4.0, 0.5 * pi, 0.0), lens_of(drone), known)
     assert seen is not None
     text = STILL.replace("SIZE", f"{seen.size:.6f}")

@@ -15,8 +15,9 @@ from shotc.emit.rerun_log.series import Line, Plot, clearance_plot, motion_plots
 from shotc.emit.screen import guide_lines, screen_track
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Cameras, Frames
-from shotc.geom.silhouette import cylinder_contour, project_loops
-from shotc.ir.bodies import moved
+from shotc.geom.shapes import bodies_of
+from shotc.geom.silhouette import project_loops, shape_contour
+from shotc.ir.bodies import moved, shapes
 from shotc.ir.mission import Composition, Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase, Reference
@@ -161,10 +162,14 @@ def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Refer
     pose = flight.curve(ticks)
     cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], drone.aspect)
     away = np.array(target.centre) + moved(target, ticks) - cameras.position
-    contours = cylinder_contour(away, target.radius, target.height, count=25)
-    polygons = project_loops(cameras.view, contours)
-    outlines = [np.clip(np.concatenate([loop, loop[:1]]), -9, 9) for loop in polygons if len(loop)]
-    _strips(stream, f"{entity}/outline", ticks, outlines, [int(len(loop) > 0) for loop in polygons])
+    parts = bodies_of(shapes(target, ticks))
+    contours = [shape_contour(away + np.array(part.offset), part.shape, count=25) for part in parts]
+    polygons = list(zip(*(project_loops(cameras.view, contour) for contour in contours), strict=True))
+    outlines = [
+        np.clip(np.concatenate([loop, loop[:1]]), -9, 9) for loops in polygons for loop in loops if len(loop)
+    ]
+    counts = [sum(len(loop) > 0 for loop in loops) for loops in polygons]
+    _strips(stream, f"{entity}/outline", ticks, outlines, counts)
     _style(stream, f"{entity}/outline", rgba8(shade(SUBJECT, 1.75)), 1.2)
     _centre(stream, f"{entity}/centre", ticks, seen(mission, flight, target.name, ticks))
     if span.reference is not None:

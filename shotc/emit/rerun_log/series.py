@@ -93,7 +93,7 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
         for zone in mission.zones
     ]
     subjects = [
-        signed_distance(target.solid, p - moved(target, t)) - radius - rules.target_clearance + bound
+        signed_distance(target.kept_clear, p - moved(target, t)) - radius - rules.target_clearance + bound
         for target in mission.targets
     ]
     ground = p[:, 2] - radius - rules.ground_clearance + bound

@@ -13,8 +13,10 @@ from shotc.emit.rerun_log.terrain_mesh import log_terrain
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid, triangles
+from shotc.geom.track_array import headings
 from shotc.ir.bodies import moved
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
+from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 SIDES = 48
@@ -146,7 +148,7 @@ def _motion(stream: Any, target: Target, last: float) -> None:
     stream.send_columns(
         f"world/targets/{target.name}",
         indexes=[rr.TimeColumn("t", duration=times)],
-        columns=rr.Transform3D.columns(translation=away),
+        columns=_transforms(target, times, away),
     )
     way = rr.LineStrips3D(
         [away + np.array(target.centre)],
@@ -154,6 +156,18 @@ def _motion(stream: Any, target: Target, last: float) -> None:
         colors=[rgba8(shade(SUBJECT, 1.2), 0.6)],
     )
     stream.log(f"world/tracks/{target.name}", way, static=True)
+
+
+def _transforms(target: Target, times: Array, away: Array) -> Any:
+    """Return how a body that is logged where it is at time 0 comes to where it is at times, (M,)."""
+    if target.track is None or not target.shape.turns:
+        return rr.Transform3D.columns(translation=away)
+    half = 0.5 * (headings(target.track, times) - target.track.heading(0.0))
+    none, cos, sin = np.zeros(len(times)), np.cos(2 * half), np.sin(2 * half)
+    x, y, z = target.centre
+    about = np.column_stack([cos * x - sin * y, sin * x + cos * y, np.full(len(times), z)])
+    turn = np.column_stack([none, none, np.sin(half), np.cos(half)])
+    return rr.Transform3D.columns(translation=away + np.array(target.centre) - about, quaternion=turn)
 
 
 def _flight(stream: Any, plan: VerifiedIR, flight: DroneTrajectory) -> None:

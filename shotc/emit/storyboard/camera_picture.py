@@ -11,8 +11,8 @@ from shotc.emit.storyboard.canvas import Box
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.vec import Vec3
-from shotc.ir.mission import Target
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.target import Target
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -14,9 +14,10 @@ from shotc.geom.bernstein import Array
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
-from shotc.ir.mission import Drone, MissionIR, Shot, Target
+from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.path import from_what_was_asked
 from shotc.ir.phases import KeyframeTime
+from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.rounding import at_least
 
@@ -201,8 +202,9 @@ def standing(mission: MissionIR, board: ShotBoard) -> MissionIR:
     """Return the mission with a moving target standing wherever it is at one of a shot's moments."""
     targets: list[Target] = []
     for target in mission.targets:
-        places = dict.fromkeys(target.at(moment.time) for moment in board.moments)
-        targets += (
-            [target] if target.track is None else [target._replace(centre=p, track=None) for p in places]
-        )
+        if target.track is None:
+            targets.append(target)
+            continue
+        times = {target.at(moment.time): moment.time for moment in board.moments}
+        targets += [target._replace(centre=p, shape=target.shape_at(t), track=None) for p, t in times.items()]
     return mission._replace(targets=tuple(targets))

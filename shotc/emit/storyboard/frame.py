@@ -58,7 +58,8 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
         offset = shown.offset(mission.target(subject.target))
         taken += _marks(canvas, shown, subject, offset, seen.get(subject.target))
     taken += _faults(canvas, box, moment.framed)
-    lost = _names(canvas, shown, mission, moment.targets, taken)
+    subjects = [part for name in moment.targets for part in mission.parts_of(name)]
+    lost = _names(canvas, shown, mission, subjects, taken)
     canvas.polygons([box.outline()], "none", INK, 0.8)
     _caption(canvas, cell, moment, mission, lost)
 

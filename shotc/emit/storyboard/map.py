@@ -36,8 +36,9 @@ from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import view
 from shotc.geom.solids import Cylinder, convex_hull
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.target import Target
 
 NUMBER = 0.095
 """Radius of a frame's number, inches."""
@@ -146,10 +147,11 @@ def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
 
 def _body(sheet: Sheet, target: Target) -> Array:
     """Return the shape of a target on the page, never too small to be seen."""
-    solid = target.solid
-    return sheet.outline(
-        Cylinder(solid.centre, max(target.radius, 0.06 / sheet.inches), solid.bottom, solid.top)
-    )
+    solid, least = target.solid, 0.06 / sheet.inches
+    if target.radius < least:
+        x, y, _ = target.centre
+        solid = Cylinder((x, y), least, solid.bottom, solid.top)
+    return sheet.outline(solid)
 
 
 def _frustum(canvas: Canvas, sheet: Sheet, moment: Moment, aspect: float) -> None:

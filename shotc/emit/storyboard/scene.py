@@ -9,19 +9,19 @@ import numpy as np
 
 from shotc.emit.hillshade import before
 from shotc.emit.palette import KEEP_OUT, SKY_LOW, SUBJECT, Rgb, shade
+from shotc.emit.storyboard.bodies import draw_body
 from shotc.emit.storyboard.camera_picture import Picture
 from shotc.emit.storyboard.canvas import Box, Canvas
 from shotc.emit.storyboard.fan import FanPainter, fan_of
 from shotc.emit.storyboard.flat_ground import draw_flat, draw_sky
 from shotc.geom.bernstein import Array
-from shotc.geom.silhouette import cylinder_outline, project_loop, solid_edges, solid_outlines
+from shotc.geom.shapes import BoxShape, bodies_of
+from shotc.geom.silhouette import shape_outline, solid_edges, solid_outlines
 from shotc.geom.solids import convex_parts
-from shotc.geom.vec import Vec3
+from shotc.geom.vec import Vec3, plus
 from shotc.ir.bodies import parts_of_one
-from shotc.ir.mission import MissionIR, Target, Zone
-
-LIGHT = np.radians(215.0)
-"""Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""
+from shotc.ir.mission import MissionIR, Zone
+from shotc.ir.target import Target
 
 AT_FOOT = 0.985
 """Ground up to this share of the way to a thing hides it; beyond is the ground that the thing stands on."""
@@ -34,6 +34,7 @@ def draw_scene(
 
     subjects : the targets that are drawn in full colour; grid : width of a ground square, metres
     """
+    subjects = {part for name in subjects for part in mission.parts_of(name)}
     things = painting_order(shown.eye, _things(mission))
     if mission.terrain is None:
         draw_flat(canvas, shown, grid)
@@ -97,7 +98,13 @@ def _holds(a: Target, b: Target) -> bool:
     """Tell whether all of a target is in another, which spans as much or more of every direction."""
     (a_low, a_high), (b_low, b_high) = _span(a), _span(b)
     off = hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1])
-    return a_low <= b_low and b_high <= a_high and off + b.radius <= a.radius
+    return a_low <= b_low and b_high <= a_high and off + b.radius <= _within(a)
+
+
+def _within(target: Target) -> float:
+    """Return the radius of the upright cylinder about its centre that it holds, metres."""
+    shape = target.shape
+    return min(shape.length, shape.width) / 2 if isinstance(shape, BoxShape) else shape.radius
 
 
 def _span(thing: Target | Zone) -> tuple[float, float]:
@@ -115,55 +122,8 @@ def _distance(eye: Vec3, thing: Target | Zone) -> float:
 
 
 def _target(canvas: Canvas, shown: Picture, target: Target, color: Rgb) -> None:
-    offset = shown.offset(target)
-    outline = cylinder_outline(shown.camera, offset, target.radius, target.height)
-    if not len(outline):
-        return
-    canvas.polygons([shown.place(outline)], color, clip=shown.box)
-    strips, colors = _shaded_side(shown, target, offset, color)
-    if strips:
-        canvas.polygons(strips, colors, colors, 0.4, shown.box)
-    cap = _cap(shown, target, offset)
-    if cap is not None:
-        canvas.polygons([shown.place(cap)], shade(color, 1.4), shade(color, 1.2), 0.5, shown.box)
-    canvas.polygons([shown.place(outline)], "none", shade(color, 0.55), 1.1, shown.box)
-
-
-def _shaded_side(shown: Picture, target: Target, offset: Vec3, color: Rgb) -> tuple[list[Array], list[Rgb]]:
-    x, y, z = offset
-    away = float(np.hypot(x, y))
-    if away <= target.radius:
-        return [], []
-    half = np.arccos(target.radius / away)
-    turn = np.arctan2(-y, -x) + half * np.linspace(-1, 1, 25)
-    rim = np.stack([x + target.radius * np.cos(turn), y + target.radius * np.sin(turn)], axis=-1)
-    low, high = z - target.height / 2, z + target.height / 2
-    strips, colors = [], []
-    for i in range(24):
-        quad = np.array([[*rim[i], low], [*rim[i + 1], low], [*rim[i + 1], high], [*rim[i], high]])
-        polygon = project_loop(shown.camera, quad)
-        if len(polygon):
-            strips.append(shown.place(polygon))
-            facing = np.cos((turn[i] + turn[i + 1]) / 2 - LIGHT)
-            colors.append(shade(color, 1.02 + 0.26 * float(facing)))
-    return strips, colors
-
-
-def _cap(shown: Picture, target: Target, offset: Vec3) -> Array | None:
-    top = offset[2] + target.height / 2
-    if top >= 0:
-        return None
-    turn = np.linspace(0, 2 * np.pi, 65)[:-1]
-    rim = np.stack(
-        [
-            offset[0] + target.radius * np.cos(turn),
-            offset[1] + target.radius * np.sin(turn),
-            np.full(64, top),
-        ],
-        axis=-1,
-    )
-    polygon = project_loop(shown.camera, rim)
-    return polygon if len(polygon) else None
+    for part in bodies_of(target.shape):
+        draw_body(canvas, shown, part.shape, plus(shown.offset(target), part.offset), color)
 
 
 def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
@@ -175,6 +135,12 @@ def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
     canvas.lines(edges, (*KEEP_OUT, 0.75), 0.8, shown.box)
     if len(outlines) == 1:
         canvas.polygons(outlines, "none", (*shade(KEEP_OUT, 0.9), 0.95), 1.0, shown.box)
+
+
+def _outlines(shown: Picture, target: Target) -> list[Array]:
+    offset = shown.offset(target)
+    parts = bodies_of(target.shape)
+    return [shape_outline(shown.camera, plus(offset, part.offset), part.shape) for part in parts]
 
 
 def _is_behind_ground(eye: Vec3, mission: MissionIR, target: Target) -> bool:
@@ -196,7 +162,7 @@ def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]
         if isinstance(thing, Target) and _is_behind_ground(shown.eye, mission, thing):
             continue
         if isinstance(thing, Target):
-            shapes = [cylinder_outline(shown.camera, shown.offset(thing), thing.radius, thing.height)]
+            shapes = _outlines(shown, thing)
             color = shade(SUBJECT, 0.7)
         else:
             shapes = solid_outlines(shown.camera, shown.eye, thing.solid)

@@ -113,7 +113,7 @@ def outline(axes: Array, solid: Solid) -> Array:
 
 def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, Array]:
     """Return the lower left and upper right corner of what is to be shown, metres."""
-    framed = {target for m in board.moments for target in m.targets}
+    framed = {part for m in board.moments for name in m.targets for part in mission.parts_of(name)}
     subjects = [target for target in mission.targets if target.name in framed]
     shapes = [board.path @ axes.T, *(outline(axes, subject.solid) for subject in subjects)]
     low, high = _corners(shapes)
@@ -137,7 +137,7 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
 
 def _lowest_ground(board: ShotBoard, mission: MissionIR) -> float:
     """Return z of the lowest ground under a path and its subjects, metres."""
-    framed = {target for m in board.moments for target in m.targets}
+    framed = {part for m in board.moments for name in m.targets for part in mission.parts_of(name)}
     feet = [np.array([t.centre[:2]]) for t in mission.targets if t.name in framed]
     return float(ground_heights(mission, np.concatenate([board.path[:, :2], *feet])).min())
 

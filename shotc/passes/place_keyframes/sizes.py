@@ -7,7 +7,7 @@ from math import degrees, hypot
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import aim_at, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import aim_at, view
 from shotc.geom.vec import Vec2, Vec3
 from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
 from shotc.ir.begins import first_start
@@ -75,7 +75,7 @@ def _framed(mission: MissionIR, placed: PlacedShot, asked: float) -> str:
 def _instead(mission: MissionIR, look: Look, asked: float) -> str:
     """Say from how far away, and through which lens, a target would have its size."""
     target = mission.target(look.name)
-    wanted = Wanted(target.centre, target.radius, target.height, look.uv)
+    wanted = Wanted(target.centre, target.shape, look.uv)
     away = hypot(*look.offset)
     x, y, z = (c / away for c in look.offset)
     distance = distance_for(wanted, look.lens, (x, y, z), asked)
@@ -98,8 +98,9 @@ def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
     for i in range(LOOKS + 1):
         t = start + duration * i / LOOKS
         eye = ideal_place(mission, shot, start, t)
-        x, y, z = (e - c for e, c in zip(eye, mission.target(subject.target).at(t), strict=True))
-        look = _look(mission, subject.target, (x, y, z), subject.reference, lens_of(drone), shot.ideal.aim)
+        then = frozen(mission, t)
+        x, y, z = (e - c for e, c in zip(eye, then.target(subject.target).centre, strict=True))
+        look = _look(then, subject.target, (x, y, z), subject.reference, lens_of(drone), shot.ideal.aim)
         if look is not None:
             yield look
 
@@ -132,7 +133,7 @@ def _look(
     if aim is None:
         return None
     camera = view(*aim, lens.hfov, lens.aspect)
-    if nearest_depth(camera, back, target.radius, target.height) <= 0:
+    if target.shape.nearest_depth(camera, back) <= 0:
         return None
-    _, _, low, high = silhouette_bounds(camera, back, target.radius, target.height)
+    _, _, low, high = target.shape.bounds(camera, back)
     return Look(0.5 * (high - low), name, offset, uv, lens)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import degrees, pi
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.shapes import POINT
 from shotc.ir.begins import first_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedSubject
@@ -50,7 +51,7 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
         return settled, [_cropped(mission, shot, subject, settled, None)] if cropped else []
     if subject.size is not None and subject.size > 1.0:
         # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
-        setting = setting._replace(radius=0.0, height=0.0)
+        setting = setting._replace(shape=POINT)
     place = nearest_candidate(setting, composition, MIDDLE)
     if place is not None:
         return place, []
@@ -80,9 +81,7 @@ def setting_at(mission: MissionIR, shot: Shot, target: str) -> Setting:
     drone, subject = mission.drone(shot.drone), mission.target(target)
     eye, centre = ideal_place(mission, shot, start, t), subject.at(t)
     x, y, z = (c - e for c, e in zip(centre, eye, strict=True))
-    return Setting(
-        (x, y, z), subject.radius, subject.height, drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2
-    )
+    return Setting((x, y, z), subject.shape_at(t), drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2)
 
 
 def _nearest_of_all(setting: Setting, composition: Composition) -> Vec2:

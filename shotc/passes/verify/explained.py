@@ -24,11 +24,12 @@ from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.surface.near import nearest
 from shotc.ir.bodies import flying, moved
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.owners import mesh_owner
 from shotc.ir.path import Deviation
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
+from shotc.ir.target import Target
 from shotc.passes.verify.claims import Flight
 
 NEAR_M = 1.0
@@ -148,7 +149,7 @@ def _targets(flight: Flight, way: Way, *, placed: bool) -> Iterator[tuple[str, f
         if (placed and target.track is None) or (way.times is None and target.track is not None):
             continue
         beside = way.places - (_centre(target, way.times) - np.array(target.centre))
-        if signed_distance(target.solid, beside).min() < near:
+        if signed_distance(target.kept_clear, beside).min() < near:
             yield f"target {target.name}", max(2.0 * target.radius, target.height) + 2.0 * near
 
 

@@ -117,7 +117,7 @@ def _space(mission: MissionIR, drone: Drone, track: DroneTrajectory, time: float
     for target in mission.targets:
         away = moved(target, np.array([time]))[0]
         if (
-            distance(target.solid, (x - away[0], y - away[1], z - away[2]))
+            distance(target.kept_clear, (x - away[0], y - away[1], z - away[2]))
             < drone.radius + rules.target_clearance + AT_EDGE_M
         ):
             yield f"the clearance of target `{target.name}` ({measure(rules.target_clearance, 'm')})"

@@ -95,7 +95,7 @@ def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
     curve = track.curve.channels(0, 1, 2)
     for target in mission.targets:
         if name == f"target {target.name}":
-            return _Named(target.solid, target.path, beside(curve, target))
+            return _Named(target.kept_clear, target.path, beside(curve, target))
     zone = next(zone for zone in mission.zones if name == f"zone {zone.name}")
     return _Named(zone.solid, zone.path, curve)
 

@@ -14,9 +14,10 @@ import numpy as np
 from shotc.geom.pieces import Pieces, cut, join
 from shotc.geom.proof import Bound, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solids import Solid, distance
-from shotc.ir.mission import Target, Zone
+from shotc.ir.mission import Zone
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.sampling import beside
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.above_ground import above_ground
 from shotc.passes.verify.beside_meshes import beside_meshes
@@ -41,7 +42,7 @@ def space(flight: Flight) -> Iterator[Claim]:
         near = (free, upright) if target.track is None else _split(flight, target)
         parts = (*near, rules.target_clearance)
         path = ("rules", "target_clearance")
-        yield from _keep_out(flight, f"target {target.name}", target.solid, parts, path)
+        yield from _keep_out(flight, f"target {target.name}", target.kept_clear, parts, path)
     if len(upright):
         yield from _vertical(flight, upright)
 

@@ -31,7 +31,7 @@ def transits(flight: Flight) -> Iterator[Claim]:
     for target in mission.targets:
         apart = from_target(mission, target.name)
         if apart is not None:
-            yield from _kept(flight, f"target {target.name}", (target.solid, beside(own, target)), apart)
+            yield from _kept(flight, f"target {target.name}", (target.kept_clear, beside(own, target)), apart)
     apart = from_zones(mission)
     for zone in mission.zones:
         if apart is not None and zone.keep == "out":

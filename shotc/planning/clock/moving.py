@@ -17,7 +17,7 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.planes import separate
 from shotc.geom.solid_arrays.points import support
-from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.solids import Solid
 from shotc.geom.track_array import places
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.owners import Owner, target_owner
@@ -85,13 +85,12 @@ class LinearMotion:
 
 
 def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
-    """Return the targets that move, each a cylinder about its centre."""
+    """Return the targets that move, each a solid about its centre."""
     clearance = mission.rules.beside_target(drone.radius)
     motions = []
     for target in mission.targets:
         if target.track is not None:
-            half = target.height / 2
-            name, part = target_owner(target), Cylinder((0.0, 0.0), target.radius, -half, half)
+            name, part = target_owner(target), target._replace(centre=(0.0, 0.0, 0.0)).kept_clear
             kept = from_target(mission, target.name)
             apart = clearance if kept is None else drone.radius + kept.metres + MARGIN_M
             required = kept is not None and kept.required

@@ -14,8 +14,9 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, frames
 from shotc.geom.pieces import Mask
 from shotc.geom.track_array import places as track_places
-from shotc.ir.mission import Target
+from shotc.ir.bodies import shapes
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
+from shotc.ir.target import Target
 from shotc.planning.clock.aims import CameraTask, aims_at
 
 STEP_S = 0.1  # seconds between the moments that are looked at
@@ -63,7 +64,7 @@ def _whole(camera_task: CameraTask, target: Target, times: Array, places: Array)
     aims = aims_at(camera_task, times, places)
     still = places - _places(target, times) + np.array(target.centre)
     cameras = Cameras(still, aims[:, 0], aims[:, 1], camera_task.hfov(times), camera_task.drone.aspect)
-    return np.asarray(frames(cameras, target.solid).in_frame)
+    return np.asarray(frames(cameras, target.centre, shapes(target, times)).in_frame)
 
 
 def _places(target: Target, times: Array) -> Array:

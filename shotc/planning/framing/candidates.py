@@ -9,7 +9,8 @@ from collections.abc import Iterable
 from math import hypot, inf, sqrt, tan
 from typing import NamedTuple
 
-from shotc.geom.camera import ROUNDING_M, aim_at, frustum_margins, nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import ROUNDING_M, aim_at, frustum_margins, view
+from shotc.geom.shapes import TargetShape
 from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import Range
 from shotc.ir.mission import Composition
@@ -25,14 +26,13 @@ GOLDEN = (sqrt(5) - 1) / 2
 class Setting(NamedTuple):
     """A camera that stands still and may turn, and the target it frames.
 
-    offset : target's centre less camera, W, m; radius, height : of the target, m
+    offset : target's centre less camera, W, m; shape : of the target
     hfov : rad; aspect : width / height; pitch : gimbal's range, rad
     yaw_if_vertical : yaw to take where the target is straight above or below, rad
     """
 
     offset: Vec3
-    radius: float
-    height: float
+    shape: TargetShape
     hfov: float
     aspect: float
     pitch: Range
@@ -43,9 +43,9 @@ class Setting(NamedTuple):
         return aim_at(self.offset, uv, self.hfov, self.aspect, self.yaw_if_vertical)
 
     def margin(self, aim: Vec2) -> float:
-        """Return how far inside the frame the whole cylinder lies, metres; negative is cropped."""
+        """Return how far inside the frame the whole target lies, metres; negative is cropped."""
         camera = view(aim[0], aim[1], self.hfov, self.aspect)
-        return float(min(frustum_margins(camera, self.offset, self.radius, self.height)))
+        return float(min(frustum_margins(camera, self.offset, self.shape)))
 
     def slack(self, uv: Vec2) -> float:
         """Return how far ``uv`` is from being no candidate, metres at the target; negative is none."""
@@ -63,12 +63,12 @@ class Setting(NamedTuple):
     def shows(self, aim: Vec2) -> bool:
         """Tell whether any of the target's outline box is in the frame."""
         camera = view(aim[0], aim[1], self.hfov, self.aspect)
-        if nearest_depth(camera, self.offset, self.radius, self.height) <= 0:
+        if self.shape.nearest_depth(camera, self.offset) <= 0:
             # It reaches past the image plane and has no outline; mirrored at the camera, what lies wholly
             # outside one side of the frame lies wholly inside of it.
             x, y, z = self.offset
-            return bool(max(frustum_margins(camera, (-x, -y, -z), self.radius, self.height)) <= 0)
-        left, right, low, high = silhouette_bounds(camera, self.offset, self.radius, self.height)
+            return bool(max(frustum_margins(camera, (-x, -y, -z), self.shape)) <= 0)
+        left, right, low, high = self.shape.bounds(camera, self.offset)
         return bool(left < 1 and right > -1 and low < 1 and high > -1)
 
     def direction(self, uv: Vec2) -> Vec3:

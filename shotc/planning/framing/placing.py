@@ -6,6 +6,7 @@ from math import atan2, hypot, pi
 from typing import NamedTuple
 
 from shotc.geom.camera import aim_at
+from shotc.geom.shapes import POINT
 from shotc.geom.vec import Vec2, Vec3, direction, minus
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
@@ -58,7 +59,7 @@ def _place(
     setting = setting_of(mission, drone, keyframe, course)
     if shot.size is not None and shot.size > 1.0:
         # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
-        setting = setting._replace(radius=0.0, height=0.0)
+        setting = setting._replace(shape=POINT)
     aim = own_framing(setting, keyframe, course)
     # A camera that looks at its target holds it in the middle, to the last bit.
     asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
@@ -83,8 +84,7 @@ def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: flo
         course = keyframe.aim[0]
     return Setting(
         offset=minus(target.centre, keyframe.at),
-        radius=target.radius,
-        height=target.height,
+        shape=target.shape,
         hfov=keyframe.hfov,
         aspect=drone.aspect,
         pitch=drone.gimbal.pitch,

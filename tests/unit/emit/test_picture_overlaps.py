@@ -13,8 +13,9 @@ from shotc.emit.storyboard.canvas import Box, Canvas, house_style
 from shotc.emit.storyboard.labels import MAP_SIDES, Label, nearest_room, write_labels
 from shotc.emit.storyboard.map import NUMBER
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.mission import Target
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.ir.target import Target
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.film_plans import TOWER, orbit_plan
 from tests.support.page_texts import Written, texts
@@ -73,7 +74,12 @@ def crowded() -> VerifiedIR:
     """The half orbit among six targets that stand close together, with long names."""
     plan = orbit_plan()
     near = tuple(
-        Target(f"neighbour-{i}-of-the-tower", (6.0 * np.cos(a), 6.0 * np.sin(a), 4.0), 2.0, 8.0, ("targets",))
+        Target(
+            f"neighbour-{i}-of-the-tower",
+            (6.0 * np.cos(a), 6.0 * np.sin(a), 4.0),
+            CylinderShape(2.0, 8.0),
+            ("targets",),
+        )
         for i, a in enumerate(np.linspace(0.0, 5.2, 6))
     )
     return among(plan, (TOWER, *near))

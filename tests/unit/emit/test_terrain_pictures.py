@@ -20,8 +20,10 @@ from shotc.emit.storyboard.flat_ground import squares
 from shotc.emit.storyboard.map import draw_map
 from shotc.emit.storyboard.scene import draw_scene, name_places
 from shotc.emit.storyboard.sheet import sheet_of
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.surface.ground import Ground, ground_of, height_at
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
+from shotc.ir.target import Target
 from shotc.ir.terrain import Terrain, ground_heights
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
@@ -56,7 +58,7 @@ def mission(shape: Ground, *targets: Target) -> MissionIR:
 
 
 def mast(x: float, height: float = 10.0) -> Target:
-    return Target("mast", (x, 0.0, height / 2), 2.0, height, ("targets", "mast"))
+    return Target("mast", (x, 0.0, height / 2), CylinderShape(2.0, height), ("targets", "mast"))
 
 
 def look(pitch: float = 0.0, z: float = 8.0, x: float = -100.0) -> Picture:

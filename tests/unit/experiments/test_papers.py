@@ -13,6 +13,7 @@ from shotc.checking import check_source
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import View, frustum_margins, point_margins
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.path import Mark, MovingLeg
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
@@ -132,10 +133,12 @@ def test_it_agrees_with_the_compilers_camera() -> None:
     screen, ahead = lens.project(offset)
     assert ahead == pytest.approx(depth, abs=1e-9)
     assert screen[depth > 1] == pytest.approx(np.stack([u, v], axis=1)[depth > 1], abs=1e-9)
-    exact = np.min(frustum_margins(ours, (x, y, z), radius, height), axis=0)
+    exact = np.min(frustum_margins(ours, (x, y, z), CylinderShape(radius, height)), axis=0)
     assert lens.inside(offset, radius, height) == pytest.approx(exact, abs=1e-9)
     four = np.min([lens.inside(point) for point in four_points(offset, radius, height)], axis=0)
-    assert four == pytest.approx(np.min(point_margins(ours, (x, y, z), radius, height), axis=0), abs=1e-9)
+    assert four == pytest.approx(
+        np.min(point_margins(ours, (x, y, z), CylinderShape(radius, height)), axis=0), abs=1e-9
+    )
 
 
 def test_a_percentile_is_one_of_the_values():

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from shotc.geom.camera import frustum_margins, point_margins, view
 from shotc.geom.framing import Cameras, frames, points_in_frame
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
 
 HFOV, ASPECT = radians(70), 16 / 9
@@ -20,7 +21,7 @@ LEVEL = view(0.0, 0.0, HFOV, ASPECT)
 
 def test_seen_level_the_points_stand_where_they_are_said_to():
     across, along = (1 + HALF**2) ** -0.5, (1 + (HALF / ASPECT) ** 2) ** -0.5
-    left, right, bottom, top = point_margins(LEVEL, (50.0, 0.0, 0.0), 3.0, 20.0)
+    left, right, bottom, top = point_margins(LEVEL, (50.0, 0.0, 0.0), CylinderShape(3.0, 20.0))
     # A radius aside and half the height up, all of them as far away as the axis.
     assert left == pytest.approx(across * (50 * HALF - 3))
     assert right == pytest.approx(left)
@@ -38,8 +39,8 @@ def test_seen_level_the_points_stand_where_they_are_said_to():
 )
 def test_no_point_is_farther_out_than_the_silhouette(away, aside, pitch, up, radius, height):
     camera = view(aside, pitch, HFOV, ASPECT)
-    exact = frustum_margins(camera, (away, 0.0, up), radius, height)
-    points = point_margins(camera, (away, 0.0, up), radius, height)
+    exact = frustum_margins(camera, (away, 0.0, up), CylinderShape(radius, height))
+    points = point_margins(camera, (away, 0.0, up), CylinderShape(radius, height))
     assert all(p >= e - 1e-9 for p, e in zip(points, exact, strict=True))
 
 
@@ -57,13 +58,13 @@ def test_arrays_give_what_single_poses_give():
     look = cameras(eyes)
     for i, eye in enumerate(eyes):
         camera = view(float(look.yaw[i]), float(look.pitch[i]), HFOV, ASPECT)
-        margins = point_margins(camera, (-eye[0], -eye[1], 12.0 - eye[2]), 4.0, 24.0)
+        margins = point_margins(camera, (-eye[0], -eye[1], 12.0 - eye[2]), CylinderShape(4.0, 24.0))
         assert points_in_frame(look, target)[i] == (min(margins) >= 0)
 
 
 def test_straight_above_the_points_are_still_numbers():
     assert np.isfinite(
-        point_margins(view(0.0, radians(-90), HFOV, ASPECT), (0.0, 0.0, -40.0), 3.0, 9.0)
+        point_margins(view(0.0, radians(-90), HFOV, ASPECT), (0.0, 0.0, -40.0), CylinderShape(3.0, 9.0))
     ).all()
 
 

@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from shotc.geom import camera
 from shotc.geom.framing import Cameras, frames, hidden, margin_rate
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, box
+from shotc.geom.vec import Vec3
 
 HFOV = radians(70)
 
@@ -23,6 +25,11 @@ def cameras(position, yaw, pitch, hfov=HFOV, aspect=16 / 9) -> Cameras:  # type:
         np.full(count, hfov),
         aspect,
     )
+
+
+def about(target: Cylinder) -> tuple[Vec3, CylinderShape]:
+    tall = target.top - target.bottom
+    return (*target.centre, target.bottom + tall / 2), CylinderShape(target.radius, tall)
 
 
 def surface(target: Cylinder, count: int = 4000) -> np.ndarray:
@@ -51,7 +58,7 @@ def test_size_and_flags_are_those_of_the_projected_cylinder(pose, radius: float,
     yaw = azimuth + pi + aside
     pitch = np.arctan2(0.5 + height / 2 - z, distance) + tilt
     look = cameras(eye, yaw, pitch)
-    found = frames(look, target)
+    found = frames(look, *about(target))
     u, v, depth = camera.view(yaw, float(pitch), radians(70), 16 / 9).project(
         tuple((surface(target) - eye).T)
     )
@@ -67,14 +74,14 @@ def test_a_target_that_touches_the_edge_is_in_the_frame() -> None:
     target = Cylinder((0, 0), 1, 0, 1)
     fits = 1 / np.sin(HFOV / 2)
     away = fits - np.array([-0.01, 0.0, 1e-6, 1e-5])
-    seen = frames(cameras([[-d, 0, 0.5] for d in away], [0.0] * 4, [0.0] * 4, aspect=0.5), target)
+    seen = frames(cameras([[-d, 0, 0.5] for d in away], [0.0] * 4, [0.0] * 4, aspect=0.5), *about(target))
     assert list(seen.in_frame) == [True, True, True, False]
     assert seen.margin[2] == pytest.approx(-1e-6 * np.sin(HFOV / 2), rel=1e-6)
 
 
 def test_a_target_behind_the_camera_has_no_place_and_no_size() -> None:
     target = Cylinder((0, 0), 1, 0, 4)
-    seen = frames(cameras([[-20, 0, 2], [-20, 0, 2]], [0.0, pi], [0.0, 0.0]), target)
+    seen = frames(cameras([[-20, 0, 2], [-20, 0, 2]], [0.0, pi], [0.0, 0.0]), *about(target))
     assert seen.u[0] == pytest.approx(0.0)
     assert not np.isnan(seen.size[0])
     assert np.isnan([seen.u[1], seen.v[1], seen.size[1]]).all()
@@ -84,7 +91,7 @@ def test_a_target_behind_the_camera_has_no_place_and_no_size() -> None:
 
 def test_a_target_half_behind_the_camera_has_a_place_but_no_size() -> None:
     tall = Cylinder((0, 0), 0.5, 0, 60)
-    seen = frames(cameras([-3, 0, 29], 0.0, radians(-25)), tall)
+    seen = frames(cameras([-3, 0, 29], 0.0, radians(-25)), *about(tall))
     assert not np.isnan(seen.u[0])
     assert np.isnan(seen.size[0])
     assert not seen.in_frame[0]
@@ -98,7 +105,12 @@ def test_what_hides_and_what_does_not() -> None:
     assert list(hidden(eyes, point, [wall])) == [True, False, False, False]  # the last stands inside the wall
     around = Cylinder((0, 0), 4, 0, 12)
     assert hidden(eyes, point, [around]).all()  # nobody looks into it from outside
-    assert list(frames(cameras(eyes, [0, pi, 0, 0], [0, 0, 0, 0]), target, [wall]).hidden) == [1, 0, 0, 0]
+    assert list(frames(cameras(eyes, [0, pi, 0, 0], [0, 0, 0, 0]), *about(target), [wall]).hidden) == [
+        1,
+        0,
+        0,
+        0,
+    ]
 
 
 @settings(deadline=None, max_examples=80)
@@ -117,7 +129,7 @@ def test_margins_change_no_faster_than_their_bound(seed: int) -> None:
         np.array([hfov, hfov + dzoom]),
         aspect,
     )
-    margins = frames(look, target).margin
+    margins = frames(look, *about(target)).margin
     far = max(np.linalg.norm(p - [0, 0, target.top / 2]) for p in look.position)
     rate = margin_rate(
         far + target.top / 2 + target.radius,
@@ -137,7 +149,7 @@ def test_the_upper_edge_may_turn_faster_than_the_lens_opens(aspect: float, hfov:
     margins = []
     for angle in (hfov, hfov + step):
         up = float(np.arctan(np.tan(hfov / 2) / aspect))
-        margins.append(frames(cameras([0.0, 0.0, 0.0], 0.0, -up, angle, aspect), point).margin[0])
+        margins.append(frames(cameras([0.0, 0.0, 0.0], 0.0, -up, angle, aspect), *about(point)).margin[0])
     rate = abs(margins[1] - margins[0]) / step
     assert rate > 1.2 * 20.0 * 0.5
     assert rate <= margin_rate(20.0, 0.0, 0.0, 1.0, aspect) + 1e-3

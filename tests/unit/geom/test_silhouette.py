@@ -7,15 +7,16 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from shotc.geom.camera import nearest_depth, silhouette_bounds, view
+from shotc.geom.camera import view
 from shotc.geom.framing import Cameras
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.silhouette import (
     NEAR_PLANE_M,
     cylinder_contour,
-    cylinder_outline,
     edge_strips,
     project_loop,
     project_loops,
+    shape_outline,
     solid_edges,
     solid_outlines,
 )
@@ -75,11 +76,11 @@ def test_outline_contains_every_point_and_touches_the_exact_extremes(
 ) -> None:
     offset = ahead(pose, radius + height / 2 + place[0], place[1])
     camera = view(*pose, ASPECT)
-    assume(nearest_depth(camera, offset, radius, height) > 0.5)
-    outline = cylinder_outline(camera, offset, radius, height, count=300)
+    assume(CylinderShape(radius, height).nearest_depth(camera, offset) > 0.5)
+    outline = shape_outline(camera, offset, CylinderShape(radius, height), count=300)
     points = surface(np.random.default_rng(1), radius, height) + np.array(offset)
     u, v, _ = camera.project((points[:, 0], points[:, 1], points[:, 2]))
-    bounds = np.array(silhouette_bounds(camera, offset, radius, height))
+    bounds = np.array(CylinderShape(radius, height).bounds(camera, offset))
     scale = max(1e-9, float(np.ptp(bounds[:2])), float(np.ptp(bounds[2:])))
     assert overshoot(outline, np.stack([u, v], axis=-1)) < 1e-3 * scale
     found = [outline[:, 0].min(), outline[:, 0].max(), outline[:, 1].min(), outline[:, 1].max()]
@@ -98,22 +99,22 @@ def test_what_is_in_front_of_a_cut_cylinder_is_inside_its_outline(
     points = surface(np.random.default_rng(2), radius, height) + np.array([x, y, z])
     u, v, depth = camera.project((points[:, 0], points[:, 1], points[:, 2]))
     on_screen = (depth > NEAR_PLANE_M) & (abs(u) < 1) & (abs(v) < 1)
-    outline = cylinder_outline(camera, (x, y, z), radius, height, count=400)
+    outline = shape_outline(camera, (x, y, z), CylinderShape(radius, height), count=400)
     if on_screen.any():
         assert overshoot(outline, np.stack([u, v], axis=-1)[on_screen]) < 5e-3
 
 
 def test_eye_over_the_disc_sees_one_rim() -> None:
     camera = view(0.0, -pi / 2 + 0.01, 1.0, 1.0)
-    outline = cylinder_outline(camera, (0.5, 0.2, -20.0), 3.0, 10.0)
+    outline = shape_outline(camera, (0.5, 0.2, -20.0), CylinderShape(3.0, 10.0))
     rim = cylinder_contour(np.array([0.5, 0.2, -20.0]), 3.0, 10.0)
     assert np.allclose(rim[:, 2], -15.0)
     assert len(outline) == len(rim)
 
 
 def test_no_outline_from_inside_and_none_behind() -> None:
-    assert len(cylinder_outline(view(0, 0, 1, 1), (0.5, 0.0, 0.0), 3.0, 10.0)) == 0
-    assert len(cylinder_outline(view(0, 0, 1, 1), (-30.0, 0.0, 0.0), 3.0, 10.0)) == 0
+    assert len(shape_outline(view(0, 0, 1, 1), (0.5, 0.0, 0.0), CylinderShape(3.0, 10.0))) == 0
+    assert len(shape_outline(view(0, 0, 1, 1), (-30.0, 0.0, 0.0), CylinderShape(3.0, 10.0))) == 0
     assert solid_outlines(view(0, 0, 1, 1), (0, 0, 5), box((-20, 0, 5), (4, 4, 4), 0.3)) == []
 
 

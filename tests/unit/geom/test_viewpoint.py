@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 from shotc.geom import viewpoint as module
 from shotc.geom.camera import aim_at, view
 from shotc.geom.framing import Cameras, frames
-from shotc.geom.solids import Cylinder
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.viewpoint import (
     Lens,
     Room,
@@ -22,7 +22,6 @@ from shotc.geom.viewpoint import (
     direction,
     distance_for,
     first_pose,
-    gap,
     judged,
     lens_for,
     nearest,
@@ -33,14 +32,14 @@ from shotc.geom.viewpoint import (
 
 LENS = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
 ROOM = Room(2.7, 1.6)
-MAN = Wanted((0.0, 0.0, 20.0), 0.4, 1.8)
+MAN = Wanted((0.0, 0.0, 20.0), CylinderShape(0.4, 1.8))
 
 angles = st.floats(-pi, pi)
 places = st.tuples(st.floats(-0.6, 0.6), st.floats(-0.5, 0.5))
 
 
 def test_a_thin_target_at_eye_level_has_the_size_of_its_height_over_the_picture_there() -> None:
-    thin = MAN._replace(radius=1e-6)
+    thin = MAN._replace(shape=CylinderShape(1e-6, 1.8))
     distance = distance_for(thin, LENS, (1.0, 0.0, 0.0), 0.3)
     assert distance == pytest.approx(1.8 / (2 * 0.3 * tan(radians(35)) * 9 / 16), rel=1e-4)
 
@@ -53,10 +52,10 @@ def test_the_distance_gives_the_size_that_verification_measures(azimuth, elevati
     away = distance_for(wanted, LENS, toward, size)
     x, y, z = (c * away for c in toward)
     aim = aim_at((-x, -y, -z), uv, LENS.hfov, LENS.aspect)
-    assume(aim is not None and gap(MAN, (x, y, z)) > 0.3)
+    assume(aim is not None and MAN.shape.gap((x, y, z)) > 0.3)
     eye = np.array([[x, y, z + 20.0]])
     cameras = Cameras(eye, np.array([aim[0]]), np.array([aim[1]]), np.array([LENS.hfov]), LENS.aspect)
-    seen = frames(cameras, Cylinder((0.0, 0.0), 0.4, 19.1, 20.9))
+    seen = frames(cameras, MAN.centre, MAN.shape)
     assert seen.size[0] == pytest.approx(size, rel=1e-6)
     assert (seen.u[0], seen.v[0]) == pytest.approx(uv, abs=1e-9)
 
@@ -66,7 +65,7 @@ def test_the_nearest_place_keeps_just_its_clearance(azimuth, elevation, near) ->
     toward = direction(azimuth, elevation)
     away = nearest(MAN, toward, near)
     x, y, z = (c * away for c in toward)
-    assert gap(MAN, (x, y, z)) == pytest.approx(near, abs=1e-6)
+    assert MAN.shape.gap((x, y, z)) == pytest.approx(near, abs=1e-6)
 
 
 def test_the_lens_that_gives_a_size_gives_it() -> None:
@@ -103,7 +102,7 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
     subjects = []
     for centre in centres:
         u, v, _ = camera.project(tuple(c - e for c, e in zip(centre, eye, strict=True)))
-        bare = Wanted(centre, 0.4, 1.8)
+        bare = Wanted(centre, CylinderShape(0.4, 1.8))
         seen = judged(pose, LENS, bare)
         assume(seen is not None and seen.out == 0.0 and abs(u) < 0.8 and abs(v) < 0.7)
         subjects.append(bare._replace(uv=(u, v), size=seen.size))
@@ -125,8 +124,7 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
     subjects = tuple(
         Wanted(
             (*rng.uniform(-8, 8, 2), 0.9),
-            0.4,
-            1.8,
+            CylinderShape(0.4, 1.8),
             uv=tuple(rng.uniform(-0.6, 0.6, 2)),
             size=float(rng.uniform(0.1, 0.4)),
             azimuth=float(rng.uniform(0, 2 * pi)) if k == 0 else None,
@@ -147,7 +145,10 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
 
 
 def test_a_camera_goes_no_farther_than_its_way() -> None:
-    subjects = (MAN._replace(uv=(-0.3, 0.0), size=0.3), Wanted((3.0, 0.0, 20.0), 0.4, 1.8, (0.3, 0.0)))
+    subjects = (
+        MAN._replace(uv=(-0.3, 0.0), size=0.3),
+        Wanted((3.0, 0.0, 20.0), CylinderShape(0.4, 1.8), (0.3, 0.0)),
+    )
     start = first_pose(subjects, LENS, ROOM, 0.0)
     free, _ = viewpoint(subjects, LENS, ROOM, start)
     since = Since(start[:3], start[:3], 1.0)

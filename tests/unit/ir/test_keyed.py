@@ -6,14 +6,16 @@ from math import dist, inf
 
 import pytest
 
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.track import Track
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import KEYED, arrivals, in_order, place_of, settled
 from shotc.ir.limits import Timing, Vec3
-from shotc.ir.mission import Beside, Composition, Keyframe, MissionIR, Promise, Shot, Target
+from shotc.ir.mission import Beside, Composition, Keyframe, MissionIR, Promise, Shot
 from shotc.ir.origin import OriginMap
 from shotc.ir.rules import Rules
+from shotc.ir.target import Target
 
 BEND = Track((0.0, 20.0, 40.0), ((0.0, 0.0, 1.0), (40.0, 0.0, 1.0), (40.0, 40.0, 1.0)), until=inf)
 MISSION = MissionIR(
@@ -21,7 +23,7 @@ MISSION = MissionIR(
     None,
     0.0,
     (),
-    (Target("walker", (0.0, 0.0, 1.0), 0.4, 2.0, (), BEND),),
+    (Target("walker", (0.0, 0.0, 1.0), CylinderShape(0.4, 2.0), (), BEND),),
     (),
     Rules(3.0, 2.0, 1.0),
     (),

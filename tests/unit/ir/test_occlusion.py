@@ -5,18 +5,24 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.track import Track
 from shotc.ir.hidden import hides
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import hiders, others_of
 from shotc.ir.sampling import seen
+from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 from tests.support.film_plans import orbit_mission
 from tests.support.records import replace
 from tests.support.sight_plans import EYE, at, film, mission, still, through
 
 MAST: Target = replace(
-    orbit_mission().targets[0], name="mast", centre=(40.0, 0.0, 10.0), radius=0.5, height=4.0, track=None
+    orbit_mission().targets[0],
+    name="mast",
+    centre=(40.0, 0.0, 10.0),
+    shape=CylinderShape(0.5, 4.0),
+    track=None,
 )
 OF = replace(mission(), targets=(MAST,))
 TIMES = np.linspace(0.0, 10.0, 2001)
@@ -55,8 +61,10 @@ def test_each_that_hides_is_named() -> None:
 
 def lit(x: float = 0.0, height: float = 24.0) -> MissionIR:
     """A tower with a lantern, x metres beside its axis; height : of the lantern's middle."""
-    light: Target = replace(MAST, name="light", centre=(40.0, 0.0, 12.0), radius=4.0, height=24.0)
-    lantern: Target = replace(MAST, name="lantern", centre=(40.0 + x, 0.0, height), radius=1.5, height=4.0)
+    light: Target = replace(MAST, name="light", centre=(40.0, 0.0, 12.0), shape=CylinderShape(4.0, 24.0))
+    lantern: Target = replace(
+        MAST, name="lantern", centre=(40.0 + x, 0.0, height), shape=CylinderShape(1.5, 4.0)
+    )
     return replace(mission(), targets=(light, lantern))
 
 
@@ -89,9 +97,11 @@ def test_targets_that_overlap_or_touch_do_not_hide_each_other(of: MissionIR, one
 
 
 def test_a_target_that_walks_into_another_is_hidden_by_it_before_and_after() -> None:
-    tower: Target = replace(MAST, name="tower", centre=(40.0, 0.0, 10.0), radius=4.0, height=20.0)
+    tower: Target = replace(MAST, name="tower", centre=(40.0, 0.0, 10.0), shape=CylinderShape(4.0, 20.0))
     walk = Track((0.0, 10.0), ((60.0, 0.0, 10.0), (40.0, 0.0, 10.0)))
-    walker: Target = replace(MAST, name="walker", centre=walk.points[0], radius=0.5, height=2.0, track=walk)
+    walker: Target = replace(
+        MAST, name="walker", centre=walk.points[0], shape=CylinderShape(0.5, 2.0), track=walk
+    )
     of = replace(mission(), targets=(tower, walker))
     eye = film("eye", still(EYE))
     apart = walk_x(walk) > 40.0 + 4.0 + 0.5 + 1e-6

@@ -13,7 +13,8 @@ def test_a_dump_names_every_level_by_its_type_and_fields():
     lines = [line.strip() for line in dump(orbit_mission()).splitlines()]
     assert lines[:2] == ["MissionIR", "name: half-orbit"]
     tower = lines[lines.index("- Target") :]
-    assert tower[1:5] == ["name: tower", "centre: [0, 0, 12]", "radius: 4", "height: 24"]
+    assert tower[1:4] == ["name: tower", "centre: [0, 0, 12]", "shape:"]
+    assert tower[4:7] == ["CylinderShape", "radius: 4", "height: 24"]
 
 
 def test_numbers_have_nine_digits():

@@ -11,7 +11,8 @@ from typing import Any
 import casadi as ca
 
 from shotc.plugin_api.refiner import View, viewpoint
-from shotc_casadi.clock.outline import outline
+from shotc_casadi.clock.outline import outline, outline_of
+from shotc_casadi.extents import EXTENT, Extent
 from shotc_casadi.symbols import cut
 
 FIELDS = {
@@ -29,7 +30,7 @@ FIELDS = {
 }
 """The parameters of a subject and their sizes.
 
-centre : W, metres; solid : radius and height; uv, size, elevation : as in ``viewpoint.Wanted``
+centre : W, metres; solid : radius and height of a cylinder; uv, size, elevation : as in ``viewpoint.Wanted``
 toward : unit vector from it to where the camera is wanted, level where only the bearing counts
 placed, sized, whole, level : factors of what is off its place, of the logarithm of the size, of what is out
     of the frame, and of what is not level; viewed : of the chord, the level chord, and the elevation
@@ -44,10 +45,16 @@ def picture(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     return ca.sumsqr(residuals(subject, eye, aim, lens))
 
 
+def width(extents: int) -> int:
+    """Return how many numbers a subject of that many bodies has; 0 of one upright cylinder."""
+    return SUBJECT + EXTENT * extents
+
+
 def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     """Return how far a subject is off what is asked, as a column.
 
-    subject : SUBJECT numbers; eye : W, metres; aim : yaw and pitch, rad; lens : as in symbols.FIELDS
+    subject : SUBJECT numbers, and EXTENT for each of its bodies where it is no cylinder
+    eye : W, metres; aim : yaw and pitch, rad; lens : as in symbols.FIELDS
     Smooth wherever the camera is: see ``outline``, which also moves what is behind the camera before it.
     """
     given = cut(subject, FIELDS)
@@ -56,7 +63,9 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     away = given["centre"] - eye
     far = ca.sqrt(ca.sumsqr(away) + TINY_M2)
     flat = ca.sqrt(ca.sumsqr(away[:2]) + (STEEP_SHARE * far) ** 2)
-    seen = outline(camera, away, far, (radius, height))
+    rows = [subject[at : at + EXTENT] for at in range(SUBJECT, subject.numel(), EXTENT)]
+    bodies = [Extent.of(row) for row in rows]
+    seen = outline_of(camera, away, far, bodies) if bodies else outline(camera, away, far, (radius, height))
     edges = ca.vertcat(-seen.left, seen.right, -seen.low, seen.high) - viewpoint.EDGE_SHARE
     return ca.vertcat(
         given["placed"] * (seen.place - given["uv"]),

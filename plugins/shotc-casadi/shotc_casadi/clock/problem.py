@@ -11,9 +11,11 @@ import numpy as np
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, HalfSpaces
 from shotc_casadi.clock import weights
+from shotc_casadi.clock.picture import SUBJECT
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepest
 from shotc_casadi.clock.several import angles, turning_room
 from shotc_casadi.clock.symbols import FIELDS, PLACED, PLANE, POINTS, SLACK, Sizes
+from shotc_casadi.extents import EXTENT
 
 USUAL_STAGES = 100  # of the film, if its pieces allow
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so that few are built
@@ -39,7 +41,7 @@ class Use(NamedTuple):
 class ClockProblem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(*sizes)); unit : what their weights are multiplied by
+    parameters : shape (N + 1, symbols.size(sizes)); unit : what their weights are multiplied by
     states, inputs : first guess, shapes (N + 1, sizes.states) and (N, sizes.inputs)
     state_bounds : (lower, upper), shapes as states; least : of each input, shape (sizes.inputs,)
     held, driven : (lower, upper) of a stage's constraints, as in symbols.stage
@@ -116,7 +118,11 @@ def problem(
     limits = subject.drone.limits
     table, count = _half_spaces(planes, len(breaks) - 1)
     sizes = Sizes(
-        count, references.sight_lines.shape[1], references.bodies.shape[1], references.subjects.shape[1]
+        count,
+        references.sight_lines.shape[1],
+        references.bodies.shape[1],
+        references.subjects.shape[1],
+        (references.subjects.shape[2] - SUBJECT) // EXTENT,
     )
     least = np.full(sizes.inputs, -inf)
     least[sizes.moves :] = 0.0

@@ -25,6 +25,7 @@ from shotc.plugin_api.refiner import (
     camera_task_of,
     ideal_places,
     places,
+    shapes,
 )
 from shotc_casadi.clock.several import pictured, where_it_fits
 from shotc_casadi.clock.symbols import BODY, LINE
@@ -104,7 +105,7 @@ class ClockReferences:
     usual : distance to the target in the film, metres; watches : whether anything is filmed
     placed : whether the author gave the places; yields : whether the guide cannot keep a framing's
     centres : of all that is to be seen, (N + 1, J, 3), W, metres
-    subjects : how several are to appear, (N + 1, J, SUBJECT), as in picture.FIELDS; of one J is 0
+    subjects : how several are to appear, (N + 1, J, picture.width); of one J is 0
     sight_lines : past occluders, (N + 1, K, LINE), as in symbols.occlusion; near : which those are, by node
     bodies : what to keep away from, (N + 1, B, BODY), as in symbols.inside; beside : which those are, by node
     """
@@ -136,9 +137,10 @@ def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
     keyed = subject.camera_task.keyed is not None
     placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
     centres, reach = seen_at(subject, t), _reach(subject, t, ideal)
-    shown = pictured(subject.mission, subject.framed if subject.together else (), centres)
+    shown = pictured(subject.mission, subject.framed if subject.together else (), centres, t)
     if subject.held_whole:
-        shown = where_it_fits(shown, subject.drone, ideal, reach)
+        shape = shapes(subject.mission.target(subject.framed[0].target), t)
+        shown = where_it_fits(shown, shape, subject.drone, (ideal, reach))
     unwatched = ClockReferences(
         ideal=ideal,
         target=np.column_stack([ideal + np.array([NO_SUBJECT_M, 0.0, 0.0]), np.zeros((n, 9))]),

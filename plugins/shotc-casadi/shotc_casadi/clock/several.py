@@ -13,28 +13,33 @@ from shotc.plugin_api.refiner import (
     Array,
     Drone,
     PlacedSubject,
+    TargetShape,
     View,
     quintic_hermite,
-    silhouette_bounds,
+    shapes,
     viewpoint,
 )
-from shotc_casadi.clock.picture import FIELDS, SUBJECT
+from shotc_casadi.clock.picture import FIELDS, SUBJECT, width
 from shotc_casadi.clock.symbols import PITCH, PLACED, YAW
+from shotc_casadi.extents import count_of, extents_of
 
 WHOLE = sum(FIELDS[name] for name in tuple(FIELDS)[: tuple(FIELDS).index("whole")])
 FARTHEST_M = 1e6  # metres that count where a camera may go back as far as it takes
 
 
-def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array) -> Array:
-    """Return the parameters of subjects in a picture, shape (M, J, SUBJECT).
+def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array, t: Array) -> Array:
+    """Return the parameters of subjects in a picture at times (M,), shape (M, J, picture.width).
 
     centres : of theirs, (M, J, 3). What is free weighs as in ``viewpoint``, as faintly as the ideal has it.
     """
     sized = any(s.size is not None for s in subjects)
-    rows = np.zeros((len(centres), len(subjects), SUBJECT))
+    targets = [mission.target(s.target) for s in subjects]
+    extents = count_of([target.shape for target in targets])
+    rows = np.zeros((len(centres), len(subjects), width(extents)))
     rows[:, :, :3] = centres
-    for j, subject in enumerate(subjects):
-        rows[:, j, 3:] = _asked(mission, subject, sized)
+    for j, (subject, target) in enumerate(zip(subjects, targets, strict=True)):
+        rows[:, j, 3:SUBJECT] = _asked(mission, subject, sized)
+        rows[:, j, SUBJECT:] = extents_of(shapes(target, t), extents, len(t)).reshape(len(t), -1)
     return rows
 
 
@@ -62,23 +67,23 @@ def _asked(mission: MissionIR, subject: PlacedSubject, sized: bool) -> list[floa
     ]
 
 
-def where_it_fits(rows: Array, drone: Drone, ideal: Array, reach: Array) -> Array:
+def where_it_fits(rows: Array, shape: TargetShape, drone: Drone, goes: tuple[Array, Array]) -> Array:
     """Return the parameters of one subject, kept whole only where a camera that goes back can have it whole.
 
-    rows : as of ``pictured``, (M, 1, SUBJECT); ideal : places of the camera, (M, 3)
-    reach : metres that it may go back from there, (M,)
+    rows : as of ``pictured``, (M, 1, picture.width); shape : as it is then
+    goes : places of the camera, (M, 3), and metres that it may go back from there, (M,)
     """
-    radius, height = rows[0, 0, 3:5]
+    ideal, reach = goes
     offset = rows[:, 0, :3] - ideal
     offset *= 1.0 + (np.minimum(reach, FARTHEST_M) / np.linalg.norm(offset, axis=1))[:, None]
     yaw, pitch = np.arctan2(offset[:, 1], offset[:, 0]), np.arctan2(offset[:, 2], np.hypot(*offset.T[:2]))
     half = np.tan(drone.hfov / 2)
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)
     there = (offset[:, 0], offset[:, 1], offset[:, 2])
-    left, right, low, high = silhouette_bounds(camera, there, radius, height)
+    left, right, low, high = shape.bounds(camera, there)
     fits = np.maximum(right - left, high - low) <= 2.0 * viewpoint.EDGE_SHARE
     kept = rows.copy()
-    kept[:, 0, WHOLE] *= fits & (np.linalg.norm(offset, axis=1) > np.hypot(radius, height / 2))
+    kept[:, 0, WHOLE] *= fits & (np.linalg.norm(offset, axis=1) > np.hypot(shape.radius, shape.height / 2))
     return kept
 
 

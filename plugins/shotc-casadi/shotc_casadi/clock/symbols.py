@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 
 from shotc_casadi.clock.angles import over_ground, turning
-from shotc_casadi.clock.picture import SUBJECT, residuals
+from shotc_casadi.clock.picture import residuals, width
 from shotc_casadi.derivatives import Derived, differentiated
 from shotc_casadi.symbols import Stage, cut
 
@@ -38,12 +38,20 @@ class Sizes(NamedTuple):
     """What a stage has: half-spaces, ellipsoids to look past, others to keep out of, subjects in one picture.
 
     subjects : 0 where the camera follows one or none, and is no part of the problem
+    extents : bodies of each subject, 0 where each is one upright cylinder
     """
 
     planes: int
     occluders: int = 0
     bodies: int = 0
     subjects: int = 0
+    extents: int = 0
+
+    @property
+    def rows(self) -> tuple[tuple[int, int], ...]:
+        """How many half-spaces, occluders, bodies and subjects there are, and the numbers of each."""
+        subject = width(self.extents)
+        return (self.planes, PLANE), (self.occluders, LINE), (self.bodies, BODY), (self.subjects, subject)
 
     @property
     def states(self) -> int:
@@ -95,7 +103,8 @@ FIELDS = {
     "lens": 2,
 }
 """The parameters of a stage and their sizes; half-spaces follow, PLANE numbers each, then what may hide a
-subject, LINE numbers each, what is kept away from, BODY numbers each, and several subjects, SUBJECT each.
+subject, LINE numbers each, what is kept away from, BODY numbers each, and several
+subjects, ``picture.width`` each.
 
 length : seconds
 ideal : where the camera would be, W, metres; place : weight of the squared distance to it
@@ -113,7 +122,7 @@ picture : weight of how several subjects appear; lens : tan of half the fields o
 """
 
 
-def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0) -> Stage:
+def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0, extents: int = 0) -> Stage:
     """Return a stage with that many half-spaces to stay in, ellipsoids to look past and out of, and subjects.
 
     held is horizontal speed squared, acceleration squared, and the squared distance to the ideal place, over
@@ -123,8 +132,8 @@ def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0) -
     each ellipsoid, by how much less than the input says it hides a subject, or how far the place is out of
     it beyond what the input says.
     """
-    sizes = Sizes(planes, occluders, bodies, subjects)
-    z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(*sizes))
+    sizes = Sizes(planes, occluders, bodies, subjects, extents)
+    z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(sizes))
     x, u = z[: sizes.states], z[sizes.states :]
     given, walls, sight_lines, near, shown = _cut(p, sizes)
     h, jerk = given["length"], u[JERK]
@@ -241,21 +250,21 @@ def inside(body: Any, eye: Any) -> Any:
 
 
 @lru_cache(maxsize=16)
-def derived(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0) -> Derived:
+def derived(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0, extents: int = 0) -> Derived:
     """Return the functions of one stage of those sizes."""
-    return differentiated(stage(planes, occluders, bodies, subjects))
+    return differentiated(stage(planes, occluders, bodies, subjects, extents))
 
 
-def size(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0) -> int:
+def size(sizes: Sizes) -> int:
     """Return how many parameters a stage has."""
-    return sum(FIELDS.values()) + PLANE * planes + LINE * occluders + BODY * bodies + SUBJECT * subjects
+    return sum(FIELDS.values()) + sum(count * wide for count, wide in sizes.rows)
 
 
 def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:
     """Return the parameters by name, and those of half-spaces, occluders, bodies and subjects, each apart."""
     at = sum(FIELDS.values())
     rows: list[list[Any]] = []
-    for count, width in zip(sizes, (PLANE, LINE, BODY, SUBJECT), strict=True):
-        rows.append([p[at + width * i : at + width * (i + 1)] for i in range(count)])
-        at += width * count
+    for count, wide in sizes.rows:
+        rows.append([p[at + wide * i : at + wide * (i + 1)] for i in range(count)])
+        at += wide * count
     return cut(p, FIELDS), rows[0], rows[1], rows[2], rows[3]

@@ -12,7 +12,8 @@ from shotc.geom.solids import Solid
 from shotc.geom.vec import Vec3
 from shotc.ir.allow import HIDDEN
 from shotc.ir.begins import film_end
-from shotc.ir.mission import MissionIR, Shot, Target, Zone
+from shotc.ir.mission import MissionIR, Shot, Zone
+from shotc.ir.target import Target
 
 HALVES = 40  # of a stretch of a track, to where it meets a zone
 

@@ -13,8 +13,9 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.begins import first_start
 from shotc.ir.keyed import arrivals, in_order
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Keyframe, MissionIR, Shot, Target
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
+from shotc.ir.target import Target
 from shotc.passes.resolve.checks.places import blocked, too_low
 from shotc.planning.clearances import clearances_of, free_place, move
 from shotc.planning.framing.moments import moments

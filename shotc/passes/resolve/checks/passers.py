@@ -15,7 +15,8 @@ from shotc.geom.solids import closest_on_segment, distance
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start
-from shotc.ir.mission import Drone, MissionIR, Target
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.target import Target
 from shotc.passes.resolve.checks.home import ROUND, stands_free
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.planning.clearances import move, outward
@@ -127,7 +128,7 @@ def _risen(drone: Drone, t: float) -> float:
 
 def _room(drone: Drone, target: Target, place: Vec3, t: float) -> float:
     """Return the metres between a drone's body at a place and a target's; negative where they touch."""
-    return distance(target.solid_at(t), place) - drone.radius
+    return distance(target.kept_clear_at(t), place) - drone.radius
 
 
 def _touches(drone: Drone, target: Target, track: Track) -> Iterator[Touch]:

@@ -9,7 +9,8 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.ir.begins import film_end
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
+from shotc.ir.target import Target
 from shotc.kinds.base import stands
 from shotc.passes.resolve.lower.world import BURIED
 from shotc.rounding import at_least

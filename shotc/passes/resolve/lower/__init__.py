@@ -8,9 +8,10 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.framed import Course
 from shotc.ir.ground import GroundHeight, flat
-from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Target, Zone
+from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Zone
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
+from shotc.ir.target import Target
 from shotc.kinds.base import Kind, placed
 from shotc.passes.resolve.lower.deferred import deferred_features
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin

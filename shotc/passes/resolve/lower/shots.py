@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.ground import Above, GroundHeight, flat
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Shot, Target
+from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Shot
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rules import Rules
+from shotc.ir.target import Target
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.lower.foreign import expanded

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.ir.limits import Limits, Vec2, Vec3
-from shotc.ir.mission import Drone, Gimbal, Target, Zone
+from shotc.ir.mission import Drone, Gimbal, Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import counts_from_ground, stands
 from shotc.spec.drones import DroneSpec, LimitsSpec
@@ -129,7 +130,9 @@ def targets(spec: MissionSpec, put: Put, tracks: Mapping[str, Track]) -> dict[st
         if centre is None:
             bodies[name] = None
         else:
-            bodies[name] = Target(name, centre, target.radius, target.height, ("targets", name), track)
+            bodies[name] = Target(
+                name, centre, CylinderShape(target.radius, target.height), ("targets", name), track
+            )
     return bodies
 
 

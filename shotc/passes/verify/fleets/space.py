@@ -18,9 +18,10 @@ from shotc.geom.proof import Bound, box_gap, inf_channel, inf_distance, norm, su
 from shotc.geom.solid_arrays.points import separation, signed_distance
 from shotc.geom.solids import Solid, convex_parts
 from shotc.geom.track_array import places
-from shotc.ir.mission import Target, Zone
+from shotc.ir.mission import Zone
 from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap, less
 from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone
@@ -51,7 +52,7 @@ def space(flight: FleetFlight) -> Iterator[Claim]:
     for target in flight.mission.targets:
         limit = _clear(f"target {target.name}", rules.target_clearance, ("rules", "target_clearance"))
         if target.track is None:
-            yield from _keep_out(flight, limit, target.solid, (free, upright))
+            yield from _keep_out(flight, limit, target.kept_clear, (free, upright))
         else:
             yield from _keep_from(flight, limit, target)
     if upright:
@@ -137,7 +138,7 @@ def _keep_from(flight: FleetFlight, limit: Limit, target: Target) -> Iterator[Cl
 
 def _off(target: Target, points: Array) -> Array:
     """Return how far points are from a target at time 0, 0 inside."""
-    return np.maximum(signed_distance(target.solid, points), 0.0)
+    return np.maximum(signed_distance(target.kept_clear, points), 0.0)
 
 
 def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]], near: Array) -> Claim:
@@ -154,7 +155,7 @@ def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]
         curve = beside(Piecewise(flight.track.breaks, flight.flown.ctrl[drone]), target)
         parts = join([cut(curve, *span) for span in spans])
         keep = float(near[drone])
-        bound = less(inf_distance(parts, target.solid, gap(keep)), keep)
+        bound = less(inf_distance(parts, target.kept_clear, gap(keep)), keep)
         if bound.proven < worst.proven:
             worst, nearest = bound, int(drone)
     return of_drone(flight, limit, (worst.proven + limit.value, worst.at), nearest, "bounded")

@@ -12,19 +12,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import silhouette_bounds, view
+from shotc.geom.camera import view
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.flown_order import flown_order
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe
 from shotc.ir.limits import Timing, Vec3
-from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot, Target
+from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot
 from shotc.ir.passes import Outcome, PassContext
+from shotc.ir.target import Target
 from shotc.passes.place_keyframes import PlaceKeyframes
 from shotc.spec.compositions import COMPOSITIONS, FRAMES
 from tests.support.film_plans import orbit_mission
 from tests.support.front_passes import clean, placed
 from tests.support.records import replace
 
-TOWER = Target("tower", (0.0, 0.0, 12.0), 4.0, 24.0, ("targets", "tower"))
+TOWER = Target("tower", (0.0, 0.0, 12.0), CylinderShape(4.0, 24.0), ("targets", "tower"))
 
 
 def mission_of(keyframes: tuple[Keyframe, ...]) -> MissionIR:
@@ -66,7 +68,7 @@ def seen(k: PlacedKeyframe, target: Target = TOWER) -> tuple[float, float, float
 def bounds(k: PlacedKeyframe) -> tuple[float, float, float, float]:
     offset = tuple(a - b for a, b in zip(TOWER.centre, k.at, strict=True))
     camera = view(k.yaw, k.pitch, k.hfov, 16 / 9)
-    return silhouette_bounds(camera, offset, TOWER.radius, TOWER.height)  # type: ignore[arg-type]
+    return TOWER.shape.bounds(camera, offset)  # type: ignore[arg-type]
 
 
 def test_looking_at_a_target_puts_it_in_the_middle() -> None:
@@ -189,7 +191,7 @@ def test_a_target_that_fits_nowhere_is_an_error_whose_help_works() -> None:
 
 
 def test_a_target_above_the_gimbals_reach_is_an_error_that_names_the_pitch() -> None:
-    high = replace(TOWER, centre=(0.0, 0.0, 100.0), height=4.0)
+    high = replace(TOWER, centre=(0.0, 0.0, 100.0), shape=CylinderShape(4.0, 4.0))
     mission = replace(
         mission_of((keyframe(at=(0.0, -50.0, 10.0), composition=COMPOSITIONS["center"]),)), targets=(high,)
     )
@@ -199,7 +201,7 @@ def test_a_target_above_the_gimbals_reach_is_an_error_that_names_the_pitch() -> 
 
 
 def test_a_gimbal_that_stops_short_of_the_set_is_told_as_the_cause_and_its_help_works() -> None:
-    kite = replace(TOWER, centre=(0.0, 0.0, 30.0), radius=1.0, height=2.0)
+    kite = replace(TOWER, centre=(0.0, 0.0, 30.0), shape=CylinderShape(1.0, 2.0))
     view = keyframe(at=(0.0, -30.0, 10.0), composition=COMPOSITIONS["center"])
 
     def place_with(highest_deg: float) -> tuple[Diagnostic, ...]:

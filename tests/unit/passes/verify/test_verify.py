@@ -7,10 +7,12 @@ import pytest
 
 from shotc.diag.registry import registry
 from shotc.geom.bernstein import Piecewise
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Promise, Target
+from shotc.ir.mission import Promise
 from shotc.ir.path import HFOV
+from shotc.ir.target import Target
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.report import rule_of
@@ -67,6 +69,7 @@ def test_known_values() -> None:
 
 
 CURVE = PLAN.drones[0].curve
+MAST = Target("mast", (40.0, 0.0, 10.0), CylinderShape(1.0, 20.0), ("targets", "mast"))
 FRAMING = PLAN.drones[0].framing[0]
 TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("speed limit", with_limits(speed=7.8), {"V001"}),
@@ -87,7 +90,7 @@ TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("ground clearance", with_mission(rules=replace(MISSION.rules, ground_clearance=5.5)), {"V009"}),
     ("target clearance", with_mission(rules=replace(MISSION.rules, target_clearance=29.0)), {"V010"}),
     ("second target", with_mission(
-        targets=(*MISSION.targets, Target("mast", (40.0, 0.0, 10.0), 1.0, 20.0, ("targets", "mast")))),
+        targets=(*MISSION.targets, MAST)),
      {"V010"}),
     ("control point", with_ctrl(lambda c: c.__setitem__((40, 3, 0), c[40, 3, 0] + 0.05)), {"V003", "V011"}),
     ("home", with_drone(home=(0.0, -60.5, 0.0)), {"V012", "V017"}),

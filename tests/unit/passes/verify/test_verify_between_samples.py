@@ -11,10 +11,12 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.track import Track
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Reference
+from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.close import errors_close, margins_close, rates
@@ -47,7 +49,7 @@ def swayed(moves: dict[int, float]) -> Piecewise:
 
 def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> Flight:
     """A camera that films a post at one sample a second; what is wanted of it moves aside and back."""
-    post = Target("post", POST, 1.0, 2.0, ("targets", "post"), track)
+    post = Target("post", POST, CylinderShape(1.0, 2.0), ("targets", "post"), track)
     of: MissionIR = replace(mission(rate=1.0), targets=(post,))
     zero = np.zeros((4, 2))
     wanted = np.array([[ASIDE, 0.0], [ASIDE + aside, 0.0], [ASIDE, 0.0], [ASIDE, 0.0]])
@@ -99,7 +101,7 @@ def test_what_is_wanted_moves_between_samples_too() -> None:
 def test_a_tall_target_moves_in_the_frame_as_fast_as_its_end_does() -> None:
     # Its top is 25 m away, its middle 20 m: at 0.3 rad/s it goes farther than its middle would.
     of = flight(nodding(0.3))
-    tall = Target("post", (20.0, 0.0, 10.0), 0.1, 30.0, ("targets", "post"))
+    tall = Target("post", (20.0, 0.0, 10.0), CylinderShape(0.1, 30.0), ("targets", "post"))
     of = replace(of, mission=replace(of.mission, targets=(tall,)))
     assert not margins_close(of, "post", ENDS)
 
@@ -108,7 +110,7 @@ def test_a_tall_target_moves_in_the_frame_as_fast_as_its_end_does() -> None:
 def test_up_and_down_count_as_much_as_the_frame_is_wide(limit: float, closed: bool) -> None:
     # In a frame twice as wide as high a tilt of 0.1 rad is 0.2 of half its height.
     of = flight(nodding(0.2))
-    ahead = Target("post", (20.0, 0.0, 10.0), 0.1, 0.2, ("targets", "post"))
+    ahead = Target("post", (20.0, 0.0, 10.0), CylinderShape(0.1, 0.2), ("targets", "post"))
     wide = replace(mission(rate=1.0, aspect=2.0), targets=(ahead,))
     middle = Piecewise(np.array([0.0, LENGTH]), np.zeros((1, 6, 2)))
     track = replace(of.track, framing=(Reference("eyes", "post", 0.0, LENGTH, middle),))
@@ -120,7 +122,7 @@ def test_up_and_down_count_as_much_as_the_frame_is_wide(limit: float, closed: bo
 def test_a_wide_lens_moves_the_picture_faster_than_a_narrow_one(limit: float, closed: bool) -> None:
     # At 90 deg what stands four fifths to the side moves twice as fast as near the axis of a long lens.
     of = flight(nodding(0.3, HFOV))
-    side = Target("post", (20.0, -16.0, 10.0), 0.1, 0.2, ("targets", "post"))
+    side = Target("post", (20.0, -16.0, 10.0), CylinderShape(0.1, 0.2), ("targets", "post"))
     there = Piecewise(np.array([0.0, LENGTH]), np.tile([0.8, 0.0], (1, 6, 1)))
     track = replace(of.track, framing=(Reference("eyes", "post", 0.0, LENGTH, there),))
     of = replace(of, mission=replace(of.mission, targets=(side,)), track=track)

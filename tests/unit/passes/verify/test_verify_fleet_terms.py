@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from shotc.geom.pieces import Pieces
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
 from shotc.geom.track import Track
 from shotc.ir.fleet import Shown
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Target
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.passes.verify.fleets.space import nearest
@@ -108,7 +109,9 @@ def test_what_a_box_tells_to_be_far_is_no_nearer_than_its_box() -> None:
 def test_of_drones_beside_a_moving_target_the_nearest_counts_not_the_one_whose_box_is() -> None:
     # Both fly up to y = 20: one towards its middle, 2 m off, the other aside, 3.4 m off. Boxes are alike.
     where = (0.0, 32.0, 20.0)
-    giant = Target("giant", where, 10.0, 60.0, ("targets", "giant"), Track((0.0, 100.0), (where, where)))
+    giant = Target(
+        "giant", where, CylinderShape(10.0, 60.0), ("targets", "giant"), Track((0.0, 100.0), (where, where))
+    )
     ir = show(mission(fleets=(fleet(((6.0, 0.0, 0.0), (0.0, 0.0, 0.0))),), targets=(giant,)))
     found = claim(ir, "target giant")
     assert found.worst == pytest.approx(2.0 - 0.3, abs=1e-5)

@@ -12,13 +12,15 @@ from scipy.interpolate import BSpline
 from shotc.diag.registry import registry
 from shotc.geom.fleet_pieces import FleetPieces, rates, velocity
 from shotc.geom.fleet_spline import knots, pieces, places
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.geom.track import Track
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.limits import Timing
-from shotc.ir.mission import MissionIR, Target, Zone
+from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.phases import Phase
 from shotc.ir.show import stricter
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.passes.verify.report import rule_of
@@ -208,12 +210,12 @@ def test_pads_may_stand_near_a_solid_and_its_drones_no_nearer() -> None:
 
 
 def test_targets_that_stand_and_that_move() -> None:
-    mast = Target("mast", (20.0, 20.0, 20.0), 5.0, 40.0, ("targets", "mast"))
+    mast = Target("mast", (20.0, 20.0, 20.0), CylinderShape(5.0, 40.0), ("targets", "mast"))
     standing = claims(with_mission(targets=(mast,)))["target mast"]
     assert standing.worst == pytest.approx(20.0 - 12.0 - 5.0 - 0.3, abs=1e-3)
     # A balloon at 31 m that comes along y = 20 from the east and stands 10 m from the last drone.
     track = Track((0.0, 16.0), ((80.0, 20.0, 31.0), (22.0, 20.0, 31.0)))
-    balloon = Target("balloon", (80.0, 20.0, 31.0), 2.0, 6.0, ("targets", "balloon"), track)
+    balloon = Target("balloon", (80.0, 20.0, 31.0), CylinderShape(2.0, 6.0), ("targets", "balloon"), track)
     moving = claims(with_mission(targets=(balloon,)))["target balloon"]
     assert moving.worst == pytest.approx(22.0 - 12.0 - 2.0 - 0.3, abs=1e-3)
     assert moving.drones == ("swarm-4",)
@@ -230,7 +232,7 @@ def test_moving_targets_agree_with_dense_samples() -> None:
         map(tuple, np.cumsum(rng.normal(scale=1.0, size=(60, 3)), axis=0) + np.array([6.0, 35.0, 31.0]))
     )
     track = Track(times, points)  # type: ignore[arg-type]
-    bird = Target("bird", points[0], 0.5, 1.0, ("targets", "bird"), track)  # type: ignore[arg-type]
+    bird = Target("bird", points[0], CylinderShape(0.5, 1.0), ("targets", "bird"), track)  # type: ignore[arg-type]
     found = claims(with_mission(targets=(bird,)))["target bird"]
     t = np.linspace(8.0, 38.0, 30_001)
     flown = places(SHOW.fleets[0].breaks, SHOW.fleets[0].coef, t)

@@ -122,8 +122,13 @@ def test_a_target_hidden_in_just_most_of_the_frames_is_an_error() -> None:
 @pytest.mark.parametrize(("beside", "found"), [(8.0, ["V031"]), (6.9, [])])
 def test_a_target_that_overlaps_the_filmed_one_does_not_hide_it(beside: float, found: list[str]) -> None:
     (tower,) = MISSION.targets
-    annex = replace(tower, name="annex", centre=(tower.centre[0] + beside, *tower.centre[1:]), radius=1.0)
-    wide = replace(tower, radius=6.0)
+    annex = replace(
+        tower,
+        name="annex",
+        centre=(tower.centre[0] + beside, *tower.centre[1:]),
+        shape=tower.shape._replace(radius=1.0),
+    )
+    wide = replace(tower, shape=tower.shape._replace(radius=6.0))
     ir = with_mission(targets=(wide, annex))
     assert [code for code in codes(ir) if code == "V031"] == found
     assert (claim(ir, "tower visible").worst < 1.0) is bool(found)

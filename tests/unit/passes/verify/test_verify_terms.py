@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import quintic_hermite
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Target
 from shotc.ir.phases import Phase
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import judge
 from tests.support.records import replace
@@ -139,7 +140,9 @@ def test_a_shot_waits_for_the_one_it_comes_after(end: float, early: float) -> No
 def test_a_target_that_walks_on_for_ever_is_where_it_has_come_to(
     start: tuple[float, float, float], velocity: tuple[float, float, float], broken: bool
 ) -> None:
-    ghost = Target("ghost", start, 0.5, 1.0, ("targets", "ghost"), Track((0.0,), (start,), after=velocity))
+    ghost = Target(
+        "ghost", start, CylinderShape(0.5, 1.0), ("targets", "ghost"), Track((0.0,), (start,), after=velocity)
+    )
     ir = with_mission(targets=(*MISSION.targets, ghost))
     assert claim(ir, "target ghost").holds is not broken
     assert ("V010" in codes(ir)) is broken

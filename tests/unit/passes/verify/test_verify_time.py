@@ -7,11 +7,12 @@ import pytest
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
 from shotc.geom.track import Track
 from shotc.geom.track_array import places, rate_seen_from, seen_from
-from shotc.ir.mission import Target
 from shotc.ir.phases import Phase
+from shotc.ir.target import Target
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.passes.verify.shape import JOINTS, REPORTED, gaps
@@ -149,7 +150,7 @@ def passing(by: float, row: float) -> Track:
 
 
 def meets(track: Track) -> TrajectoryIR:
-    moving = Target("ghost", track.at(0.0), 0.5, 1.0, ("targets", "ghost"), track)
+    moving = Target("ghost", track.at(0.0), CylinderShape(0.5, 1.0), ("targets", "ghost"), track)
     return with_mission(targets=(*PLAN.keyframes.mission.targets, moving))
 
 

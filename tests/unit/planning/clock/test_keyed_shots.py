@@ -10,9 +10,10 @@ import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import MissionIR, Target
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import references, seen
+from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.planfile.layout import text
 from shotc.planfile.read import read_plan

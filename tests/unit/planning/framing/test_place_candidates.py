@@ -8,7 +8,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from shotc.geom.camera import silhouette_bounds, view
+from shotc.geom.camera import view
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.planning.framing.candidates import (
@@ -30,8 +31,7 @@ LINES = Composition("thirds-lines", u_lines=(-THIRD, THIRD), v_lines=(-THIRD, TH
 settings = st.builds(
     lambda distance, azimuth, rise, radius, height, hfov: Setting(
         offset=(distance * cos(azimuth), distance * sin(azimuth), rise),
-        radius=radius,
-        height=height,
+        shape=CylinderShape(radius, height),
         hfov=hfov,
         aspect=16 / 9,
         pitch=(radians(-90), radians(30)),
@@ -44,7 +44,9 @@ settings = st.builds(
     st.floats(radians(25), radians(100)),
 )
 # On the line v = 1/3 it fits on two short stretches, left and right, with nothing between them.
-TWO_STRETCHES = Setting((5.0, 0.0, -16.75), 0.8125, 9.0, 0.6875, 16 / 9, (radians(-90), radians(30)))
+TWO_STRETCHES = Setting(
+    (5.0, 0.0, -16.75), CylinderShape(0.8125, 9.0), 0.6875, 16 / 9, (radians(-90), radians(30))
+)
 places = st.tuples(st.floats(-1, 1), st.floats(-1, 1))
 
 
@@ -54,9 +56,9 @@ def whole(setting: Setting, uv: tuple[float, float]) -> bool:
     if aim is None or not setting.pitch[0] - 1e-9 <= aim[1] <= setting.pitch[1] + 1e-9:
         return False
     camera = view(*aim, setting.hfov, setting.aspect)
-    if camera.to_camera(setting.offset)[2] < setting.radius + setting.height:
+    if camera.to_camera(setting.offset)[2] < setting.shape.radius + setting.shape.height:
         return setting.margin(aim) >= 0  # the silhouette formula is for cylinders well in front
-    return max(abs(b) for b in silhouette_bounds(camera, setting.offset, setting.radius, setting.height)) <= 1
+    return max(abs(b) for b in setting.shape.bounds(camera, setting.offset)) <= 1
 
 
 @pytest.mark.slow
@@ -94,7 +96,9 @@ def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Se
 
 
 def test_a_target_moved_until_it_fits_is_whole_and_not_only_but_for_rounding() -> None:
-    near = Setting((10.627, -6.247, -0.99), 3.84, 4.02, radians(50), 16 / 9, (radians(-90), radians(30)))
+    near = Setting(
+        (10.627, -6.247, -0.99), CylinderShape(3.84, 4.02), radians(50), 16 / 9, (radians(-90), radians(30))
+    )
     chosen = nearest_on_verticals(near, THIRDS, (0.0, -0.9))
     assert chosen is not None
     assert 0.0 <= near.slack(chosen) <= 2 * TOUCH_M
@@ -115,7 +119,7 @@ def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting: S
 
 
 def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance() -> None:
-    setting = Setting((20.0, 0.0, 0.0), 0.1, 0.1, radians(90), 1.0, (-pi / 2, pi / 2))
+    setting = Setting((20.0, 0.0, 0.0), CylinderShape(0.1, 0.1), radians(90), 1.0, (-pi / 2, pi / 2))
     # On u = 1 the direction (1, v, 1) is nearest to (0, 1, 1) / sqrt 2 where v = (1 + 1) / (0 + 1) * 1 / 1,
     # past the frame's edge: the angle pulls it beyond the pixel foot v = 1.
     assert Line(1.0, True).foot(setting, (0.0, 1.0)) == 1.0
@@ -124,7 +128,7 @@ def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance() ->
 
 
 def test_a_stretch_that_just_fits_is_found_between_the_samples() -> None:
-    tower = Setting((40.0, 0.0, 0.0), 1.0, 24.0, radians(70), 16 / 9, (-pi / 2, pi / 2))
+    tower = Setting((40.0, 0.0, 0.0), CylinderShape(1.0, 24.0), radians(70), 16 / 9, (-pi / 2, pi / 2))
     low, high = 0.1, 1.0
     for _ in range(60):  # the nearest distance at which the tower fits on u = 0.2
         middle = (low + high) / 2
@@ -140,14 +144,14 @@ def test_a_stretch_that_just_fits_is_found_between_the_samples() -> None:
 
 
 def test_ties_fall_to_the_first_point_of_the_set() -> None:
-    setting = Setting((30.0, 0.0, 0.0), 0.5, 1.0, radians(60), 1.5, (-pi / 2, pi / 2))
+    setting = Setting((30.0, 0.0, 0.0), CylinderShape(0.5, 1.0), radians(60), 1.5, (-pi / 2, pi / 2))
     corners = Composition("corners", points=CORNERS)
     assert nearest_candidate(setting, corners, (0.0, 0.0)) == CORNERS[0]
     assert nearest_candidate(setting, corners, (1e-13, 1e-13)) == CORNERS[0]
 
 
 def test_a_place_that_the_gimbal_cannot_reach_is_no_candidate() -> None:
-    above = Setting((20.0, 0.0, 10.0), 0.5, 1.0, radians(60), 16 / 9, (-pi / 2, radians(20)))
+    above = Setting((20.0, 0.0, 10.0), CylinderShape(0.5, 1.0), radians(60), 16 / 9, (-pi / 2, radians(20)))
     # Looking straight at it takes 26.6 deg; putting it high in the frame takes less.
     chosen = nearest_candidate(above, Composition("u0", u_lines=(0.0,)), (0.0, 0.0))
     assert chosen is not None
@@ -160,7 +164,7 @@ def test_a_place_that_the_gimbal_cannot_reach_is_no_candidate() -> None:
 
 
 def test_directions_are_unit_vectors_of_the_pinhole() -> None:
-    setting = Setting((1.0, 0.0, 0.0), 0.1, 0.1, radians(90), 2.0, (-1.0, 1.0))
+    setting = Setting((1.0, 0.0, 0.0), CylinderShape(0.1, 0.1), radians(90), 2.0, (-1.0, 1.0))
     assert hypot(*setting.direction((0.7, -0.3))) == pytest.approx(1.0)
     x, y, z = setting.direction((1.0, 1.0))
     assert (x / z, y / z) == pytest.approx((1.0, 0.5))
@@ -170,15 +174,15 @@ THIRDS_FIRST = COMPOSITIONS["thirds-first"]
 
 
 def test_a_set_that_prefers_the_thirds_takes_the_centre_only_where_neither_third_fits() -> None:
-    slim = Setting((0.0, 20.0, 0.0), 0.5, 2.0, radians(70), 16 / 9, (-1.5, 0.5))
+    slim = Setting((0.0, 20.0, 0.0), CylinderShape(0.5, 2.0), radians(70), 16 / 9, (-1.5, 0.5))
     place = nearest_candidate(slim, THIRDS_FIRST, (0.0, 0.0))
     assert place is not None
     assert place == pytest.approx((-1 / 3, 0.0))
-    wide = slim._replace(radius=11.0)  # fits across the frame in its middle alone
+    wide = slim._replace(shape=CylinderShape(11.0, 2.0))  # fits across the frame in its middle alone
     assert nearest_candidate(wide, THIRDS_FIRST, (0.0, 0.0)) == (0.0, 0.0)
-    assert nearest_candidate(wide._replace(radius=15.0), THIRDS_FIRST, (0.0, 0.0)) is None
+    assert nearest_candidate(wide._replace(shape=CylinderShape(15.0, 2.0)), THIRDS_FIRST, (0.0, 0.0)) is None
 
 
 def test_a_set_that_prefers_the_thirds_keeps_the_side_that_is_asked() -> None:
-    slim = Setting((0.0, 20.0, 0.0), 0.5, 2.0, radians(70), 16 / 9, (-1.5, 0.5))
+    slim = Setting((0.0, 20.0, 0.0), CylinderShape(0.5, 2.0), radians(70), 16 / 9, (-1.5, 0.5))
     assert nearest_candidate(slim, THIRDS_FIRST, (0.2, 0.1)) == pytest.approx((1 / 3, 0.1), abs=0.02)

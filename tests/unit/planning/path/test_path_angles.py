@@ -10,8 +10,10 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import view
-from shotc.ir.mission import Gimbal, Target
+from shotc.geom.shapes import CylinderShape
+from shotc.ir.mission import Gimbal
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
+from shotc.ir.target import Target
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.solvers.conic import Status
 from tests.support.film_plans import orbit_mission
@@ -75,7 +77,7 @@ def test_a_full_orbit_turns_the_camera_by_a_full_turn():
 
 
 def test_a_hand_over_is_cut_in_the_middle():
-    other = Target("shed", (40.0, 0.0, 3.0), 2.0, 6.0, ("targets", "shed"))
+    other = Target("shed", (40.0, 0.0, 3.0), CylinderShape(2.0, 6.0), ("targets", "shed"))
     made = mission(targets=(TOWER, other))
     keyframes = [
         framed(0, (-10, -30, 10), TOWER),
@@ -158,7 +160,7 @@ def test_backing_away_by_any_length_is_planned_in_every_body_mode(size, body):
 
 
 def test_many_cuts_of_one_shot_are_one_warning():
-    made = mission(targets=(replace(TOWER, centre=(0.0, 0.0, 40.0), height=2.0),))
+    made = mission(targets=(replace(TOWER, centre=(0.0, 0.0, 40.0), shape=CylinderShape(4.0, 2.0)),))
     high = made.targets[0]
     ring = [framed(i, (x, 12.0, 10.0), high, placed=True) for i, x in enumerate((-60, -20, 0, 20, 60))]
     outcome = solve(made, shot(ring))

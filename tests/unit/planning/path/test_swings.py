@@ -7,10 +7,11 @@ from math import pi
 import pytest
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Target
+from shotc.geom.shapes import CylinderShape
+from shotc.ir.target import Target
 from tests.support.path_scenes import circle, framed, free, mission, shot, solve
 
-LAMP = Target("lamp", (0.0, 0.0, 1.0), 0.5, 2.0, ("targets", "tower"))
+LAMP = Target("lamp", (0.0, 0.0, 1.0), CylinderShape(0.5, 2.0), ("targets", "tower"))
 MADE = mission(targets=(LAMP,))
 
 

@@ -58,7 +58,5 @@ def _seen(mission: MissionIR, shot: Shot, name: str, start: float, t: float) -> 
     assert shot.ideal.aim is not None
     drone, target = mission.drone(shot.drone), mission.target(name)
     offset = minus(target.at(t), ideal_place(mission, shot, start, t))
-    setting = Setting(
-        offset, target.radius, target.height, drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2
-    )
+    setting = Setting(offset, target.shape_at(t), drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2)
     return setting.shows(shot.ideal.aim)

@@ -1,0 +1,81 @@
+"""The sides of a target that a camera sees, shaded, in a picture's rectangle."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.emit.palette import Rgb, shade
+from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.canvas import Canvas
+from shotc.geom.bernstein import Array
+from shotc.geom.shapes import BodyShape, CylinderShape
+from shotc.geom.silhouette import project_loop, shape_outline
+from shotc.geom.vec import Vec3
+
+LIGHT = np.radians(215.0)
+"""Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""
+
+STRIPS, RIM = 24, 64  # strips of the side of a cylinder, points of its rim
+
+
+class _Sides(NamedTuple):
+    """The upright sides of a body that face an eye.
+
+    edges : their upper edges' ends on the map, offsets from the eye, shape (n, 2, 2)
+    outwards : where each of them faces, an angle of W, shape (n,)
+    top : the corners of its top, offsets from the eye, shape (K, 2)
+    """
+
+    edges: Array
+    outwards: Array
+    top: Array
+
+
+def draw_body(canvas: Canvas, shown: Picture, shape: BodyShape, offset: Vec3, color: Rgb) -> None:
+    """Draw a body; offset : its centre less the eye, W, metres."""
+    outline = shape_outline(shown.camera, offset, shape)
+    if not len(outline):
+        return
+    canvas.polygons([shown.place(outline)], color, clip=shown.box)
+    sides = _round(shape, offset) if isinstance(shape, CylinderShape) else _flat(shape.solid(offset).points)
+    low, high = offset[2] - shape.height / 2, offset[2] + shape.height / 2
+    strips, colors = [], []
+    for (a, b), outward in zip(sides.edges, sides.outwards, strict=True):
+        polygon = project_loop(shown.camera, np.array([[*a, low], [*b, low], [*b, high], [*a, high]]))
+        if len(polygon):
+            strips.append(shown.place(polygon))
+            colors.append(shade(color, 1.02 + 0.26 * float(np.cos(outward - LIGHT))))
+    if strips:
+        canvas.polygons(strips, colors, colors, 0.4, shown.box)
+    if high < 0:
+        cap = project_loop(shown.camera, np.column_stack([sides.top, np.full(len(sides.top), high)]))
+        if len(cap):
+            canvas.polygons([shown.place(cap)], shade(color, 1.4), shade(color, 1.2), 0.5, shown.box)
+    canvas.polygons([shown.place(outline)], "none", shade(color, 0.55), 1.1, shown.box)
+
+
+def _round(shape: CylinderShape, offset: Vec3) -> _Sides:
+    x, y, _ = offset
+    away, radius = float(np.hypot(x, y)), shape.radius
+
+    def rim(turn: Array) -> Array:
+        return np.stack([x + radius * np.cos(turn), y + radius * np.sin(turn)], axis=-1)
+
+    top = rim(np.linspace(0, 2 * np.pi, RIM + 1)[:-1])
+    if away <= radius:
+        return _Sides(np.empty((0, 2, 2)), np.empty(0), top)
+    half = np.arccos(radius / away)
+    turn = np.arctan2(-y, -x) + half * np.linspace(-1, 1, STRIPS + 1)
+    seen = rim(turn)
+    return _Sides(np.stack([seen[:-1], seen[1:]], axis=1), (turn[:-1] + turn[1:]) / 2, top)
+
+
+def _flat(points: tuple[tuple[float, float], ...]) -> _Sides:
+    corners = np.array(points)
+    edges = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+    along = edges[:, 1] - edges[:, 0]
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=-1)  # the corners run counter-clockwise
+    facing = (outward * edges[:, 0]).sum(axis=1) < 0
+    return _Sides(edges[facing], np.arctan2(outward[facing, 1], outward[facing, 0]), corners)

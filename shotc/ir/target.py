@@ -1,0 +1,90 @@
+"""Targets: where they are, how they are shaped, and the solids that are kept clear of. Plain Python.
+
+World frame W (East, North, Up, metres), radians, seconds.
+"""
+
+from math import cos, sin
+from typing import TYPE_CHECKING, NamedTuple
+
+from shotc.geom.shapes import CylinderShape, GroupShape, TargetShape
+from shotc.geom.solids import Solid
+from shotc.geom.vec import Vec3
+from shotc.ir.origin import KeyPath
+
+if TYPE_CHECKING:  # a mission of what stands loads none of it
+    from shotc.geom.track import Track
+
+
+class Target(NamedTuple):
+    """A camera target, of a shape about its centre.
+
+    centre : where it stands, or is at mission time 0; track : how it moves, None where it stands
+    shape : as it is where it stands, or at mission time 0; parts : names of the bodies of a group
+    """
+
+    name: str
+    centre: Vec3
+    shape: TargetShape
+    path: KeyPath
+    track: "Track | None" = None
+    parts: tuple[str, ...] = ()
+
+    @property
+    def radius(self) -> float:
+        """The radius of the upright cylinder about its centre that holds it, metres."""
+        return self.shape.radius
+
+    @property
+    def height(self) -> float:
+        """How high it is, metres."""
+        return self.shape.height
+
+    @property
+    def foot(self) -> Vec3:
+        """The lowest point of its axis where it stands, or is at mission time 0."""
+        x, y, z = self.centre
+        return (x, y, z - self.height / 2)
+
+    @property
+    def solid(self) -> Solid:
+        """Its body where it stands, or is at mission time 0."""
+        return _body(self.shape, self.centre)
+
+    @property
+    def kept_clear(self) -> Solid:
+        """The solid that clearances count from, where its centre is at mission time 0.
+
+        Of a box that turns with its course it is the upright cylinder about it, however it faces.
+        """
+        if self.track is None or not self.shape.turns:
+            return self.solid
+        return _body(CylinderShape(self.radius, self.height), self.centre)
+
+    def kept_clear_at(self, t: float) -> Solid:
+        """Return the solid that clearances count from at a mission time."""
+        return self.kept_clear if self.track is None else self._replace(centre=self.at(t)).kept_clear
+
+    def shape_at(self, t: float) -> TargetShape:
+        """Return its shape as it is at a mission time."""
+        if self.track is None or not self.shape.turns:
+            return self.shape
+        yaw = self.track.heading(t)
+        return self.shape.facing((cos(yaw), sin(yaw)))
+
+    def solid_at(self, t: float) -> Solid:
+        """Return its body at a mission time."""
+        return _body(self.shape_at(t), self.at(t))
+
+    def foot_at(self, t: float) -> Vec3:
+        """Return the lowest point of its axis at a mission time, metres."""
+        x, y, z = self.at(t)
+        return (x, y, z - self.height / 2)
+
+    def at(self, t: float) -> Vec3:
+        """Return its centre at a mission time, metres."""
+        return self.centre if self.track is None else self.track.at(t)
+
+
+def _body(shape: TargetShape, centre: Vec3) -> Solid:
+    assert not isinstance(shape, GroupShape), "a group has no body of its own"
+    return shape.solid(centre)
