@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Ideal, Subject
@@ -14,7 +15,7 @@ from shotc.spec.compositions import FRAMES
 from tests.support.film_plans import SPEED, TOWER, orbit_plan
 from tests.support.records import replace
 
-MAST = replace(TOWER, name="mast", centre=(0.0, 0.0, 25.0), radius=1.0, height=2.0)
+MAST = replace(TOWER, name="mast", centre=(0.0, 0.0, 25.0), shape=CylinderShape(1.0, 2.0))
 PLACES: dict[str, Vec2] = {"tower": (0.0, -1 / 3), "mast": (0.0, 1 / 3)}
 FRAME = {"tower": FRAMES["lower-third"], "mast": FRAMES["upper-third"]}
 

@@ -141,7 +141,7 @@ def test_a_small_target_is_seen_inside_of_its_mark(monkeypatch: pytest.MonkeyPat
         disc(self, at, radius, *rest)
 
     monkeypatch.setattr(Canvas, "disc", drawn)
-    small = among(straight_down(), (replace(TOWER, radius=0.4, height=1.8, centre=(0.0, 0.0, 0.9)),))
+    small = among(straight_down(), (replace(TOWER, shape=CylinderShape(0.4, 1.8), centre=(0.0, 0.0, 0.9)),))
     for plan, dots in ((straight_down(), 5), (small, 0)):
         discs.clear()
         page.draw_page(plan, 40.0)

@@ -17,6 +17,7 @@ from shotc.emit.storyboard.page import WIDTH, headline, layout, not_promised
 from shotc.emit.storyboard.scene import painting_order
 from shotc.emit.storyboard.sheet import outline, sheet_of
 from shotc.geom.camera import yaw_of
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.mission import Composition
 from shotc.ir.trajectory import Claim, VerifiedIR
 from tests.support.film_plans import dense_plan, orbit_plan
@@ -87,8 +88,8 @@ def test_a_cropped_and_a_hidden_subject_are_marked() -> None:
     plan = orbit_plan()
     mission = plan.trajectory.keyframes.mission
     tower = mission.targets[0]
-    tall = replace(mission, targets=(replace(tower, height=90.0),))
-    wall = replace(tower, name="wall", centre=(0.0, -20.0, 20.0), radius=5.0, height=40.0)
+    tall = replace(mission, targets=(replace(tower, shape=CylinderShape(4.0, 90.0)),))
+    wall = replace(tower, name="wall", centre=(0.0, -20.0, 20.0), shape=CylinderShape(5.0, 40.0))
     fenced = replace(mission, targets=(tower, wall))
     for changed, faults in ((tall, ["cropped"] * 5), (fenced, ["hidden", "", "", "", ""])):
         keyframes = replace(plan.trajectory.keyframes, mission=changed)
@@ -172,9 +173,9 @@ def test_guide_lines_of_lines_and_of_keep() -> None:
 
 def test_what_stands_on_a_roof_is_painted_after_it_from_above_and_before_it_from_below() -> None:
     tower = orbit_plan().trajectory.keyframes.mission.targets[0]
-    roof = replace(tower, name="roof", centre=(0.0, 0.0, 5.0), radius=12.0, height=10.0)
-    mast = replace(tower, name="mast", centre=(0.0, 0.0, 13.0), radius=0.5, height=6.0)
-    near = replace(tower, name="near", centre=(25.0, 0.0, 8.0), radius=1.0, height=16.0)
+    roof = replace(tower, name="roof", centre=(0.0, 0.0, 5.0), shape=CylinderShape(12.0, 10.0))
+    mast = replace(tower, name="mast", centre=(0.0, 0.0, 13.0), shape=CylinderShape(0.5, 6.0))
+    near = replace(tower, name="near", centre=(25.0, 0.0, 8.0), shape=CylinderShape(1.0, 16.0))
 
     def names(height: float) -> list[str]:
         order = painting_order((40.0, 0.0, height), [mast, near, roof])
@@ -189,8 +190,8 @@ def test_what_is_inside_of_a_target_is_painted_after_it_from_everywhere(
     eye: tuple[float, float, float],
 ) -> None:
     tower = orbit_plan().trajectory.keyframes.mission.targets[0]
-    light = replace(tower, name="light", centre=(0.0, 0.0, 12.0), radius=4.0, height=24.0)
-    lantern = replace(tower, name="lantern", centre=(0.0, 0.0, 22.0), radius=1.5, height=3.0)
+    light = replace(tower, name="light", centre=(0.0, 0.0, 12.0), shape=CylinderShape(4.0, 24.0))
+    lantern = replace(tower, name="lantern", centre=(0.0, 0.0, 22.0), shape=CylinderShape(1.5, 3.0))
     for things in ([light, lantern], [lantern, light]):
         assert [thing.name for thing in painting_order(eye, list(things))] == ["light", "lantern"]
 
@@ -200,8 +201,8 @@ def test_of_targets_that_overlap_the_nearer_one_is_painted_last(
     eye: tuple[float, float, float], last: str
 ) -> None:
     tower = orbit_plan().trajectory.keyframes.mission.targets[0]
-    light = replace(tower, name="light", centre=(0.0, 0.0, 12.0), radius=4.0, height=24.0)
-    lantern = replace(tower, name="lantern", centre=(0.0, 0.0, 24.0), radius=1.5, height=4.0)
+    light = replace(tower, name="light", centre=(0.0, 0.0, 12.0), shape=CylinderShape(4.0, 24.0))
+    lantern = replace(tower, name="lantern", centre=(0.0, 0.0, 24.0), shape=CylinderShape(1.5, 4.0))
     for things in ([light, lantern], [lantern, light]):
         assert painting_order(eye, list(things))[-1].name == last
 

@@ -81,7 +81,7 @@ def test_both_subjects_are_drawn_in_full_colour(monkeypatch: pytest.MonkeyPatch)
 def test_the_fault_of_any_subject_is_written_with_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
     plan = pair_plan()
     keyframes = plan.trajectory.keyframes
-    tall = replace(keyframes.mission, targets=(TOWER, replace(MAST, height=60.0)))
+    tall = replace(keyframes.mission, targets=(TOWER, replace(MAST, shape=MAST.shape._replace(height=60.0))))
     changed = replace(plan.trajectory, keyframes=replace(keyframes, mission=tall))
     cropped = VerifiedIR(changed, plan.certificate)
     (board,) = shot_boards(cropped)

@@ -7,6 +7,7 @@ import pytest
 from shotc.emit.storyboard.canvas import Canvas
 from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.page import draw_page
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.film_plans import SPEED, TOWER, dense_plan, orbit_plan
 from tests.support.records import replace
@@ -55,7 +56,7 @@ def test_a_hold_shows_what_is_so_until_it_ends() -> None:
 def test_where_a_target_is_cropped_that_is_the_worst() -> None:
     plan = orbit_plan()
     mission = plan.trajectory.keyframes.mission
-    tall = replace(mission, targets=(replace(TOWER, height=90.0),))
+    tall = replace(mission, targets=(replace(TOWER, shape=CylinderShape(4.0, 90.0)),))
     keyframes = replace(plan.trajectory.keyframes, mission=tall)
     cropped = VerifiedIR(replace(plan.trajectory, keyframes=keyframes), plan.certificate)
     (board,) = shot_boards(framed(cropped, share=0.7, at=40.0, error=0.1, off=31.0))

@@ -1,4 +1,4 @@
-"""Boxes and groups against brute force: corners projected one by one, points of their surfaces, other solids."""
+"""Boxes and groups against brute force: corners projected one by one, points of surfaces, other solids."""
 
 from itertools import product
 from math import atan2, cos, hypot, pi, radians, sin
@@ -35,7 +35,10 @@ def surface(shape: TargetShape) -> np.ndarray:
         if isinstance(body, BoxShape):
             c, s = body.ahead
             ring = [
-                (a * body.length / 2 * c - b * body.width / 2 * s, a * body.length / 2 * s + b * body.width / 2 * c)
+                (
+                    a * body.length / 2 * c - b * body.width / 2 * s,
+                    a * body.length / 2 * s + b * body.width / 2 * c,
+                )
                 for a, b in product((-1, 1), repeat=2)
             ]
         else:
