@@ -1,6 +1,6 @@
 """The outline of upright cylinders and boxes in a picture, in CasADi symbols: smooth, and next to exact.
 
-``shotc.geom.camera.silhouette_bounds`` is exact, and has kinks: where the camera is as high as the cylinder's
+``shotc.geom.shapes`` is exact, and has kinks: where the camera is as high as the cylinder's
 top or foot, where it looks level, and where one rim takes the other's place at an edge of the outline. Those
 are where people are filmed from. Here lengths and lesser values are rounded off by as little as nobody sees.
 """

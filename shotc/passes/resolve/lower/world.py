@@ -14,6 +14,7 @@ from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_are
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Zone
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.target import Target
 from shotc.kinds.base import counts_from_ground, stands
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
