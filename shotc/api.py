@@ -18,8 +18,10 @@ from shotc.diag.plugin_faults import plugin_failed
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.emit.base import Artifact, Emission, Emitter
 from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.lowered import Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
+from shotc.ir.source import MissionSource
 from shotc.lowering import lower, lower_kept, with_autopilot
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import (
@@ -133,6 +135,9 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     front = run(passes_of((ASSIGN, *FRONT), setting), loaded.mission, ctx, options.stop_after)
     diagnostics += front.diagnostics
     stopped = stopped._replace(reports=front.reports, diagnostics=tuple(diagnostics))
+    if front.value is None and not has_errors(diagnostics):
+        missing = _missing_libraries("planning", SOLVERS)
+        return stopped._replace(diagnostics=(*diagnostics, *missing))
     if front.value is None or not isinstance(front.value, KeyframeIR):
         return stopped
     refusals = _refusals(front.value.mission)
@@ -273,8 +278,10 @@ class MissionFile(NamedTuple):
 
 
 def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> PlanReport:
-    """Prove the plan in the bytes of a plan.json, from them alone; ``name`` is how to show the file.
+    """Prove the plan in the bytes of a plan.json; ``name`` is how to show the file.
 
+    Nothing else is read but the files that the plan links to, which have to be those that it was made with:
+    from the mission's folder as the plan names it, or the plan's own, which ``name`` says.
     against : a mission that the plan has to be the plan of, besides the one in it
     """
     missing = _missing_libraries("reading a plan", ("numpy",))
@@ -283,7 +290,11 @@ def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> P
     from shotc.passes.verify.file import against as differs_from
     from shotc.passes.verify.file import verify_file
 
-    verdict = verify_file(data, name, PassContext(), lower_kept)
+    def lowered(source: MissionSource, mission: str) -> Lowered:
+        beside = () if against is None or against.folder is None else (against.folder,)
+        return lower_kept(source, mission, (Path(mission).parent, Path(name).parent, *beside))
+
+    verdict = verify_file(data, name, PassContext(), lowered)
     sources = {} if verdict.mission is None else {verdict.mission.name: verdict.mission}
     report = PlanReport(verdict.plan, verdict.certificate, verdict.diagnostics, sources)
     if against is None or verdict.written is None:

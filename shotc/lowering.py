@@ -22,9 +22,12 @@ from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load
 
 
-def lower_kept(source: MissionSource, name: str) -> Lowered:
-    """Lower the mission that a plan holds; ``name`` is how to show it."""
-    return lower(source.text, name, kept_files(source), source.chosen)
+def lower_kept(source: MissionSource, name: str, folders: tuple[Path, ...] = ()) -> Lowered:
+    """Lower the mission that a plan holds.
+
+    name : how to show it; folders : where the files are looked for that the plan links to, in turn
+    """
+    return lower(source.text, name, kept_files(source, folders), source.chosen)
 
 
 def lower(data: bytes, name: str, folder: Path | KeptFiles | None, chosen: Chosen) -> Lowered:

@@ -10,7 +10,8 @@ from urllib.parse import unquote, urlsplit
 
 PACKAGE = "shotc"
 VIEWER = "rerun"
-PROJECTIONS = "pyproj"
+PLACES = frozenset({"pyproj", "laspy", "lazrs"})
+"""Libraries of the extra `geo`."""
 
 
 def remedy(libraries: Sequence[str]) -> str:
@@ -23,8 +24,8 @@ def remedy(libraries: Sequence[str]) -> str:
                 "leave it out: the viewer has no release for Intel Macs; the output `storyboard` shows a "
                 "plan without it, and `shotc view` on another machine takes the plan.json of this one"
             )
-    if PROJECTIONS in packages:
-        return f"run `{install_line('geo' if packages == {PROJECTIONS} else 'all')}`"
+    if PLACES & packages:
+        return f"run `{install_line('geo' if packages <= PLACES else 'all')}`"
     extra = "view" if packages == {VIEWER} else "all" if VIEWER in packages else "plan"
     also = "; `all` instead of `plan` brings the viewer, too" if extra == "plan" and has_viewer() else ""
     return f"run `{install_line(extra)}`{also}"

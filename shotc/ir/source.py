@@ -1,5 +1,6 @@
 """What a mission is lowered from: its text, the files it names, and what planning chose. Plain Python."""
 
+from pathlib import Path
 from typing import Literal, NamedTuple
 
 Autopilot = Literal["px4", "ardupilot"]
@@ -23,24 +24,30 @@ class MissionSource(NamedTuple):
     tables : (name, bytes) of the tracks, paths and layouts that it names
     drawn : (name, SHA-256, hexadecimal) of the files that its displays draw: nothing of a plan but how well a
         picture is drawn depends on what is in them
+    linked : (name, SHA-256, hexadecimal) of files that are too large for a plan: scenes, buildings and large
+        terrain. To lower the mission again they have to be there, unchanged.
     """
 
     text: bytes = b""
     tables: tuple[tuple[str, bytes], ...] = ()
     drawn: tuple[tuple[str, str], ...] = ()
     chosen: Chosen = Chosen()
+    linked: tuple[tuple[str, str], ...] = ()
 
 
 class KeptFiles(NamedTuple):
     """The files of a mission that is lowered again, in place of its folder.
 
     tables : bytes by name; drawn : (name, SHA-256) of the files that displays draw
+    linked : SHA-256 by name of files that a plan does not hold; folders : where they are looked for, in turn
     """
 
     tables: dict[str, bytes]
     drawn: tuple[tuple[str, str], ...]
+    linked: dict[str, str]
+    folders: tuple[Path, ...] = ()
 
 
-def kept_files(source: MissionSource) -> KeptFiles:
-    """Return the files that a source holds."""
-    return KeptFiles(dict(source.tables), source.drawn)
+def kept_files(source: MissionSource, folders: tuple[Path, ...] = ()) -> KeptFiles:
+    """Return the files that a source holds; folders : where those that it links to may be."""
+    return KeptFiles(dict(source.tables), source.drawn, dict(source.linked), folders)

@@ -32,6 +32,7 @@ from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
 from shotc.ir.fleet import Colors, FleetTrajectory, Lights
 from shotc.ir.records import field_names
+from shotc.ir.rules import Rules
 from shotc.ir.show import Display, Fleet
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.planfile.layout import Rows
@@ -41,6 +42,7 @@ UNLIMITED = {
     (Cylinder, "top"),
     (Prism, "bottom"),
     (Prism, "top"),
+    (Rules, "max_height"),
     (Claim, "limit"),
     (Claim, "worst"),
     (Track, "until"),

@@ -207,11 +207,13 @@ def _source(value: Any, decoder: Decoder) -> _Source | None:
     kinds: dict[str, Any] = {"file": str, "sha256": str}
     if isinstance(value, dict) and not value.keys() <= kinds.keys():
         kinds |= {"text": tuple[str, ...], "tables": object, "drawn": object, "chosen": object}
+        kinds |= {"linked": object} if "linked" in value else {}
     fields = decoder.fields(kinds, value, "source")
     if decoder.faults or "text" not in fields:
         return None if decoder.faults else _Source(fields["file"], fields["sha256"], MissionSource())
     tables = _pairs(fields["tables"], {"name": str, "text": tuple[str, ...]}, "source.tables", decoder)
     drawn = _pairs(fields["drawn"], {"name": str, "sha256": str}, "source.drawn", decoder)
+    linked = _pairs(fields.get("linked", []), {"name": str, "sha256": str}, "source.linked", decoder)
     choices = {"drones": object, "autopilot": Autopilot | None}
     chosen = decoder.fields(choices, fields["chosen"], "source.chosen")
     drones = _pairs(chosen.get("drones"), {"shot": str, "drone": str}, "source.chosen.drones", decoder)
@@ -226,7 +228,7 @@ def _source(value: Any, decoder: Decoder) -> _Source | None:
     return _Source(
         fields["file"],
         fields["sha256"],
-        MissionSource(text, read, drawn, Chosen(drones, chosen["autopilot"])),
+        MissionSource(text, read, drawn, Chosen(drones, chosen["autopilot"]), linked),
     )
 
 

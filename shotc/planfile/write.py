@@ -71,6 +71,7 @@ def encode_mission(mission: MissionIR) -> dict[str, Any]:
 def _source(mission: MissionIR) -> dict[str, Any]:
     """Return what the mission was lowered from, so that verification can lower it again."""
     source = mission.source
+    linked = [{"name": name, "sha256": digest} for name, digest in source.linked]
     return {
         "file": mission.origins.file,
         "sha256": mission.source_sha256,
@@ -81,6 +82,7 @@ def _source(mission: MissionIR) -> dict[str, Any]:
             "drones": [{"shot": shot, "drone": drone} for shot, drone in source.chosen.drones],
             "autopilot": source.chosen.autopilot,
         },
+        **({"linked": linked} if linked else {}),
     }
 
 

@@ -8,6 +8,9 @@ MAX_BYTES = 4 * 1024 * 1024
 MAX_TABLE_BYTES = 4_000_000
 """Bytes of a file that a mission names: a path, a track, a drawing."""
 
+MAX_LINKED_BYTES = 400_000_000
+"""Bytes of a scene, of footprints, or of a terrain: files that a plan links to."""
+
 MAX_DEPTH = 64
 """Lists and mappings inside each other, aliases followed."""
 

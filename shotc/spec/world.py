@@ -1,12 +1,14 @@
 """The world of a mission and its targets: where it is, what stands or moves in it, where drones may fly."""
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
+from shotc.spec.faults import fault
 from shotc.spec.fields import (
     Angle,
     Duration,
+    Heading,
     Heights,
     Length,
     Name,
@@ -23,6 +25,7 @@ from shotc.spec.fields import (
 from shotc.spec.fieldtypes import Integer
 from shotc.spec.model import Model, OneOf
 from shotc.spec.places import Altitude, Latitude, Longitude
+from shotc.units import clip
 
 
 class OriginSpec(Model):
@@ -151,11 +154,65 @@ class TerrainSpec(Model):
     )
 
 
+class SceneSpec(Model):
+    """A mesh or a point cloud of what stands there."""
+
+    file: RelativePath = Field(
+        description="mesh (.glb, .ply, .obj, .stl) or point cloud (.ply, .xyz, .las, .laz)"
+    )
+    at: Stand = Field(
+        default=(0.0, 0.0, 0.0), description="where the file's origin is; on the ground without a height"
+    )
+    heading: Heading = Field(
+        default=0.0,
+        description="compass bearing of the file's north: of its y axis, or where y is up, of minus z",
+    )
+    up: Literal["y", "z"] | None = Field(
+        default=None, description="the file's axis that points up; y in .glb and .obj, z in others, if silent"
+    )
+    units: Literal["m", "cm", "mm", "km", "ft", "in"] | None = Field(
+        default=None, description="unit of the file's coordinates; .glb is in metres, others do not say it"
+    )
+
+    @classmethod
+    def shorthand(cls, data: Any) -> Any:
+        """Refuse a bare path, which does not say the units."""
+        units = "" if str(data).lower().endswith(".glb") else ", units: m"
+        return _no_path(data, "scene", units)
+
+
+class BuildingsSpec(Model):
+    """Footprints of buildings, with their heights."""
+
+    file: RelativePath = Field(description="GeoJSON of footprints, as OpenStreetMap exports them")
+    height: PositiveLength | None = Field(
+        default=None, description="height of buildings for which the file gives neither height nor levels"
+    )
+
+    @classmethod
+    def shorthand(cls, data: Any) -> Any:
+        """Refuse a bare path."""
+        return _no_path(data, "buildings", "")
+
+
+def _no_path(data: Any, key: str, more: str) -> Any:
+    """Return what is no path; raise a fault that shows how a path is written, with more keys."""
+    if not isinstance(data, str):
+        return data
+    help_ = f"write `{key}: {{file: {clip(data)}{more}}}`"
+    raise fault("wrong-type", f"`{key}` is a mapping, not a path", help_)
+
+
 class WorldSpec(Model):
     """The world of a mission."""
 
     origin: OriginSpec | None = Field(default=None, description="place on earth of the point [0, 0, 0]")
-    scene: RelativePath | None = Field(default=None, description="point cloud or mesh of the scene")
+    scene: SceneSpec | None = Field(
+        default=None, description="mesh or point cloud of what stands there; drones keep clear of it"
+    )
+    buildings: BuildingsSpec | None = Field(
+        default=None, description="footprints of buildings; drones keep clear of them"
+    )
     terrain: TerrainSpec | None = Field(
         default=None, description="ground that rises; the plane z = 0 if silent"
     )

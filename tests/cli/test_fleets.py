@@ -31,7 +31,7 @@ def lowered(made: VerifiedIR) -> Lowered:
 def show(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A plan made by hand; the mission that it would be lowered from is the one that it was made with."""
     made = plan()
-    monkeypatch.setattr("shotc.api.lower_kept", lambda _source, _name: lowered(made))
+    monkeypatch.setattr("shotc.api.lower_kept", lambda *_: lowered(made))
     return written(tmp_path / "out", made)
 
 
@@ -92,7 +92,7 @@ def test_diff_of_shows(run: Run, show: Path, tmp_path: Path, monkeypatch: pytest
     few = plan(mission(fleets=(fleet(PADS[:3]),)))
     fewer = written(tmp_path / "fewer", few)
     in_turn = iter([lowered(plan()), lowered(few)])
-    monkeypatch.setattr("shotc.api.lower_kept", lambda _source, _name: next(in_turn))
+    monkeypatch.setattr("shotc.api.lower_kept", lambda *_: next(in_turn))
     done = run("diff", str(show), str(fewer))
     assert done.code == 0
     assert "swarm  4 -> 3  46.00 s" in done.out

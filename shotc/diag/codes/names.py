@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._obstacles import FILES
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 
@@ -129,4 +130,5 @@ CODES: tuple[CodeInfo, ...] = (
         _BY_FILE,
         phase="other",
     ),
+    *FILES,
 )

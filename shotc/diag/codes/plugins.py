@@ -20,7 +20,13 @@ shots:
       - {at: [12, -20, 10], look_at: mast}
 """
 
-_SCENE = _PASSING.replace("mission: pan\n", "mission: pan\nworld: {scene: scene.ply}\n")
+_BOTH = (
+    _PASSING.replace(
+        "shots:\n",
+        "fleets: {swarm: {count: 20, layout: {grid: {spacing: 4, origin: [100, 0, 0]}}}}\nshots:\n",
+    )
+    + "  - {id: show, kind: display, fleet: swarm, frames: [{sphere: {center: [100, 0, 40], radius: 20}}]}\n"
+)
 
 CODES: tuple[CodeInfo, ...] = (
     CodeInfo(
@@ -88,7 +94,7 @@ CODES: tuple[CodeInfo, ...] = (
         "The whole language is parsed and validated, so that missions can be written and reviewed today. Scenes, "
         "and missions that both film and show, are planned by later versions; until then `shotc plan` refuses the mission instead of "
         "flying a part of it.",
-        _SCENE,
+        _BOTH,
         _PASSING,
         "plan",
     ),

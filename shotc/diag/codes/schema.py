@@ -121,7 +121,7 @@ CODES: tuple[CodeInfo, ...] = (
         "elsewhere never reads other files. The path is relative, with `/` between folders, without `..`, "
         "drive letters and backslashes.",
         LOOK,
-        ("  wind: 3 m/s", "  scene: ../../scene.ply"),
+        ("  wind: 3 m/s", "  terrain: {file: ../../hills.tif}"),
     ),
     slip(
         "S013",

@@ -34,4 +34,4 @@ class Resolve:
         """Resolve one mission."""
         what = lowered(ir, self.kinds, self.emitters, ctx.progress)
         faults = check(ir, what)
-        return Outcome(None if stops(faults) else what.mission, tuple(faults))
+        return Outcome(None if what.astray or stops(faults) else what.mission, tuple(faults))

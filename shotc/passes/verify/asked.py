@@ -76,6 +76,7 @@ def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[Differe
             [n for n, _ in written.source.tables],
             [n for n, _ in asked.source.tables],
         ),
+        ("the files that the plan links to", written.source.linked, asked.source.linked),
         ("the drawings in the plan", written.source.drawn, asked.source.drawn),
         ("the drones that were chosen", written.source.chosen, asked.source.chosen),
     ):

@@ -23,6 +23,9 @@ from shotc.units import clip
 
 Lower = Callable[[MissionSource, str], Lowered]
 
+Digests = tuple[tuple[str, str], ...]
+"""Names of files, and their SHA-256."""
+
 REPORTED = 10
 """Differing claims that are reported one by one."""
 
@@ -76,13 +79,25 @@ def against(written: KeyframeIR, asked: Lowered) -> list[Diagnostic]:
         text = "this mission cannot be lowered, so no plan can be held to it"
         fault = Diagnostic("V043", text, (Label(asked.file.name, WHOLE_FILE),), help="mend its faults first")
         return [fault, *asked.diagnostics]
-    mine, true = dict(written.mission.source.drawn), dict(asked.keyframes.mission.source.drawn)
-    other = (name for name in true if name in mine and mine[name] != true[name])
+    source, now = written.mission.source, asked.keyframes.mission.source
     diagnostics = [
         *differences(written, asked.keyframes, same_text=False),
-        *(Difference((), f"`{name}` is another file than the plan draws") for name in other),
+        *(
+            Difference((), f"`{name}` is another file than the plan draws")
+            for name in _changed(source.drawn, now.drawn)
+        ),
+        *(
+            Difference((), f"`{name}` is another file than the plan was made with")
+            for name in _changed(source.linked, now.linked)
+        ),
     ]
     return told(diagnostics, asked.keyframes, "V043", ())
+
+
+def _changed(mine: Digests, true: Digests) -> list[str]:
+    """Return the files whose digests differ."""
+    before = dict(mine)
+    return [name for name, digest in true if before.get(name, digest) != digest]
 
 
 def _not_lowered(read: ReadPlan, asked: Lowered, name: str) -> tuple[Diagnostic, ...]:

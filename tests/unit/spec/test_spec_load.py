@@ -93,7 +93,7 @@ PLACES = [
     ("unknown-kind", "kind: static", "kind: orbits", (13, 22, 28)),
     ("unsafe-name", "mission: look", "mission: ../look", (2, 10, 17)),
     ("unsafe-name", "  tower:", "  -tower:", (8, 3, 9)),
-    ("unsafe-path", "wind: 3 m/s", "scene: /etc/passwd", (4, 10, 21)),
+    ("unsafe-path", "wind: 3 m/s", "terrain: {file: /etc/passwd}", (4, 19, 30)),
     ("inverted-range", "height: [0, 12]", "height: [12, 0]", (6, 72, 79)),
     ("inverted-range", "height: [0, 12]", "height: [12, 12]", (6, 72, 80)),
     ("out-of-range", "radius: 4", "radius: 0", (8, 35, 36)),
@@ -223,7 +223,7 @@ def test_the_whole_language_loads(loads, whole_language):
     assert spec.drones["cam3"].home == (0.0, 0.0, STANDING)
     assert spec.shots[0].require.in_frame == 1.0
     assert spec.shots[0].keyframes[1].frame.points == ((-1 / 3, 0.0),)
-    assert loaded.mission.origins.value(("shots", 1, "pitch")).span.line == 66
+    assert loaded.mission.origins.value(("shots", 1, "pitch")).span.line == 67
 
 
 def test_models_are_frozen(loads):

@@ -18,6 +18,7 @@ from shotc.passes.resolve.lower.earth import check_earth, geo_origin
 from shotc.passes.resolve.lower.files import Files, Reader, match_files
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
+from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
 from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.lower.show import Show, shown
 from shotc.passes.resolve.lower.slips import check_slips
@@ -39,7 +40,7 @@ class Lowered(NamedTuple):
     """A mission as far as it can be resolved, and what is wrong with its words.
 
     courses : of its framings, in the order of the shots
-    astray : whether its places on earth lie too far from each other
+    astray : whether its places on earth lie too far from each other, or its ground is not known
     sound : whether every drone can fly as it is written
     level : targets whose tracks are of files without heights
     """
@@ -78,6 +79,7 @@ class _World(NamedTuple):
     sound : whether every drone can fly as it is written
     level : targets whose tracks are of files without heights
     heights : z of the ground at x and y; terrain : of which it is, None where it is flat
+    standing : the scene and the buildings
     """
 
     put: Put
@@ -93,6 +95,7 @@ class _World(NamedTuple):
     level: frozenset[str]
     heights: GroundHeight
     terrain: "Terrain | None"
+    standing: Obstacles
 
 
 def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots:
@@ -121,6 +124,7 @@ def _world(ir: LoadedMission) -> _World:
     relief = None if isinstance(terrain, Diagnostic) else terrain
     heights = flat if relief is None else relief.z
     put = partial(placed, origin or ANYWHERE, heights)
+    standing = Obstacles() if astray else read_obstacles(spec, put, relief, files)
     found_zones, zone_faults = zones(spec, put, relief, origins)
     found_drones, drone_faults = drones(spec, put, origins)
     tracks = read_tracks(spec, put, files)
@@ -133,10 +137,11 @@ def _world(ir: LoadedMission) -> _World:
         found_drones,
         found_targets,
         _rules(spec.rules),
-        (*astray, *zone_faults, *drone_faults, *tracks.diagnostics),
+        (*astray, *standing.faults, *zone_faults, *drone_faults, *tracks.diagnostics),
         astray=bool(astray),
         heights=heights,
         terrain=relief,
+        standing=standing,
         sound=not has_errors(drone_faults),
         level=tracks.level,
     )
@@ -162,8 +167,14 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         displays=shots.displays,
         files=show.files,
         terrain=world.terrain,
-        source=MissionSource(ir.text, tuple(world.read.tables.items()), show.drawn, ir.chosen),
+        meshes=world.standing.meshes,
+        source=_source(ir, world.read, show),
     )
+
+
+def _source(ir: LoadedMission, read: Reader, show: Show) -> MissionSource:
+    tables, linked = tuple(read.tables.items()), tuple(read.linked.items())
+    return MissionSource(ir.text, tables, show.drawn, ir.chosen, linked)
 
 
 def _rules(spec: RulesSpec) -> Rules:

@@ -18,10 +18,12 @@ def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[D
 
 
 def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
-    if spec.world.scene is not None:
-        yield Deferred("a scene file (`world.scene`)", ("world", "scene"))
     if spec.world.terrain is not None and spec.fleets:
         yield Deferred("a show over terrain (`world.terrain`)", ("world", "terrain"))
+    if spec.world.scene is not None and spec.fleets:
+        yield Deferred("a show beside a scene (`world.scene`)", ("world", "scene"))
+    if spec.world.buildings is not None and spec.fleets:
+        yield Deferred("a show beside buildings (`world.buildings`)", ("world", "buildings"))
     drawn = [i for i, shot in enumerate(spec.shots) if shot.drone == NO_DRONE]
     if 0 < len(drawn) < len(spec.shots):
         yield Deferred("a mission with both cameras and displays", ("shots", drawn[0], "kind"))

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from fnmatch import translate
+from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,7 +13,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
-from shotc.source.limits import MAX_TABLE_BYTES
+from shotc.source.limits import MAX_LINKED_BYTES, MAX_TABLE_BYTES
 from shotc.spec.words import closest
 
 MOST_FILES = 5_000  # frames of an animation
@@ -23,12 +24,16 @@ NO_FOLDER = "a mission read from standard input has no folder; save it to a file
 
 
 class Reader:
-    """Reads the tables that a mission names, and keeps what it has read: a plan holds them, too."""
+    """Reads the files that a mission names, and keeps what a plan holds of them.
+
+    tables : name and bytes of what is small; linked : name and SHA-256, hexadecimal, of what a plan links to
+    """
 
     def __init__(self, folder: Path | KeptFiles | None, origins: OriginMap) -> None:
         self._folder = folder
         self._origins = origins
         self.tables: dict[str, bytes] = {}
+        self.linked: dict[str, str] = {}
 
     def __call__(self, name: str, path: KeyPath) -> bytes | Diagnostic:
         """Return the bytes of the file that the mission names at ``path``, or what is wrong with it."""
@@ -37,16 +42,34 @@ class Reader:
             self.tables[name] = data
         return data
 
+    def large(self, name: str, path: KeyPath, *, linked: bool) -> bytes | Diagnostic:
+        """Return the bytes of a file that may be larger than a table, or what is wrong with it.
+
+        linked : whether a plan links to it, whatever its size; else a plan holds it if it is a table's size
+        """
+        kept = self._folder
+        if isinstance(kept, KeptFiles) and name in kept.linked:
+            data = _read_linked(kept, self._origins, name, path)
+        else:
+            data = read_file(kept, self._origins, name, path, MAX_LINKED_BYTES)
+        if isinstance(data, Diagnostic):
+            return data
+        if linked or len(data) > MAX_TABLE_BYTES:
+            self.linked[name] = sha256(data).hexdigest()
+        else:
+            self.tables[name] = data
+        return data
+
 
 class Files(NamedTuple):
     """What the files of a mission are read with.
 
-    origin : of W on the earth, if the mission gives one; read : the bytes of a file of the mission
+    origin : of W on the earth, if the mission gives one; read : the files of the mission
     """
 
     origin: GeoOrigin | None
     origins: OriginMap
-    read: Read
+    read: Reader
 
 
 def read_file(
@@ -89,6 +112,27 @@ def read_file(
         message = f"the file has {size / 1e6:.1f} MB, and no more than {most / 1e6:.0f} MB are read"
         return bad_file(origins, path, name, FileFault(message, None, "thin it"))
     return data
+
+
+def _read_linked(kept: KeptFiles, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
+    """Return a file that a plan links to, from the first folder that has it unchanged, or what is wrong."""
+    label, other = (origins.value(path),), None
+    for folder in kept.folders:
+        data = read_file(folder, origins, name, path, MAX_LINKED_BYTES)
+        if isinstance(data, bytes):
+            if sha256(data).hexdigest() == kept.linked[name]:
+                return data
+            other = other or folder
+        elif data.code != "N008":
+            return data
+    if other is not None:
+        message = f"`{name}` is not the file that the plan was made with"
+        note = f"{(other / name).as_posix()} has another SHA-256 than the plan says: {kept.linked[name]}"
+        return Diagnostic("N012", message, label, (note,), "bring back that file, or plan the mission again")
+    looked = " and in ".join(dict.fromkeys(folder.as_posix() for folder in kept.folders)) or "no folder"
+    notes = (f"a plan holds its SHA-256, not the file itself; looked for it in {looked}",)
+    help_ = "put it beside the plan, or where the mission was when it was planned"
+    return Diagnostic("N011", f"the plan needs the file `{name}`, which is not there", label, notes, help_)
 
 
 def match_files(

@@ -10,8 +10,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Vec2, Vec3
 from shotc.kinds.base import Place
 from shotc.passes.resolve.lower.files import Files
+from shotc.passes.resolve.lower.obstacles import not_judged
 from shotc.passes.resolve.lower.world import zone_counts_from_ground
-from shotc.requirements import remedy
 from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.mission import MissionSpec
 
@@ -32,12 +32,11 @@ def read_terrain(
     written = spec.world.terrain
     if written is None:
         return None
-    if find_spec("numpy") is None:
-        message = f"the terrain `{written.file}` needs numpy, not installed here"
-        return Diagnostic("P004", message, (files.origins.value(FILE),), help=remedy(["numpy"]))
-    data = files.read(written.file, FILE)
+    data = files.read.large(written.file, FILE, linked=False)
     if isinstance(data, Diagnostic):
         return data
+    if find_spec("numpy") is None:
+        return not_judged("terrain", written.file, FILE, files)
     from shotc.passes.resolve.lower.relief import relief
 
     return relief(written, data, (map(put, _places(spec)), _beyond(spec)), files)

@@ -1,0 +1,201 @@
+"""Footprints made houses: rings of W, from where to where they reach, and what is wrong with the others.
+
+A part of a building stands in place of the outline that it lies in, as Simple 3D Buildings has it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from math import hypot
+from typing import NamedTuple
+
+from shotc.geom.solids import inside_polygon, is_simple, signed_area, triangles
+from shotc.geom.vec import Vec2
+from shotc.kinds.footprints.geojson import Footprint
+from shotc.kinds.footprints.tags import Extent, extent_of, is_building, is_part
+
+LEAST_AREA_M2 = 0.01
+COVERED = 0.9
+"""Share of an outline that its parts cover, at least: of less, the outline stays."""
+SAME_AREA = 1e-6
+"""Share of a ring's area that its triangles may lack."""
+
+Project = Callable[[Vec2], Vec2]
+"""(longitude, latitude) in degrees to East and North in metres of W."""
+Triangle2 = tuple[Vec2, Vec2, Vec2]
+
+
+class House(NamedTuple):
+    """A building, or a part of one.
+
+    ring : corners of W, counter-clockwise, metres; lid : the triangles that it is cut into
+    bottom, top : metres over the lowest ground under the ring
+    number : of its feature in the file
+    """
+
+    name: str
+    ring: tuple[Vec2, ...]
+    lid: tuple[Triangle2, ...]
+    bottom: float
+    top: float
+    number: int
+
+
+class Fault(NamedTuple):
+    """What is wrong with one building."""
+
+    name: str
+    number: int
+    text: str
+
+
+class Houses(NamedTuple):
+    """The buildings of a file.
+
+    wrong     : rings that enclose nothing, or cross themselves; tops that are not above bottoms
+    unknown   : buildings whose height the file does not say; assumed : those that are given one
+    uncovered : outlines whose parts cover too little of them, which stay
+    passed    : polygons without a building; far : buildings farther away than can be flown
+    """
+
+    houses: tuple[House, ...]
+    wrong: tuple[Fault, ...] = ()
+    unknown: tuple[Fault, ...] = ()
+    assumed: tuple[Fault, ...] = ()
+    uncovered: tuple[Fault, ...] = ()
+    passed: int = 0
+    far: tuple[Footprint, ...] = ()
+
+
+class _Shape(NamedTuple):
+    """A footprint whose ring can be built on; low, high : of the box round it."""
+
+    footprint: Footprint
+    ring: tuple[Vec2, ...]
+    lid: tuple[Triangle2, ...]
+    area: float
+    low: Vec2
+    high: Vec2
+    extent: Extent
+    part: bool
+
+
+def houses_of(
+    footprints: Sequence[Footprint], project: Project, farthest: float, height: float | None
+) -> Houses:
+    """Return the buildings of a file.
+
+    farthest : metres from the origin of W; height : of those that have none by the file, or None
+    """
+    built = _built(footprints)
+    shapes: list[_Shape] = []
+    far: list[Footprint] = []
+    wrong: list[Fault] = []
+    for footprint in built:
+        ring = tuple(map(project, footprint.ring))
+        if all(hypot(*corner) > farthest for corner in ring):
+            far.append(footprint)
+            continue
+        shape = _shape(footprint, ring)
+        if isinstance(shape, _Shape):
+            shapes.append(shape)
+        else:
+            wrong.append(Fault(footprint.name, footprint.number, shape))
+    whole = _replaced(shapes)
+    made = _made(whole.left, height)
+    return made._replace(
+        wrong=(*wrong, *made.wrong),
+        uncovered=tuple(whole.uncovered),
+        passed=len(footprints) - len(built),
+        far=tuple(far),
+    )
+
+
+def _built(footprints: Sequence[Footprint]) -> list[Footprint]:
+    """Return the footprints of buildings: of a file whose polygons have no tags, all."""
+    built = [f for f in footprints if is_building(f.tags)]
+    return built or [f for f in footprints if not {"building", "building:part"} & f.tags.keys()]
+
+
+def _shape(footprint: Footprint, ring: tuple[Vec2, ...]) -> _Shape | str:
+    """Return a ring that runs counter-clockwise, or what is wrong with it."""
+    if len(ring) < 3:
+        return f"its ring has {len(ring)} different corners, not three or more"
+    area = signed_area(ring)
+    if abs(area) < LEAST_AREA_M2:
+        return "its ring encloses no area"
+    ring = ring if area > 0 else ring[::-1]
+    lid = tuple(triangles(ring)) if is_simple(ring) else ()
+    if abs(sum(map(signed_area, lid)) - abs(area)) > SAME_AREA * abs(area):
+        return "its ring crosses or touches itself"
+    x, y = zip(*ring, strict=True)
+    low, high = (min(x), min(y)), (max(x), max(y))
+    tags = footprint.tags
+    return _Shape(footprint, ring, lid, abs(area), low, high, extent_of(tags), is_part(tags))
+
+
+class _Replaced(NamedTuple):
+    """What is left of outlines and parts, and the outlines that stay beside their parts."""
+
+    left: list[_Shape]
+    uncovered: list[Fault]
+
+
+def _replaced(shapes: list[_Shape]) -> _Replaced:
+    """Take away the outlines whose parts stand in their place; parts take from them what they do not say."""
+    parts = [s for s in shapes if s.part]
+    if not parts:
+        return _Replaced(shapes, [])
+    left: list[_Shape] = []
+    uncovered: list[Fault] = []
+    named: dict[int, _Shape] = {}
+    for outline in (s for s in shapes if not s.part):
+        own = [i for i, part in enumerate(parts) if _lies_in(part, outline)]
+        named |= {i: _inheriting(parts[i], outline) for i in own if i not in named}
+        share = sum(parts[i].area for i in own if parts[i].extent.bottom <= 0.0) / outline.area
+        if own and share < COVERED:
+            text = f"its parts cover {100 * share:.0f} % of its outline"
+            uncovered.append(Fault(outline.footprint.name, outline.footprint.number, text))
+        if not own or (share < COVERED and outline.extent.top is not None):
+            left.append(outline)
+    return _Replaced([*left, *(named.get(i, part) for i, part in enumerate(parts))], uncovered)
+
+
+def _lies_in(part: _Shape, outline: _Shape) -> bool:
+    """Tell whether the middle of a part's largest triangle is in an outline."""
+    (ax, ay), (bx, by), (cx, cy) = max(part.lid, key=signed_area)
+    middle = ((ax + bx + cx) / 3, (ay + by + cy) / 3)
+    boxed = all(outline.low[k] <= middle[k] <= outline.high[k] for k in (0, 1))
+    return boxed and inside_polygon(outline.ring, middle)
+
+
+def _inheriting(part: _Shape, outline: _Shape) -> _Shape:
+    """Return a part with the name and the height of its building, where it has none of its own."""
+    footprint, extent = part.footprint, part.extent
+    if not footprint.tags.get("name") and outline.footprint.tags.get("name"):
+        footprint = footprint._replace(name=outline.footprint.name)
+    if extent.top is None:
+        extent = extent._replace(top=outline.extent.top)
+    return part._replace(footprint=footprint, extent=extent)
+
+
+def _made(shapes: Iterable[_Shape], height: float | None) -> Houses:
+    """Return the houses of shapes; height : of those whose height is not known."""
+    houses: list[House] = []
+    wrong: list[Fault] = []
+    unknown: list[Fault] = []
+    for shape in shapes:
+        name, number = shape.footprint.name, shape.footprint.number
+        extent = shape.extent
+        if extent.top is None:
+            text = f"`{extent.unread}` is no height" if extent.unread else "it has none"
+            unknown.append(Fault(name, number, text))
+        top = extent.top if extent.top is not None else height
+        if top is None:
+            continue
+        if extent.bottom >= top:
+            wrong.append(Fault(name, number, f"it begins at {extent.bottom:g} m and ends at {top:g} m"))
+        else:
+            houses.append(House(name, shape.ring, shape.lid, extent.bottom, top, number))
+    left = () if height is None else tuple(unknown)
+    return Houses(tuple(houses), tuple(wrong), () if left else tuple(unknown), left)

@@ -1,0 +1,95 @@
+"""Point clouds from the bytes of XYZ, LAS and LAZ files; the latter two by laspy."""
+
+from __future__ import annotations
+
+import io
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+
+from shotc.kinds.models.parts import ModelFault, Part, part
+
+KINDS = ("xyz", "las", "laz")
+MOST_POINTS = 20_000_000
+NOISE = (7, 18)
+"""Classes of the LAS format, low and high noise: points that nothing stands at."""
+NONE = "?"
+"""Instead of a separator, of a line that is no row."""
+_THIN = "thin it, or cut it to the mission"
+
+
+def read_cloud(kind: str, data: bytes) -> list[Part] | ModelFault:
+    """Return the points of a file as one part, in its own units and axes; kind : one of KINDS."""
+    return _read_xyz(data) if kind == "xyz" else _read_las(data)
+
+
+def _read_xyz(data: bytes) -> list[Part] | ModelFault:
+    """Read rows whose first three columns are x, y and z; a row before them may be a header."""
+    if b"\0" in data[:1000]:
+        return ModelFault("it is no text", "export it as PLY, or as rows of x y z")
+    lines = data.decode("latin-1").splitlines()
+    body = [line for line in lines if line.strip() and not line.lstrip().startswith(("#", "//"))]
+    if body and _separator(body[0]) is NONE:
+        body = body[1:]
+    if len(body) > MOST_POINTS:
+        return ModelFault(f"it has {len(body)} points; {MOST_POINTS} are the most", _THIN)
+    if not body:
+        return ModelFault("it holds no points", "write a row of x y z a point")
+    separator = _separator(body[0])
+    try:
+        rows = np.loadtxt(body, delimiter=separator or None, usecols=(0, 1, 2), comments=None, ndmin=2)
+        return [part("", rows)]
+    except ValueError:
+        number = next((i for i, line in enumerate(body) if not _is_row(line, separator)), 0)
+        row = body[number]
+        line = next(i for i, text in enumerate(lines, 1) if text is row)
+        return ModelFault(f"`{row.strip()[:40]}` is no row of x y z", "decimals have a point", line)
+
+
+def _separator(line: str) -> str:
+    """Return what parts the columns of a row: a comma, a semicolon, or nothing for white space; else NONE."""
+    return next((mark for mark in ("", ",", ";") if _is_row(line, mark)), NONE)
+
+
+def _is_row(line: str, separator: str) -> bool:
+    words = line.split(separator or None)[:3]
+    try:
+        return len([float(word) for word in words]) == 3 and "_" not in "".join(words)
+    except ValueError:
+        return False
+
+
+def _read_las(data: bytes) -> list[Part] | ModelFault:
+    missing = next((name for name in ("laspy", "lazrs") if find_spec(name) is None), "")
+    if missing:
+        return ModelFault(
+            f"a point cloud of this format needs {missing}, not installed here", library=missing
+        )
+    if data[:4] != b"LASF":
+        return ModelFault("it is no LAS or LAZ file", "export it as LAZ")
+    try:
+        with np.errstate(all="ignore"):
+            return _points(data)
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # noqa: BLE001  the reader's faults of foreign bytes; lazrs panics beside Exception
+        reason = (str(error).splitlines() or [type(error).__name__])[0][:200]
+        return ModelFault(f"laspy says: {reason or type(error).__name__}", "export it anew as LAZ")
+
+
+def _points(data: bytes) -> list[Part] | ModelFault:
+    import laspy
+
+    with laspy.open(io.BytesIO(data), laz_backend=laspy.LazBackend.Lazrs) as reader:
+        count = int(reader.header.point_count)
+        if count > MOST_POINTS:
+            return ModelFault(f"it has {count} points; {MOST_POINTS} are the most", _THIN)
+        if not reader.header.are_points_compressed and count * reader.header.point_format.size > len(data):
+            return ModelFault(f"its header promises {count} points in {len(data)} bytes", "copy it anew")
+        cloud: Any = reader.read()
+    kept = ~np.isin(np.asarray(cloud.classification), NOISE)
+    points = np.column_stack([np.asarray(axis)[kept] for axis in (cloud.x, cloud.y, cloud.z)])
+    if not len(points) and count:
+        return ModelFault(f"all of its {count} points are noise (classes 7 and 18)", "classify it anew")
+    return [part("", points)]

@@ -1,0 +1,33 @@
+"""The formats of meshes and point clouds, by the endings of names. Plain Python, no numpy."""
+
+from typing import Literal, NamedTuple
+
+
+class Ending(NamedTuple):
+    """What a format says of its coordinates.
+
+    up : the axis that points up, as the programs that write it have it
+    metres : whether they are in metres; else the file does not say their unit
+    """
+
+    up: Literal["y", "z"]
+    metres: bool = False
+
+
+ENDINGS = {
+    "glb": Ending("y", metres=True),
+    "ply": Ending("z"),
+    "obj": Ending("y"),
+    "stl": Ending("z"),
+    "xyz": Ending("z"),
+    "las": Ending("z"),
+    "laz": Ending("z"),
+}
+
+METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "ft": 0.3048, "in": 0.0254}
+"""Metres of a unit."""
+
+
+def ending_of(name: str) -> str:
+    """Return the ending of a file's name, in small letters."""
+    return name.rsplit(".", 1)[-1].lower()

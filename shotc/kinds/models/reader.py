@@ -1,0 +1,14 @@
+"""A mesh or a point cloud by the ending of its name."""
+
+from __future__ import annotations
+
+from shotc.kinds.models import cloud_file, mesh_file
+from shotc.kinds.models.parts import ModelFault, Part
+
+
+def read_model(kind: str, data: bytes) -> list[Part] | ModelFault:
+    """Return what a file holds, or why it cannot be read. The bytes may be anything.
+
+    kind : the ending of its name, one of ``endings.ENDINGS``
+    """
+    return cloud_file.read_cloud(kind, data) if kind in cloud_file.KINDS else mesh_file.read_mesh(kind, data)

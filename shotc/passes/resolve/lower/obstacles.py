@@ -1,0 +1,100 @@
+"""The scene and the buildings of a mission, which files give. Plain Python, until a mission names one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.limits import Vec3
+from shotc.kinds.base import Place, bad_file
+from shotc.kinds.files import FileFault
+from shotc.kinds.models.endings import ENDINGS, METRES, ending_of
+from shotc.passes.resolve.lower.buildings import BUILDINGS, read_buildings
+from shotc.passes.resolve.lower.files import Files
+from shotc.requirements import remedy
+from shotc.spec.mission import MissionSpec
+from shotc.spec.world import BuildingsSpec, SceneSpec
+
+if TYPE_CHECKING:  # a mission without any loads no numpy
+    from shotc.ir.obstacle_mesh import ObstacleMesh
+    from shotc.ir.terrain import Terrain
+
+SCENE = ("world", "scene", "file")
+
+
+class Obstacles(NamedTuple):
+    """The scene and the buildings of a mission, and what is wrong with them."""
+
+    meshes: tuple[ObstacleMesh, ...] = ()
+    faults: tuple[Diagnostic, ...] = ()
+
+
+def read_obstacles(
+    spec: MissionSpec, put: Callable[[Place], Vec3], terrain: Terrain | None, files: Files
+) -> Obstacles:
+    """Return what a mission names; put : places into W; files : who reads files, and the origin."""
+    world = spec.world
+    scene = Obstacles() if world.scene is None else _scene(world.scene, put, terrain, files)
+    buildings = Obstacles() if world.buildings is None else _buildings(world.buildings, terrain, files)
+    return Obstacles((*scene.meshes, *buildings.meshes), (*scene.faults, *buildings.faults))
+
+
+def _scene(
+    written: SceneSpec, put: Callable[[Place], Vec3], terrain: Terrain | None, files: Files
+) -> Obstacles:
+    kind, name = ending_of(written.file), written.file
+    if kind not in ENDINGS:
+        known = ", ".join(f".{ending}" for ending in ENDINGS)
+        wrong = FileFault(f"`.{kind[:20]}` is no format of a scene that is read", None, f"one of {known}")
+        return Obstacles(faults=(bad_file(files.origins, SCENE, name, wrong),))
+    if written.units is None and not ENDINGS[kind].metres:
+        return Obstacles(faults=(_without_units(written, files),))
+    data = files.read.large(name, SCENE, linked=True)
+    if isinstance(data, Diagnostic):
+        return Obstacles(faults=(data,))
+    if find_spec("numpy") is None:
+        return Obstacles(faults=(not_judged("scene", name, SCENE, files),))
+    from shotc.passes.resolve.lower.scene import Placed, scene_mesh
+
+    placed = Placed(
+        kind, 1.0 if written.units is None else METRES[written.units], written.up or ENDINGS[kind].up
+    )
+    return scene_mesh(written, data, (placed, put(written.at)), terrain, files)
+
+
+def _buildings(written: BuildingsSpec, terrain: Terrain | None, files: Files) -> Obstacles:
+    data = files.read.large(written.file, BUILDINGS, linked=True)
+    if isinstance(data, Diagnostic):
+        return Obstacles(faults=(data,))
+    houses, faults = read_buildings(written, data, files)
+    if not houses:
+        return Obstacles(faults=tuple(faults))
+    if find_spec("numpy") is None:
+        return Obstacles(faults=(*faults, not_judged("buildings", written.file, BUILDINGS, files)))
+    from shotc.passes.resolve.lower.prisms import buildings_mesh
+
+    made = buildings_mesh(houses, written.file, terrain, files)
+    return Obstacles(made.meshes, (*faults, *made.faults))
+
+
+def not_judged(what: str, name: str, path: tuple[str, ...], files: Files) -> Diagnostic:
+    """Return what is told of a file on an installation that cannot read it: what stays unknown."""
+    unknown = {
+        "terrain": "homes, keyframes, altitudes and framing are not judged: all of them depend on the ground",
+        "scene": "homes, keyframes and paths are not held to it",
+        "buildings": "homes, keyframes and paths are not held to them",
+    }
+    message = f"the {what} `{name}` cannot be judged: that takes numpy, not installed here"
+    return Diagnostic("N013", message, (files.origins.value(path),), (unknown[what],), remedy(["numpy"]))
+
+
+def _without_units(written: SceneSpec, files: Files) -> Diagnostic:
+    return Diagnostic(
+        "G026",
+        f"`{written.file}` does not say in which unit it is",
+        (files.origins.value(SCENE),),
+        ("of the formats that are read, .glb alone is always in metres",),
+        f"write `units: m` beside it, or one of {', '.join(METRES)}",
+    )

@@ -1,0 +1,231 @@
+"""A mesh or a point cloud made obstacles of W. It needs numpy, so it loads where one is named."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from math import cos, sin
+from pathlib import PurePosixPath
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.bernstein import Array
+from shotc.geom.surface.cloud import cloud_of, median_spacing
+from shotc.geom.surface.ground import height_at
+from shotc.geom.surface.inside import closed_parts
+from shotc.geom.surface.tree import surface_of
+from shotc.ir.limits import Vec3
+from shotc.ir.obstacle_mesh import ObstacleMesh
+from shotc.ir.terrain import Terrain
+from shotc.kinds.base import bad_file
+from shotc.kinds.earth import FARTHEST
+from shotc.kinds.files import FileFault
+from shotc.kinds.models.endings import METRES
+from shotc.kinds.models.parts import ModelFault, Part, wrong_corners
+from shotc.kinds.models.reader import read_model
+from shotc.passes.resolve.lower.files import Files
+from shotc.passes.resolve.lower.obstacles import SCENE, Obstacles
+from shotc.requirements import remedy
+from shotc.spec.world import SceneSpec
+
+MOST_TRIANGLES = 4_000_000
+LARGEST_COORDINATE = 1e9
+"""In the file's unit: beyond it a file is broken whatever its unit."""
+EXACT_M = 1e4
+"""Metres from a file's origin up to which 32-bit numbers are exact to half a millimetre."""
+SINGLE = frozenset({"glb", "stl"})
+"""Formats whose coordinates are 32-bit numbers; of .ply the header says it."""
+LEAST_M, LARGE_M = 0.5, 3_000.0
+"""Longest side of a scene: below the first it is smaller than a drone, above the second a slip is likely."""
+USUAL_M = (3.0, 1_000.0)
+"""Longest sides of scenes, of which a unit that fits makes one."""
+_LIKELY = ("m", "mm", "ft", "cm", "in", "km")
+BELOW_M = 0.5
+"""How deep in the ground a corner is that is no rounding of where the scene stands."""
+UNDER = 0.4
+"""Share of corners so deep: of a house whose side is taken for its top, half of them are."""
+_LOOKED_AT = 10_000  # corners, of all, that are held against the ground
+
+
+_DOUBLES = re.compile(rb"^property\s+(double|float64)\s+x\s*$", re.MULTILINE)
+
+
+class Placed(NamedTuple):
+    """How a file is read: its format, metres of its unit, and the axis that points up."""
+
+    kind: str
+    metres: float
+    up: str
+
+
+def scene_mesh(
+    written: SceneSpec, data: bytes, where: tuple[Placed, Vec3], terrain: Terrain | None, files: Files
+) -> Obstacles:
+    """Return what a file's triangles and points are in W, or what is wrong with them.
+
+    where : how the file is read, and where its origin is, metres of W
+    """
+    placed, at = where
+    parts = read_model(placed.kind, data)
+    fault = parts if isinstance(parts, ModelFault) else wrong_corners(parts, LARGEST_COORDINATE)
+    if isinstance(fault, ModelFault):
+        return Obstacles(faults=(_unusable(written, fault, files),))
+    assert isinstance(parts, list)
+    scene = _Scene(written, placed, at, files)
+    wrong = next(iter((*scene.of_no_size(parts), *scene.inexact(data, parts), *scene.away(parts))), None)
+    if wrong is not None:
+        return Obstacles(faults=(wrong,))
+    mesh = scene.mesh(parts)
+    if isinstance(mesh, ModelFault):
+        return Obstacles(faults=(_unusable(written, mesh, files),))
+    return Obstacles((mesh,), tuple(scene.doubts(mesh.surface.triangles.reshape(-1, 3), terrain)))
+
+
+def _unusable(written: SceneSpec, fault: ModelFault, files: Files) -> Diagnostic:
+    if fault.library:
+        label = (files.origins.value(SCENE),)
+        return Diagnostic("P004", fault.message, label, help=remedy([fault.library]))
+    return bad_file(files.origins, SCENE, written.file, FileFault(fault.message, fault.line, fault.help))
+
+
+class _Scene(NamedTuple):
+    """A scene as it is written, and where."""
+
+    written: SceneSpec
+    placed: Placed
+    at: Vec3
+    files: Files
+
+    def inexact(self, data: bytes, parts: list[Part]) -> Iterator[Diagnostic]:
+        """Yield the fault of 32-bit coordinates so large that they are rounded."""
+        single = self.placed.kind in SINGLE or (
+            self.placed.kind == "ply" and not _DOUBLES.search(data[:2000])
+        )
+        most = max(float(np.abs(p.corners).max()) for p in parts if len(p.corners))
+        if not single or most * self.placed.metres <= EXACT_M:
+            return
+        grain = float(np.spacing(np.float32(most))) * self.placed.metres
+        low, high = _box(parts)
+        yield Diagnostic(
+            "G033",
+            f"the coordinates of `{self.written.file}` are rounded to {grain:.2g} m",
+            self._label,
+            (f"it holds 32-bit numbers, and they reach {most:.7g} {self._unit}",),
+            f"export it with {_rounded(0.5 * (low + high))} taken off, and give that place as `at`",
+        )
+
+    def of_no_size(self, parts: list[Part]) -> Iterator[Diagnostic]:
+        """Yield the fault of a scene that is smaller than a drone, or larger than what can be flown about."""
+        low, high = _box(parts)
+        size = float((high - low).max()) * self.placed.metres
+        if not LEAST_M <= size <= FARTHEST:
+            message = f"the scene `{self.written.file}` measures {_length(size)}"
+            yield Diagnostic("G031", message, self._label, (self._says(low, high),), self._fitting(size))
+
+    def away(self, parts: list[Part]) -> Iterator[Diagnostic]:
+        """Yield the fault of a scene that lies where no drone of the mission flies."""
+        low, high = _box(parts)
+        middle = self._world(0.5 * (low + high)[None])[0]
+        away = float(np.linalg.norm(middle[:2]) - 0.5 * self.placed.metres * np.linalg.norm(high - low))
+        if away > FARTHEST:
+            message = f"the scene `{self.written.file}` is {away / 1000:.1f} km away from the world's origin"
+            help_ = f"take {_rounded(0.5 * (low + high))} off its coordinates, and give that place as `at`"
+            yield Diagnostic("G031", message, self._label, (self._says(low, high),), help_)
+
+    def mesh(self, parts: list[Part]) -> ObstacleMesh | ModelFault:
+        """Return the triangles of all parts in W; points are triangles without size."""
+        stem = PurePosixPath(self.written.file).stem
+        solid = [p for p in parts if len(p.triangles)]
+        loose = [p for p in parts if len(p.corners) and not len(p.triangles)]
+        clouds = [cloud_of(self._world(p.corners)) for p in loose]
+        pieces = [self._world(p.corners)[p.triangles] for p in solid]
+        pieces += [c.surface.triangles for c in clouds]
+        count = sum(map(len, pieces))
+        if count > MOST_TRIANGLES:
+            message = f"it has {count} triangles; {MOST_TRIANGLES} are the most"
+            return ModelFault(message, "thin it, or cut it to the mission")
+        half = max((0.5 * median_spacing(c.surface) + c.moved for c in clouds), default=0.0)
+        lengths = [len(piece) for piece in pieces]
+        part = np.repeat(np.arange(len(pieces)), lengths)
+        among = sum(lengths[: len(solid)])  # points enclose nothing, and there are many
+        whole = np.concatenate(pieces)
+        return ObstacleMesh(
+            kind="scene",
+            file=self.written.file,
+            surface=clouds[0].surface if clouds and not pieces[1:] else surface_of(whole),
+            part=part,
+            names=tuple(p.name or stem for p in (*solid, *loose)),
+            closed=closed_parts(whole[:among], part[:among], len(pieces)),
+            spacing=half,
+        )
+
+    def doubts(self, corners: Array, terrain: Terrain | None) -> Iterator[Diagnostic]:
+        """Warn of a scene whose size, or place over the ground, looks like a slip."""
+        size = float(np.ptp(corners, axis=0).max())
+        if size > LARGE_M:
+            message = f"the scene `{self.written.file}` measures {_length(size)}"
+            help_ = f"{self._fitting(size)}; leave it if it is so large"
+            yield Diagnostic("G030", message, self._label, (self._unit_says(),), help_)
+        some = corners[:: max(1, len(corners) // _LOOKED_AT)]
+        ground = np.zeros(len(some)) if terrain is None else height_at(terrain.ground, some[:, :2])
+        under = float(np.mean(some[:, 2] < np.nan_to_num(ground) - BELOW_M))
+        if under > UNDER:
+            other = "z" if self.placed.up == "y" else "y"
+            low, high = float(some[:, 2].min()), float(some[:, 2].max())
+            yield Diagnostic(
+                "G032",
+                f"{100 * under:.0f} % of the scene `{self.written.file}` lies under the ground",
+                self._label,
+                (f"it reaches from z = {low:.1f} to {high:.1f} m, with `up: {self.placed.up}`",),
+                f"write `up: {other}` if that axis points up, or raise it by `at`",
+            )
+
+    def _world(self, corners: Array) -> Array:
+        """Return places of the file as places of W; its north leads along the heading."""
+        x, y, z = (self.placed.metres * corners).T
+        if self.placed.up == "y":
+            y, z = -z, y
+        north, east = cos(self.written.heading), sin(self.written.heading)
+        return np.column_stack([x * north + y * east, y * north - x * east, z]) + self.at
+
+    @property
+    def _label(self) -> tuple[Label, ...]:
+        return (self.files.origins.value(SCENE),)
+
+    @property
+    def _unit(self) -> str:
+        return self.written.units or "m"
+
+    def _unit_says(self) -> str:
+        return f"`units: {self._unit}`" if self.written.units else "its format is in metres"
+
+    def _says(self, low: Array, high: Array) -> str:
+        return f"its coordinates go from {_rounded(low)} to {_rounded(high)} {self._unit}"
+
+    def _fitting(self, size: float) -> str:
+        """Say which unit makes a scene of a usual size."""
+        bare = size / self.placed.metres
+        least, most = USUAL_M
+        fits = [unit for unit in _LIKELY if least <= bare * METRES[unit] <= most]
+        if not fits:
+            return "export it again in metres"
+        return f"write `units: {fits[0]}`, which makes it {_length(bare * METRES[fits[0]])}"
+
+
+def _box(parts: list[Part]) -> tuple[Array, Array]:
+    """Return the lowest and the highest coordinates of a file."""
+    filled = [p.corners for p in parts if len(p.corners)]
+    low = np.min([corners.min(axis=0) for corners in filled], axis=0)
+    return np.asarray(low), np.asarray(np.max([corners.max(axis=0) for corners in filled], axis=0))
+
+
+def _rounded(place: Array) -> str:
+    return f"[{', '.join(f'{c:.6g}' for c in place + 0.0)}]"
+
+
+def _length(metres: float) -> str:
+    if metres >= 1000.0:
+        return f"{metres / 1000:.3g} km"
+    return f"{metres:.3g} m" if metres >= 1.0 else f"{100 * metres:.3g} cm"

@@ -1,0 +1,49 @@
+"""The lowest ground under polygons: never above dense samples, and reached by them nearly."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.geom.surface.ground import ground_of, height_at
+from shotc.geom.surface.under_rings import in_ring, lowest_under
+from tests.support.surfaces import grid
+
+
+def star(random: np.random.Generator, centre: np.ndarray, size: float) -> np.ndarray:
+    """A polygon that does not cross itself, counter-clockwise."""
+    turn = np.sort(random.uniform(0, 2 * np.pi, random.integers(5, 12)))
+    reach = size * random.uniform(0.3, 1.0, len(turn))
+    return centre + np.column_stack([reach * np.cos(turn), reach * np.sin(turn)])
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_it_is_the_least_of_all_places_in_the_ring(seed):
+    random = np.random.default_rng(seed)
+    shape = grid(random.uniform(0, 10, (30, 30)), 3.0)
+    ground = ground_of(shape.corners, shape.faces)
+    rings = [star(random, random.uniform(25, 60, 2), size) for size in (1.0, 6.0, 20.0)]
+    found = lowest_under(ground, rings)
+    for ring, least in zip(rings, found, strict=True):
+        places = random.uniform(ring.min(axis=0), ring.max(axis=0), (60_000, 2))
+        dense = height_at(ground, places[in_ring(ring, places)]).min()
+        assert least <= dense + 1e-9
+        assert least > dense - 0.5
+
+
+def test_beyond_the_ground_there_is_none():
+    shape = grid(np.full((4, 4), 2.0), 10.0)
+    ground = ground_of(shape.corners, shape.faces)
+    square = np.array([[0.0, 0], [5, 0], [5, 5], [0, 5]])
+    inside, across, outside = lowest_under(ground, [square + 5, square + 27, square + 100])
+    assert (inside, across) == (2.0, 2.0)
+    assert np.isnan(outside)
+    assert len(lowest_under(ground, [])) == 0
+
+
+def test_a_house_around_a_pit_reaches_into_it():
+    heights = np.zeros((9, 9))
+    heights[4, 4] = -7.0
+    shape = grid(heights, 1.0)
+    ring = np.array([[2.5, 2.5], [5.5, 2.5], [5.5, 5.5], [2.5, 5.5]])
+    assert lowest_under(ground_of(shape.corners, shape.faces), [ring]).tolist() == [-7.0]
