@@ -50,11 +50,11 @@ def read_buildings(
 def _errors(written: BuildingsSpec, houses: Houses, files: Files) -> Iterator[Diagnostic]:
     label = (files.origins.value(BUILDINGS),)
     if houses.wrong:
-        message = f"{_count(houses.wrong)} of `{written.file}` cannot stand"
+        message = f"{_count(houses.wrong)} of `{written.file}` cannot stand as it is written"
         help_ = "mend their outlines and heights in the file, or take them out of it"
         yield Diagnostic("G034", message, label, _listed(houses.wrong), help_)
     if houses.unknown:
-        message = f"{_count(houses.unknown)} of `{written.file}` have no height"
+        message = f"{_count(houses.unknown)} of `{written.file}` without a height"
         notes = (f"`height` is not given, nor `building:levels` of {LEVEL_M:g} m", *_listed(houses.unknown))
         help_ = (
             "give them a `height` in the file, or one for all that have none: write `height: 10` beside it"
@@ -67,7 +67,7 @@ def _warnings(
 ) -> Iterator[Diagnostic]:
     label = (files.origins.value(BUILDINGS),)
     if houses.assumed:
-        message = f"{_count(houses.assumed)} of `{written.file}` are taken to be {written.height:g} m high"
+        message = f"{_count(houses.assumed)} of `{written.file}` taken to be {written.height:g} m high"
         help_ = "give them a `height` in the file"
         yield Diagnostic("G036", message, label, _listed(houses.assumed), help_)
     left = (*described(found.others), *([f"{houses.passed} polygons of no building"] * (houses.passed > 0)))
@@ -77,7 +77,7 @@ def _warnings(
         message = f"some of `{written.file}` is no building near the mission, and left out"
         yield Diagnostic("G037", message, label, (f"left out: {', '.join(left)}",), _LEFT)
     if houses.uncovered:
-        message = f"{_count(houses.uncovered)} of `{written.file}` have parts that do not cover them"
+        message = f"{_count(houses.uncovered)} of `{written.file}` not covered by the parts in it"
         help_ = "such an outline stays beside its parts where it has a height; complete its parts"
         yield Diagnostic("G037", message, label, _listed(houses.uncovered), help_)
 
