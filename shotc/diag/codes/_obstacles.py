@@ -25,6 +25,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "GLB file is in metres.",
         LOOK.replace("  wind: 3 m/s\n", "  wind: 3 m/s\n  scene: {file: church.stl}\n"),
         LOOK,
+        "other",
     ),
     _of_a_file(
         "G027",
