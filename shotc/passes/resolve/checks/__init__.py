@@ -32,9 +32,7 @@ def check(ir: LoadedMission, what: Lowered) -> list[Diagnostic]:
     """Return the faults of a mission as written and as it is resolved, those of its words first."""
     mission = what.mission
     if what.astray and not has_errors(what.faults):
-        return list(
-            what.faults
-        )  # where the ground is cannot be told here, so nothing can of what stands on it
+        return list(what.faults)  # nothing is known here of the ground, so nothing of what stands on it
     faults = [*what.faults, *(d for course in what.courses for d in check_course(mission, course))]
     if not what.astray:
         faults += _judged(ir, what, order=not has_errors(faults))
