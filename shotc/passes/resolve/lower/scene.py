@@ -14,7 +14,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.geom.bernstein import Array
 from shotc.geom.surface.cloud import cloud_of, median_spacing
 from shotc.geom.surface.ground import height_at
-from shotc.geom.surface.inside import closed_parts
+from shotc.geom.surface.inside import bodies
 from shotc.geom.surface.tree import surface_of
 from shotc.ir.limits import Vec3
 from shotc.ir.obstacle_mesh import ObstacleMesh
@@ -148,16 +148,17 @@ class _Scene(NamedTuple):
             return ModelFault(message, "thin it, or cut it to the mission")
         half = max((0.5 * median_spacing(c.surface) + c.moved for c in clouds), default=0.0)
         lengths = [len(piece) for piece in pieces]
-        part = np.repeat(np.arange(len(pieces)), lengths)
-        among = sum(lengths[: len(solid)])  # points enclose nothing, and there are many
         whole = np.concatenate(pieces)
+        made = bodies(whole[: sum(lengths[: len(solid)])])  # points enclose nothing, and there are many
+        points = np.full(sum(lengths[len(solid) :]), len(made.closed))
         return ObstacleMesh(
             kind="scene",
             file=self.written.file,
             surface=clouds[0].surface if clouds and not pieces[1:] else surface_of(whole),
-            part=part,
+            part=np.repeat(np.arange(len(pieces)), lengths),
             names=tuple(p.name or stem for p in (*solid, *loose)),
-            closed=closed_parts(whole[:among], part[:among], len(pieces)),
+            body=np.concatenate([made.body, points]),
+            closed=np.append(made.closed, [False]),
             spacing=half,
         )
 
