@@ -1,6 +1,7 @@
 """What can be told of a resolved mission without a solver. A fault silences only what depends on it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
@@ -13,7 +14,7 @@ from shotc.passes.resolve.checks.covered_by_terrain import check_covered
 from shotc.passes.resolve.checks.framing import check_framing
 from shotc.passes.resolve.checks.framings import check_course
 from shotc.passes.resolve.checks.grammar import allowed, check_grammar
-from shotc.passes.resolve.checks.heights import check_heights, check_reference, way_of
+from shotc.passes.resolve.checks.heights import Way, check_heights, check_reference, way_of
 from shotc.passes.resolve.checks.home import check_homes
 from shotc.passes.resolve.checks.ideals import check_ideal
 from shotc.passes.resolve.checks.keyed import check_carried
@@ -65,9 +66,11 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     filmed = [(shot, way_of(mission, shot)) for shot in mission.shots]
     if beyond := list(check_covered(mission, filmed)):
         return beyond
+    beside = _beside_meshes(mission, filmed)
     ideals = (fault for shot, way in filmed for fault in check_ideal(mission, shot, way))
-    homes = [*check_homes(mission), *ideals, *passers_of(mission)]
+    homes = [*check_homes(mission), *beside.homes, *ideals, *passers_of(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
+    places += beside.places
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     misplaced = {shot.path for shot, _ in wrong}
     sound = [shot for shot in mission.shots if shot.path not in misplaced]
@@ -80,6 +83,23 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     if timing:
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
     return faults
+
+
+class _Beside(NamedTuple):
+    """What is too near to scenes and buildings: homes, and places of shots with their lines."""
+
+    homes: tuple[Diagnostic, ...] = ()
+    places: tuple[tuple[Shot, KeyPath, Diagnostic], ...] = ()
+
+
+def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _Beside:
+    if not mission.meshes:
+        return _Beside()
+    from shotc.passes.resolve.checks.beside_meshes import check_homes_beside, check_shot_beside
+
+    told = ((shot, check_shot_beside(mission, shot, way)) for shot, way in filmed)
+    places = tuple((shot, path, d) for shot, found in told for path, d in found)
+    return _Beside(tuple(check_homes_beside(mission)), places)
 
 
 def _places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:

@@ -24,7 +24,7 @@ def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diag
     """Yield the faults of a shot's keyframes, one for each keyframe line and obstacle, with that line."""
     drone = mission.drone(shot.drone)
     clear = cache(partial(clear_path, mission, shot))
-    for path, keyframes in _by_line(shot).items():
+    for path, keyframes in by_line(shot).items():
         for fault in too_low(mission, shot, drone, path, keyframes):
             yield path, fault
         raised = [_raised(k, mission.lowest(k.at, drone.radius)) for k in keyframes]
@@ -33,7 +33,7 @@ def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diag
                 yield path, fault
 
 
-def _by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:
+def by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:
     """Group keyframes by the line they come from: generated ones and those of a file share one."""
     groups: dict[KeyPath, list[Keyframe]] = defaultdict(list)
     for keyframe in shot.keyframes:
