@@ -1,4 +1,4 @@
-"""Homes and cameras beside scenes and buildings: what is told, with which numbers, and that helps are enough."""
+"""Homes and cameras beside scenes and buildings: what is told, with numbers, and that helps are enough."""
 
 from __future__ import annotations
 
