@@ -48,7 +48,8 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
     aside = (across[0] * width, across[1] * width)
     points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
     solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
-    others = (o for o in mission.targets if o.name != name and not _parts_of_one(o, target, t))
+    one = mission.one_with(name)
+    others = (o for o in mission.targets if o.name not in one and not _parts_of_one(o, target, t))
     solids += [(o.name, o.solid_at(t)) for o in others]
     for p in points:
         yield next((n for n, solid in solids if crosses(solid, eye, p)), None)

@@ -302,7 +302,17 @@ class MissionIR(NamedTuple):
 
     def target(self, name: str) -> Target:
         """Return the target of that name, be it one body or a group; KeyError if there is none."""
-        return next_named((*self.targets, *self.groups), name)
+        return next_named(self.every_target, name)
+
+    @property
+    def every_target(self) -> tuple[Target, ...]:
+        """The targets that are bodies, and the groups of them."""
+        return (*self.targets, *self.groups)
+
+    def one_with(self, name: str) -> frozenset[str]:
+        """Return the names of the bodies that make one picture with a target, its own among them."""
+        own = self.parts_of(name)
+        return frozenset(own).union(*(g.parts for g in self.groups if not set(own).isdisjoint(g.parts)))
 
     def parts_of(self, name: str) -> tuple[str, ...]:
         """Return the names of the bodies of a target: its own, or those of a group."""

@@ -1,9 +1,8 @@
 """What stands before a target: keep-out zones, terrain, other targets and other drones, instant by instant.
 
 A sight line goes from the camera to the target's centre; where that is within a zone, the zone hides it.
-Targets whose bodies overlap or touch at that
-instant are parts of one thing and do not hide each other. A drone is a ball of its radius, in flight and on
-its pad.
+Targets whose bodies overlap or touch at that instant are parts of one thing and do not hide each other, nor
+do the parts of a group. A drone is a ball of its radius, in flight and on its pad.
 """
 
 from __future__ import annotations
@@ -33,8 +32,9 @@ def hiders(
     for zone in mission.zones:
         if zone.keep == "out":
             yield f"zone {zone.name}", hidden(eyes, centres, (zone.solid,))
+    one = mission.one_with(target)
     for other in mission.targets:
-        if other.name != target:
+        if other.name not in one:
             before = hidden(beside_body(other, eyes, t), beside_body(other, centres, t), (other.solid,))
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
     if mission.terrain is not None:

@@ -35,12 +35,12 @@ class Way(NamedTuple):
 
 
 def filmed(mission: MissionIR) -> frozenset[str]:
-    """Return the names of all targets that a shot of the mission films."""
+    """Return the names of all bodies that a shot of the mission films."""
     names = {shot.subject for shot in mission.shots} | {
         s.target for shot in mission.shots for s in shot.subjects
     }
     names |= {keyframe.target for shot in mission.shots for keyframe in shot.keyframes}
-    return frozenset(name for name in names if name is not None)
+    return frozenset(part for name in names if name is not None for part in mission.parts_of(name))
 
 
 def from_target(mission: MissionIR, name: str) -> Apart | None:

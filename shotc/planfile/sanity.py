@@ -6,8 +6,10 @@ from collections.abc import Iterable, Iterator
 from itertools import chain, pairwise
 from math import dist, hypot, pi
 
+from shotc.geom.shapes import CylinderShape, GroupShape, TargetShape
 from shotc.geom.solids import Cylinder, Solid, is_simple, signed_area
 from shotc.geom.track import Track
+from shotc.geom.vec import plus
 from shotc.ir.keyed import in_order, is_keyed
 from shotc.ir.mission import Drone, Ideal, MissionIR, Shot
 from shotc.ir.path import CHANNELS
@@ -20,6 +22,9 @@ SAMPLES = 20_000_000
 
 CORNERS = 1000
 """Corners that a zone may have."""
+
+UNIT = 1e-6
+"""How far a unit vector's length may be off 1, and metres that a part of a group may be off its body."""
 
 FASTEST = (1 + 1e-6) * LARGEST["speed"]
 """m/s of a target: the fastest that a mission can write, and what rounding of its rows adds."""
@@ -52,11 +57,13 @@ def _mission(mission: MissionIR) -> Iterator[Fault]:
         if text:
             yield f"mission.zones[{i}].solid", text
     for i, target in enumerate(mission.targets):
-        if target.radius < 0 or target.height < 0:
-            yield f"mission.targets[{i}]", "a radius or height is negative"
+        text = _shape(target.shape)
+        if text:
+            yield f"mission.targets[{i}].shape", text
         text = "" if target.track is None else _motion(target.track)
         if text:
             yield f"mission.targets[{i}].track", text
+    yield from _groups(mission)
     if mission.origin is not None and abs(mission.origin.lat_deg) > 90:
         yield "mission.origin.lat_deg", f"{mission.origin.lat_deg:g} is no latitude"
 
@@ -119,12 +126,13 @@ def _drone(drone: Drone, path: str) -> Iterator[Fault]:
 def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:
     for kind in ("zones", "targets", "drones", "fleets"):
         yield from _twice(f"mission.{kind}", (item.name for item in getattr(mission, kind)))
+    yield from _twice("mission.groups", (target.name for target in mission.every_target))
     shots = (*(shot.id for shot in mission.shots), *(display.id for display in mission.displays))
     yield from _twice("mission.shots", shots)
     yield from _twice("keyframes", (placed.shot.id for placed in ir.keyframes.shots))
     yield from _twice("drones", (track.drone for track in ir.drones))
     yield from _twice("fleets", (track.fleet for track in ir.fleets))
-    drones, targets = {d.name for d in mission.drones}, {t.name for t in mission.targets}
+    drones, targets = {d.name for d in mission.drones}, {t.name for t in mission.every_target}
     for i, shot in enumerate(mission.shots):
         if shot.drone not in drones:
             yield f"mission.shots[{i}].drone", f"there is no drone `{shot.drone}`"
@@ -157,6 +165,34 @@ def _on_clock(shot: Shot, targets: set[str], path: str) -> Iterator[Fault]:
         yield f"{path}.keyframes", f"there is no target `{name}`"
 
 
+def _shape(shape: TargetShape) -> str:
+    """Return what is wrong with the shape of a body; empty where nothing is."""
+    if isinstance(shape, GroupShape):
+        return "a group is no body"
+    if isinstance(shape, CylinderShape):
+        return "a radius or height is negative" if min(shape) < 0 else ""
+    if min(shape[:3]) < 0:
+        return "a side is negative"
+    return "" if abs(hypot(*shape.ahead) - 1.0) <= UNIT else "`ahead` is no unit vector"
+
+
+def _groups(mission: MissionIR) -> Iterator[Fault]:
+    """Yield what is wrong with the groups: each is the bodies that it names, where they stand."""
+    bodies = {target.name: target for target in mission.targets}
+    for i, group in enumerate(mission.groups):
+        parts = [bodies[name] for name in group.parts if name in bodies]
+        if len(parts) < len(group.parts) or not parts or not isinstance(group.shape, GroupShape):
+            yield f"mission.groups[{i}]", "its parts are not those that it names"
+            continue
+        made = [(plus(group.centre, part.offset), part.shape) for part in group.shape.parts]
+        same = [
+            dist(centre, body.centre) <= UNIT and shape == body.shape
+            for (centre, shape), body in zip(made, parts, strict=False)
+        ]
+        if group.track is not None or len(made) != len(parts) or not all(same):
+            yield f"mission.groups[{i}].shape", "its parts are not where they stand"
+
+
 def _twice(path: str, names: Iterable[str]) -> Iterator[Fault]:
     seen: set[str] = set()
     for name in names:
@@ -166,7 +202,7 @@ def _twice(path: str, names: Iterable[str]) -> Iterator[Fault]:
 
 
 def _track(track: DroneTrajectory, mission: MissionIR, path: str) -> Iterator[Fault]:
-    targets = {t.name for t in mission.targets}
+    targets = {t.name for t in mission.every_target}
     for i, span in enumerate(track.framing):
         if span.target not in targets:
             yield f"{path}.framing[{i}].target", f"there is no target `{span.target}`"

@@ -98,7 +98,7 @@ def _origins(mission: MissionIR, certificate: tuple[Claim, ...]) -> dict[str, An
 def _used(mission: MissionIR, certificate: tuple[Claim, ...]) -> Iterator[KeyPath]:
     """Yield the key paths that a diagnostic of a plan can point to, each after its ancestors."""
     paths: list[KeyPath] = [claim.path for claim in certificate]
-    for named in (mission.zones, mission.targets, mission.drones, mission.shots):
+    for named in (mission.zones, mission.every_target, mission.drones, mission.shots):
         paths += [element.path for element in named]
     for shown in (mission.fleets, mission.displays):
         paths += [element.path for element in shown]

@@ -24,6 +24,7 @@ __all__ = [
     "AngularAcceleration",
     "AngularRate",
     "Aspect",
+    "BodySize",
     "CameraAltitude",
     "CameraAltitudeSpan",
     "CompositionSet",
@@ -116,6 +117,7 @@ PositiveLengthSpan = Annotated[tuple[float, float], Span("PositiveLengthSpan", _
 
 Point2 = Annotated[Vec2, Tuple("Point2", (_LENGTH, _LENGTH), "[x, y]")]
 Size3 = Annotated[Vec3, Tuple("Size3", (_POSITIVE_LENGTH,) * 3, "[width, depth, height]")]
+BodySize = Annotated[Vec3, Tuple("BodySize", (_POSITIVE_LENGTH,) * 3, "[length, width, height]")]
 Velocity = Annotated[Vec3, Tuple("Velocity", (_VELOCITY,) * 3, "[east, north, up]")]
 
 Switch = StrictBool

@@ -37,10 +37,12 @@ class OneOf(NamedTuple):
 
     forms : each a tuple of keys that belong together, such as ``(("look_at",), ("heading", "pitch"))``
     required : whether none of them is a fault
+    help : what to do where they meet, if there is more to say than which there are
     """
 
     forms: tuple[tuple[str, ...], ...]
     required: bool = True
+    help: str = ""
 
     def conflicts(self, given: Mapping[str, object]) -> list[InitErrorDetails]:
         """Return which of the keys that are given exclude each other."""
@@ -80,14 +82,16 @@ class OneOf(NamedTuple):
     def _conflict(self, present: list[str]) -> InitErrorDetails:
         first, last = present[0], next(k for k in present if not self._together(present[0], k))
         message = f"`{last}` cannot stand beside `{first}`"
-        clash = fault("conflicting-fields", message, f"give {self._choice()}", beside=first)
+        clash = fault("conflicting-fields", message, self.help or f"give {self._choice()}", beside=first)
         return InitErrorDetails(type=clash, loc=(last,), input=None)
 
     def _together(self, one: str, other: str) -> bool:
         return any(one in form and other in form for form in self.forms)
 
     def _choice(self) -> str:
-        return " or ".join(" with ".join(f"`{key}`" for key in form) for form in self.forms)
+        """Say what may be given, without what may stand beside it, too."""
+        least = [form for form in self.forms if not any(set(other) < set(form) for other in self.forms)]
+        return " or ".join(" with ".join(f"`{key}`" for key in form) for form in least)
 
 
 class Model(BaseModel):

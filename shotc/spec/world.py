@@ -7,6 +7,7 @@ from pydantic import Field
 from shotc.spec.faults import fault
 from shotc.spec.fields import (
     Angle,
+    BodySize,
     Duration,
     Heading,
     Heights,
@@ -126,18 +127,45 @@ class TrackSpec(Model):
 class TargetSpec(Model):
     """Something to film."""
 
-    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("at",), ("track",))),)
+    exclusive: ClassVar[tuple[OneOf, ...]] = (
+        OneOf((("at",), ("track",), ("parts",))),
+        OneOf((("radius", "height"), ("size",), ("size", "heading"), ("parts",))),
+        OneOf(
+            (("heading",), ("track",)),
+            required=False,
+            help="leave `heading` out: what has a track faces the way it goes, or as the column `heading` of "
+            "its file says",
+        ),
+    )
 
     at: Stand | None = Field(
         default=None, description="centre of a target that stands; on the ground where no height is written"
     )
     track: TrackSpec | None = Field(default=None, description="motion of the centre of a target that moves")
-    radius: PositiveLength = Field(description="radius of its cylinder")
-    height: PositiveLength = Field(description="height of its cylinder")
+    radius: PositiveLength | None = Field(default=None, description="radius of its cylinder")
+    height: PositiveLength | None = Field(default=None, description="height of its cylinder")
+    size: BodySize | None = Field(
+        default=None,
+        description="[length, width, height] of its box: along the way that it faces, across it, up",
+    )
+    heading: Angle | None = Field(
+        default=None, description="compass bearing of the length of a box that stands; 0 if silent"
+    )
+    parts: tuple[Name, ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=8,
+        description="names of targets that stand and make one picture, framed as one",
+    )
     top_speed: Speed | None = Field(
         default=None,
         description="speed that it never exceeds: a track that does is a fault; 70 m/s if silent",
     )
+
+    @property
+    def tall(self) -> float:
+        """How high its body is, metres; 0 of a group."""
+        return self.size[2] if self.size is not None else self.height or 0.0
 
 
 class TerrainSpec(Model):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._obstacles import OBSTACLES
 from shotc.diag.codes._placed import PLACED
+from shotc.diag.codes._shaped import SHAPED
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 
@@ -303,6 +304,7 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    *SHAPED,
     *PLACED,
     *OBSTACLES,
 )

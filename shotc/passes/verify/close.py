@@ -16,8 +16,10 @@ from shotc.geom.camera import ROUNDING_M
 from shotc.geom.framing import margin_rate
 from shotc.geom.pieces import Mask, Pieces, cut
 from shotc.geom.proof import inf_channel, norm, sup_convex, sup_norm
+from shotc.geom.turning import turning
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import beside, rate_beside, references, seen
+from shotc.ir.target import Target
 from shotc.passes.verify.claims import Flight
 
 HALVINGS = 10
@@ -68,16 +70,28 @@ def margins_close(flight: Flight, target: str, times: Array) -> bool:
     solid = flight.mission.target(target)
     reach = bound.far + solid.height / 2 + solid.radius
     fastest = margin_rate(reach, bound.speed, bound.turn, bound.zoom, flight.drone.aspect)
+    turned = _turned(solid, float(times[0]), float(times[-1]))
 
     def sample(t: Array) -> Array:
-        return seen(flight.mission, flight.track, target, t).margin[:, None]
+        return np.column_stack([seen(flight.mission, flight.track, target, t).margin, *turned(t)])
+
+    def closed(a: Array, b: Array, dt: Array) -> Mask:
+        drift = fastest * dt + solid.radius * (b[:, 2] - a[:, 1])
+        return np.asarray(a[:, 0] + b[:, 0] + 2 * ROUNDING_M >= drift)
 
     return _closes(
-        _Interval(times, flight.mission.rate),
-        sample,
-        lambda a, b, dt: np.asarray(a[:, 0] + b[:, 0] + 2 * ROUNDING_M >= fastest * dt),
-        lambda m: np.asarray(m[:, 0] >= -ROUNDING_M),
+        _Interval(times, flight.mission.rate), sample, closed, lambda m: np.asarray(m[:, 0] >= -ROUNDING_M)
     )
+
+
+def _turned(target: Target, start: float, end: float) -> Callable[[Array], tuple[Array, Array]]:
+    """Return what tells how far a body has turned by times, rad: at least, and at most.
+
+    The outline of one that turns by an angle moves by no more than that, times the radius about its axis.
+    """
+    if target.track is None or not target.shape.turns:
+        return lambda t: (np.zeros(len(t)), np.zeros(len(t)))
+    return turning(target.track, start, end).at
 
 
 def errors_close(flight: Flight, shot: str, target: str, times: Array, limit: float) -> bool:

@@ -232,7 +232,8 @@ def _labels(mission: MissionIR, claim: Claim, phase: Phase | None, limit: str) -
 
 def _is_element(mission: MissionIR, path: KeyPath) -> bool:
     # An element spans many lines: point at its name. A limit is a number: point at that.
-    named = (mission.zones, mission.drones, mission.targets, mission.shots, mission.fleets, mission.displays)
+    films = (mission.zones, mission.drones, mission.every_target, mission.shots)
+    named = (*films, mission.fleets, mission.displays)
     return path in {element.path for elements in named for element in elements}
 
 

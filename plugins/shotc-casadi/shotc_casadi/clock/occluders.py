@@ -79,8 +79,9 @@ def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occl
             for part in convex_parts(zone.solid):
                 scale, centre = enclosing(part)
                 yield Occluder(scale, still + centre)
+    one = mission.one_with(name)
     for other in mission.targets:
-        if other.name != name:
+        if other.name not in one:
             scale, centre = enclosing(other.solid)
             apart = ~parts_of_one(mission.target(name), other, breaks)
             yield Occluder(scale, centre + moved(other, breaks), apart=apart)

@@ -32,7 +32,7 @@ def covered(mission: MissionIR) -> Iterator[Diagnostic]:
     """
     end = film_end(mission)
     for target in mission.targets:
-        filming = [shot for shot in mission.shots if target.name in _filmed(shot)]
+        filming = [shot for shot in mission.shots if target.name in _filmed(mission, shot)]
         if filming and all(HIDDEN in shot.allow for shot in filming):
             continue
         way = tuple(_way(target, end))
@@ -72,8 +72,11 @@ def _way(target: Target, end: float) -> Iterator[Moment]:
     yield from (Moment(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < end), end))
 
 
-def _filmed(shot: Shot) -> set[str | None]:
-    return {shot.subject, *(s.target for s in shot.subjects), *(k.target for k in shot.keyframes)}
+def _filmed(mission: MissionIR, shot: Shot) -> set[str]:
+    """Return the names of the bodies that a shot films."""
+    names = {shot.subject, *(s.target for s in shot.subjects), *(k.target for k in shot.keyframes)}
+    known = {target.name for target in mission.every_target}
+    return {part for name in names if name in known for part in mission.parts_of(str(name))}
 
 
 def _told(mission: MissionIR, target: Target, zone: Zone, met: Moment) -> Diagnostic:

@@ -41,7 +41,9 @@ def check_heights(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnost
 
 def way_of(mission: MissionIR, shot: Shot) -> Way:
     """Return where a shot's camera is to be: at keyframes, or along the ideal of one on its own clock."""
-    target = next((t for t in mission.targets if t.name == shot.subject), None)  # None of a name that is told
+    target = next(
+        (t for t in mission.every_target if t.name == shot.subject), None
+    )  # None of a name that is told
     duration = shot.timing.duration
     if shot.ideal is None or duration is None:
         foot = None if target is None else target.foot[2]

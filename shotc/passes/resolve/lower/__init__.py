@@ -22,9 +22,10 @@ from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
 from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.lower.show import Show, shown
 from shotc.passes.resolve.lower.slips import check_slips
+from shotc.passes.resolve.lower.targets import targets
 from shotc.passes.resolve.lower.terrain import read_terrain
 from shotc.passes.resolve.lower.tracks import read_tracks
-from shotc.passes.resolve.lower.world import Put, drones, resolve_drone, targets, zones
+from shotc.passes.resolve.lower.world import Put, drones, resolve_drone, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE, SHOW_RATE, TRANSIT_FILMED, TRANSIT_OTHER
@@ -128,16 +129,16 @@ def _world(ir: LoadedMission) -> _World:
     found_zones, zone_faults = zones(spec, put, relief, origins)
     found_drones, drone_faults = drones(spec, put, origins)
     tracks = read_tracks(spec, put, files)
-    found_targets = targets(spec, put, tracks.tracks)
+    found_targets = targets(spec, put, tracks.tracks, origins)
     return _World(
         put,
         files,
         read,
         found_zones,
         found_drones,
-        found_targets,
+        found_targets.found,
         _rules(spec.rules),
-        (*astray, *standing.faults, *zone_faults, *drone_faults, *tracks.diagnostics),
+        (*astray, *standing.faults, *zone_faults, *drone_faults, *tracks.diagnostics, *found_targets.faults),
         astray=bool(astray),
         heights=heights,
         terrain=relief,
@@ -154,7 +155,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         origin=world.files.origin,
         wind=spec.world.wind,
         zones=world.zones,
-        targets=tuple(t for t in world.targets.values() if t is not None),
+        targets=tuple(t for t in world.targets.values() if t is not None and not t.parts),
         drones=tuple(world.drones.values()),
         rules=world.rules,
         shots=shots.shots,
@@ -168,6 +169,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         files=show.files,
         terrain=world.terrain,
         meshes=world.standing.meshes,
+        groups=tuple(t for t in world.targets.values() if t is not None and t.parts),
         source=_source(ir, world.read, show),
     )
 

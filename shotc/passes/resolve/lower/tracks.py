@@ -68,7 +68,7 @@ def _standing(target: TargetSpec, put: Put) -> Put:
     """Return what puts the places of a track into W: its centre, over the ground where it has no height."""
     assert target.track is not None
     lift = target.track.lift
-    stood = target.height / 2 if lift is None else lift
+    stood = target.tall / 2 if lift is None else lift
 
     def centre(place: Spot | Geodetic) -> Vec3:
         x, y, z = put(place)

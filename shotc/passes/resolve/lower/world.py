@@ -1,20 +1,18 @@
-"""World, targets and drones: presets filled in, places put into W, zones made solids."""
+"""World and drones: presets filled in, places put into W, zones made solids."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from math import isclose
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Zone
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.ir.target import Target
 from shotc.kinds.base import counts_from_ground, stands
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
@@ -22,10 +20,9 @@ from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
 from shotc.spec.presets import PRESETS, Preset
-from shotc.spec.world import TargetSpec, ZoneSpec
+from shotc.spec.world import ZoneSpec
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
-    from shotc.geom.track import Track
     from shotc.ir.show import Fleet
     from shotc.ir.terrain import Terrain
     from shotc.spec.fleets import FleetSpec
@@ -120,29 +117,6 @@ def _ring(points: tuple[Vec2, ...]) -> tuple[Vec2, ...]:
 
 def _same(p: Vec2, q: Vec2) -> bool:
     return all(isclose(a, b, abs_tol=1e-6) for a, b in zip(p, q, strict=True))
-
-
-def targets(spec: MissionSpec, put: Put, tracks: Mapping[str, Track]) -> dict[str, Target | None]:
-    """Return the targets by name; None for one whose track cannot be used."""
-    bodies: dict[str, Target | None] = {}
-    for name, target in spec.targets.items():
-        track = tracks.get(name)
-        centre = _centre(target, put) if track is None else track.at(0.0)
-        if centre is None:
-            bodies[name] = None
-        else:
-            bodies[name] = Target(
-                name, centre, CylinderShape(target.radius, target.height), ("targets", name), track
-            )
-    return bodies
-
-
-def _centre(target: TargetSpec, put: Put) -> Vec3 | None:
-    """Return the centre of a target that stands; one without a height stands on the ground."""
-    if target.at is None:
-        return None
-    x, y, z = put(target.at)
-    return (x, y, z + target.height / 2) if stands(target.at) else (x, y, z)
 
 
 def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, Drone], list[Diagnostic]]:

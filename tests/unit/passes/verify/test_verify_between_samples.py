@@ -5,13 +5,13 @@ Each case moves one thing alone, so that a bound which leaves out its rate would
 
 from __future__ import annotations
 
-from math import radians
+from math import pi, radians
 
 import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.geom.shapes import CylinderShape
+from shotc.geom.shapes import BoxShape, CylinderShape
 from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
@@ -87,6 +87,17 @@ def test_a_target_that_leaves_the_frame_between_samples_is_not_closed(sway: str)
 def test_a_target_that_runs_out_of_the_frame_and_back_is_not_closed(by: tuple[float, float, float]) -> None:
     assert not margins_close(flight(still(EYE), going(by)), "post", ENDS)
     assert not errors_close(flight(still(EYE), going(by)), "eyes", "post", ENDS, 0.3)
+
+
+@pytest.mark.parametrize(("turned", "closes"), [(0.0, True), (0.01, True), (pi / 2, False)])
+def test_a_box_that_turns_out_of_the_frame_and_back_is_not_closed(turned: float, closes: bool) -> None:
+    # Seen from behind it is 1 m wide, from its side 180 m.
+    far = (100.0, *POST[1:])
+    track = Track((0.0, 0.5, 1.0, LENGTH), (far,) * 4, (0.0, turned, 0.0, 0.0))
+    lorry = Target("post", far, BoxShape(180.0, 1.0, 2.0, (1.0, 0.0)), ("targets", "post"), track)
+    of = flight(still(EYE))
+    of = replace(of, mission=replace(of.mission, targets=(lorry,)))
+    assert margins_close(of, "post", ENDS) is closes
 
 
 @pytest.mark.parametrize("sway", SWAYS)
