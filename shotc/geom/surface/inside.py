@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
@@ -34,22 +32,51 @@ def bodies(triangles: Array) -> Bodies:
     """
     if not len(triangles):
         return Bodies(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=bool))
-    corners = np.rint(triangles.reshape(-1, 3) / SAME_M).astype(np.int64)
-    number = np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1, 3)
-    ends = np.concatenate([number[:, [0, 1]], number[:, [1, 2]], number[:, [2, 0]]])
+    number = _numbered(np.rint(triangles.reshape(-1, 3) / SAME_M).astype(np.int64)).reshape(-1, 3)
+    ends = np.sort(np.concatenate([number[:, [0, 1]], number[:, [1, 2]], number[:, [2, 0]]]), axis=1)
     of = np.tile(np.arange(len(triangles)), 3)
     long = ends[:, 0] != ends[:, 1]
-    ends, of = np.sort(ends[long], axis=1), of[long]
-    _, edge, times = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
-    # Triangles and edges are the nodes of one graph.
-    count = len(triangles)
-    links = coo_array((np.ones(len(of)), (of, count + edge.ravel())), shape=(count + len(times),) * 2)
-    found, label = connected_components(links, directed=False)
-    closed = np.ones(found, dtype=bool)
-    closed[label[count:][times % 2 == 1]] = False
-    flat = np.setdiff1d(np.arange(count), of)  # a triangle without edges is a point of a cloud
-    closed[label[flat]] = False
-    return Bodies(label[:count], closed)
+    ends, of = ends[long], of[long]
+    order = np.argsort((ends[:, 0] << 32) | ends[:, 1], kind="stable")
+    ends, of = ends[order], of[order]
+    begins = np.flatnonzero(np.concatenate([[True], (ends[1:] != ends[:-1]).any(axis=1)])[: len(ends)])
+    times = np.diff(np.append(begins, len(ends)))
+    label = _connected(len(triangles), of, begins, times)
+    roots, body = np.unique(label, return_inverse=True)
+    closed = np.ones(len(roots), dtype=bool)
+    closed[body[of[np.repeat(times % 2 == 1, times)]]] = False
+    flat = np.ones(len(triangles), dtype=bool)  # a triangle without edges is a point of a cloud
+    flat[of] = False
+    closed[body[flat]] = False
+    return Bodies(body, closed)
+
+
+def _numbered(rows: IntArray) -> IntArray:
+    """Return the number of each row (N, 3) among those that differ; shape (N,)."""
+    order = np.lexsort(rows.T)
+    ordered = rows[order]
+    number = np.empty(len(rows), dtype=np.int64)
+    number[order] = np.cumsum(np.concatenate([[False], (ordered[1:] != ordered[:-1]).any(axis=1)]))
+    return number
+
+
+def _connected(count: int, of: IntArray, begins: IntArray, times: IntArray) -> IntArray:
+    """Return the least triangle of the body of each of ``count`` triangles, which edges connect.
+
+    of : triangles edge by edge; begins, times : where each edge's begin in it, and how many there are
+    Every round, all triangles of an edge take the least of theirs, and each the one of that one: the number
+    of rounds grows as the logarithm of the longest chain (Shiloach and Vishkin 1982).
+    """
+    label = np.arange(count)
+    while len(begins):
+        least = np.repeat(np.minimum.reduceat(label[of], begins), times)
+        before = label.copy()
+        np.minimum.at(label, before[of], least)
+        np.minimum.at(label, of, least)
+        label = label[label]
+        if (label == before).all():
+            break
+    return label
 
 
 def inside(surface: Surface, body: IntArray, closed: Mask, p: Array) -> Mask:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from shotc.geom.surface.inside import bodies
 from shotc.ir.obstacle_mesh import obstacle_mesh
 from tests.support.scenes import cone, fine, house, quad, turned
+from tests.support.surfaces import some_triangles
 
 BOX = (8.0, 6.0, 4.0, 6.0)
 
@@ -74,3 +76,39 @@ def test_points_of_a_cloud_have_no_inside():
     made = mesh(np.repeat(p, 3, axis=1))
     assert not made.closed.any()
     assert not made.holds(np.zeros((3, 3))).any()
+
+
+def union_find(triangles):
+    """The least triangle of the body of each, and whether that is closed, in plain Python."""
+    lead = list(range(len(triangles)))
+    edges = {}
+
+    def root(k):
+        while lead[k] != k:
+            k = lead[k]
+        return k
+
+    for k, t in enumerate(np.rint(triangles * 1e6).astype(int).tolist()):
+        for i in range(3):
+            a, b = sorted((tuple(t[i]), tuple(t[i - 1])))
+            if a != b:
+                edges.setdefault((a, b), []).append(k)
+    for of in edges.values():
+        for k in of[1:]:
+            one, other = sorted((root(of[0]), root(k)))
+            lead[other] = one
+    least = [root(k) for k in range(len(triangles))]
+    open_ones = {root(of[0]) for of in edges.values() if len(of) % 2}
+    used = {k for of in edges.values() for k in of}
+    return least, [r not in open_ones and k in used for k, r in enumerate(least)]
+
+
+def test_bodies_are_those_of_a_search_along_edges():
+    random = np.random.default_rng(3)
+    for size in (1.0, 2.0, 5.0) * 4:
+        triangles = np.rint(size * some_triangles(random, 60))
+        triangles = np.concatenate([triangles, np.rint(fine(house(*BOX), 1))])[random.permutation(120)]
+        made = bodies(triangles)
+        least, closed = union_find(triangles)
+        assert len(set(zip(least, made.body.tolist(), strict=True))) == len(set(least)) == len(made.closed)
+        assert made.closed[made.body].tolist() == closed
