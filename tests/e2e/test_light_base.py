@@ -11,7 +11,7 @@ from tests.support.meshes import ply
 from tests.support.scene_missions import feature, geojson, house, square, text
 
 SURROUNDINGS = str(Path(__file__).parents[1] / "support" / "surroundings")
-HEAVY = "numpy,scipy,cvxpy,clarabel,toppra,matplotlib,pymap3d,trimesh,laspy,lazrs,rerun"
+HEAVY = "numpy,scipy,cvxpy,clarabel,toppra,matplotlib,pymap3d,laspy,lazrs,rerun"
 BARE = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": HEAVY}
 WORLDS = {
     "terrain": "terrain: {file: hill.csv}",

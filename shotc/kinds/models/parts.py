@@ -46,6 +46,23 @@ def part(name: str, corners: Any, triangles: Any = None, colors: Colors | None =
     return Part(name, np.asarray(corners, dtype=np.float64).reshape(-1, 3), faces, colors)
 
 
+def table(lines: list[str], columns: tuple[int, ...]) -> Array:
+    """Return columns of lines of numbers, (N, C); ValueError where a line has none there."""
+    return np.loadtxt(lines, usecols=columns, comments=None, ndmin=2)
+
+
+def fans(rows: Any) -> IntArray:
+    """Return polygons, rows of numbers of corners, as triangles (T, 3) that meet in the first corner."""
+    if isinstance(rows, np.ndarray) and rows.ndim == 2:
+        count = rows.shape[1]
+        if count < 3:
+            return np.zeros((0, 3), np.intp)
+        cut = [np.column_stack([rows[:, 0], rows[:, k], rows[:, k + 1]]) for k in range(1, count - 1)]
+        return np.stack(cut, axis=1).reshape(-1, 3).astype(np.intp)
+    found = [(row[0], row[k], row[k + 1]) for row in rows for k in range(1, len(row) - 1)]
+    return np.array(found, dtype=np.intp).reshape(-1, 3)
+
+
 def wrong_corners(parts: list[Part], farthest: float) -> ModelFault | None:
     """Return the fault of a file without corners, with one that is nowhere, or a face without one.
 

@@ -205,6 +205,9 @@ def test_a_scene_that_multiplies_its_meshes_without_end_is_refused() -> None:
 def test_numbers_that_a_glb_promises_and_does_not_hold_are_refused() -> None:
     header = {
         "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "accessors": [{"componentType": 5126, "count": 10**12, "type": "VEC3"}],
     }
     found = read_model("a.glb", chunks(json.dumps(header).encode(), b""))
