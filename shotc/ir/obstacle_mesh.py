@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import Literal
+
+import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.inside import bodies, inside
+from shotc.geom.surface.near import nearest
 from shotc.geom.surface.tree import Surface, surface_of
 from shotc.ir.origin import KeyPath
 
@@ -45,6 +49,14 @@ class ObstacleMesh:
     def holds(self, p: Array) -> Mask:
         """Tell which points (K, 3) of W are inside of a closed body; (K,)."""
         return inside(self.surface, self.body, self.closed, p)
+
+    def signed_distance(self, p: Array, limit: float = inf) -> Array:
+        """Return how far points (K, 3) are, metres, negative inside of a closed body; (K,).
+
+        limit : beyond it a distance is infinite, or inside the limit itself
+        """
+        distance = nearest(self.surface, p, limit).distance
+        return np.where(self.holds(p), -np.minimum(distance, limit), distance)
 
     def name_at(self, triangle: int) -> str:
         """Return the name of what a triangle belongs to; triangle : of those that the surface was made of."""

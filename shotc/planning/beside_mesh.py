@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.surface.distance import inf_distance
-from shotc.geom.surface.near import comes_within, nearest, within
+from shotc.geom.surface.near import comes_within, within
 from shotc.geom.surface.planes import Kept, Planes, half_spaces, separate
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.owners import Owner
@@ -36,11 +36,9 @@ class BesideMesh:
     def slack(self, p: Array) -> Array:
         """Return how much farther than the clearance points (N, 3) are, metres, inf beyond FAR_M; (N,).
 
-        Of points inside of what is closed the distance is negative, -FAR_M at least.
+        Points inside of what is closed lack the clearance and their distance, up to FAR_M of it.
         """
-        distance = nearest(self.mesh.surface, p, self.clearance + FAR_M).distance
-        held = self.mesh.holds(p)
-        return np.where(held, -np.minimum(distance, FAR_M), distance) - self.clearance
+        return self.mesh.signed_distance(p, self.clearance + FAR_M) - self.clearance
 
     def stops(self, a: Array, b: Array, margin: float) -> Mask:
         """Tell which segments a-b, shapes (N, 3), come too near; (N,).

@@ -14,7 +14,6 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces
 from shotc.geom.proof import Bound
 from shotc.geom.surface.distance import inf_distance
-from shotc.geom.surface.near import nearest
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
@@ -36,7 +35,7 @@ def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Cla
             yield bounded(flight, limit, less(bound, body))
         if len(upright):
             # The body may stand as near as its pad does, but no nearer.
-            near = min(body, float(nearest(mesh.surface, home).distance[0]))
+            near = min(body, float(abs(mesh.signed_distance(home)[0])))
             bound = inf_distance(upright, mesh.surface, gap(near))
             limit = Limit(f"{name} at home", near - body, "m", mesh.path, upper=False)
             yield bounded(flight, limit, less(bound, body))

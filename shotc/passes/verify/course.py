@@ -202,6 +202,9 @@ def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
         apart = signed_distance(zone.solid, at)
         if (apart if zone.keep == "out" else -apart) < body:
             return False
+    need = rules.beside_obstacle(flight.drone.radius) + NEAR_M
+    if any(mesh.signed_distance(np.array([at]))[0] < need + mesh.spacing for mesh in mission.meshes):
+        return False
     standing = [target for target in mission.targets if target.track is None]
     return all(distance(target.solid, at) >= rules.target_clearance + body for target in standing)
 
