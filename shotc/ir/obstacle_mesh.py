@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import inf
 from typing import Literal
 
@@ -11,10 +12,14 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
+from shotc.geom.solids import Prism, convex_hull
 from shotc.geom.surface.inside import bodies, inside
 from shotc.geom.surface.near import nearest
 from shotc.geom.surface.tree import Surface, surface_of
 from shotc.ir.origin import KeyPath
+
+LEAST_M = 0.5
+"""Metres that a body is wide and high at least, to be looked past."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,3 +79,21 @@ def obstacle_mesh(
     part, names = parts
     made = bodies(triangles)
     return ObstacleMesh(kind, file, surface_of(triangles), part, names, made.body, made.closed, spacing)
+
+
+@lru_cache(maxsize=4)
+def body_prisms(mesh: ObstacleMesh) -> tuple[Prism, ...]:
+    """Return upright convex prisms round the bodies of a mesh, but for those too small to be looked past."""
+    surface = mesh.surface
+    order = np.argsort(mesh.body[surface.source], kind="stable")
+    of = mesh.body[surface.source][order]
+    found = []
+    for its in np.split(order, np.flatnonzero(np.diff(of)) + 1):
+        corners = surface.triangles[its].reshape(-1, 3)
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        if min(float(np.max((high - low)[:2])), float(high[2] - low[2])) < LEAST_M:
+            continue
+        hull = convex_hull(tuple((float(x), float(y)) for x, y in np.unique(corners[:, :2], axis=0)))
+        if len(hull) > 2:
+            found.append(Prism(hull, float(low[2]), float(high[2])))
+    return tuple(found)

@@ -20,6 +20,7 @@ from shotc.ir.bodies import flying, moved, parts_of_one, shapes
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.needs import with_need
+from shotc.ir.obstacle_mesh import body_prisms
 from shotc.ir.occlusion import others_of
 from shotc.ir.path import (
     BODY_YAW,
@@ -109,6 +110,7 @@ __all__ = [
     "aims_at",
     "beside",
     "bodies_of",
+    "body_prisms",
     "bounded",
     "bounds_of",
     "camera_task_of",

@@ -17,6 +17,7 @@ from shotc.plugin_api.refiner import (
     Cylinder,
     Mask,
     Solid,
+    body_prisms,
     convex_parts,
     flights,
     flying,
@@ -64,7 +65,7 @@ class Occluder:
 
 
 def occluders_of(subject: ClockSubject, breaks: Array) -> tuple[Occluder, ...]:
-    """Return all that may stand before a subject at the nodes: zones, other targets, other drones."""
+    """Return all that may stand before a subject at the nodes: zones, meshes, other targets, other drones."""
     return tuple(
         replace(occluder, before=i)
         for i, one in enumerate(subject.framed)
@@ -79,6 +80,10 @@ def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occl
             for part in convex_parts(zone.solid):
                 scale, centre = enclosing(part)
                 yield Occluder(scale, still + centre)
+    for mesh in mission.meshes:
+        for prism in body_prisms(mesh):
+            scale, centre = enclosing(prism)
+            yield Occluder(scale, still + centre)
     one = mission.one_with(name)
     for other in mission.targets:
         if other.name not in one:
