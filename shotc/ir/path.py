@@ -194,6 +194,7 @@ _Deviation = TypeVar("_Deviation", PathDeviation, ClockDeviation, Deviation)
 
 
 LIMITS, CALM = "the drone's limits", "a calmer camera, and the drone's limits"
+SIGHT = "what would hide the subject"
 """Causes that are neither a thing in the way nor a picture."""
 
 

@@ -121,7 +121,7 @@ def test_where_there_is_no_way_out_the_slack_is_what_is_lacking() -> None:
     # The place where the motion begins is given, and now lies in it.
     start = made.states[0, :3]
     table = made.parameters.copy()
-    first = symbols.size(made.sizes.planes, made.sizes.occluders)
+    first = symbols.size(symbols.Sizes(made.sizes.planes, made.sizes.occluders))
     table[0, first : first + symbols.BODY] = numbers(body.scale, start + np.array([0.0, 0.5, 0.0]), 1.5)
     found = program.solve(replace(made, parameters=table), "fatrop")
     assert found.status == "solved"

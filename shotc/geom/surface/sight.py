@@ -70,6 +70,18 @@ def facing_cylinders(eye: Array, centre: Array, radius: float, height: float) ->
     return billboards(eye, centre, 2.0 * radius, shown)
 
 
+def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
+    """Return upright rectangles before upright cylinders about centres (F, 3), on the sides of eyes (F, 3).
+
+    What is within a cylinder's radius is behind its rectangle, but for what stands over the cylinder.
+    """
+    level = (eye - centre) * [1.0, 1.0, 0.0]
+    level /= np.maximum(np.linalg.norm(level, axis=1, keepdims=True), _NONE)
+    right = 2.0 * radius * np.column_stack([-level[:, 1], level[:, 0], level[:, 2]])
+    up = np.broadcast_to(np.array([0.0, 0.0, height]), eye.shape)
+    return Billboards(eye, centre + radius * level - 0.5 * (right + up), right, up)
+
+
 def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
     """Tell which of n x n cells a surface hides: shape (F, n, n), along right and up.
 

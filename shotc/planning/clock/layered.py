@@ -1,8 +1,9 @@
-"""The course of a shot led round meshes: the cheapest way through layers of places about its ideal.
+"""The course of a shot led round what is of triangles, and to where that does not hide its subject.
 
-Each moment has a layer: its ideal place, and places about it. A way takes one place of each layer; it costs
-how far its places are from the ideal, and by how much that changes (a layered graph as of Jeon, Lee and Kim,
-Integrated Motion Planner for Real-time Aerial Videography with a Drone, 2020). Straight ways between places
+It is the cheapest way through layers of places. Each moment has a layer: its ideal place, and places about
+it. A way takes one place of each layer; it costs how far its places are from the ideal, by how much that
+changes, and where they do not see the subject (a layered graph as of Jeon, Lee and Kim, Integrated Motion
+Planner for Real-time Aerial Videography with a Drone, 2020). Straight ways between places
 of a course that was found are tested; where one is not free, all ways between its two layers are tested, and
 the search is repeated.
 """
@@ -10,14 +11,17 @@ the search is repeated.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
+from shotc.geom.surface.sight import hidden, upright
+from shotc.geom.surface.tree import Surface
 from shotc.planning.clock.moving import Moving
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 
@@ -26,36 +30,102 @@ TURNS, RISES_RAD = 12, (0.0, 0.5, 1.0)
 CHANGE_S = 2.0  # seconds: a change of so many times a distance from the ideal costs as much as that distance
 FASTEST_M_S = 12.0  # by which a distance from the ideal may change
 BLOCKED = 1e9  # cost of what is not free
+UNSEEN_M = 8.0  # metres from the ideal that cost as much as a hidden subject
+FOR_SIGHT_SHARE = 0.4  # of the distance to its subject by which a shot is led for it to be seen
+RAYS = 3  # along each side of what stands in for a subject
+SPREAD_S = 1.0  # seconds about a time at which a subject is hidden, in which a course is led for it
 LEAST_S = 0.4  # seconds between layers at least
 
 
-def led_round(space: FreeSpace, near: Sequence[Moving], times: Array, ideal: Array) -> Array:
-    """Return places (N, 3) of a course at mission times (N,) that is led round meshes; the ideal if it can.
+@dataclass(frozen=True, slots=True, eq=False)
+class Watched:
+    """A subject that a shot is to see.
+
+    places : of its centre, (N, 3), at the times of a course; filmed : at which of those it is filmed, (N,)
+    radius, height : of the upright cylinder about it, metres; surfaces : what may hide it, one at least
+    """
+
+    places: Array
+    filmed: Mask
+    radius: float
+    height: float
+    surfaces: tuple[Surface, ...]
+
+    def hidden(self, eyes: Array) -> Array:
+        """Return the share of the subject that is hidden from places (L, C, 3), one layer a time; (L, C).
+
+        What stands within its own radius belongs to it.
+        """
+        eyes_flat, centres = (
+            eyes.reshape(-1, 3),
+            np.broadcast_to(self.places[:, None], eyes.shape).reshape(-1, 3),
+        )
+        boards = upright(eyes_flat, centres, self.radius, self.height)
+        shares = [hidden(surface, boards, RAYS).mean(axis=(1, 2)) for surface in self.surfaces]
+        most: Array = np.max(shares, axis=0).reshape(eyes.shape[:2])
+        return most * self.filmed[:, None]
+
+    def at(self, which: IntArray) -> Watched:
+        """Return it at some of the times."""
+        return replace(self, places=self.places[which], filmed=self.filmed[which])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """Places over time, (N, 3), and how far a shot is led there for its subject to be seen, (N,), 0 to 1."""
+
+    places: Array
+    for_sight: Array
+
+
+def led_round(
+    space: FreeSpace, near: Sequence[Moving], times: Array, ideal: Array, watched: Watched | None = None
+) -> Course:
+    """Return a course at mission times (N,) that is led round surfaces; the ideal if it can.
 
     space : what a drone is held to but for what moves and for solids; near : those
-    ideal : its places at those times, shape (N, 3). It is returned where it is free, and where no course is.
+    ideal : its places at those times, shape (N, 3). It is returned where it is free and sees its subject, and
+        where no course is found
     """
-    if not space.meshes or not _stopped(space, ideal[:-1], ideal[1:]).any():
-        return ideal
+    still = Course(ideal, np.zeros(len(times)))
+    covered = np.zeros(len(times)) if watched is None else watched.hidden(ideal[:, None])[:, 0]
+    stopped = bool(space.meshes) and bool(_stopped(space, ideal[:-1], ideal[1:]).any())
+    if not stopped and not covered.any():
+        return still
     layers = np.unique(np.append(np.arange(0, len(times) - 1, _stride(times)), len(times) - 1))
-    offsets = _course(space, near, times[layers], ideal[layers])
+    seen = None if watched is None else watched.at(layers)
+    offsets = _course(space, near, (times[layers], ideal[layers]), seen)
     if offsets is None:
-        return ideal
+        return still
     between = [np.interp(times, times[layers], offsets[:, axis]) for axis in range(3)]
-    return np.asarray(ideal + np.column_stack(between))
+    unseen = times[covered > 0.0]
+    away = np.abs(times[:, None] - unseen).min(axis=1, initial=np.inf)
+    return Course(ideal + np.column_stack(between), np.clip(2.0 - away / SPREAD_S, 0.0, 1.0))
 
 
 def _stride(times: Array) -> int:
     return max(1, round(LEAST_S * (len(times) - 1) / float(times[-1] - times[0])))
 
 
-def _course(space: FreeSpace, near: Sequence[Moving], times: Array, ideal: Array) -> Array | None:
-    """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free."""
+def _course(
+    space: FreeSpace, near: Sequence[Moving], ideal: tuple[Array, Array], watched: Watched | None
+) -> Array | None:
+    """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free.
+
+    ideal : those times (L,), and its places then (L, 3)
+    """
+    times, at_ideal = ideal
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
     shifts = np.concatenate([np.zeros((1, 3)), rings.reshape(-1, 3)])
-    places, step = ideal[:, None] + shifts, np.diff(times)
+    places, step = at_ideal[:, None] + shifts, np.diff(times)
     room = _room(space, near, times, places)
-    stay = np.where(room >= 0.0, (shifts**2).sum(axis=1) * np.gradient(times)[:, None], BLOCKED)
+    price = (shifts**2).sum(axis=1) + np.zeros((len(times), 1))
+    if watched is not None:
+        far = np.linalg.norm(shifts, axis=1)
+        most = FOR_SIGHT_SHARE * np.linalg.norm(watched.places - at_ideal, axis=1)
+        most[room[:, 0] < 0.0] = np.inf  # it is left in any case
+        price += UNSEEN_M**2 * np.where(far <= most[:, None], watched.hidden(places), watched.filmed[:, None])
+    stay = np.where(room >= 0.0, price * np.gradient(times)[:, None], BLOCKED)
     apart = np.linalg.norm(shifts[:, None] - shifts[None], axis=2)
     change = np.where(apart <= FASTEST_M_S * step.max(), (CHANGE_S * apart) ** 2, BLOCKED)
     shut = np.zeros((len(step), len(shifts), len(shifts)), dtype=bool)
@@ -113,6 +183,8 @@ def _shut(space: FreeSpace, places: Array, room: Array, near: Mask) -> Mask:
 
 def _stopped(space: FreeSpace, a: Array, b: Array) -> Mask:
     """Tell which straight ways a-b, shapes (N, 3), come too near to a mesh; (N,)."""
+    if not space.meshes:
+        return np.zeros(len(a), dtype=bool)
     meshes = replace(space, obstacles=(), terrain=())
     stopped: Mask = np.any(blocked(meshes, a, b, MARGIN_M), axis=1)
     return stopped

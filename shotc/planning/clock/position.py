@@ -10,21 +10,15 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
-from shotc.ir.mission import Drone, MissionIR, Shot
-from shotc.ir.owners import Owner
 from shotc.ir.preference import Price, prefers_free_pictures
-from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.between import lacking, sides_apart, standing_apart
-from shotc.planning.clock.bounds import Bound, at_rest, limits_of
-from shotc.planning.clock.clock import Clock
-from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.layered import led_round
+from shotc.planning.clock.bounds import at_rest, limits_of
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion_rows, shortfalls, sides
 from shotc.planning.clock.preferred import cost
-from shotc.planning.clock.run_up import RunUp
-from shotc.planning.clock.visibility import Kept, Visibility, keep_free
+from shotc.planning.clock.task import Task, drawn_to, ideal_of
+from shotc.planning.clock.visibility import Kept, keep_free
 from shotc.planning.corridor import Around, with_corridor
-from shotc.planning.free_space import FreeSpace, HalfSpaces, shortfall
+from shotc.planning.free_space import HalfSpaces, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
@@ -46,52 +40,6 @@ ROUNDING_S = 1e-9  # seconds
 GAIN_SHARE = 0.01
 ASTRAY_M = 50.0  # metres off its ideal on average over the film: a motion so far off is none
 HOPE_SHARE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Task:
-    """One shot to be flown.
-
-    camera_task : who flies, and whom it films
-    ways : into the film and out of it
-    passing : what passes while it stands where the motion begins, and where it ends
-    space : what stands; motions : its obstacles and what moves, even on the clock's pieces
-    visibility : whose pictures count
-    bound : where it has to be when; free : whether that does not count
-    apart : half-spaces in which the ways into the film and out of it keep the clearances of such ways
-    """
-
-    camera_task: CameraTask
-    shot: Shot
-    clock: Clock
-    ways: tuple[RunUp, RunUp]
-    space: FreeSpace
-    motions: tuple[LinearMotion, ...]
-    passing: tuple[tuple[LinearMotion, ...], tuple[LinearMotion, ...]]
-    visibility: Visibility
-    bound: tuple[Bound, ...] = ()
-    free: bool = False
-    apart: tuple[HalfSpaceRows, ...] = ()
-
-    @property
-    def mission(self) -> MissionIR:
-        """The mission."""
-        return self.camera_task.mission
-
-    @property
-    def drone(self) -> Drone:
-        """Who flies."""
-        return self.camera_task.drone
-
-    @property
-    def owners(self) -> tuple[Owner, ...]:
-        """Everything that may stop the motion, by index: the walls' owners, then the motions'."""
-        return (*self.walls.owners, *(m.what.owner for m in self.motions))
-
-    @property
-    def walls(self) -> FreeSpace:
-        """The free space without its obstacles."""
-        return self.space.bounds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -202,8 +150,8 @@ class _Round:
 def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
     """Return the position curve under half-spaces that keep pictures free."""
     breaks, base = task.clock.breaks, _base(task)
-    led = led_round(task.walls, [m.what for m in task.motions], breaks, _ideal(task, breaks))
-    chords = np.stack([led[:-1], led[1:]], axis=1)
+    places = ideal_of(task, breaks) if task.course is None else task.course.places
+    chords = np.stack([places[:-1], places[1:]], axis=1)
     now = _Round(chords)
     while not now.ended and now.rounds < ROUNDS:
         problem = _walled(task, base, now.hulls, now.reach, now.share)
@@ -271,16 +219,6 @@ def _lack(task: Task, points: Array) -> float:
     return float(max(lacking.max(), *standing))
 
 
-def _ideal(task: Task, times: Array) -> Array:
-    """Return where the camera would be: at its ideal in the film, on straight ways before and after it."""
-    clock, (before, after) = task.clock, task.ways
-    inside = np.clip(times, clock.start, clock.end)
-    filmed = ideal_places(task.mission, task.shot, clock.start, inside)
-    early, late = (times < clock.start)[:, None], (times > clock.end)[:, None]
-    led = np.where(early, before.at(times - clock.start), filmed)
-    return np.asarray(np.where(late, after.at(times - clock.end), led))
-
-
 def _base(task: Task) -> SplineProblem:
     breaks = task.clock.breaks
     step = np.diff(breaks)
@@ -291,7 +229,7 @@ def _base(task: Task) -> SplineProblem:
     jerk = energy_rows(breaks, 3)
     gentle = np.sqrt(np.where(task.clock.filmed, 1.0, UNSEEN_WEIGHT))
     goals = (
-        Goal(_scaled(rows, weight), weight[:, None] * _ideal(task, times)),
+        Goal(_scaled(rows, weight), weight[:, None] * drawn_to(task, times)),
         Goal(_scaled(jerk, SMOOTH_S**3 * gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
     )
     rest = at_rest(breaks)

@@ -14,7 +14,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot
 from shotc.ir.owners import Owner
-from shotc.ir.path import LIMITS, ClockDeviation, ClockLeg
+from shotc.ir.path import LIMITS, SIGHT, ClockDeviation, ClockLeg
 from shotc.ir.phases import Reference
 from shotc.ir.preference import noted
 from shotc.planning.clock.aims import CameraTask, camera_task_of
@@ -25,9 +25,10 @@ from shotc.planning.clock.clock import Clock, clock_of
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
-from shotc.planning.clock.position import Flown, Task, fly, held_where_it_rests, standing_by
+from shotc.planning.clock.position import Flown, fly, held_where_it_rests, standing_by
 from shotc.planning.clock.resting import LONG_S, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp, run_ups
+from shotc.planning.clock.task import Task, led
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.framing.moments import placed_at, slowed
 from shotc.planning.free_space import FreeSpace, breaches
@@ -212,7 +213,9 @@ def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask
     motions = tuple(linearised(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, ask.stand)
     bound = bounds_of(camera_task.mission, shot, start)
-    return Task(camera_task, shot, clock, ways, spaces.flight, motions, passing, others.visibility, bound)
+    return led(
+        Task(camera_task, shot, clock, ways, spaces.flight, motions, passing, others.visibility, bound)
+    )
 
 
 def _ways(
@@ -312,7 +315,11 @@ def _cause(task: Task, flown: Flown, t: float) -> str:
     near = _in_the_way(task, np.array(ideal_place(task.mission, task.shot, task.clock.start, t)), t)
     if near is not None:
         return str(near[0])
-    return PICTURES if flown.freed else LIMITS
+    if flown.freed:
+        return PICTURES
+    course = task.course
+    aside = course is not None and np.interp(t, task.clock.breaks, course.for_sight) > 0.0
+    return SIGHT if aside else LIMITS
 
 
 def _in_the_way(task: Task, place: Array, t: float) -> tuple[Owner, float] | None:

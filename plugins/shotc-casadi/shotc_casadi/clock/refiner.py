@@ -17,6 +17,7 @@ from shotc.plugin_api import (
 )
 from shotc.plugin_api.refiner import (
     CALM,
+    SIGHT,
     ClockDeviation,
     ClockLeg,
     TimedPath,
@@ -30,7 +31,7 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_occluders
+from shotc_casadi.clock.shown import held_whole, no_less, past_occluders
 from shotc_casadi.messages import UNITS, fallen_back, stats, unsolved
 from shotc_casadi.solving import MOTION
 
@@ -41,7 +42,6 @@ GUIDE_BETTER = "its guide films the subject as well or better by what the refine
 SHOWS_LESS = "its guide shows more of its subjects"
 IN_PICTURE = "refined, a drone would come into another's picture"
 OUT_M = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
-SIGHT = "what would hide the subject"
 WHOLE = "the whole subject in the frame, and the drone's limits"
 SAME_S = 2.0  # seconds between a place that moved the guide and one that is off for the same reason
 
@@ -88,8 +88,7 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool) -> _
     message = _report(path, subject, refined, name)
     whole = held_whole(subject, refined, unseen=unseen)
     new, why = refined.leg, GUIDE_BETTER
-    enough = no_less if subject.together else as_whole
-    if new is not None and not enough(subject, subject.leg, new):
+    if new is not None and not no_less(subject, subject.leg, new):
         refined, why = replace(refined, leg=None), SHOWS_LESS
     freed = past_occluders(subject, whole or refined, unseen=unseen)
     reasons = ((freed, SIGHT), (whole, WHOLE), (refined, CALM))

@@ -1,0 +1,114 @@
+"""One shot to be flown on its own clock, and the places that its motion is drawn to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.allow import HIDDEN
+from shotc.ir.bodies import moved
+from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.owners import Owner
+from shotc.planning.clock.aims import CameraTask
+from shotc.planning.clock.bounds import Bound
+from shotc.planning.clock.clock import Clock
+from shotc.planning.clock.ideals import ideal_places
+from shotc.planning.clock.layered import Course, Watched, led_round
+from shotc.planning.clock.moving import LinearMotion
+from shotc.planning.clock.run_up import RunUp
+from shotc.planning.clock.visibility import Visibility
+from shotc.planning.free_space import FreeSpace
+from shotc.solvers.spline_problem import HalfSpaceRows
+
+ROUNDING_S = 1e-9  # seconds
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Task:
+    """One shot to be flown.
+
+    camera_task : who flies, and whom it films
+    ways : into the film and out of it
+    passing : what passes while it stands where the motion begins, and where it ends
+    space : what stands; motions : its obstacles and what moves, even on the clock's pieces
+    visibility : whose pictures count
+    bound : where it has to be when; free : whether that does not count
+    apart : half-spaces in which the ways into the film and out of it keep the clearances of such ways
+    course : places at the clock's breaks about which corridors are begun; the ideal's, where it is None
+    """
+
+    camera_task: CameraTask
+    shot: Shot
+    clock: Clock
+    ways: tuple[RunUp, RunUp]
+    space: FreeSpace
+    motions: tuple[LinearMotion, ...]
+    passing: tuple[tuple[LinearMotion, ...], tuple[LinearMotion, ...]]
+    visibility: Visibility
+    bound: tuple[Bound, ...] = ()
+    free: bool = False
+    apart: tuple[HalfSpaceRows, ...] = ()
+    course: Course | None = None
+
+    @property
+    def mission(self) -> MissionIR:
+        """The mission."""
+        return self.camera_task.mission
+
+    @property
+    def drone(self) -> Drone:
+        """Who flies."""
+        return self.camera_task.drone
+
+    @property
+    def owners(self) -> tuple[Owner, ...]:
+        """Everything that may stop the motion, by index: the walls' owners, then the motions'."""
+        return (*self.walls.owners, *(m.what.owner for m in self.motions))
+
+    @property
+    def walls(self) -> FreeSpace:
+        """The free space without its obstacles."""
+        return self.space.bounds
+
+
+def ideal_of(task: Task, times: Array) -> Array:
+    """Return where the camera would be: at its ideal in the film, on straight ways before and after it."""
+    clock, (before, after) = task.clock, task.ways
+    inside = np.clip(times, clock.start, clock.end)
+    filmed = ideal_places(task.mission, task.shot, clock.start, inside)
+    early, late = (times < clock.start)[:, None], (times > clock.end)[:, None]
+    led = np.where(early, before.at(times - clock.start), filmed)
+    return np.asarray(np.where(late, after.at(times - clock.end), led))
+
+
+def led(task: Task) -> Task:
+    """Return the task with a course led round what is of triangles, and to where its subject is seen."""
+    breaks, near = task.clock.breaks, [motion.what for motion in task.motions]
+    course = led_round(task.walls, near, breaks, ideal_of(task, breaks), _watched(task))
+    return replace(task, course=course)
+
+
+def _watched(task: Task) -> Watched | None:
+    """Return whom the camera is to see at the clock's breaks; None where its places are the author's own."""
+    mission, camera_task, ideal = task.mission, task.camera_task, task.shot.ideal
+    surfaces = [mesh.surface for mesh in mission.meshes]
+    if mission.terrain is not None:
+        surfaces.append(mission.terrain.ground.surface)
+    bound = not surfaces or ideal is None or ideal.placed or camera_task.keyed is not None
+    if bound or not camera_task.subjects or HIDDEN in task.shot.allow:
+        return None
+    times, target = task.clock.breaks, mission.target(camera_task.subjects[0].target)
+    filmed = (times >= task.clock.start - ROUNDING_S) & (times <= task.clock.end + ROUNDING_S)
+    places = np.array(target.centre) + moved(target, times)
+    return Watched(places, filmed, target.radius, target.height, tuple(surfaces))
+
+
+def drawn_to(task: Task, times: Array) -> Array:
+    """Return where the camera is drawn to: its ideal, or its course where that is led to see the subject."""
+    ideal, course, breaks = ideal_of(task, times), task.course, task.clock.breaks
+    if course is None or not course.for_sight.any():
+        return ideal
+    aside = course.for_sight[:, None] * (course.places - ideal_of(task, breaks))
+    return ideal + np.column_stack([np.interp(times, breaks, aside[:, axis]) for axis in range(3)])
