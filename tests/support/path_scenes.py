@@ -31,7 +31,14 @@ def codes(outcome: Outcome[PathIR]) -> list[str]:
 def mission(*zones: Zone, targets: tuple[Target, ...] | None = None, **drone: object) -> MissionIR:
     base = orbit_mission()
     made = replace(base, zones=zones, drones=(replace(base.drones[0], **drone),))
-    return made if targets is None else replace(made, targets=targets)
+    if targets is None:
+        return made
+    # The shots of the mission that it is made from film a target that is gone.
+    unaimed = tuple(
+        replace(s, subject=None, keyframes=tuple(replace(k, target=None) for k in s.keyframes))
+        for s in made.shots
+    )
+    return replace(made, targets=targets, shots=unaimed)
 
 
 def out(name: str, solid: Solid) -> Zone:
