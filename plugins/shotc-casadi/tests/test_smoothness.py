@@ -15,11 +15,24 @@ from shotc_casadi.clock import picture
 from shotc_casadi.clock import symbols as clock
 from shotc_casadi.conditions import Visibility
 from shotc_casadi.derivatives import Derived, derived
+from shotc_casadi.extents import extents_of
+
+from shotc.geom.shapes import BoxShape, CylinderShape, GroupShape, Part
 
 Array = np.ndarray
+
+
+class PathKind(NamedTuple):
+    """A stage of a shot on a path: how its target is kept whole, and how many bodies that is made of."""
+
+    visibility: Visibility
+    extents: int
+
+
 KINDS = [
-    *((visibility, 1) for visibility in get_args(Visibility)),
-    *((sizes, 0) for sizes in ((1, 0, 0, 0), (1, 1, 1, 0), (1, 1, 1, 2), (0, 1, 1, 3))),
+    *((PathKind(visibility, 0), 1) for visibility in get_args(Visibility)),
+    *((PathKind(visibility, 2), 1) for visibility in ("silhouette", "points")),
+    *((sizes, 0) for sizes in ((1, 0, 0, 0), (1, 1, 1, 0), (1, 1, 1, 2), (0, 1, 1, 3), (0, 0, 0, 2, 2))),
 ]
 RADIUS, HEIGHT = 0.5, 2.0  # with places on a grid, heights are equal to the last digit
 DRAWS = 5
@@ -96,19 +109,21 @@ INSIDE: dict[str, Callable[[Scene], Scene]] = {
 
 
 def kind_of(kind: Any, planes: int) -> Derived:
-    return derived(kind, planes) if isinstance(kind, str) else clock.derived(*kind)
+    if isinstance(kind, PathKind):
+        return derived(kind.visibility, planes, kind.extents)
+    return clock.derived(*kind)
 
 
 def point(kind: Any, planes: int, scene: Scene, rng: np.random.Generator) -> tuple[Array, Array]:
     """State and input of a stage, and its parameters."""
-    return (_on_path if isinstance(kind, str) else _on_clock)(kind, planes, scene, rng)
+    return (_on_path if isinstance(kind, PathKind) else _on_clock)(kind, planes, scene, rng)
 
 
 def flat(names: dict[str, int], values: dict[str, Any]) -> Array:
     return np.concatenate([np.broadcast_to(np.asarray(values[n], float), (names[n],)) for n in names])
 
 
-def _on_path(_: Any, planes: int, scene: Scene, rng: np.random.Generator) -> tuple[Array, Array]:
+def _on_path(kind: PathKind, planes: int, scene: Scene, rng: np.random.Generator) -> tuple[Array, Array]:
     z = np.zeros(path.WIDTH)
     z[path.POSITION], z[path.VELOCITY], z[path.ACCELERATION] = scene.eye, scene.motion[0], scene.motion[1]
     z[path.YAW], z[path.PITCH] = scene.aim
@@ -123,7 +138,15 @@ def _on_path(_: Any, planes: int, scene: Scene, rng: np.random.Generator) -> tup
         "aim": scene.aim,
         "state": z[: path.STATES],
     }
-    return z, np.concatenate([flat(path.FIELDS, values), rng.normal(size=4 * planes)])
+    bodies = _bodies(kind.extents)
+    return z, np.concatenate([flat(path.FIELDS, values), bodies, rng.normal(size=4 * planes)])
+
+
+def _bodies(count: int) -> Array:
+    """A box that lies along the camera's axis at eye level, and a cylinder beside it; as tall, and taller."""
+    box = BoxShape(4.0, 1.0, HEIGHT, (0.0, 1.0))
+    both = GroupShape((Part((0.0, 0.0, 0.0), box), Part((1.5, 0.0, 1.0), CylinderShape(RADIUS, 2 * HEIGHT))))
+    return extents_of(both, count, 1).ravel()
 
 
 def _on_clock(kind: Any, _: int, scene: Scene, rng: np.random.Generator) -> tuple[Array, Array]:
@@ -144,7 +167,7 @@ def _on_clock(kind: Any, _: int, scene: Scene, rng: np.random.Generator) -> tupl
     parts = [flat(clock.FIELDS, values), rng.normal(size=clock.PLANE * sizes.planes)]
     parts += [np.array(occluder)] * sizes.occluders + [np.array(body)] * sizes.bodies
     for k in range(sizes.subjects):
-        parts.append(_subject(scene, k))
+        parts += [_subject(scene, k), _bodies(sizes.extents)]
     return z, np.concatenate(parts)
 
 

@@ -59,7 +59,7 @@ def seen(case: Case, drone: str, phase: Phase, target: str, t: Array) -> Seen:
         if entry["reference"] is not None and within.any():
             curve = polynomial(entry["reference"])
             wanted[within] = curve(np.clip(t[within], curve.x[0], curve.x[-1]))
-    return Seen(t, picture(camera, solid.at(t), solid.radius, solid.height), wanted, counts)
+    return Seen(t, picture(camera, solid.at(t), solid.outline(t)), wanted, counts)
 
 
 def framing_table(case: Case) -> Findings:

@@ -137,10 +137,10 @@ def clearances(case: Case, flight: Flight) -> Iterator[Worst]:
         return flight.at(t)[:, 2] - radius
 
     yield searched("ground clearance", flight.drone, mission.rule("ground_clearance", GROUND), aloft, height)
-    for target in mission.targets.values():
+    for target in (body for body in mission.targets.values() if not body.parts):
 
         def room(t: Array, target=target) -> Array:
-            return target.solid(t).distance(flight.at(t)[:, :3]) - radius
+            return target.kept_clear(t).distance(flight.at(t)[:, :3]) - radius
 
         needed = mission.rule("target_clearance", BESIDE_TARGETS)
         yield searched(f"target {target.name}", flight.drone, needed, aloft, room)

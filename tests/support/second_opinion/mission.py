@@ -16,36 +16,11 @@ import yaml
 from tests.support.second_opinion.flight import Array
 from tests.support.second_opinion.quantities import number, place
 from tests.support.second_opinion.solids import Cylinder, Prism, Solid
+from tests.support.second_opinion.targets import Size, Target, group
 
 SEPARATION, GROUND, BESIDE_TARGETS = 3.0, 2.0, 1.0  # metres, where the mission is silent
 
 Read = Callable[[str], bytes]
-
-
-@dataclass(frozen=True)
-class Target:
-    """An upright cylinder about its centre; ``velocity`` is that after the last row."""
-
-    name: str
-    radius: float
-    height: float
-    times: Array
-    points: Array
-    velocity: Array
-
-    def at(self, t: Array) -> Array:
-        """Return its centre at times (M,), shape (M, 3)."""
-        rows = np.stack([np.interp(t, self.times, part) for part in self.points.T], axis=1)
-        return np.asarray(rows + np.maximum(t - self.times[-1], 0.0)[:, None] * self.velocity)
-
-    def solid(self, t: Array) -> Cylinder:
-        """Return the cylinder at every one of some times."""
-        at = self.at(t)
-        return Cylinder(at[:, :2], self.radius, at[:, 2] - self.height / 2, at[:, 2] + self.height / 2)
-
-    @property
-    def moves(self) -> bool:
-        return len(self.times) > 1 or bool(self.velocity.any())
 
 
 @dataclass(frozen=True)
@@ -112,33 +87,49 @@ class Mission:
         return place(value, self.origin)
 
     def _target(self, name: str, target: dict[str, Any]) -> Target:
-        size = number(target["radius"]), number(target["height"])
+        if "parts" in target:
+            return group(
+                name, [self._target(part, self.written["targets"][part]) for part in target["parts"]]
+            )
+        size = Size.written(target)
         if "at" in target:
-            return Target(name, *size, np.zeros(1), self.at(target["at"])[None], np.zeros(3))
+            # The length of a box that stands lies along its heading, clockwise from North.
+            facing = np.array([np.pi / 2 - number(target.get("heading", 0.0))])
+            return Target(
+                name, size, np.zeros(1), self._stands(target["at"], size)[None], np.zeros(3), facing
+            )
         track = target["track"]
         if "velocity" in track:
             velocity = np.array([number(part) for part in track["velocity"]])
-            return Target(name, *size, np.zeros(1), self.at(track["start"])[None], velocity)
+            return Target(name, size, np.zeros(1), self._stands(track["start"], size)[None], velocity)
         if "file" in track:
-            times, points = self._rows(track["file"])
+            times, points, facing = self._rows(track["file"])
             times = times + (number(track["begins"]) - times[0] if "begins" in track else 0.0)
-            return Target(name, *size, times, points, np.zeros(3))
-        points = np.array([self.at(point) for point in track["points"]])
+            return Target(name, size, times, points, np.zeros(3), facing)
+        points = np.array([self._stands(point, size) for point in track["points"]])
         if "times" in track:
             times = np.array([number(time) for time in track["times"]])
         else:
             legs = np.linalg.norm(np.diff(points, axis=0), axis=1)
             times = np.concatenate([[0.0], np.cumsum(legs) / number(track["speed"])])
-        return Target(name, *size, times, points, np.zeros(3))
+        return Target(name, size, times, points, np.zeros(3))
 
-    def _rows(self, name: str) -> tuple[Array, Array]:
+    def _stands(self, at: Any, size: Size) -> Array:
+        """Return a centre; what has no height stands on the ground, which is flat."""
+        return self.at([*at, size.height / 2] if isinstance(at, list) and len(at) == 2 else at)
+
+    def _rows(self, name: str) -> tuple[Array, Array, Array | None]:
         assert name.endswith(".csv"), name
         rows = list(csv.DictReader(io.StringIO(self.read(name).decode())))
         if "x" in rows[0]:
             points = [[float(row[part]) for part in "xyz"] for row in rows]
         else:
             points = [list(self.at({part: row[part] for part in ("lat", "lon", "height")})) for row in rows]
-        return np.array([float(row["t"]) for row in rows]), np.array(points)
+        # Headings are compass bearings; a camera's yaw, and ours, is counter-clockwise from East.
+        unit = {"heading": 1.0, "heading_deg": np.pi / 180}
+        facing = [np.pi / 2 - unit[key] * float(row[key]) for row in rows for key in unit if key in row]
+        turned = np.unwrap(np.array(facing)) if facing else None
+        return np.array([float(row["t"]) for row in rows]), np.array(points), turned
 
     def _zone(self, name: str, zone: dict[str, Any]) -> Zone:
         if "cylinder" in zone:

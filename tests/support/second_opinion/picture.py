@@ -1,4 +1,4 @@
-"""What a camera sees of an upright cylinder: points of its two rims, projected one by one."""
+"""What a camera sees of a target: points of its rims, or its corners, projected one by one."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 
 from tests.support.second_opinion.flight import CAM_PITCH, CAM_YAW, HFOV, Array
 
-RIM = 180  # points of a rim; between two of them it bulges by 1.5e-4 of the radius
 FRAMES = 512  # projected at once
 
 
@@ -53,20 +52,12 @@ class Camera(NamedTuple):
         return Camera(*(field[which] for field in self))
 
 
-def rims(centre: Array, radius: float, height: float) -> Array:
-    """Return points of both rims of a cylinder about centres (M, 3), shape (M, 2 RIM, 3)."""
-    turn = np.linspace(0.0, 2 * np.pi, RIM, endpoint=False)
-    ring = np.stack([radius * np.cos(turn), radius * np.sin(turn), np.full(RIM, height / 2)], axis=1)
-    return centre[:, None] + np.concatenate([ring, ring * [1, 1, -1]])
-
-
-def picture(camera: Camera, centre: Array, radius: float, height: float) -> Picture:
-    """Return what cameras see of a cylinder about centres (M, 3)."""
+def picture(camera: Camera, centre: Array, outline: Array) -> Picture:
+    """Return what cameras see of what is about centres (M, 3); outline : points of its hull, (M, K, 3)."""
     parts = []
     for first in range(0, len(centre), FRAMES):
         which = slice(first, first + FRAMES)
-        some = camera.some(which)
-        parts.append(_pictures(some, centre[which], rims(centre[which], radius, height)))
+        parts.append(_pictures(camera.some(which), centre[which], outline[which]))
     return Picture(*(np.concatenate(field) for field in zip(*parts, strict=True)))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from tests.support.second_opinion.case import Case, Finding, Findings
 from tests.support.second_opinion.flight import Array, Phase
 from tests.support.second_opinion.picture import Camera
-from tests.support.second_opinion.solids import Cylinder
+from tests.support.second_opinion.targets import touch
 
 LINE = 400  # points of a line of sight
 PER_SECOND = 50.0
@@ -39,27 +39,19 @@ def _depths(case: Case, drone: str, target: str, t: Array, line: Array) -> Any:
     for zone in case.mission.zones:
         if not zone.keeps_in:
             yield zone.solid.distance(flat).reshape(line.shape[:2]).min(axis=1)
-    mine = case.mission.targets[target].solid(t)
+    mine = case.mission.targets[target]
+    bodies = mine.parts or (mine,)
+    groups = [{part.name for part in other.parts} for other in case.mission.targets.values()]
+    one = {body.name for body in bodies}.union(*(g for g in groups if g & {body.name for body in bodies}))
     for other in case.mission.targets.values():
-        if other.name != target:
-            body = other.solid(t)
-            spread = Cylinder(
-                np.repeat(body.centre, LINE, axis=0),
-                body.radius,
-                np.repeat(body.bottom, LINE),
-                np.repeat(body.top, LINE),
-            )
-            near = spread.distance(flat).reshape(line.shape[:2]).min(axis=1)
-            yield np.where(_touch(mine, body), np.inf, near)
+        if not other.parts and other.name not in one:
+            near = other.distance(line, t).min(axis=1)
+            parts = np.any([touch(body, other, t) for body in bodies], axis=0)
+            yield np.where(parts, np.inf, near)
     for name, found in case.drones.items():
         if name != drone:
             away = np.linalg.norm(line - case.place(name, t)[:, None], axis=2).min(axis=1)
             yield away - found["radius"]
-
-
-def _touch(a: Cylinder, b: Cylinder) -> Array:
-    level = np.linalg.norm(a.centre - b.centre, axis=1) <= a.radius + b.radius + 1e-9
-    return level & (a.bottom <= np.asarray(b.top) + 1e-9) & (b.bottom <= np.asarray(a.top) + 1e-9)
 
 
 def company(case: Case) -> Findings:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.geom.shapes import CylinderShape
+from shotc.geom.line_of_sight import crosses
+from shotc.geom.shapes import BoxShape, CylinderShape, GroupShape, Part
 from shotc.geom.track import Track
 from shotc.ir.hidden import hides
 from shotc.ir.mission import MissionIR
@@ -111,3 +112,28 @@ def test_a_target_that_walks_into_another_is_hidden_by_it_before_and_after() -> 
 
 def walk_x(walk: Track) -> np.ndarray:
     return np.array([walk.at(float(t))[0] for t in TIMES])
+
+
+def test_a_lorry_hides_while_it_stands_across_as_it_turns() -> None:
+    bend = Track((0.0, 5.0, 10.0), ((20.0, -9.0, 10.0), (20.0, 0.0, 10.0), (29.0, 0.0, 10.0)))
+    shape = BoxShape(8.0, 1.0, 2.0, (0.0, 1.0))
+    lorry: Target = replace(MAST, name="lorry", centre=bend.points[0], shape=shape, track=bend)
+    of = replace(mission(), targets=(MAST, lorry))
+    point = (40.0, 0.0, 10.0)
+    eyes = still(EYE)(TIMES)[:, :3]
+    found = next(hides for name, hides in hiders(of, (), "mast", eyes, TIMES) if name == "target lorry")
+    exact = np.array([crosses(lorry.solid_at(float(t)), EYE[:3], point) for t in TIMES])
+    assert 0.2 < exact.mean() < 0.9
+    assert (found != exact).mean() < 2e-3  # where it comes and goes
+
+
+def test_parts_of_a_group_hide_nothing_of_it_or_of_each_other() -> None:
+    front: Target = replace(MAST, name="front", centre=(20.0, 0.0, 10.0))
+    shape = GroupShape((Part((-10.0, 0.0, 0.0), front.shape), Part((10.0, 0.0, 0.0), MAST.shape)))
+    both: Target = replace(MAST, name="both", centre=(30.0, 0.0, 10.0), shape=shape, parts=("front", "mast"))
+    eyes = still(EYE)(TIMES)[:, :3]
+    for groups, names in (((), ["target front"]), ((both,), [])):
+        of = replace(mission(), targets=(MAST, front), groups=groups)
+        assert [name for name, hides in hiders(of, (), "mast", eyes, TIMES) if hides.any()] == names
+        assert (hides(of, "mast", tuple(map(float, EYE[:3])), 0.0) is None) is bool(groups)
+    assert [name for name, hides in hiders(of, (), "both", eyes, TIMES) if hides.any()] == []
