@@ -112,6 +112,10 @@ class BoxShape(NamedTuple):
         """Return the screen box of its outline, the hull of its eight corners."""
         return reduce(_union, [_point_bounds(camera, corner) for corner in self.corners(offset)])
 
+    def wider(self, by: float) -> Self:
+        """Return the shape with each of its upright sides farther out by some metres."""
+        return self._replace(length=self.length + 2 * by, width=self.width + 2 * by)
+
     def corners(self, centre: Offset) -> list[Offset]:
         """Return its eight corners about a centre."""
         c, s = self.ahead

@@ -3,16 +3,20 @@
 World frame W (East, North, Up, metres), radians, seconds.
 """
 
+from functools import lru_cache
 from math import cos, sin
 from typing import TYPE_CHECKING, NamedTuple
 
-from shotc.geom.shapes import CylinderShape, GroupShape, TargetShape
+from shotc.geom.same import Same
+from shotc.geom.shapes import BoxShape, CylinderShape, GroupShape, TargetShape
 from shotc.geom.solids import Solid
 from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath
 
 if TYPE_CHECKING:  # a mission of what stands loads none of it
     from shotc.geom.track import Track
+
+STRAIGHT_SINE = 2e-6  # sine of the angle that what goes one way may be off it; twice that of ``geom.track``
 
 
 class Target(NamedTuple):
@@ -58,7 +62,24 @@ class Target(NamedTuple):
         """
         if self.track is None or not self.shape.turns:
             return self.solid
+        if isinstance(self.shape, BoxShape) and not self.turns:
+            return _body(self.shape.wider(self.radius * STRAIGHT_SINE), self.centre)
         return _body(CylinderShape(self.radius, self.height), self.centre)
+
+    @property
+    def turns(self) -> bool:
+        """Whether it looks different in time because it turns."""
+        return self.track is not None and self.shape.turns and not goes_one_way(Same(self.track))
+
+    @property
+    def counts_from(self) -> str:
+        """What distances from it count from, in words, where that is not its body; else empty."""
+        if not self.turns:
+            return ""
+        return (
+            f"`{self.name}` turns with its course: distances from it count from the upright cylinder "
+            f"about it, {self.radius:.2f} m in radius"
+        )
 
     def kept_clear_at(self, t: float) -> Solid:
         """Return the solid that clearances count from at a mission time."""
@@ -83,6 +104,13 @@ class Target(NamedTuple):
     def at(self, t: float) -> Vec3:
         """Return its centre at a mission time, metres."""
         return self.centre if self.track is None else self.track.at(t)
+
+
+@lru_cache(maxsize=64)
+def goes_one_way(track: "Same[Track]") -> bool:
+    """Tell whether what goes along a track faces one way always, but for STRAIGHT_SINE."""
+    headings = track.it.headings
+    return max(headings) == min(headings) if headings else track.it.straight
 
 
 def _body(shape: TargetShape, centre: Vec3) -> Solid:

@@ -117,3 +117,27 @@ def test_a_drone_passes_a_long_house_nearer_than_its_corners_reach(tmp_path: Pat
     (wall,) = (c for c in plan.certificate if c.constraint == "target house")
     assert 3.0 < wall.worst < 6.0  # the cylinder about it reaches 30 m
     assert judge(case_of(path, "none")) == []
+
+
+def test_a_long_train_on_a_straight_line_is_passed_nearer_than_it_is_long(tmp_path: Path) -> None:
+    text = HEAD.replace(BEND, "{start: [-20, 0, 1.8], velocity: [3, 0.5, 0]}")
+    text = text.replace("size: [4.5, 1.8, 1.5]", "size: [60, 3, 3.6]").replace("[-40, -30, 0]", "[0, -30, 0]")
+    shot = "  - {id: by, kind: lateral, drone: cam1, target: car, side: right, distance: 14, altitude: 6,\n"
+    path = tmp_path / "train.yaml"
+    path.write_text(
+        text + shot + "     composition: keep, timing: {start: 14, duration: 5}}\n", encoding="utf-8"
+    )
+    done = compiled(path, "none")
+    assert done.plan is not None, [(d.code, d.message) for d in done.diagnostics]
+    (side,) = (c for c in done.plan.certificate if c.constraint == "target car")
+    assert 9.0 < side.worst < 13.0  # the cylinder about it reaches 30 m
+    assert judge(case_of(path, "none")) == []
+
+
+def test_what_a_clearance_counts_from_is_told_where_it_is_not_the_body(tmp_path: Path) -> None:
+    shot = "  - {id: by, kind: lateral, drone: cam1, target: car, side: right, distance: 7, altitude: 3,\n"
+    path = tmp_path / "near.yaml"
+    path.write_text(HEAD + shot + "     timing: {start: 14, duration: 6}}\n", encoding="utf-8")
+    told = [d for d in compiled(path, "none").diagnostics if d.code == "V034"]
+    assert told
+    assert all(any("2.42 m in radius" in note for note in d.notes) for d in told)

@@ -32,6 +32,7 @@ class Pass(NamedTuple):
 
     name : of the solid, for people; path : in the mission; at : mission time, seconds
     has, needs : metres from the body then; least : metres on the whole way
+    counts_from : what they count from, where that is not the solid itself
     """
 
     name: str
@@ -41,6 +42,7 @@ class Pass(NamedTuple):
     has: float
     needs: float
     least: float = 0.0
+    counts_from: str = ""
 
 
 def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
@@ -65,7 +67,7 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
     """Return where a flight breaks a claim, way by way, the worst first."""
     mission, name = ir.keyframes.mission, claim.constraint.removesuffix(ENDING)
     track = next(t for t in ir.drones if t.drone == claim.subject)
-    solid, path, curve = _solid(mission, name, track)
+    solid, path, curve, counts_from = _solid(mission, name, track)
     radius = mission.drone(track.drone).radius
     kind, _, own = name.partition(" ")
     passes = []
@@ -78,7 +80,8 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
         least = inf_distance(cut(curve, way.start, way.end), solid, gap(radius))
         has = distance(solid, (x, y, z))
         passed = Pass(f"{kind} `{own}`", path, way, bound.at, has - radius, float(needs) - radius)
-        passes.append((bound.proven, passed._replace(least=least.proven - radius)))
+        passed = passed._replace(least=least.proven - radius, counts_from=counts_from)
+        passes.append((bound.proven, passed))
     return [one for _, one in sorted(passes, key=lambda pair: pair[0])]
 
 
@@ -88,6 +91,7 @@ class _Named(NamedTuple):
     solid: Solid
     path: KeyPath
     curve: Piecewise
+    counts_from: str = ""
 
 
 def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
@@ -95,7 +99,7 @@ def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
     curve = track.curve.channels(0, 1, 2)
     for target in mission.targets:
         if name == f"target {target.name}":
-            return _Named(target.kept_clear, target.path, beside(curve, target))
+            return _Named(target.kept_clear, target.path, beside(curve, target), target.counts_from)
     zone = next(zone for zone in mission.zones if name == f"zone {zone.name}")
     return _Named(zone.solid, zone.path, curve)
 
@@ -104,6 +108,7 @@ def _told(ir: TrajectoryIR, together: list[tuple[Claim, Pass]]) -> Diagnostic:
     claim, worst = together[0]
     message = f"{claim.subject} passes {_near(claim, worst)}"
     notes = [_when(claim, worst), *(f"and {_near(c, p)}; {_when(c, p)}" for c, p in together[1:])]
+    notes += dict.fromkeys(p.counts_from for _, p in together if p.counts_from)
     keys = sorted({c.path[-1]: f"{c.path[-1]}: {_accepted(c, together)} m" for c, _ in together}.values())
     help_ = (
         f"write `rules: {{transit_clearance: {{{', '.join(keys)}}}}}` to accept and hold that, "
@@ -128,7 +133,8 @@ def _refused(ir: TrajectoryIR, claim: Claim, passed: Pass) -> Diagnostic:
         f"lower `transit_clearance.{key}` to {_held(passed.least)} m, or start the shot at another "
         "time, or give the way more room; then plan again"
     )
-    return Diagnostic(HARD, message, tuple(_labels(ir, claim, passed)), (_when(claim, passed),), help_)
+    notes = (_when(claim, passed), *filter(None, (passed.counts_from,)))
+    return Diagnostic(HARD, message, tuple(_labels(ir, claim, passed)), notes, help_)
 
 
 def _near(claim: Claim, passed: Pass) -> str:

@@ -160,7 +160,7 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
     if met is not None:
         return met
     phase = _phase_of(ir, claim)
-    notes = list(_notes(claim, phase))
+    notes = [*_notes(claim, phase), *_counts_from(mission, claim)]
     shot = _shot(mission, claim.shot)
     if rule.code in PROMISES and isinstance(shot, Shot):
         message = broken_promise(claim, rule.code)
@@ -250,6 +250,13 @@ def _notes(claim: Claim, phase: Phase | None) -> Iterator[str]:
         yield "proved over continuous time"
     elif claim.method == "sampled":
         yield "found at the output rate"
+
+
+def _counts_from(mission: MissionIR, claim: Claim) -> Iterator[str]:
+    """Yield what the distance of a claim counts from, where that is not the target's body."""
+    for target in mission.targets:
+        if claim.constraint.startswith(f"target {target.name}") and target.counts_from:
+            yield target.counts_from
 
 
 def _name(claim: Claim, code: str) -> str:

@@ -140,7 +140,7 @@ def clearances(case: Case, flight: Flight) -> Iterator[Worst]:
     for target in (body for body in mission.targets.values() if not body.parts):
 
         def room(t: Array, target=target) -> Array:
-            return target.kept_clear(t).distance(flight.at(t)[:, :3]) - radius
+            return target.room(flight.at(t)[:, :3], t) - radius
 
         needed = mission.rule("target_clearance", BESIDE_TARGETS)
         yield searched(f"target {target.name}", flight.drone, needed, aloft, room)

@@ -9,7 +9,7 @@ import numpy as np
 
 from tests.support.second_opinion.flight import Array
 from tests.support.second_opinion.quantities import number
-from tests.support.second_opinion.solids import Cylinder, Prism
+from tests.support.second_opinion.solids import Cylinder
 
 RIM = 180  # points of a rim; between two of them it bulges by 1.5e-4 of the radius
 STILL = 0.1  # metres over the second before and the one after; what goes less keeps its course
@@ -96,13 +96,27 @@ class Target:
         up = np.full_like(x, self.size.height / 2)
         return np.concatenate([centre + np.stack([x, y, z], axis=-1) for z in (up, -up)], axis=1)
 
-    def kept_clear(self, t: Array) -> Cylinder | Prism:
-        """Return what a clearance counts from: the body, of a box that moves the cylinder about it."""
+    def room(self, p: Array, t: Array) -> Array:
+        """Return how far places (M, 3) are at times (M,) from what clearances count from.
+
+        That is the body, and of a box that does not go one way only the cylinder about it.
+        """
+        if self.size.half is None or not self.turns:
+            return self.distance(p[:, None], t)[:, 0]
         at, up = self.at(t), self.size.height / 2
-        if self.size.half is None or self.moves:
-            return Cylinder(at[:, :2], self.size.radius, at[:, 2] - up, at[:, 2] + up)
-        corners = self.outline(t[:1])[0, :4, :2]
-        return Prism(corners, float(at[0, 2]) - up, float(at[0, 2]) + up)
+        return Cylinder(at[:, :2], self.size.radius, at[:, 2] - up, at[:, 2] + up).distance(p)
+
+    @property
+    def turns(self) -> bool:
+        """Whether it faces another way at one time than at another."""
+        if self.facing is not None:
+            return bool(np.ptp(self.facing) > 0)
+        ways = np.diff(np.vstack([self.points, self.points[-1] + self.velocity]), axis=0)[:, :2]
+        ways = ways[np.linalg.norm(ways, axis=1) > 1e-9]
+        if not len(ways):
+            return self.moves
+        ways = ways / np.linalg.norm(ways, axis=1)[:, None]
+        return bool((ways @ ways[0] < 1 - 1e-12).any())
 
     def distance(self, p: Array, t: Array) -> Array:
         """Return how far places (M, K, 3) are outside of the body at times (M,), shape (M, K)."""

@@ -79,11 +79,14 @@ def _fault(mission: MissionIR, drone: Drone, target: Target, when: float, why: s
         mission.origins.value((*drone.path, "home")),
         mission.origins.value((*target.path, "track"), "comes over the pad"),
     )
-    note = f"its body touches the drone's on the pad at t = {when:.1f} s; {why}"
+    notes = (
+        f"its body touches the drone's on the pad at t = {when:.1f} s; {why}",
+        *filter(None, (target.counts_from,)),
+    )
     aside = beside_tracks(mission, drone, target)
     help_ = f"{aside}, or have `{target.name}` pass at another time"
     message = f"target `{target.name}` comes over the pad of `{drone.name}` while the drone is on it"
-    return Diagnostic("M012", message, labels, (note,), help_)
+    return Diagnostic("M012", message, labels, notes, help_)
 
 
 def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
