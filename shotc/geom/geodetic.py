@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import cos, radians, sin, sqrt
 
-from shotc.geom.vec import Vec3
+from shotc.geom.vec import Vec2, Vec3
 
 SEMI_MAJOR_M = 6378137.0  # metres, WGS84
 FLATTENING = 1 / 298.257223563
@@ -40,6 +41,31 @@ def above_ground(place: Vec3, origin: Vec3) -> Vec3:
     _, _, z = to_world((lat, lon, origin[2] + height), origin)
     x, y, _ = to_world((lat, lon, origin[2] + 2 * height - z), origin)  # the vertical is all but upright
     return (x, y, height)
+
+
+def onto_plane(origin: Vec3) -> Callable[[float, float], Vec2]:
+    """Return what puts latitude and longitude, degrees, onto the plane z = 0, as ``above_ground`` does.
+
+    For many places: what depends on the origin alone is computed once.
+    """
+    base = _earth_centred(origin)
+    lat, lon = radians(origin[0]), radians(origin[1])
+    east = (-sin(lon), cos(lon), 0.0)
+    north = (-sin(lat) * cos(lon), -sin(lat) * sin(lon), cos(lat))
+    up = (cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat))
+    height = origin[2]
+
+    def put(latitude: float, longitude: float) -> Vec2:
+        b, turn = radians(latitude), radians(longitude)
+        s, c, cl, sl = sin(b), cos(b), cos(turn), sin(turn)
+        normal = SEMI_MAJOR_M / sqrt(1 - _E2 * s * s)
+        ring = (normal + height) * c
+        dx, dy, dz = ring * cl - base[0], ring * sl - base[1], (normal * (1 - _E2) + height) * s - base[2]
+        z = up[0] * dx + up[1] * dy + up[2] * dz
+        dx, dy, dz = dx - z * c * cl, dy - z * c * sl, dz - z * s  # along the vertical of the place
+        return (east[0] * dx + east[1] * dy, north[0] * dx + north[1] * dy + north[2] * dz)
+
+    return put
 
 
 def _earth_centred(place: Vec3) -> Vec3:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.geodetic import above_ground
-from shotc.geom.vec import Vec2
+from shotc.geom.geodetic import onto_plane
 from shotc.ir.mission import GeoOrigin
 from shotc.kinds.base import bad_file
 from shotc.kinds.earth import FARTHEST, stray
@@ -34,13 +33,8 @@ def read_buildings(
     found = read_geojson(data)
     if isinstance(found, FileFault):
         return (), [bad_file(files.origins, BUILDINGS, written.file, found)]
-    base = (origin.lat_deg, origin.lon_deg, origin.alt)
-
-    def project(place: Vec2) -> Vec2:
-        x, y, _ = above_ground((place[1], place[0], 0.0), base)
-        return (x, y)
-
-    houses = houses_of(found.footprints, project, FARTHEST, written.height)
+    put = onto_plane((origin.lat_deg, origin.lon_deg, origin.alt))
+    houses = houses_of(found.footprints, lambda place: put(place[1], place[0]), FARTHEST, written.height)
     wrong = list(_errors(written, houses, files))
     if not wrong and not houses.houses:
         wrong = [_without_any(written, found, houses, files)]

@@ -9,7 +9,7 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.geom.surface.under_rings import lowest_under
-from shotc.ir.obstacle_mesh import obstacle_mesh
+from shotc.ir.obstacle_mesh import ObstacleMesh, obstacle_mesh
 from shotc.ir.terrain import Terrain
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
@@ -38,10 +38,7 @@ def buildings_mesh(houses: Sequence[House], name: str, terrain: Terrain | None, 
         faults = (Diagnostic("G037", message, label, help="take an elevation model that covers them"),)
     if not standing:
         return Obstacles(faults=faults)
-    pieces = [_prism(house, z) for house, z in standing]
-    part = np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces])
-    names = tuple(house.name for house, _ in standing)
-    return Obstacles((obstacle_mesh("buildings", name, np.concatenate(pieces), (part, names)),), faults)
+    return Obstacles((_prisms(name, standing),), faults)
 
 
 def _ground(terrain: Terrain | None, houses: Sequence[House]) -> Array:
@@ -51,16 +48,23 @@ def _ground(terrain: Terrain | None, houses: Sequence[House]) -> Array:
     return lowest_under(terrain.ground, [np.array(house.ring) for house in houses])
 
 
-def _prism(house: House, ground: float) -> Array:
-    """Return the triangles of a building's walls, of its lid and of its floor, facing outward; (T, 3, 3)."""
-    low, high = ground + house.bottom, ground + house.top
-    a = np.array(house.ring)
-    b = np.roll(a, -1, axis=0)
-    bottom = np.full((len(a), 1), low)
-    top = np.full((len(a), 1), high)
-    a0, b0, a1, b1 = (np.hstack(parts) for parts in ((a, bottom), (b, bottom), (a, top), (b, top)))
-    lid = np.array(house.lid)
-    flat = np.ones((*lid.shape[:2], 1))
-    above, below = np.concatenate([lid, high * flat], axis=2), np.concatenate([lid, low * flat], axis=2)
+def _prisms(name: str, standing: Sequence[tuple[House, float]]) -> ObstacleMesh:
+    """Return the triangles of walls, lids and floors, facing outward; standing : (house, z of its ground)."""
+    houses = [house for house, _ in standing]
+    low = np.array([z + house.bottom for house, z in standing])
+    high = np.array([z + house.top for house, z in standing])
+    sizes = np.array([len(house.ring) for house in houses])
+    begins = np.cumsum(sizes) - sizes
+    side = np.repeat(np.arange(len(houses)), sizes)
+    a = np.array([corner for house in houses for corner in house.ring])
+    after = np.arange(len(a)) + 1
+    after[begins + sizes - 1] = begins
+    b = a[after]
+    a0, b0, a1, b1 = (np.column_stack([p, z[side]]) for z in (low, high) for p in (a, b))
+    flat = np.array([triangle for house in houses for triangle in house.lid])
+    over = np.repeat(np.arange(len(houses)), [len(house.lid) for house in houses])
+    lid, floor = (np.dstack([flat, np.repeat(z[over][:, None], 3, axis=1)]) for z in (high, low))
     walls = [np.stack([a0, b0, b1], axis=1), np.stack([a0, b1, a1], axis=1)]
-    return np.concatenate([*walls, above, below[:, ::-1]])
+    part = np.concatenate([side, side, over, over])
+    names = tuple(house.name for house in houses)
+    return obstacle_mesh("buildings", name, np.concatenate([*walls, lid, floor[:, ::-1]]), (part, names))
