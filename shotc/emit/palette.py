@@ -22,6 +22,8 @@ SKY: Rgb = (0.82, 0.88, 0.93)
 SKY_LOW: Rgb = (0.93, 0.95, 0.96)
 GROUND: Rgb = (0.80, 0.79, 0.73)
 GROUND_FAR: Rgb = (0.88, 0.88, 0.85)
+STONE: Rgb = (0.66, 0.63, 0.60)
+"""Scenes and buildings: what stands there and is neither filmed nor a zone."""
 WHITE: Rgb = (1.0, 1.0, 1.0)
 
 PICTURES: tuple[Rgb, ...] = (

@@ -11,6 +11,7 @@ from rerun.encodings import AbsoluteTimeRange
 
 from shotc.emit.rerun_log.clock import FILMED, MISSION
 from shotc.emit.rerun_log.motion import camera_entity, frame_size
+from shotc.emit.rerun_log.obstacle_meshes import STANDING
 from shotc.emit.rerun_log.opening import Stand, filmed_span, first_stand
 from shotc.emit.rerun_log.series import Plot
 from shotc.emit.rerun_log.terrain_mesh import TERRAIN
@@ -118,7 +119,8 @@ def camera_view(mission: MissionIR, drone: Drone, camera: str, name: str) -> Any
     """Return the view through a drone's camera, which is logged at the entity ``camera``."""
     hidden = [f"- /world/zones/{zone.name}/**" for zone in mission.zones if zone.keep == "in"]
     ground = "world/ground" if mission.terrain is None else TERRAIN
-    shown = (ground, "world/zones", "world/targets", f"{camera}/screen")
+    standing = (STANDING,) if mission.meshes else ()
+    shown = (ground, *standing, "world/zones", "world/targets", f"{camera}/screen")
     width, height = frame_size(drone)
     return rrb.Spatial2DView(
         origin=f"{camera}/lens",

@@ -9,6 +9,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTICAL, WHITE, Rgb, rgba8, shade
+from shotc.emit.rerun_log.obstacle_meshes import log_meshes
 from shotc.emit.rerun_log.terrain_mesh import log_terrain
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
@@ -49,6 +50,7 @@ def log_scene(stream: Any, plan: VerifiedIR) -> None:
         _ground(stream, plan)
     else:
         log_terrain(stream, mission.terrain.ground)
+    log_meshes(stream, mission)
     _zones(stream, mission)
     _targets(stream, mission, scene_time(plan))
     for drone in mission.drones:

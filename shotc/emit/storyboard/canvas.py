@@ -176,8 +176,12 @@ class Canvas:
         )
 
     def image(self, pixels: NDArray[np.uint8], box: Box) -> None:
-        """Put a picture into a rectangle; pixels : shape (rows, columns, 3), the upper left one first."""
-        picture = BboxImage(self._window(box), interpolation="bilinear", origin="upper")
+        """Put a picture into a rectangle; pixels : shape (rows, columns, 3), the upper left one first.
+
+        Or (rows, columns, 4), where what is not opaque shows what is below.
+        """
+        smooth = "bilinear" if pixels.shape[2] == 3 else "nearest"  # or colours of what is not there mix in
+        picture = BboxImage(self._window(box), interpolation=smooth, origin="upper")
         picture.set_data(pixels)
         self._add(picture, None)
 

@@ -33,6 +33,7 @@ from shotc.emit.storyboard.contours import (
 from shotc.emit.storyboard.furniture import height_marks, north_arrow, round_length, scale_bar, view_name
 from shotc.emit.storyboard.labels import Label, nearest_room, write_labels
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
+from shotc.emit.storyboard.standing import draw_on_map
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import view
 from shotc.geom.solids import Cylinder, convex_hull
@@ -59,6 +60,7 @@ def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, gri
     _paper(canvas, sheet, step, relief)
     if not sheet.is_plan:
         _ground_below(canvas, sheet, board, mission)
+    draw_on_map(canvas, sheet, mission)
     zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
     for moment in board.moments:

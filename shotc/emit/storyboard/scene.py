@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from math import dist, hypot
 
 import numpy as np
@@ -14,6 +14,7 @@ from shotc.emit.storyboard.camera_picture import Picture
 from shotc.emit.storyboard.canvas import Box, Canvas
 from shotc.emit.storyboard.fan import FanPainter, fan_of
 from shotc.emit.storyboard.flat_ground import draw_flat, draw_sky
+from shotc.emit.storyboard.standing import MeshPainter
 from shotc.geom.bernstein import Array
 from shotc.geom.shapes import BoxShape, bodies_of
 from shotc.geom.silhouette import shape_outline, solid_edges, solid_outlines
@@ -36,20 +37,29 @@ def draw_scene(
     """
     subjects = {part for name in subjects for part in mission.parts_of(name)}
     things = painting_order(shown.eye, _things(mission))
+    layers: list[FanPainter | MeshPainter] = []
+    away = [AT_FOOT * _distance(shown.eye, thing) for thing in things]
+    meshes = MeshPainter(canvas, shown, mission) if mission.meshes else None
+    bands: list[float] = []
     if mission.terrain is None:
         draw_flat(canvas, shown, grid)
-        for thing in things:
-            _thing(canvas, shown, thing, subjects)
-        return
-    draw_sky(canvas, shown, SKY_LOW)
-    away = [AT_FOOT * _distance(shown.eye, thing) for thing in things]
-    fan = fan_of(shown, mission.terrain.ground, away)
-    ground = FanPainter(canvas, shown, fan, grid)
+    else:
+        draw_sky(canvas, shown, SKY_LOW)
+        bands = [] if meshes is None else meshes.bands
+        layers.append(FanPainter(canvas, shown, fan_of(shown, mission.terrain.ground, [*away, *bands]), grid))
+    layers += [] if meshes is None else [meshes]
     for thing, distance in zip(things, away, strict=True):
         # What is nearer than a thing comes after it, and so hides what it stands before.
-        ground.draw_beyond(distance)
+        _draw_beyond(layers, distance, bands)
         _thing(canvas, shown, thing, subjects)
-    ground.draw_beyond(0.0)
+    _draw_beyond(layers, 0.0, bands)
+
+
+def _draw_beyond(layers: Sequence[FanPainter | MeshPainter], distance: float, bands: Sequence[float]) -> None:
+    """Draw what is left beyond a distance in the plan, by turns where there are bands of it, metres."""
+    for band in [*(b for b in sorted(bands, reverse=True) if b > distance), distance]:
+        for layer in layers:
+            layer.draw_beyond(band)
 
 
 def _thing(canvas: Canvas, shown: Picture, thing: Target | Zone, subjects: Collection[str]) -> None:

@@ -1,0 +1,58 @@
+"""Scenes and buildings as pictures need them: triangles, and how light each is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.emit.hillshade import LIGHT, shades
+from shotc.emit.palette import STONE
+from shotc.geom.bernstein import Array
+from shotc.geom.surface.triangles import cross
+from shotc.ir.obstacle_mesh import ObstacleMesh
+
+LEVEL, CONTRAST = 0.86, 0.4
+"""How light a face is that the light goes along, and how much lighter one that faces it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Faces:
+    """Triangles (N, 3, 3), metres of W, and their colours (N, 3), shares from 0 to 1."""
+
+    triangles: Array
+    colors: Array
+
+
+def faces_of(meshes: Iterable[ObstacleMesh], eye: Array) -> Faces:
+    """Return the triangles of meshes in the light of a hillshade, each seen from the side of an eye (3,).
+
+    A point of a cloud is a square that faces the eye, as large as what the point stands for.
+    """
+    parts = [_turned(mesh, eye) for mesh in meshes]
+    triangles = np.concatenate([np.zeros((0, 3, 3)), *parts])
+    normal = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    normal = normal / np.where(size > 0.0, size, 1.0)
+    away = np.einsum("nd,nd->n", normal, eye - triangles.mean(axis=1)) < 0.0
+    normal[away] *= -1.0
+    light = np.clip(LEVEL + CONTRAST * (normal @ LIGHT), 0.45, 1.3)
+    return Faces(triangles, shades(np.array(STONE), light))
+
+
+def _turned(mesh: ObstacleMesh, eye: Array) -> Array:
+    triangles = mesh.surface.triangles
+    points = (triangles == triangles[:, :1]).all(axis=(1, 2))
+    if mesh.spacing <= 0.0 or not points.any():
+        return triangles
+    p = triangles[points, 0]
+    to = eye - p
+    right = np.column_stack([-to[:, 1], to[:, 0], np.zeros(len(p))])
+    level = np.linalg.norm(right, axis=1, keepdims=True)
+    right = np.where(level > 0.0, right / np.where(level > 0.0, level, 1.0), [1.0, 0.0, 0.0])
+    up = cross(to, right)
+    up /= np.maximum(np.linalg.norm(up, axis=1, keepdims=True), 1e-9)
+    a, b = mesh.spacing * (right + up), mesh.spacing * (right - up)
+    one, other = np.stack([p - a, p + b, p + a], axis=1), np.stack([p - a, p + a, p - b], axis=1)
+    return np.concatenate([triangles[~points], one, other])

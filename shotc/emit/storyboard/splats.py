@@ -1,0 +1,156 @@
+"""Triangles as pixels: each is covered by points less than a pixel apart, of which the nearest is seen.
+
+However many triangles there are, a picture costs about as many points as it has pixels, times how often they
+lie behind one another. What is larger than a few pixels is quartered first, and what is outside is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mesh_shades import Faces
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
+
+LONGEST_PX = 48.0
+"""Longest side of a triangle that is covered by points at once."""
+LEAST_M = 0.2
+"""Longest side of a triangle that is behind the eye in part, metres."""
+STEP_PX = 0.7
+"""Points of a triangle are nearer to each other than this."""
+AT_ONCE = 1_000_000
+"""Points that are made at once."""
+EDGE = 0.82
+"""How light a pixel is beside one that is far nearer."""
+NEARER = 0.06
+"""Share of its distance by which that one is nearer."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OnPage:
+    """Points as a picture shows them.
+
+    at     : shape (..., 2), columns and rows of pixels, rows from the top
+    depth  : shape (...), the less the nearer; inf where a point is not in front of the picture
+    beyond : shape (..., n), on whose outer side of n planes it is that bound what is seen
+    """
+
+    at: Array
+    depth: Array
+    beyond: Mask
+
+
+Project = Callable[[Array], OnPage]
+"""Takes points (..., 3), metres of W."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Raster:
+    """The nearest point of each pixel.
+
+    colors : shape (rows, columns, 3), 0 to 1; points : W, (rows, columns, 3), NaN where there is none
+    """
+
+    colors: Array
+    points: Array
+
+    @property
+    def shown(self) -> Mask:
+        """Which pixels there is something in, (rows, columns)."""
+        return ~np.isnan(self.points[..., 0])
+
+    def pixels(self, which: Mask) -> NDArray[np.uint8]:
+        """Return some of the pixels as bytes (rows, columns, 4); the others are not opaque."""
+        out = np.zeros((*which.shape, 4), dtype=np.uint8)
+        out[..., :3] = np.round(255.0 * self.colors)
+        out[..., 3] = np.where(which & self.shown, 255, 0)
+        return out
+
+
+def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> Raster:
+    """Return what a picture of size (rows, columns) shows of triangles."""
+    rows, columns = size
+    depth = np.full(rows * columns, np.inf)
+    colors, points = np.zeros((rows * columns, 3)), np.full((rows * columns, 3), np.nan)
+    small = _small(faces, project)
+    page = project(small.triangles)
+    sides = np.linalg.norm(page.at - page.at[:, [1, 2, 0]], axis=2).max(axis=1)
+    cuts = np.maximum(1, np.ceil(np.nan_to_num(sides, posinf=LONGEST_PX) / STEP_PX)).astype(int)
+    for cut in np.unique(cuts):
+        share = _shares(int(cut))
+        own = np.flatnonzero(cuts == cut)
+        for some in np.array_split(own, 1 + len(own) * len(share) // AT_ONCE):
+            p = np.einsum("sv,nvd->nsd", share, small.triangles[some]).reshape(-1, 3)
+            tint = np.repeat(small.colors[some], len(share), axis=0)
+            _put(project(p), p, tint, (depth, colors, points), size)
+    depth = depth.reshape(size)
+    lined = colors.reshape(rows, columns, 3) * _edges(depth)[..., None]
+    return Raster(lined, points.reshape(rows, columns, 3))
+
+
+def _small(faces: Faces, project: Project) -> Faces:
+    """Return the triangles that may be seen, none longer than LONGEST_PX."""
+    triangles, colors = faces.triangles, faces.colors
+    done = [Faces(triangles[:0], colors[:0])]
+    while len(triangles):
+        page = project(triangles)
+        seen = ~np.any(np.all(page.beyond, axis=1), axis=1)
+        before = np.isfinite(page.depth).all(axis=1)
+        sides = np.linalg.norm(page.at - page.at[:, [1, 2, 0]], axis=2).max(axis=1)
+        edges = np.linalg.norm(triangles - triangles[:, [1, 2, 0]], axis=2).max(axis=1)
+        large = seen & np.where(before, sides > LONGEST_PX, edges > LEAST_M)
+        keep = seen & ~large
+        done.append(Faces(triangles[keep], colors[keep]))
+        triangles, colors = _quartered(triangles[large]), np.tile(colors[large], (4, 1))
+    return Faces(
+        np.concatenate([some.triangles for some in done]), np.concatenate([some.colors for some in done])
+    )
+
+
+def _quartered(triangles: Array) -> Array:
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.concatenate([np.stack(part, axis=1) for part in parts])
+
+
+def _shares(cut: int) -> Array:
+    """Return the weights of corners at points of a triangle whose sides are cut into so many, (S, 3)."""
+    i, j = np.meshgrid(np.arange(cut + 1), np.arange(cut + 1), indexing="ij")
+    inside = i + j <= cut
+    i, j = i[inside], j[inside]
+    return np.asarray(np.column_stack([i, j, cut - i - j]) / cut)
+
+
+def _put(
+    page: OnPage, p: Array, tint: Array, into: tuple[Array, Array, Array], size: tuple[int, int]
+) -> None:
+    """Put points into the pixels where they are the nearest yet; into : depths, colours, points."""
+    rows, columns = size
+    ok = np.isfinite(page.depth)
+    column, row = np.full(len(p), -1), np.full(len(p), -1)
+    column[ok], row[ok] = np.floor(np.clip(page.at[ok], -1.0, 1e6)).astype(int).T
+    ok &= (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
+    pixel, depth = (row * columns + column)[ok], page.depth[ok]
+    order = np.lexsort((depth, pixel))
+    first = order[np.concatenate([[True], np.diff(pixel[order]) > 0])] if len(order) else order
+    first = first[depth[first] < into[0][pixel[first]]]
+    into[0][pixel[first]] = depth[first]
+    into[1][pixel[first]] = tint[ok][first]
+    into[2][pixel[first]] = p[ok][first]
+
+
+def _edges(depth: Array) -> Array:
+    """Return how light pixels are: darker beside what is far nearer, or where there is nothing."""
+    light = np.ones_like(depth)
+    for axis in (0, 1):
+        for step in (1, -1):
+            beside = np.roll(depth, step, axis=axis)
+            shown = np.isfinite(depth)
+            near = np.where(shown, depth, 0.0) * (1.0 - NEARER)
+            light[shown & ((beside < near) | np.isinf(beside))] = EDGE
+    return light

@@ -1,0 +1,97 @@
+"""Scenes and buildings in a storyboard: as a camera sees them, and on maps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.emit.hillshade import shades
+from shotc.emit.mesh_shades import Faces, faces_of
+from shotc.emit.palette import STONE
+from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.canvas import Canvas
+from shotc.emit.storyboard.sheet import Sheet
+from shotc.emit.storyboard.splats import OnPage, raster_of
+from shotc.geom.bernstein import Array
+from shotc.geom.surface.triangles import TINY, cross
+from shotc.ir.mission import MissionIR
+
+PIXELS_AN_INCH = 165.0
+NEAR_M = 0.05
+"""Depth from which something is drawn, metres."""
+FAR_M = 1e5
+"""Where the eye of a map is, metres off."""
+UPRIGHT = 0.75
+"""How light on a map a face is that is seen edge on."""
+BANDS = 24
+"""Distances at which terrain and what stands on it are drawn by turns."""
+
+
+class MeshPainter:
+    """Draws the meshes of a mission into a picture, from the far to the near, bit by bit."""
+
+    def __init__(self, canvas: Canvas, shown: Picture, mission: MissionIR) -> None:
+        self._canvas, self._shown = canvas, shown
+        eye, half = np.array(shown.eye), (float(shown.camera.half_width), float(shown.camera.half_height))
+        rows, columns = _size(shown.box.height), _size(shown.box.width)
+
+        def project(p: Array) -> OnPage:
+            d = p - eye
+            right, down, ahead = shown.camera.to_camera((d[..., 0], d[..., 1], d[..., 2]))
+            depth = np.where(ahead > NEAR_M, ahead, np.inf)
+            safe = np.where(ahead > NEAR_M, ahead, 1.0)
+            at = [
+                0.5 * columns * (1.0 + right / safe / half[0]),
+                0.5 * rows * (1.0 + down / safe / half[1]),
+            ]
+            aside, above = half[0] * ahead, half[1] * ahead
+            beyond = [right > aside, right < -aside, down > above, down < -above, ahead <= NEAR_M]
+            return OnPage(np.stack(at, axis=-1), np.asarray(depth), np.stack(beyond, axis=-1))
+
+        self._raster = raster_of(faces_of(mission.meshes, eye), project, (rows, columns))
+        apart = self._raster.points[..., :2] - eye[:2]
+        self._away = np.nan_to_num(np.hypot(apart[..., 0], apart[..., 1]), nan=-1.0)
+        self._drawn = np.inf
+
+    @property
+    def bands(self) -> list[float]:
+        """Distances in the plan from the nearest to the farthest of what is seen, metres."""
+        seen = self._away[self._away > 0.0]
+        return list(np.geomspace(seen.min(), seen.max(), BANDS)) if seen.size else []
+
+    def draw_beyond(self, distance: float) -> None:
+        """Draw what is left of the meshes beyond a distance in the plan, metres."""
+        now = (self._away >= distance) & (self._away < self._drawn)
+        self._drawn = min(self._drawn, distance)
+        if now.any():
+            self._canvas.image(self._raster.pixels(now), self._shown.box)
+
+
+def _size(inches: float) -> int:
+    return max(1, round(inches * PIXELS_AN_INCH))
+
+
+def draw_on_map(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
+    """Draw the meshes of a mission on a plan or on a side view."""
+    if not mission.meshes:
+        return
+    box = sheet.box
+    size = (_size(box.height), _size(box.width))
+    right, up = sheet.axes
+    ahead = np.cross(up, right)
+
+    def project(p: Array) -> OnPage:
+        place = sheet.place(p)
+        column, row = (
+            (place[..., 0] - box.x) / box.width * size[1],
+            (box.top - place[..., 1]) / box.height * size[0],
+        )
+        beyond = [column < 0.0, column > size[1], row < 0.0, row > size[0]]
+        return OnPage(np.stack([column, row], axis=-1), FAR_M + p @ ahead, np.stack(beyond, axis=-1))
+
+    faces = faces_of(mission.meshes, -FAR_M * ahead)
+    a, b, c = (faces.triangles[:, k] for k in range(3))
+    normal = cross(b - a, c - a)
+    across = np.abs(normal @ ahead) / np.maximum(np.linalg.norm(normal, axis=1), TINY)
+    flat = Faces(faces.triangles, shades(np.array(STONE), UPRIGHT + (1.0 - UPRIGHT) * across))
+    raster = raster_of(flat, project, size)
+    canvas.image(raster.pixels(raster.shown), box)
