@@ -35,7 +35,7 @@ Fault = tuple[str, str]
 def inconsistencies(ir: TrajectoryIR) -> Iterator[Fault]:
     """Yield (path, fault) of everything that would make the plan meaningless to prove."""
     mission = ir.keyframes.mission
-    yield from _mission(mission)
+    yield from mission_faults(mission)
     for i, drone in enumerate(mission.drones):
         yield from _drone(drone, f"mission.drones[{i}]")
     yield from _names(mission, ir)
@@ -44,7 +44,8 @@ def inconsistencies(ir: TrajectoryIR) -> Iterator[Fault]:
     yield from fleet_faults(ir)
 
 
-def _mission(mission: MissionIR) -> Iterator[Fault]:
+def mission_faults(mission: MissionIR) -> Iterator[Fault]:
+    """Yield (path, fault) of what a mission says of its world and its rules."""
     if not 0 < mission.rate <= 1000:
         yield "mission.rate", f"{mission.rate:g} is not between 0 and 1000 samples a second"
     half_angle = mission.rules.half_angle

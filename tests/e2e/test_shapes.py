@@ -8,6 +8,7 @@ import pytest
 
 from shotc import api
 from shotc.checking import check_source
+from shotc.planfile.write import plan_bytes
 from tests.support.compiled import compiled
 from tests.support.second_opinion.case import Case
 from tests.support.second_opinion.compiled import case_of
@@ -72,6 +73,7 @@ def test_the_van_before_the_church_is_in_frame_at_every_instant() -> None:
     assert judge(case_of(VAN)) == []
     plan = compiled(VAN).plan
     assert plan is not None
+    assert api.verify_plan(plan_bytes(plan), "plan.json").plan is not None
     (van,) = (c for c in plan.certificate if c.constraint == "van in frame")
     assert (van.worst, van.method) == (1.0, "bounded")
     data = next(a.data for a in api.emit_plan(plan, ["csv"]).artifacts if a.name == "framing.csv")

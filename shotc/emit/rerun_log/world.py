@@ -146,11 +146,14 @@ def _targets(stream: Any, mission: MissionIR, last: float) -> None:
 
 def _motion(stream: Any, target: Target, last: float) -> None:
     times = np.linspace(0.0, last, int(np.clip(last * TRACK_RATE, 2, 6000)))
-    away = moved(target, times)
+    away, (translation, quaternion) = moved(target, times), carried(target, times)
+    columns = rr.Transform3D.columns(translation=translation)
+    if quaternion is not None:
+        columns = rr.Transform3D.columns(translation=translation, quaternion=quaternion)
     stream.send_columns(
         f"world/targets/{target.name}",
         indexes=[rr.TimeColumn("t", duration=times)],
-        columns=_transforms(target, times, away),
+        columns=columns,
     )
     way = rr.LineStrips3D(
         [away + np.array(target.centre)],
@@ -160,16 +163,27 @@ def _motion(stream: Any, target: Target, last: float) -> None:
     stream.log(f"world/tracks/{target.name}", way, static=True)
 
 
-def _transforms(target: Target, times: Array, away: Array) -> Any:
-    """Return how a body that is logged where it is at time 0 comes to where it is at times, (M,)."""
+class Carried(NamedTuple):
+    """How a body that is logged where it is at time 0 comes to where it is at some times: turned, then moved.
+
+    translation : metres, (M, 3); quaternion : xyzw, (M, 4), None where it does not turn
+    """
+
+    translation: Array
+    quaternion: Array | None
+
+
+def carried(target: Target, times: Array) -> Carried:
+    """Return how a target is carried along its track at mission times (M,)."""
+    away = moved(target, times)
     if target.track is None or not target.shape.turns:
-        return rr.Transform3D.columns(translation=away)
-    half = 0.5 * (headings(target.track, times) - target.track.heading(0.0))
-    none, cos, sin = np.zeros(len(times)), np.cos(2 * half), np.sin(2 * half)
-    x, y, z = target.centre
-    about = np.column_stack([cos * x - sin * y, sin * x + cos * y, np.full(len(times), z)])
-    turn = np.column_stack([none, none, np.sin(half), np.cos(half)])
-    return rr.Transform3D.columns(translation=away + np.array(target.centre) - about, quaternion=turn)
+        return Carried(away, None)
+    turn = headings(target.track, times) - target.track.heading(0.0)
+    none, (x, y, z) = np.zeros(len(times)), target.centre
+    # rerun turns about W's origin, and a body turns about its centre.
+    about = [x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn), np.full(len(times), z)]
+    quaternion = np.column_stack([none, none, np.sin(turn / 2), np.cos(turn / 2)])
+    return Carried(away + np.array(target.centre) - np.column_stack(about), quaternion)
 
 
 def _flight(stream: Any, plan: VerifiedIR, flight: DroneTrajectory) -> None:

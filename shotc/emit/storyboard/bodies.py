@@ -20,7 +20,7 @@ LIGHT = np.radians(215.0)
 STRIPS, RIM = 24, 64  # strips of the side of a cylinder, points of its rim
 
 
-class _Sides(NamedTuple):
+class Sides(NamedTuple):
     """The upright sides of a body that face an eye.
 
     edges : their upper edges' ends on the map, offsets from the eye, shape (n, 2, 2)
@@ -39,7 +39,7 @@ def draw_body(canvas: Canvas, shown: Picture, shape: BodyShape, offset: Vec3, co
     if not len(outline):
         return
     canvas.polygons([shown.place(outline)], color, clip=shown.box)
-    sides = _round(shape, offset) if isinstance(shape, CylinderShape) else _flat(shape.solid(offset).points)
+    sides = sides_seen(shape, offset)
     low, high = offset[2] - shape.height / 2, offset[2] + shape.height / 2
     strips, colors = [], []
     for (a, b), outward in zip(sides.edges, sides.outwards, strict=True):
@@ -56,7 +56,12 @@ def draw_body(canvas: Canvas, shown: Picture, shape: BodyShape, offset: Vec3, co
     canvas.polygons([shown.place(outline)], "none", shade(color, 0.55), 1.1, shown.box)
 
 
-def _round(shape: CylinderShape, offset: Vec3) -> _Sides:
+def sides_seen(shape: BodyShape, offset: Vec3) -> Sides:
+    """Return the upright sides of a body that face the eye; offset : its centre less the eye, W, metres."""
+    return _round(shape, offset) if isinstance(shape, CylinderShape) else _flat(shape.solid(offset).points)
+
+
+def _round(shape: CylinderShape, offset: Vec3) -> Sides:
     x, y, _ = offset
     away, radius = float(np.hypot(x, y)), shape.radius
 
@@ -65,17 +70,17 @@ def _round(shape: CylinderShape, offset: Vec3) -> _Sides:
 
     top = rim(np.linspace(0, 2 * np.pi, RIM + 1)[:-1])
     if away <= radius:
-        return _Sides(np.empty((0, 2, 2)), np.empty(0), top)
+        return Sides(np.empty((0, 2, 2)), np.empty(0), top)
     half = np.arccos(radius / away)
     turn = np.arctan2(-y, -x) + half * np.linspace(-1, 1, STRIPS + 1)
     seen = rim(turn)
-    return _Sides(np.stack([seen[:-1], seen[1:]], axis=1), (turn[:-1] + turn[1:]) / 2, top)
+    return Sides(np.stack([seen[:-1], seen[1:]], axis=1), (turn[:-1] + turn[1:]) / 2, top)
 
 
-def _flat(points: tuple[tuple[float, float], ...]) -> _Sides:
+def _flat(points: tuple[tuple[float, float], ...]) -> Sides:
     corners = np.array(points)
     edges = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     along = edges[:, 1] - edges[:, 0]
     outward = np.stack([along[:, 1], -along[:, 0]], axis=-1)  # the corners run counter-clockwise
     facing = (outward * edges[:, 0]).sum(axis=1) < 0
-    return _Sides(edges[facing], np.arctan2(outward[facing, 1], outward[facing, 0]), corners)
+    return Sides(edges[facing], np.arctan2(outward[facing, 1], outward[facing, 0]), corners)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import cos, pi, radians, sin
 
 import pytest
@@ -11,7 +12,10 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.shapes import BoxShape, GroupShape
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.mission import MissionIR
+from shotc.ir.target import Target
+from shotc.planfile.sanity import mission_faults
 from tests.support.front_passes import placed
+from tests.support.records import replace
 
 MISSION = """\
 shotc: 1
@@ -104,3 +108,34 @@ def test_what_is_wrong_is_told_on_its_line(target: str, code: str, line: int, me
     assert found[0].labels[0].span.line == line
     assert message in found[0].message
     assert found[0].help or code == "S004"
+
+
+@pytest.mark.parametrize(
+    ("change", "path"),
+    [
+        (lambda m: replace(m, targets=tuple(map(wider, m.targets))), "mission.targets[0].shape"),
+        (lambda m: replace(m, targets=tuple(map(longer, m.targets))), "mission.targets[0].shape"),
+        (lambda m: replace(m, targets=m.targets[1:]), "mission.groups[0]"),
+        (lambda m: replace(m, groups=tuple(map(moved, m.groups))), "mission.groups[0].shape"),
+    ],
+)
+def test_a_shape_in_a_plan_that_is_none_is_refused(
+    change: Callable[[MissionIR], MissionIR], path: str
+) -> None:
+    mission = resolved("nave: {at: [49, 0, 4], size: [10, 16, 8]}\n  church: {parts: [nave, mast]}")
+    assert not list(mission_faults(mission))
+    assert path in [where for where, _ in mission_faults(change(mission))]
+
+
+def wider(target: Target) -> Target:
+    """A box of less than no width."""
+    return target._replace(shape=target.shape._replace(width=-1.0)) if target.name == "nave" else target
+
+
+def longer(target: Target) -> Target:
+    """A course that is no unit vector."""
+    return target._replace(shape=target.shape._replace(ahead=(2.0, 0.0))) if target.name == "nave" else target
+
+
+def moved(group: Target) -> Target:
+    return group._replace(centre=(0.0, 0.0, 0.0))
