@@ -29,6 +29,7 @@ APART = "separation from "
 REFINED = ".refined"
 NOTHING = 1e-6
 """Of a limit's unit: less is rounding of what does not move."""
+WHOLE = percent(1.0)
 LIMITS = ("speed", "climb", "descent", "acceleration", "jerk", "body yaw rate")
 
 
@@ -69,15 +70,18 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
             rows.append((*(own if i == 0 else ("",) * len(own)), target or "-", *_framing(summary)))
     several = any(len(names) > 1 for names in targets.values())
     in_frame = "in frame" if several else "target in frame"
-    head = ("drone", "shot", "kind", "from", "lasts", "target", in_frame, "screen error", "size")
-    known = {"drone": len(plan.trajectory.drones) == 1, "target": not several}
+    head = ("drone", "shot", "kind", "from", "lasts", "target", in_frame, "visible", "screen error", "size")
+    covered = any(row[head.index("visible")] not in ("-", WHOLE) for row in rows)
+    known = {"drone": len(plan.trajectory.drones) == 1, "target": not several, "visible": not covered}
     shown = [k for k, name in enumerate(head) if not known.get(name)]
     return [tuple(row[k] for k in shown) for row in (head, *rows)]
 
 
-def _framing(summary: ScreenSummary) -> tuple[str, str, str]:
+def _framing(summary: ScreenSummary) -> tuple[str, str, str, str]:
+    """Return the share of frames with the whole target, the least of it that is free, error and size."""
     return (
         "-" if summary.in_frame is None else percent(summary.in_frame),
+        "-" if summary.visible is None else percent(summary.visible),
         "-" if summary.error is None else at_least(summary.error, 3),
         "-" if summary.size is None else f"{at_most(summary.size[0])} to {at_least(summary.size[1])}",
     )

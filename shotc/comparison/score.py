@@ -53,6 +53,7 @@ def score(traces: Sequence[Trace], squared_jerk: float, duration: float) -> Scor
     """Return the score of some traces; squared_jerk : its integral over the time filmed, m^2/s^5."""
     margin = np.concatenate([np.empty(0), *(trace.margin for trace in traces)])
     points = np.concatenate([np.empty(0), *(trace.points for trace in traces)])
+    covered = np.concatenate([np.empty(0), *(trace.covered for trace in traces)])
     error = np.concatenate([np.empty(0), *(trace.error for trace in traces)])
     error = np.sort(error[~np.isnan(error)])
     count = len(error)
@@ -63,6 +64,7 @@ def score(traces: Sequence[Trace], squared_jerk: float, duration: float) -> Scor
         error_worst=float(error[-1]) if count else None,
         in_frame=float((margin >= -ROUNDING_M).mean()) if len(margin) else None,
         in_frame_four_points=float(points.mean()) if len(points) else None,
+        visible=1.0 - float(covered.max()) if len(covered) else None,
         jerk_rms=float(np.sqrt(squared_jerk / duration)) if duration > 0 else 0.0,
         duration=duration,
     )
@@ -110,4 +112,4 @@ def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) 
     filmed = mission.target(target)
     eyes = beside_cameras(cameras(mission, track, t), filmed, t)
     points = points_in_frame(eyes, filmed.centre, shapes(filmed, t))
-    return Trace(target, t, share, view.error, view.frames.margin, points.astype(np.float64))
+    return Trace(target, t, share, view.error, view.frames.margin, points.astype(np.float64), view.covered)

@@ -17,6 +17,7 @@ HEADING = (
     "worst",
     "whole in frame",
     "four points",
+    "visible",
     "jerk RMS, m/s^3",
     "filmed",
     "rounds",
@@ -28,6 +29,7 @@ LEGEND = (
     "target; the worst is rounded up",
     "whole in frame: share of frames with the whole target in the frame, by its exact silhouette; "
     "four points: by the four points of Gebhardt and Hilliges",
+    "visible: least share of a target's outline that nothing covers, in any frame",
     "filmed: how long the shots last; rounds: how often the refiner solved them",
 )
 
@@ -91,7 +93,7 @@ def _cells(score: Score) -> tuple[str, ...]:
         score.error_p95,
         up(worst, 4) if worst is not None and isfinite(worst) else worst,
     )
-    shares = (score.in_frame, score.in_frame_four_points)
+    shares = (score.in_frame, score.in_frame_four_points, score.visible)
     return (
         *(UNKNOWN if error is None else off_place(error) for error in errors),
         *(UNKNOWN if share is None else percent(share) for share in shares),

@@ -14,6 +14,7 @@ from shotc.emit.fleet_rows import fleet_rows
 from shotc.emit.table_numbers import DEGREES, NUMBER
 from shotc.geom.bernstein import Array
 from shotc.geom.earth import of_world
+from shotc.ir.coverage import coverage
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
@@ -27,7 +28,7 @@ TRAJECTORY = (
 )
 GEODETIC = ",lat_deg,lon_deg,alt_m"
 LIGHT = ",red,green,blue"
-FRAMING = "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded"
+FRAMING = "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded,covered"
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,10 +127,13 @@ def _block(
     wanted = references(track, shot, target, t)
     numbers = np.column_stack([frames.u, frames.v, wanted, frames.size]) + 0.0
     flags = np.column_stack([frames.in_frame, frames.hidden]).astype(int)
+    covered = coverage(mission, others, target, track.curve(t)[:, :3], t).share
     name = f"{track.drone},{shot},{target}"
     return [
-        f"{NUMBER % time},{name},{_cells(row)},{flag[0]},{flag[1]}"
-        for time, row, flag in zip(t.tolist(), numbers.tolist(), flags.tolist(), strict=True)
+        f"{NUMBER % time},{name},{_cells(row)},{flag[0]},{flag[1]},{NUMBER % share}"
+        for time, row, flag, share in zip(
+            t.tolist(), numbers.tolist(), flags.tolist(), covered.tolist(), strict=True
+        )
     ]
 
 

@@ -51,6 +51,18 @@ def beside_body(target: Target, points: Array, t: Array) -> Array:
     return np.asarray(back + np.array(target.centre))
 
 
+def from_body(target: Target, points: Array, t: Array) -> Array:
+    """Return places in W at mission times, (M, 3), that are given as ``beside_body`` does."""
+    if target.track is None:
+        return points
+    if target.shape.turns:
+        turn = headings(target.track, t) - target.track.heading(0.0)
+        x, y, z = (points - np.array(target.centre)).T
+        ahead = np.column_stack([x * np.cos(turn) - y * np.sin(turn), y * np.cos(turn) + x * np.sin(turn), z])
+        points = ahead + np.array(target.centre)
+    return np.asarray(points + moved(target, t))
+
+
 def standing_at(place: Array, times: Array) -> Array:
     """Return the place of what stands, at times; shape (M, 3)."""
     return np.tile(place, (len(times), 1))

@@ -20,6 +20,7 @@ class Score(NamedTuple):
         nothing is wanted
     in_frame, in_frame_four_points : share of frames with the whole target in the frame, by its exact
         silhouette and by the four points of Gebhardt and Hilliges; None without frames
+    visible : least share of a target's outline that nothing covers, in any frame; None without frames
     jerk_rms : over the time filmed, m/s^3; duration : time filmed, seconds
     """
 
@@ -29,6 +30,7 @@ class Score(NamedTuple):
     error_worst: float | None
     in_frame: float | None
     in_frame_four_points: float | None
+    visible: float | None
     jerk_rms: float
     duration: float
 
@@ -40,7 +42,7 @@ class Trace:
     times : seconds of mission time; share : how much of the shot's time is over, 0 to 1
     error : half frames, infinite behind the camera, NaN where no place is wanted
     margin : how far inside the frame's nearest edge the whole target lies, metres
-    points : whether its four points are in the frame
+    points : whether its four points are in the frame; covered : share of its outline that something covers
     """
 
     target: str
@@ -49,6 +51,7 @@ class Trace:
     error: Array
     margin: Array
     points: Array
+    covered: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,6 +10,9 @@ from shotc.rounding import away
 DIGITS = 4
 """Digits that a value is shown with where nothing needs more."""
 
+SHARES = frozenset({"of samples", "of its outline"})
+"""Units of shares, which people read in percent."""
+
 MOST_DIGITS = 12
 """Digits beyond which two values are the same."""
 
@@ -42,4 +45,4 @@ def enough(claim: Claim) -> str:
 def _as_read(value: float, unit: str) -> tuple[float, str]:
     if unit.startswith("rad"):
         return degrees(value), f"deg{unit[3:]}"
-    return (100 * value, "%") if unit == "of samples" else (value, unit)
+    return (100 * value, "%") if unit in SHARES else (value, unit)

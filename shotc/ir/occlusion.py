@@ -1,4 +1,4 @@
-"""What stands before a target: keep-out zones, terrain, other targets and other drones, instant by instant.
+"""What stands before a target, instant by instant: zones, terrain, scenes, other targets and drones.
 
 A sight line goes from the camera to the target's centre; where that is within a zone, the zone hides it.
 Targets whose bodies overlap or touch at that instant are parts of one thing and do not hide each other, nor
@@ -39,6 +39,8 @@ def hiders(
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
     if mission.terrain is not None:
         yield f"terrain {mission.terrain.file}", lines_hidden(mission.terrain.ground.surface, eyes, centres)
+    for mesh in mission.meshes:
+        yield f"{mesh.kind} {mesh.file}", lines_hidden(mesh.surface, eyes, centres)
     for flight in others:
         ball = flying(flight.curve, t)
         yield f"drone {flight.drone}", _behind(eyes, centres, ball, mission.drone(flight.drone).radius)

@@ -4,14 +4,14 @@ A kind subclasses ``ShotBase`` with its own parameters and ``kind: Literal["its-
 """
 
 from math import inf
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field, GetJsonSchemaHandler
+from pydantic import Field, GetJsonSchemaHandler, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from shotc.spec.allow import Allowed
-from shotc.spec.faults import fault
+from shotc.spec.faults import fault, fault_at
 from shotc.spec.fields import (
     CompositionSet,
     FieldOfView,
@@ -82,8 +82,24 @@ class TimingSpec(Model):
         return {"anyOf": [{"const": "auto"}, schema]}
 
 
+class RevealSpec(Model):
+    """How much of a target comes to be seen, or is lost from sight, over a shot."""
+
+    from_: Share = Field(alias="from", description="share of its outline that is free in the first frame")
+    to: Share = Field(description="share of its outline that is free in the last frame")
+
+    @model_validator(mode="after")
+    def _changes(self) -> Self:
+        if self.from_ == self.to:
+            help_ = "write `visible` for what is free in every frame"
+            raise fault_at(("to",), "inverted-range", "nothing is revealed between equal shares", help_)
+        return self
+
+
 class RequireSpec(Model):
     """What a shot promises; verification holds the plan to it."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("visible",), ("reveal",)), required=False),)
 
     in_frame: Share | None = Field(
         default=None, description="least share of the shot with the whole target in frame"
@@ -93,6 +109,14 @@ class RequireSpec(Model):
     )
     size: ShareRange | None = Field(
         default=None, description="lowest and highest projected height over frame height"
+    )
+    visible: Share | None = Field(
+        default=None, description="least share of the target's outline that nothing covers, in any frame"
+    )
+    reveal: RevealSpec | None = Field(
+        default=None,
+        description="share of its outline that is free in the first frame and in the last: at most the "
+        "smaller of the two, and at least the larger",
     )
 
 

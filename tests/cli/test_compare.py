@@ -92,6 +92,7 @@ def shape(document: dict) -> None:
         "error_worst",
         "in_frame",
         "in_frame_four_points",
+        "visible",
         "jerk_rms",
         "duration",
     ]

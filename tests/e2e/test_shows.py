@@ -48,7 +48,9 @@ def test_check_says_nothing(show: Show) -> None:
 def test_all_outputs_are_made(show: Show) -> None:
     assert {path.name for path in show.out.iterdir()} == OUTPUTS
     assert "1 display of 200 drones" in show.said
-    assert show.bytes("framing.csv") == b"t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded\n"
+    assert (
+        show.bytes("framing.csv") == b"t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded,covered\n"
+    )
     assert show.bytes("mission.rrd").startswith(b"RRF")
 
 

@@ -98,12 +98,13 @@ def test_a_hill_hides_what_is_behind_it(tmp_path):
     refused = planned(path, refiner="none")
     told = next(d for d in refused.diagnostics if d.code == "V050")
     assert refused.plan is None
-    assert any("terrain `relief.csv` hides it in 100 %" in note for note in told.notes)
+    assert any("terrain `relief.csv` hides up to 100 % of it" in note for note in told.notes)
     path.write_text(path.read_text().replace("duration: 3}", "duration: 3}, allow: [hidden-subject]"))
     plan = planned(path, refiner="none").plan
     assert plan is not None
     (data,) = [a.data for a in api.emit_plan(plan, ["csv"]).artifacts if a.name == "framing.csv"]
-    assert {row["occluded"] for row in csv.DictReader(io.StringIO(data.decode()))} == {"1"}
+    rows = list(csv.DictReader(io.StringIO(data.decode())))
+    assert {(row["occluded"], row["covered"]) for row in rows} == {("1", "1")}
 
 
 @pytest.mark.parametrize("height", [4.0, 40.0])

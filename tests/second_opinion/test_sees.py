@@ -334,8 +334,9 @@ def test_a_drone_in_the_picture_is_seen(case: Case) -> None:
         ("trajectory.csv", b",takeoff,", b",transit,", "phase of a row"),
         ("trajectory.csv", b"\n0.4,", b"\n0.45,", "ticks of the clock"),
         ("trajectory.csv", b",47.3", b",47.4", "latitude, longitude, altitude"),
-        ("framing.csv", b",1,0\n", b",0,0\n", "column in_frame"),
-        ("framing.csv", b",1,0\n", b",1,1\n", "column occluded"),
+        ("framing.csv", b",1,0,0\n", b",0,0,0\n", "column in_frame"),
+        ("framing.csv", b",1,0,0\n", b",1,1,0\n", "column occluded"),
+        ("framing.csv", b",1,0,0\n", b",1,0,0.4\n", "column covered"),
     ],
 )
 def test_a_table_that_says_something_else_is_seen(

@@ -70,7 +70,7 @@ def subject(text: str) -> ClockSubject:
 def visible(text: str, refiner: str) -> float:
     done = compiled(text, refiner)
     assert done.plan is not None, done.diagnostics
-    return next(c.worst for c in done.plan.certificate if (c.shot, c.constraint) == ("s", "runner visible"))
+    return next(c.worst for c in done.plan.certificate if (c.shot, c.constraint) == ("s", "runner in sight"))
 
 
 def drawn(seed: int) -> tuple[Occluder, np.ndarray, np.ndarray]:

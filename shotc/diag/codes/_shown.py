@@ -1,4 +1,4 @@
-"""V031, V050 and on: what an audience is not shown, or not so that it can see it."""
+"""V028, V029, V031, V050 and on: what an audience is not shown, or not so that it can see it."""
 
 from __future__ import annotations
 
@@ -29,18 +29,60 @@ shots:
       - {at: [4, -50, 15], heading: 20 deg, pitch: 0 deg}
 """
 
+_REVEAL = """\
+shotc: 1
+mission: reveal
+world: {zones: {wall: {keep: out, box: {center: [EAST, -8, 8], size: [20, 2, 16]}}}}
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
+drones: {cam: {model: x500, home: [0, -30, 0]}}
+shots:
+  - id: out
+    kind: keyframes
+    drone: cam
+    target: mast
+    require: {reveal: {from: 0 %, to: 100 %}}
+    keyframes: [{at: [0, -24, 6], look_at: mast}, {at: [-30, 0, 6], look_at: mast}]
+"""
+
 SHOWN: tuple[CodeInfo, ...] = (
+    CodeInfo(
+        "V028",
+        "covered-more-than-promised",
+        Severity.ERROR,
+        "more of a target is covered in a frame than its shot promises",
+        "`require: {visible: 90 %}` promises the least share of the target's outline that nothing covers, in any frame: "
+        "keep-out zones, terrain, scenes, other targets, other drones. It is sampled: at every tick of the output rate, "
+        "by rays to the outline. What the edge of the frame cuts off does not count; that is `in_frame`. The notes tell "
+        "what covers it, how much and how often. Film from another side or from higher up, or promise what is kept.",
+        _WALL.replace("EAST", "10.3").replace("look_at: mast}", "look_at: mast, require: {visible: 90 %}}"),
+        _WALL.replace("EAST", "40").replace("look_at: mast}", "look_at: mast, require: {visible: 90 %}}"),
+        "plan",
+    ),
+    CodeInfo(
+        "V029",
+        "reveal-broken",
+        Severity.ERROR,
+        "a shot does not reveal its target as it promises",
+        "`require: {reveal: {from: 0 %, to: 100 %}}` promises how much of the target's outline is free in the first frame "
+        "and in the last: of the smaller share at most so much, of the larger at least. `{from: 100 %, to: 0 %}` loses "
+        "the target from sight. Being hidden meanwhile is meant, so that V031 and V050 are not told. Begin where "
+        "something covers the target, and end where nothing does; the notes tell what does.",
+        _REVEAL.replace("EAST", "60"),
+        _REVEAL.replace("EAST", "0"),
+        "plan",
+    ),
     CodeInfo(
         "V031",
         "target-hidden",
         Severity.WARNING,
         "something stands before a target for a part of its shot",
-        "Another target, a keep-out zone or another drone stands on the line of sight from the camera to the centre of "
-        "the target, or the centre is within a keep-out zone. Targets whose cylinders overlap or touch, as a lantern in "
-        "its tower, are parts of one thing and do not hide each other. The notes tell what hides it in how many of the "
-        "frames, and the middle of the longest stretch. Film from another side or from higher up. The refiner `ours` goes "
+        "Another target, a keep-out zone, terrain, a scene or another drone covers more than half of the target's "
+        "outline in some frame, or the target is within a zone. Targets that overlap or touch, as a lantern in "
+        "its tower, are parts of one thing and do not hide each other. The notes tell what hides how much of it and how "
+        "often, and when it is worst. Film from another side or from higher up. The refiner `ours` goes "
         "aside by itself in shots of moving targets, as far as that shows more. Where it is hidden in most frames, that "
-        "is an error (V050).",
+        "is an error (V050). Less is told by `covered` in framing.csv and in the summary; `require: {visible: 90 %}` has it held "
+        "(V028).",
         "",
         "",
         "other",
@@ -50,9 +92,9 @@ SHOWN: tuple[CodeInfo, ...] = (
         "hidden-subject",
         Severity.ERROR,
         "a shot shows its subject in fewer than half of its frames",
-        "A shot has a subject so that it is seen. Here something stands before it, or round it, in most of the "
-        "frames: a keep-out zone, another target or another drone on the line of sight to its centre (V031 tells "
-        "of less than half). The notes tell what hides it in how many frames. Film from another side or from higher "
+        "A shot has a subject so that it is seen. Here something covers more than half of its outline in most of the "
+        "frames: a keep-out zone, terrain, a scene, another target or another drone (V031 tells of less). The notes "
+        "tell what hides how much of it, and how often. Film from another side or from higher "
         "up, or move what hides it. Where it is meant, as with a zone that can be looked through, write "
         "`allow: [hidden-subject]` in the shot, or under `rules` for the whole mission; then nothing is told.",
         _WALL.replace("EAST", "0"),

@@ -26,6 +26,8 @@ from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.map import draw_map
+from shotc.ir.coverage import HALF_SHARE
+from shotc.ir.measures import SHARES
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.rounding import at_least
@@ -230,7 +232,8 @@ def _told(canvas: Canvas, base: float, i: int, board: ShotBoard) -> float:
     text = _framing(framing)
     if len(board.framing) > 1:
         text = f"{target}: {text}"
-    complete = all(share in (None, 1.0) for share in (framing.in_frame, framing.visible))
+    hidden = framing.visible is not None and framing.visible < HALF_SHARE
+    complete = framing.in_frame in (None, 1.0) and not hidden
     style = Type(9.5, INK if complete else KEEP_OUT, across="right")
     canvas.text(WIDTH - MARGIN, base + LINE * (len(board.framing) - 1 - i), text, style)
     return WIDTH - MARGIN - canvas.extent(text, style)[0]
@@ -255,7 +258,7 @@ def _framing(framing: ScreenSummary) -> str:
     if framing.in_frame is not None:
         parts.append(f"whole subject in frame {percent(framing.in_frame)}")
     if framing.visible is not None and framing.visible < 1.0:
-        parts.append(f"not hidden {percent(framing.visible)}")
+        parts.append(f"at least {percent(framing.visible)} of it visible")
     return "  ·  ".join(parts)
 
 
@@ -293,7 +296,7 @@ def not_promised(certificate: tuple[Claim, ...], most: int = 3) -> list[str]:
         if claim.hard or claim.holds:
             continue
         target, _, what = claim.constraint.rpartition(" in frame")
-        value = percent(claim.worst) if claim.unit == "of samples" else f"{claim.worst:.3g} {claim.unit}"
+        value = percent(claim.worst) if claim.unit in SHARES else f"{claim.worst:.3g} {claim.unit}"
         name = f"whole {target} in frame" if target and not what else claim.constraint
         words.append(f"{name} {value.strip()} ({claim.shot})")
     return words if len(words) <= most else [*words[:most], f"{len(words) - most} more"]

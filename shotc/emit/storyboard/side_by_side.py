@@ -131,6 +131,8 @@ def _facts(score: Score) -> list[str]:
     if score.in_frame is not None and score.in_frame_four_points is not None:
         points = percent(score.in_frame_four_points)
         lines.append(f"whole in frame {percent(score.in_frame)}, by four points {points}")
+        if score.visible is not None and score.visible < 1.0:
+            lines[-1] += f", visible {percent(score.visible)}"
     return lines
 
 

@@ -70,13 +70,16 @@ def blocks(solid: Solid, eyes: Array, point: Array, least: float = 1e-6) -> Mask
     length = np.sqrt(np.einsum("md,md->m", along, along))
     inside = np.zeros(len(eyes))
     for part in convex_parts(solid):
-        enter, leave = _overlap(part, eyes, along)
+        enter, leave = within(part, eyes, along)
         inside += np.maximum(leave - enter, 0.0) * length
     return np.asarray(inside > least)
 
 
-def _overlap(part: Solid, eyes: Array, along: Array) -> tuple[Array, Array]:
-    # Shares of the segment at which it enters and leaves the convex part (leave < enter: never inside).
+def within(part: Solid, eyes: Array, along: Array) -> tuple[Array, Array]:
+    """Return the shares of segments from eyes (M, 3) at which they enter and leave a convex solid, (M,) each.
+
+    along : from the beginnings to the ends, (M, 3); one that is never inside leaves before it enters
+    """
     bottom, top = heights(part)
     zero, one = np.zeros(len(eyes)), np.ones(len(eyes))
     enter, leave = _clip(zero, one, eyes[:, 2] - top, along[:, 2])

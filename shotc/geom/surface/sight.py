@@ -7,6 +7,7 @@ the cell: three products a triangle serve all rays (watertight on common sides, 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 
@@ -82,19 +83,22 @@ def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboar
     return Billboards(eye, centre + radius * level - 0.5 * (right + up), right, up)
 
 
-def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
+def hidden(surface: Surface, boards: Billboards, n: int = 8, reach: Array | None = None) -> Mask:
     """Tell which of n x n cells a surface hides: shape (F, n, n), along right and up.
 
+    reach : share of the way to a cell at which its ray ends, (F, n, n); all of it if silent, and at most
     The mean over a frame is the share that is hidden.
     """
+    ends = np.ones((len(boards), n * n)) if reach is None else np.minimum(reach, 1.0).reshape(-1, n * n)
+    ends = SHORT_OF * ends
     out = np.zeros((len(boards), n * n), dtype=bool)
     for start in range(0, len(boards), FRAMES_AT_ONCE):
         which = slice(start, start + FRAMES_AT_ONCE)
-        some = boards.part(which)
+        some, short = boards.part(which), ends[which]
         pairs = _candidates(surface, some)
         for first in range(0, len(pairs), PAIRS_AT_ONCE):
             part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))
-            hits = _hits(surface.triangles[part.triangle], some, part.item, n)
+            hits = _hits(surface.triangles[part.triangle], some, (part.item, short[part.item]))
             frame, begin = np.unique(part.item, return_index=True)
             out[which][frame] |= np.logical_or.reduceat(hits, begin, axis=0)
     return out.reshape(-1, n, n)
@@ -125,19 +129,30 @@ def _candidates(surface: Surface, boards: Billboards) -> Pairs:
     return search(surface, len(boards), meets)
 
 
-def _hits(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Mask:
-    """Tell which rays of the frames (K,) their triangles (K, 3, 3) stop; shape (K, n * n)."""
+def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> Mask:
+    """Tell which rays of frames their triangles (K, 3, 3) stop; shape (K, n * n).
+
+    to : the frames, (K,), and the shares of the ways to their cells at which the rays end, (K, n * n)
+    """
+    frame, ends = to
     corners = triangles - boards.eye[frame][:, None]
     # A ray passes inside of a side where its product with the plane of eye and side is positive.
     planes = cross(corners, corners[:, [1, 2, 0]])
     volume = dot(corners[:, 0], planes[:, 1])
     planes *= np.sign(volume)[:, None, None]
-    to = np.stack([boards.corner - boards.eye, boards.right, boards.up], axis=1)[frame]
-    products = np.einsum("ksd,kpd->skp", planes, to) @ _cells(n)
+    sides = np.stack([boards.corner - boards.eye, boards.right, boards.up], axis=1)[frame]
+    products = np.einsum("ksd,kpd->skp", planes, sides) @ _cells(round(sqrt(ends.shape[1])))
     inside = np.minimum(np.minimum(products[0], products[1]), products[2]) >= 0.0
     # The sum is the product with the triangle's own plane; the volume over it, the share of the way.
     whole = products[0] + products[1] + products[2]
-    return np.asarray(inside & (whole * SHORT_OF > np.abs(volume)[:, None]) & (volume != 0.0)[:, None])
+    return np.asarray(inside & (whole * ends > np.abs(volume)[:, None]) & (volume != 0.0)[:, None])
+
+
+def cells_of(boards: Billboards, n: int) -> Array:
+    """Return the middles of all cells, (F n n, 3), metres of W."""
+    one, a, b = _cells(n)[:, None, :, None]
+    corner, right, up = boards.corner[:, None], boards.right[:, None], boards.up[:, None]
+    return np.asarray(one * corner + a * right + b * up).reshape(-1, 3)
 
 
 def _cells(n: int) -> Array:

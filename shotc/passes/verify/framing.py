@@ -10,6 +10,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Frames
+from shotc.ir.coverage import coverage
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
@@ -17,8 +18,8 @@ from shotc.ir.sampling import clock, framed, references, seen, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 from shotc.passes.verify.close import errors_close, margins_close
-from shotc.passes.verify.hidden import longest
 from shotc.passes.verify.reference import held, wanted_framing
+from shotc.passes.verify.visible import visible
 from shotc.planning.framing.moments import placed_at
 
 
@@ -27,7 +28,8 @@ class View:
     """The samples of one target in one shot, as far as the shot frames it.
 
     times : ticks of the output clock and both ends, shape (M,); error : distance to the reference on
-    screen, infinite behind the camera, NaN where nothing is wanted
+    screen, infinite behind the camera, NaN where nothing is wanted; covered : share of the outline that
+    something covers, shape (M,)
     """
 
     shot: Shot
@@ -35,6 +37,7 @@ class View:
     times: Array
     frames: Frames
     error: Array
+    covered: Array
 
 
 def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
@@ -50,7 +53,7 @@ def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
                 yield _in_frame(flight, view)
                 yield from _screen_error(flight, view)
                 yield from _size(flight, view)
-                yield _visible(flight, view)
+                yield from visible(flight, view.shot, target, view.times, view.covered)
 
 
 def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> View | None:
@@ -69,7 +72,9 @@ def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> Vi
     wanted = references(flight.track, shot.id, target, times)
     error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
     error = np.where(np.isnan(frames.u) & ~np.isnan(wanted[:, 0]), inf, error)
-    return View(shot, target, times, frames, error)
+    eyes = flight.track.curve(times)[:, :3]
+    covered = coverage(flight.mission, flight.others, target, eyes, times).share
+    return View(shot, target, times, frames, error, covered)
 
 
 def _in_frame(flight: Flight, view: View) -> Claim:
@@ -132,18 +137,3 @@ def _sampled(
         shot=view.shot.id,
     )
     return claim(flight, limit, Worst(worst[0], float(view.times[worst[1]]), "sampled"))
-
-
-def _visible(flight: Flight, view: View) -> Claim:
-    hidden = view.frames.hidden
-    limit = Limit(
-        f"{view.target} visible",
-        1.0,
-        "of samples",
-        view.shot.path,
-        upper=False,
-        hard=False,
-        shot=view.shot.id,
-    )
-    k = longest(hidden)
-    return claim(flight, limit, Worst(float(1.0 - hidden.mean()), float(view.times[k]), "sampled"))

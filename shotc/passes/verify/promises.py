@@ -6,13 +6,17 @@ from collections.abc import Iterator
 from math import isfinite
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.measures import enough, told_apart
+from shotc.ir.measures import SHARES, enough, told_apart
 from shotc.ir.mission import Shot
 from shotc.ir.owners import owner_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.visible import AT_FIRST, AT_LAST, VISIBLE
 from shotc.rounding import at_least, away
 
-PROMISES = frozenset({"V019", "V020", "V021"})
+OUTLINES = frozenset({"V028", "V029"})
+"""Codes of broken promises of how much of a target is free."""
+
+PROMISES = frozenset({"V019", "V020", "V021"}) | OUTLINES
 """Codes of broken promises."""
 
 FARTHEST_HALF_FRAMES = 3.0
@@ -23,8 +27,11 @@ _INSTEAD = {
     "V019": "move or widen the shot where the target is cropped",
     "V020": "turn the camera slower there",
     "V021": "change the distance or the field of view there",
+    "V028": "film from another side or from higher up there",
+    "V029": "begin or end the shot elsewhere",
 }
-_ENDS = {"V019": " in frame", "V020": " screen error", "V021": " size "}
+_ENDS = {"V019": " in frame", "V020": " screen error", "V021": " size ", "V028": VISIBLE, "V029": VISIBLE}
+_KEYS = {"in_frame": "V019", "screen_error": "V020", "size": "V021", "visible": "V028", "reveal": "V029"}
 _UNSEEN = {
     "V020": "its place on screen cannot be told, the target is behind the camera",
     "V021": "its size cannot be told, the target is not all before the camera",
@@ -33,20 +40,30 @@ _UNSEEN = {
 
 def broken_promise(claim: Claim, code: str) -> str:
     """Return what becomes of the target on screen, and what was promised."""
-    target = claim.constraint.rpartition(_ENDS[code])[0]
+    target = target_of(claim, code)
     shot = f"shot `{claim.shot}`"
     if not isfinite(claim.worst):
         return f"{target} in {shot}: {_UNSEEN[code]}"
-    reached, asked = told_apart(claim.worst, claim.limit, claim.unit if code == "V019" else "")
+    reached, asked = told_apart(claim.worst, claim.limit, claim.unit if claim.unit in SHARES else "")
     if code == "V019":
         return f"{target} is whole in {reached} of the frames of {shot}, {asked} is promised"
     side = "most" if claim.upper else "least"
+    if code in OUTLINES:
+        frame = "the last" if claim.constraint.endswith(AT_LAST) else "the first"
+        frame = "a" if code == "V028" else frame
+        free = f"{reached} of the outline of {target} is free in {frame} frame of {shot}"
+        return f"{free}, {asked} is promised at {side}"
     if code == "V020":
         return (
             f"{target} is {reached} of half a frame off its place on screen in {shot}, "
             f"{asked} is promised at {side}"
         )
     return f"{target} fills {reached} of the frame's height in {shot}, {asked} is promised at {side}"
+
+
+def target_of(claim: Claim, code: str) -> str:
+    """Return the name of the target of a claim of what was promised."""
+    return claim.constraint.rpartition(_ENDS[code])[0]
 
 
 def promise_help(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
@@ -61,7 +78,7 @@ def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagn
     flown = {p.shot for track in ir.drones for p in track.phases}
     for shot in (s for s in ir.keyframes.mission.shots if s.id in flown):
         made = [claim.constraint for claim in certificate if claim.shot == shot.id]
-        for key, code in (("in_frame", "V019"), ("screen_error", "V020"), ("size", "V021")):
+        for key, code in _KEYS.items():
             if getattr(shot.promise, key) is None or any(_ENDS[code] in name for name in made):
                 continue
             yield Diagnostic(
@@ -88,6 +105,10 @@ def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -
         return f"in_frame: {enough(claim)}"
     if code == "V021":
         return _size(shot, certificate)
+    if code == "V028":
+        return f"visible: {enough(claim)}"
+    if code == "V029":
+        return _reveal(shot, certificate)
     error = away(claim.worst, upper=True, digits=_DIGITS)
     return f"screen_error: {error:.{_DIGITS}g}" if error <= FARTHEST_HALF_FRAMES else ""
 
@@ -102,3 +123,17 @@ def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
     low = min([low, *(away(c.worst, upper=False, digits=_DIGITS) for c in broken if not c.upper)])
     high = max([high, *(away(c.worst, upper=True, digits=_DIGITS) for c in broken if c.upper)])
     return f"size: [{low:g}, {high:g}]" if high <= 1 else ""
+
+
+def _reveal(shot: Shot, certificate: tuple[Claim, ...]) -> str:
+    """Return the reveal that all targets of the shot keep; empty where it would go the other way."""
+    assert shot.promise.reveal is not None
+    shown = []
+    for promised, end in zip(shot.promise.reveal, (AT_FIRST, AT_LAST), strict=True):
+        broken = [c for c in certificate if c.shot == shot.id and not c.holds and c.constraint.endswith(end)]
+        worst = [away(c.worst, upper=c.upper, digits=_DIGITS) for c in broken]
+        shown.append((max if broken[0].upper else min)(worst) if broken else promised)
+    (first, last), (start, finish) = shot.promise.reveal, shown
+    if (finish - start) * (last - first) <= 0:
+        return ""
+    return f"reveal: {{from: {100 * start:.{_DIGITS}g} %, to: {100 * finish:.{_DIGITS}g} %}}"

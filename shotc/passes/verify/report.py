@@ -17,10 +17,11 @@ from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.passing import told_passes
-from shotc.passes.verify.promises import PROMISES, bends, broken_promise, promise_help
+from shotc.passes.verify.promises import OUTLINES, PROMISES, bends, broken_promise, promise_help, target_of
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.sighting import sighted
 from shotc.passes.verify.transits import ENDING as PASSED
+from shotc.passes.verify.visible import AT_FIRST, AT_LAST, IN_SIGHT, VISIBLE
 
 RULES = {
     "speed": Rule("V001", 1.0),
@@ -90,6 +91,9 @@ ENDING = {
     " screen error": Rule("V020"),
     " size smallest": Rule("V021"),
     " size largest": Rule("V021"),
+    VISIBLE: Rule("V028"),
+    AT_FIRST: Rule("V029"),
+    AT_LAST: Rule("V029"),
 }
 
 UNKNOWN = {
@@ -98,12 +102,7 @@ UNKNOWN = {
 }
 """What is said where a claim has no finite worst value."""
 
-SOFT = {" in frame": "V030", " visible": "V031"}
-
-HIDDEN_SHARE = 0.5
-"""Share of a shot's frames; a target that is seen in fewer is hidden in most, which is an error."""
-
-_MOSTLY = {"V031": "V050"}
+SOFT = {" in frame": "V030", VISIBLE: "V031", IN_SIGHT: "V050"}
 
 
 def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
@@ -123,8 +122,8 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
             yield _broken(ir, claim, claims)
         else:
             code = next((code for end, code in SOFT.items() if claim.constraint.endswith(end)), None)
-            if code is not None and not _on_purpose(ir.keyframes.mission, claim, code):
-                yield _lost(ir, claim, _MOSTLY.get(code, code) if claim.worst < HIDDEN_SHARE else code)
+            if code is not None and not _on_purpose(ir.keyframes.mission, claim, code, claims):
+                yield _lost(ir, claim, code)
 
 
 def _seen_with(claim: Claim, claims: tuple[Claim, ...]) -> tuple[Claim, ...]:
@@ -165,6 +164,8 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
     if rule.code in PROMISES and isinstance(shot, Shot):
         message = broken_promise(claim, rule.code)
         notes += bends(ir, shot.id)
+        if rule.code in OUTLINES:
+            notes += hidden_by(ir, claim, target_of(claim, rule.code))
         help_ = promise_help(claim, rule.code, shot, certificate)
     else:
         message = f"{_who(claim)}: {_state(claim, rule.code)}"
@@ -185,15 +186,26 @@ def _side(claim: Claim) -> str:
     return "at most" if claim.upper else "at least"
 
 
-def _on_purpose(mission: MissionIR, claim: Claim, code: str) -> bool:
-    """Tell whether the target of a claim is asked to be larger than the frame, or may be hidden."""
+def _on_purpose(mission: MissionIR, claim: Claim, code: str, claims: tuple[Claim, ...]) -> bool:
+    """Tell whether the target of a claim is asked to be larger than the frame, or may be hidden.
+
+    What is hidden in most frames is not told a second time, nor what a promise says.
+    """
     shot = _shot(mission, claim.shot)
     if not isinstance(shot, Shot):
         return False
     if code != "V030":
-        return HIDDEN in shot.allow
+        told = code == "V031" and _mostly_hidden(claim, claims)
+        asked = shot.promise.visible is not None or shot.promise.reveal is not None
+        return told or asked or HIDDEN in shot.allow
     asked = next((s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size)
     return asked is not None and asked > 1.0
+
+
+def _mostly_hidden(claim: Claim, claims: tuple[Claim, ...]) -> bool:
+    """Tell whether the target of a claim of what is visible is hidden in most frames of its shot."""
+    name = claim.constraint.removesuffix(VISIBLE) + IN_SIGHT
+    return any(c.constraint == name and c.shot == claim.shot and not c.holds for c in claims)
 
 
 _ASIDE = "film from another side or from higher up, so that nothing stands on the line of sight"
@@ -206,17 +218,20 @@ _LOST_HELP = {
 
 def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
     mission = ir.keyframes.mission
-    target = claim.constraint.rsplit(" ", 2 if code == "V030" else 1)[0]
-    state = "not whole in frame" if code == "V030" else "hidden"
+    target = next(claim.constraint.removesuffix(end) for end in SOFT if claim.constraint.endswith(end))
     share = f"{100 * (1 - claim.worst):.3g} %"
-    help_ = _LOST_HELP[code]
+    state = {
+        "V030": f"not whole in frame in {share} of",
+        "V031": f"hidden by up to {share} of its outline in",
+        "V050": f"hidden by more than half in {share} of",
+    }[code]
     by = () if code == "V030" else hidden_by(ir, claim, target)
     return Diagnostic(
         code,
-        f"{target} is {state} in {share} of shot `{claim.shot}`",
+        f"{target} is {state} shot `{claim.shot}`",
         labels=(mission.origins.key(claim.path),),
         notes=(*_notes(claim, _phase_of(ir, claim)), *by),
-        help=help_,
+        help=_LOST_HELP[code],
     )
 
 

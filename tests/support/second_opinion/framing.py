@@ -11,11 +11,13 @@ from tests.support.second_opinion.case import Case, Finding, Findings, column
 from tests.support.second_opinion.flight import Array, Phase, polynomial
 from tests.support.second_opinion.picture import Camera, Picture, picture
 from tests.support.second_opinion.quantities import number
-from tests.support.second_opinion.sight import hidden
+from tests.support.second_opinion.sight import covered, hidden
 
 DIGITS = 2e-8  # half frames by which nine digits of a place on screen, and of its time, may differ
 OUTLINE = 4e-4  # of the size, by which an outline of straight lines between rim points is smaller
 EDGE = 3e-4  # half frames about the frame's edge in which either answer is right
+SOME = 8  # rows of a subject whose outline is looked at
+SHARE_OFF = 0.1  # of an outline, by which few places on it may be off
 DENSE = 50.0  # samples a second where a claim is for every instant
 FRAMES = {
     "center": (0.0, 0.0), "left-third": (-1 / 3, 0.0), "right-third": (1 / 3, 0.0),
@@ -80,6 +82,7 @@ def framing_table(case: Case) -> Findings:
         if mine:
             yield from _rows(case, seen(case, drone, phase, target, t), mine, f"{phase.shot} {target}")
             yield from _hidden(case, mine, drone, target, t, str(phase.shot))
+            yield from _covered(case, mine, drone, target, t, str(phase.shot))
     if expected != len(case.framing):
         yield Finding("rows of framing.csv", "mission", len(case.framing), expected)
 
@@ -119,6 +122,20 @@ def _hidden(case: Case, rows: list[dict[str, str]], drone: str, target: str, t: 
     if wrong.any():
         k = int(wrong.argmax())
         yield Finding("column occluded", f"{shot} {target}", float(told[k]), float(surely[k]), float(t[k]))
+
+
+def _covered(
+    case: Case, rows: list[dict[str, str]], drone: str, target: str, t: Array, shot: str
+) -> Findings:
+    few = slice(None, None, max(1, len(t) // SOME))
+    told = column(rows, "covered")[few]
+    surely, maybe = covered(case, drone, target, t[few])
+    off = np.maximum(surely - told, told - maybe)
+    if (off > SHARE_OFF).any():
+        k = int(off.argmax())
+        yield Finding(
+            "column covered", f"{shot} {target}", float(told[k]), float(surely[k]), float(t[few][k])
+        )
 
 
 def picture_claims(case: Case) -> Findings:

@@ -15,12 +15,13 @@ from shotc.passes.verify import judge
 from tests.support.film_plans import orbit_plan
 
 
-def trace(error, margin=None, points=None) -> Trace:
+def trace(error, margin=None, points=None, covered=None) -> Trace:
     n = len(error)
     share = np.linspace(0, 1, n)
     margin = np.ones(n) if margin is None else np.array(margin, dtype=float)
     points = np.ones(n) if points is None else np.array(points, dtype=float)
-    return Trace("tower", 10 * share, share, np.array(error, dtype=float), margin, points)
+    covered = np.zeros(n) if covered is None else np.array(covered)
+    return Trace("tower", 10 * share, share, np.array(error, dtype=float), margin, points, covered)
 
 
 def polynomial(times, value, *derivatives) -> Piecewise:
@@ -37,6 +38,11 @@ def test_mean_95_percent_and_worst_of_known_errors():
     assert found.error_mean == pytest.approx(0.505)
     assert found.error_p95 == pytest.approx(0.95)
     assert found.error_worst == 1.0
+
+
+def test_the_frame_that_shows_least_counts():
+    assert score([trace([0.0] * 3, covered=[0.0, 0.4, 0.1]), trace([0.0])], 0.0, 1.0).visible == 0.6
+    assert score([], 0.0, 1.0).visible is None
 
 
 def test_frames_of_several_targets_count_alike():
@@ -66,7 +72,7 @@ def test_both_shares_in_frame_are_counted_apart():
 
 def test_a_shot_that_frames_nothing_has_jerk_and_duration_only():
     found = score([], 36.0 * 5, 5.0)
-    assert found == (0, None, None, None, None, None, 6.0, 5.0)
+    assert found == (0, None, None, None, None, None, None, 6.0, 5.0)
 
 
 def test_squared_jerk_of_powers_of_time_is_exact():

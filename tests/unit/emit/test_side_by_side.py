@@ -24,7 +24,9 @@ TIMES = np.array([20.0, 21.0, 22.0, 23.0])
 def shot(*pairs) -> FlownShot:
     """Return a shot of 4 frames from 20 s on, of targets with some errors and margins."""
     share = (TIMES - 20) / 10
-    traces = tuple(Trace("t", TIMES, share, np.array(e), np.array(m), np.ones(4)) for e, m in pairs)
+    traces = tuple(
+        Trace("t", TIMES, share, np.array(e), np.array(m), np.ones(4), np.zeros(4)) for e, m in pairs
+    )
     return FlownShot("s", "cam", 20.0, 30.0, traces, score(traces, 0.0, 10.0))
 
 

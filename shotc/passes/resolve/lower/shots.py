@@ -128,4 +128,5 @@ def _above(shot: ShotBase) -> Above | None:
 def _promise(written: "RequireSpec | None") -> Promise:
     if written is None:
         return Promise()
-    return Promise(written.in_frame, written.screen_error, written.size)
+    reveal = None if written.reveal is None else (written.reveal.from_, written.reveal.to)
+    return Promise(written.in_frame, written.screen_error, written.size, written.visible, reveal)

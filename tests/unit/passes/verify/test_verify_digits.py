@@ -18,7 +18,7 @@ from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
 
 SAMPLE = orbit_plan().trajectory
-SHOT = replace(SAMPLE.keyframes.mission.shots[0], promise=Promise(size=(0.1, 0.7)))
+SHOT = replace(SAMPLE.keyframes.mission.shots[0], promise=Promise(size=(0.1, 0.7), reveal=(0.2, 0.8)))
 MISSION = replace(SAMPLE.keyframes.mission, shots=(SHOT,))
 PLAN = replace(SAMPLE, keyframes=replace(SAMPLE.keyframes, mission=MISSION))
 SPEED = next(c for c in orbit_plan().certificate if c.constraint == "speed")

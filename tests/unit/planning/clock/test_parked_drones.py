@@ -88,7 +88,7 @@ def test_a_parked_drone_hides_a_target_for_the_proof_and_for_the_table() -> None
     ir = with_spare((36.0, 0.0, 20.0 - 8.0 * 0.1), separation=0.1)
     ir = with_mission(ir, drones=(MISSION.drones[0], replace(ir.keyframes.mission.drones[1], radius=1.0)))
     assert found(ir, "tower visible").worst < 1.0
-    assert any("drone `cam2` hides it" in n for d in judge(ir, CONTEXT).diagnostics for n in d.notes)
+    assert any("drone `cam2` hides up to" in n for d in judge(ir, CONTEXT).diagnostics for n in d.notes)
     tables = {a.name: a.data.decode() for a in CsvTable().emit(VerifiedIR(ir, ())).artifacts}
     header, *rows = tables["framing.csv"].splitlines()
     column = header.split(",").index("occluded")

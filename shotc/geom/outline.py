@@ -1,0 +1,162 @@
+"""How much of a target's outline other things cover: n x n rays a frame over what a camera sees of it.
+
+Rays lead to the middles of cells of the least rectangle, across the line of sight to the target's centre,
+that holds its outline in perspective. Those that meet the target stand for its outline, in equal parts; each
+ends where it enters the target, so that nothing within or behind it covers it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
+from shotc.geom.shapes import TargetShape, bodies_of
+from shotc.geom.silhouette import shape_contour
+from shotc.geom.solid_arrays.points import signed_distance
+from shotc.geom.solid_arrays.segments import blocks, within
+from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.surface.sight import Billboards, billboards, cells_of, hidden
+from shotc.geom.surface.tree import Surface
+from shotc.geom.vec import Vec3
+
+CELLS = 12
+"""Cells on a side: shares are good to 0.01 in the mean where outlines are covered in part."""
+RIM = 12
+"""Places on each rim of a cylinder, of the rectangle that holds its outline."""
+LEAST_DEPTH_SHARE = 0.05
+"""Of the distance to a target's centre: what is nearer to the camera is not taken for larger."""
+NO_LENGTH_M = 1e-9
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OutlineRays:
+    """Rays from cameras to the outline of a body, n x n a frame.
+
+    boards : where the cells lie; own : whether a ray meets the body, shape (F, n, n)
+    reach  : share of the way to a cell at which the ray enters the body, shape (F, n, n); 0 where it does not
+    """
+
+    boards: Billboards
+    own: Mask
+    reach: Array
+
+    def __len__(self) -> int:
+        return len(self.own)
+
+    def pick(self, which: Mask) -> OutlineRays:
+        """Return those of some frames, by a mask (F,)."""
+        b = self.boards
+        boards = Billboards(b.eye[which], b.corner[which], b.right[which], b.up[which])
+        return OutlineRays(boards, self.own[which], self.reach[which])
+
+    def mapped(self, put: Callable[[Array], Array]) -> OutlineRays:
+        """Return the same where all points (F, 3) are put elsewhere, by shifts and turns of each frame."""
+        b = self.boards
+        corner = put(b.corner)
+        right, up = (put(b.corner + side) - corner for side in (b.right, b.up))
+        return OutlineRays(Billboards(put(b.eye), corner, right, up), self.own, self.reach)
+
+    def near(self, centres: Array, radius: float) -> Mask:
+        """Tell in which frames a ray may come to balls at centres, (3,) or (F, 3), shape (F,)."""
+        b = self.boards
+        along = b.corner + 0.5 * (b.right + b.up) - b.eye
+        away = centres - b.eye
+        square = np.maximum(np.einsum("fd,fd->f", along, along), NO_LENGTH_M**2)
+        share = np.clip(np.einsum("fd,fd->f", away, along) / square, 0.0, 1.0)
+        wide = 0.5 * (np.linalg.norm(b.right, axis=1) + np.linalg.norm(b.up, axis=1))
+        return np.asarray(np.linalg.norm(away - share[:, None] * along, axis=1) <= radius + wide)
+
+    def segments(self) -> tuple[Array, Array]:
+        """Return where all rays begin and end, each of shape (F n n, 3), metres."""
+        eyes = np.repeat(self.boards.eye, self.own[0].size, axis=0)
+        return eyes, eyes + self.reach.reshape(-1, 1) * (cells_of(self.boards, self.own.shape[1]) - eyes)
+
+
+def outline_rays(shape: TargetShape, centre: Vec3, eyes: Array, n: int = CELLS) -> OutlineRays:
+    """Return the rays from eyes (F, 3) to the outline of a shape that stands about a centre, metres."""
+    bodies, middle = bodies_of(shape), np.array(centre)
+    contour = np.concatenate(
+        [shape_contour(middle + np.array(body.offset) - eyes, body.shape, RIM) for body in bodies], axis=1
+    )
+    boards = _holding(eyes, middle, contour)
+    from_eyes = np.repeat(eyes, n * n, axis=0)
+    to_cells = cells_of(boards, n) - from_eyes
+    # Cells lie in the plane of the centre; this is far enough to be through the target.
+    size = np.linalg.norm(contour - (middle - eyes)[:, None], axis=2).max(axis=1)
+    far = 1.0 + 2.0 * size / np.maximum(np.linalg.norm(middle - eyes, axis=1), NO_LENGTH_M)
+    beyond = np.repeat(far, n * n)
+    reach = np.full(len(beyond), np.inf)
+    for body in bodies:
+        x, y, z = (middle + np.array(body.offset)).tolist()
+        enter, leave = within(body.shape.solid((x, y, z)), from_eyes, beyond[:, None] * to_cells)
+        reach = np.where(leave > enter, np.minimum(reach, enter), reach)
+    own = np.isfinite(reach).reshape(-1, n, n)
+    return OutlineRays(boards, own, np.where(own, (reach * beyond).reshape(-1, n, n), 0.0))
+
+
+def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:
+    """Tell which rays a solid is in the way of, (F, n, n); one that holds the eye hides nothing."""
+    out, near = np.zeros_like(rays.own), rays.near(*_ball_about(solid))
+    near[near] = signed_distance(solid, rays.boards.eye[near]) > 0.0
+    if near.any():
+        some = rays.pick(near)
+        out[near] = blocks(solid, *some.segments()).reshape(some.own.shape) & some.own
+    return out
+
+
+def covered_by_ball(rays: OutlineRays, centres: Array, radius: float) -> Mask:
+    """Tell which rays balls at centres (F, 3) are in the way of, (F, n, n), unless they hold the eye."""
+    out, near = np.zeros_like(rays.own), rays.near(centres, radius)
+    near &= np.linalg.norm(centres - rays.boards.eye, axis=1) >= radius
+    if near.any():
+        some = rays.pick(near)
+        eyes, ends = some.segments()
+        along, away = ends - eyes, np.repeat(centres[near], some.own[0].size, axis=0) - eyes
+        square = np.maximum(np.einsum("md,md->m", along, along), NO_LENGTH_M**2)
+        share = np.clip(np.einsum("md,md->m", away, along) / square, 0.0, 1.0)
+        hit = np.linalg.norm(away - share[:, None] * along, axis=1) < radius
+        out[near] = hit.reshape(some.own.shape) & some.own
+    return out
+
+
+def covered_by_surface(rays: OutlineRays, surface: Surface) -> Mask:
+    """Tell which rays a surface is in the way of, shape (F, n, n)."""
+    n = rays.own.shape[1]
+    return np.asarray(hidden(surface, rays.boards, n, rays.reach) & rays.own)
+
+
+def share_of(rays: OutlineRays, which: Mask) -> Array:
+    """Return the share of the outline that some rays (F, n, n) stand for, (F,); 0 without an outline."""
+    count = rays.own.sum(axis=(1, 2))
+    return np.asarray((which & rays.own).sum(axis=(1, 2)) / np.maximum(count, 1))
+
+
+def _ball_about(solid: Solid) -> tuple[Array, float]:
+    """Return the centre, (3,), and the radius of a ball that holds a solid, metres."""
+    tall = 0.5 * (solid.top - solid.bottom)
+    if isinstance(solid, Cylinder):
+        x, y, radius = *solid.centre, solid.radius
+    else:
+        low, high = np.min(solid.points, axis=0), np.max(solid.points, axis=0)
+        (x, y), radius = 0.5 * (low + high), 0.5 * float(np.hypot(*(high - low)))
+    return np.array([x, y, solid.bottom + tall]), float(np.hypot(radius, tall))
+
+
+def _holding(eyes: Array, middle: Array, contour: Array) -> Billboards:
+    """Return the rectangles across the lines of sight that hold points (F, K, 3), given less the eyes."""
+    frame = billboards(eyes, np.broadcast_to(middle, eyes.shape), 1.0, 1.0)
+    away = middle - eyes
+    far = np.maximum(np.linalg.norm(away, axis=1), NO_LENGTH_M)
+    depth = np.einsum("fkd,fd->fk", contour, away / far[:, None])
+    scale = far[:, None] / np.maximum(depth, LEAST_DEPTH_SHARE * far[:, None])
+    corner, sides = middle, []
+    for side in (frame.right, frame.up):
+        at = np.einsum("fkd,fd->fk", contour, side) * scale
+        low, high = at.min(axis=1), at.max(axis=1)
+        corner = corner + low[:, None] * side
+        sides.append((high - low)[:, None] * side)
+    return Billboards(eyes, np.asarray(corner), *sides)

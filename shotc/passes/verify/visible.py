@@ -1,0 +1,74 @@
+"""How much of a shot's target nothing covers: the least of its outline, the frames that show it, reveals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
+from shotc.ir.coverage import HALF_SHARE
+from shotc.ir.mission import Shot
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+
+VISIBLE, IN_SIGHT = " visible", " in sight"
+AT_FIRST, AT_LAST = " visible at first", " visible at last"
+"""What the names of such claims end with, after the target's."""
+
+OUTLINE = "of its outline"
+"""The unit of shares of an outline."""
+
+SAME_SHARE = 1e-9
+"""Shares of an outline that differ by no more are the same."""
+
+
+def visible(flight: Flight, shot: Shot, target: str, times: Array, covered: Array) -> Iterator[Claim]:
+    """Claim how much of a target is not covered: in any frame, in most frames, and as a reveal has it.
+
+    times : of the frames, (M,); covered : share of the outline that something covers then, (M,)
+    """
+    free = 1.0 - covered
+    yield _least(flight, shot, target, times, free)
+    limit = Limit(
+        f"{target}{IN_SIGHT}", HALF_SHARE, "of samples", shot.path, upper=False, hard=False, shot=shot.id
+    )
+    hidden = free < HALF_SHARE
+    yield claim(flight, limit, Worst(float(1.0 - hidden.mean()), float(times[longest(hidden)]), "sampled"))
+    if shot.promise.reveal is not None:
+        first, last = shot.promise.reveal
+        for name, key, asked, k, upper in (
+            (AT_FIRST, "from", first, 0, first < last),
+            (AT_LAST, "to", last, -1, first > last),
+        ):
+            path = (*shot.path, "require", "reveal", key)
+            limit = Limit(f"{target}{name}", asked, OUTLINE, path, upper=upper, shot=shot.id)
+            yield claim(flight, limit, Worst(float(free[k]), float(times[k]), "sampled"))
+
+
+def _least(flight: Flight, shot: Shot, target: str, times: Array, free: Array) -> Claim:
+    asked, least = shot.promise.visible, float(free.min())
+    told = -inf if shot.promise.reveal is not None else HALF_SHARE
+    limit = Limit(
+        f"{target}{VISIBLE}",
+        told if asked is None else asked,
+        OUTLINE,
+        shot.path if asked is None else (*shot.path, "require", "visible"),
+        upper=False,
+        hard=asked is not None,
+        shot=shot.id,
+    )
+    k = longest(free <= least + SAME_SHARE)
+    return claim(flight, limit, Worst(least, float(times[k]), "sampled"))
+
+
+def longest(hidden: Mask) -> int:
+    """Return the sample in the middle of the longest run of hidden ones; 0 where none is."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], hidden, [False]]).astype(np.int8)))
+    if not len(edges):
+        return 0
+    starts, ends = edges[::2], edges[1::2]
+    k = int((ends - starts).argmax())
+    return int((starts[k] + ends[k] - 1) // 2)
