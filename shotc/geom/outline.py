@@ -89,13 +89,22 @@ def outline_rays(shape: TargetShape, centre: Vec3, eyes: Array, n: int = CELLS) 
     size = np.linalg.norm(contour - (middle - eyes)[:, None], axis=2).max(axis=1)
     far = 1.0 + 2.0 * size / np.maximum(np.linalg.norm(middle - eyes, axis=1), NO_LENGTH_M)
     beyond = np.repeat(far, n * n)
-    reach = np.full(len(beyond), np.inf)
-    for body in bodies:
-        x, y, z = (middle + np.array(body.offset)).tolist()
-        enter, leave = within(body.shape.solid((x, y, z)), from_eyes, beyond[:, None] * to_cells)
-        reach = np.where(leave > enter, np.minimum(reach, enter), reach)
+    reach = entering(shape, centre, from_eyes, beyond[:, None] * to_cells)
     own = np.isfinite(reach).reshape(-1, n, n)
     return OutlineRays(boards, own, np.where(own, (reach * beyond).reshape(-1, n, n), 0.0))
+
+
+def entering(shape: TargetShape, centre: Vec3, eyes: Array, along: Array) -> Array:
+    """Return the shares of segments at which they enter a shape about a centre, (M,); inf where they do not.
+
+    eyes : where they begin, along : from there to their ends, (M, 3), metres
+    """
+    share = np.full(len(eyes), np.inf)
+    for body in bodies_of(shape):
+        x, y, z = (np.array(centre) + np.array(body.offset)).tolist()
+        enter, leave = within(body.shape.solid((x, y, z)), eyes, along)
+        share = np.where(leave > enter, np.minimum(share, enter), share)
+    return share
 
 
 def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:

@@ -91,8 +91,9 @@ def _covers(
     for zone in mission.zones:
         if zone.keep == "out":
             yield f"zone {zone.name}", covered_by_solid(rays, zone.solid)
+    one = mission.one_with(filmed.name)
     for other in mission.targets:
-        if other.name != filmed.name:
+        if other.name not in one:
             covers = _covered_by_target(rays, other, t)
             yield f"target {other.name}", covers & ~parts_of_one(filmed, other, t)[:, None, None]
     if mission.terrain is not None:

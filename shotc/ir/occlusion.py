@@ -13,10 +13,12 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import hidden
+from shotc.geom.outline import entering
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.sight import lines_hidden
 from shotc.ir.bodies import beside_body, flying, moved, parts_of_one
 from shotc.ir.mission import MissionIR
+from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 
 
@@ -39,8 +41,9 @@ def hiders(
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
     if mission.terrain is not None:
         yield f"terrain {mission.terrain.file}", lines_hidden(mission.terrain.ground.surface, eyes, centres)
+    met = _met(filmed, eyes, centres, t) if mission.meshes else centres
     for mesh in mission.meshes:
-        yield f"{mesh.kind} {mesh.file}", lines_hidden(mesh.surface, eyes, centres)
+        yield f"{mesh.kind} {mesh.file}", lines_hidden(mesh.surface, eyes, met)
     for flight in others:
         ball = flying(flight.curve, t)
         yield f"drone {flight.drone}", _behind(eyes, centres, ball, mission.drone(flight.drone).radius)
@@ -49,6 +52,13 @@ def hiders(
 def others_of(flights: Sequence[DroneTrajectory], drone: str) -> tuple[DroneTrajectory, ...]:
     """Return the flights of all drones but one."""
     return tuple(flight for flight in flights if flight.drone != drone)
+
+
+def _met(filmed: Target, eyes: Array, centres: Array, t: Array) -> Array:
+    """Return where sight lines enter a target, (M, 3): a building that is filmed does not hide itself."""
+    start, end = beside_body(filmed, eyes, t), beside_body(filmed, centres, t)
+    share = np.minimum(entering(filmed.shape, filmed.centre, start, end - start), 1.0)
+    return np.asarray(eyes + share[:, None] * (centres - eyes))
 
 
 def _behind(eyes: Array, points: Array, ball: Array, radius: float) -> Mask:

@@ -196,8 +196,8 @@ def _on_purpose(mission: MissionIR, claim: Claim, code: str, claims: tuple[Claim
         return False
     if code != "V030":
         told = code == "V031" and _mostly_hidden(claim, claims)
-        asked = shot.promise.visible is not None or shot.promise.reveal is not None
-        return told or asked or HIDDEN in shot.allow
+        promised = shot.promise.visible is not None or shot.promise.reveal is not None
+        return told or promised or HIDDEN in shot.allow
     asked = next((s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size)
     return asked is not None and asked > 1.0
 
