@@ -7,23 +7,24 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import footprint_distances
 from shotc.ir.mission import Drone, MissionIR
+from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.obstacles import flight_space
 from shotc.planning.over_ground import OverGround
 
-Obstacle = Clearance | OverGround
+Obstacle = Clearance | OverGround | BesideMesh
 """What straight legs may come nearer to than the plan does; flat ground is none of it."""
 
 
 def keep_outs(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
-    """Return keep-out zones, standing targets, parked drones and terrain, with what they are held to."""
+    """Return zones, standing targets, parked drones, terrain and meshes, with what they are held to."""
     around = (*clearances_of(mission, drone), *from_parked(mission, drone))
-    return (*(each for each in around if not each.inside), *flight_space(mission, drone).terrain)
+    return (*(each for each in around if not each.inside), *flight_space(mission, drone).surfaces)
 
 
 def shortfall(obstacle: Obstacle, points: Array) -> Array:
     """Return by how much each point, shape (n, 3), is too near to the obstacle, metres; negative is free."""
-    if isinstance(obstacle, OverGround):
+    if not isinstance(obstacle, Clearance):
         return -obstacle.slack(points)
     solid = obstacle.solid
     across = footprint_distances(solid, points[:, :2])
