@@ -15,11 +15,11 @@ from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.bounds import Bound
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.layered import Course, Watched, led_round
 from shotc.planning.clock.moving import LinearMotion
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
+from shotc.planning.layered import Course, Watched, led_round
 from shotc.solvers.spline_problem import HalfSpaceRows
 
 ROUNDING_S = 1e-9  # seconds
@@ -86,7 +86,7 @@ def ideal_of(task: Task, times: Array) -> Array:
 def led(task: Task) -> Task:
     """Return the task with a course led round what is of triangles, and to where its subject is seen."""
     breaks, near = task.clock.breaks, [motion.what for motion in task.motions]
-    course = led_round(task.walls, near, breaks, ideal_of(task, breaks), _watched(task))
+    course = led_round(task.walls, near, (breaks, ideal_of(task, breaks)), _watched(task))
     return replace(task, course=course)
 
 

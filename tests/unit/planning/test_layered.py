@@ -10,9 +10,9 @@ import pytest
 
 from shotc.geom.solids import Cylinder
 from shotc.ir.owners import Owner
-from shotc.planning.clock.layered import Watched, led_round
 from shotc.planning.clock.moving import Moving
 from shotc.planning.free_space import FreeSpace, blocked
+from shotc.planning.layered import Watched, led_round
 from tests.support.mesh_spaces import CLEARANCE, space_of
 from tests.support.scenes import house, turned
 from tests.support.surfaces import distances
@@ -23,15 +23,15 @@ STRAIGHT = np.column_stack([np.linspace(-20.0, 20.0, 41), np.zeros(41), np.full(
 
 def test_a_free_course_is_its_ideal():
     space = space_of(turned(house(6.0, 6.0, 5.0, 7.0), 0.0, (0.0, 20.0)))
-    assert led_round(space, (), TIMES, STRAIGHT).places is STRAIGHT
-    assert led_round(FreeSpace((), (), ()), (), TIMES, STRAIGHT).places is STRAIGHT
+    assert led_round(space, (), (TIMES, STRAIGHT)).places is STRAIGHT
+    assert led_round(FreeSpace((), (), ()), (), (TIMES, STRAIGHT)).places is STRAIGHT
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.7])
 def test_a_course_through_a_house_leads_round_it_and_comes_back(turn):
     made = turned(house(9.0, 8.0, 6.0, 9.0), turn, (0.0, 1.0))
     space = space_of(made)
-    course = led_round(space, (), TIMES, STRAIGHT).places
+    course = led_round(space, (), (TIMES, STRAIGHT)).places
     assert not blocked(space, course[:-1], course[1:], 0.0).any()
     dense = np.concatenate([np.linspace(a, b, 20) for a, b in pairwise(course)])
     assert distances(made, dense).min() >= CLEARANCE
@@ -42,7 +42,7 @@ def test_a_course_through_a_house_leads_round_it_and_comes_back(turn):
 
 def test_a_course_inside_of_a_building_all_the_while_leads_beside_it():
     hall = turned(house(60.0, 16.0, 30.0, 35.0), 0.0, (0.0, -6.0))
-    course = led_round(space_of(hall), (), TIMES, STRAIGHT).places
+    course = led_round(space_of(hall), (), (TIMES, STRAIGHT)).places
     assert (course[:, 1] >= 2.0 + CLEARANCE).all()
 
 
@@ -54,7 +54,7 @@ def test_a_course_keeps_clear_of_what_moves_beside_a_house():
         2.0,
         lambda t: np.column_stack([2.0 * t - 20.0, np.full(len(t), -6.0), np.full(len(t), 3.0)]),
     )
-    course = led_round(space_of(made), (bus,), TIMES, STRAIGHT).places
+    course = led_round(space_of(made), (bus,), (TIMES, STRAIGHT)).places
     beside = np.hypot(*(course - bus.at(TIMES))[:, :2].T)
     apart = np.hypot(np.maximum(beside - 3.0, 0.0), np.maximum(course[:, 2] - 6.0, 0.0))
     assert apart.min() >= 2.0
@@ -64,7 +64,7 @@ def test_a_course_keeps_clear_of_what_moves_beside_a_house():
 
 def test_where_no_course_is_free_the_ideal_is_returned():
     hall = house(400.0, 400.0, 100.0, 120.0)
-    assert led_round(space_of(hall), (), TIMES, STRAIGHT).places is STRAIGHT
+    assert led_round(space_of(hall), (), (TIMES, STRAIGHT)).places is STRAIGHT
 
 
 def watched(place, surface, **changes):
@@ -78,7 +78,7 @@ def test_a_course_is_led_to_where_its_subject_is_not_hidden():
     space = space_of(made)
     person = watched((0.0, 14.0, 0.9), space.meshes[0].mesh.surface)
     assert person.hidden(STRAIGHT[:, None]).max() > 0.9
-    course = led_round(space, (), TIMES, STRAIGHT, person)
+    course = led_round(space, (), (TIMES, STRAIGHT), person)
     before, after = person.hidden(STRAIGHT[:, None]), person.hidden(course.places[:, None])
     assert after.sum() < 0.5 * before.sum()
     off = np.linalg.norm(course.places - STRAIGHT, axis=1)
@@ -86,7 +86,7 @@ def test_a_course_is_led_to_where_its_subject_is_not_hidden():
     assert course.for_sight[20] == 1.0
     assert course.for_sight[0] == 0.0
     unfilmed = replace(person, filmed=np.zeros(len(TIMES), dtype=bool))
-    assert led_round(space, (), TIMES, STRAIGHT, unfilmed).places is STRAIGHT
+    assert led_round(space, (), (TIMES, STRAIGHT), unfilmed).places is STRAIGHT
 
 
 def test_what_belongs_to_its_subject_does_not_hide_it():

@@ -10,8 +10,9 @@ the search is repeated.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -20,9 +21,9 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
+from shotc.geom.solids import Solid
 from shotc.geom.surface.sight import hidden, upright
 from shotc.geom.surface.tree import Surface
-from shotc.planning.clock.moving import Moving
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 
 RINGS_M = (1.0, 2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0)  # metres of places from their ideal
@@ -35,6 +36,22 @@ FOR_SIGHT_SHARE = 0.4  # of the distance to its subject by which a shot is led f
 RAYS = 3  # along each side of what stands in for a subject
 SPREAD_S = 1.0  # seconds about a time at which a subject is hidden, in which a course is led for it
 LEAST_S = 0.4  # seconds between layers at least
+
+
+class Passing(Protocol):
+    """What a course keeps clear of at its times: a solid about the origin of a motion."""
+
+    @property
+    def part(self) -> Solid:
+        """The solid."""
+
+    @property
+    def clearance(self) -> float:
+        """The distance that is kept from it, metres."""
+
+    @property
+    def at(self) -> Callable[[Array], Array]:
+        """Return places (M, 3) of its origin at times (M,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,14 +96,20 @@ class Course:
 
 
 def led_round(
-    space: FreeSpace, near: Sequence[Moving], times: Array, ideal: Array, watched: Watched | None = None
+    space: FreeSpace,
+    near: Sequence[Passing],
+    course: tuple[Array, Array],
+    watched: Watched | None = None,
+    held: Mask | None = None,
 ) -> Course:
-    """Return a course at mission times (N,) that is led round surfaces; the ideal if it can.
+    """Return a course that is led round surfaces; its ideal if it can.
 
+    course : mission times (N,), and its ideal places then, (N, 3); these are returned where they are free and
+        see the subject, and where no course is found
     space : what a drone is held to but for what moves and for solids; near : those
-    ideal : its places at those times, shape (N, 3). It is returned where it is free and sees its subject, and
-        where no course is found
+    held : at which times it stays at its ideal, (N,)
     """
+    times, ideal = course
     still = Course(ideal, np.zeros(len(times)))
     covered = np.zeros(len(times)) if watched is None else watched.hidden(ideal[:, None])[:, 0]
     stopped = bool(space.meshes) and bool(_stopped(space, ideal[:-1], ideal[1:]).any())
@@ -94,7 +117,8 @@ def led_round(
         return still
     layers = np.unique(np.append(np.arange(0, len(times) - 1, _stride(times)), len(times) - 1))
     seen = None if watched is None else watched.at(layers)
-    offsets = _course(space, near, (times[layers], ideal[layers]), seen)
+    fixed = np.zeros(len(layers), dtype=bool) if held is None else held[layers]
+    offsets = _course(space, near, (times[layers], ideal[layers], fixed), seen)
     if offsets is None:
         return still
     between = [np.interp(times, times[layers], offsets[:, axis]) for axis in range(3)]
@@ -108,13 +132,13 @@ def _stride(times: Array) -> int:
 
 
 def _course(
-    space: FreeSpace, near: Sequence[Moving], ideal: tuple[Array, Array], watched: Watched | None
+    space: FreeSpace, near: Sequence[Passing], ideal: tuple[Array, Array, Mask], watched: Watched | None
 ) -> Array | None:
     """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free.
 
-    ideal : those times (L,), and its places then (L, 3)
+    ideal : those times (L,), its places then (L, 3), and whether it stays there (L,)
     """
-    times, at_ideal = ideal
+    times, at_ideal, held = ideal
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
     shifts = np.concatenate([np.zeros((1, 3)), rings.reshape(-1, 3)])
     places, step = at_ideal[:, None] + shifts, np.diff(times)
@@ -126,6 +150,7 @@ def _course(
         most[room[:, 0] < 0.0] = np.inf  # it is left in any case
         price += UNSEEN_M**2 * np.where(far <= most[:, None], watched.hidden(places), watched.filmed[:, None])
     stay = np.where(room >= 0.0, price * np.gradient(times)[:, None], BLOCKED)
+    stay[held, 1:] = BLOCKED
     apart = np.linalg.norm(shifts[:, None] - shifts[None], axis=2)
     change = np.where(apart <= FASTEST_M_S * step.max(), (CHANGE_S * apart) ** 2, BLOCKED)
     shut = np.zeros((len(step), len(shifts), len(shifts)), dtype=bool)
@@ -143,7 +168,7 @@ def _course(
         tested[stopped] = True
 
 
-def _room(space: FreeSpace, near: Sequence[Moving], times: Array, places: Array) -> Array:
+def _room(space: FreeSpace, near: Sequence[Passing], times: Array, places: Array) -> Array:
     """Return how much room beyond what is needed places of layers (L, C, 3) have at their times; (L, C)."""
     room = bounds_slack(space, places.reshape(-1, 3)).reshape(places.shape[:2])
     for what in near:
