@@ -10,3 +10,6 @@ OFF_LINE = 0.01
 
 ON_PLACE = 1e-3
 """Metres (radians, for the camera) within which a keyframe is met and a hold stands still."""
+
+BOW_SHARE = 0.25
+"""Share of the way between two generated keyframes that a path may bow out between them."""

@@ -31,8 +31,8 @@ TURNS, RISES_RAD = 12, (0.0, 0.5, 1.0)
 CHANGE_S = 2.0  # seconds: a change of so many times a distance from the ideal costs as much as that distance
 FASTEST_M_S = 12.0  # by which a distance from the ideal may change
 BLOCKED = 1e9  # cost of what is not free
-UNSEEN_M = 8.0  # metres from the ideal that cost as much as a hidden subject
-FOR_SIGHT_SHARE = 0.4  # of the distance to its subject by which a shot is led for it to be seen
+UNSEEN_SHARE = 0.7  # of the distance to its subject, off the ideal, that costs as much as to hide it
+FOR_SIGHT_SHARE = 0.4  # of that distance by which a shot is led for its subject to be seen
 RAYS = 3  # along each side of what stands in for a subject
 SPREAD_S = 1.0  # seconds about a time at which a subject is hidden, in which a course is led for it
 LEAST_S = 0.4  # seconds between layers at least
@@ -107,17 +107,18 @@ def led_round(
     course : mission times (N,), and its ideal places then, (N, 3); these are returned where they are free and
         see the subject, and where no course is found
     space : what a drone is held to but for what moves and for solids; near : those
-    held : at which times it stays at its ideal, (N,)
+    held : at which times it stays at its ideal where that is free, (N,); others lead the ways between places
+        of such a course
     """
     times, ideal = course
     still = Course(ideal, np.zeros(len(times)))
     covered = np.zeros(len(times)) if watched is None else watched.hidden(ideal[:, None])[:, 0]
-    stopped = bool(space.meshes) and bool(_stopped(space, ideal[:-1], ideal[1:]).any())
+    stopped = held is None and bool(_stopped(space, ideal[:-1], ideal[1:]).any())
     if not stopped and not covered.any():
         return still
     layers = np.unique(np.append(np.arange(0, len(times) - 1, _stride(times)), len(times) - 1))
     seen = None if watched is None else watched.at(layers)
-    fixed = np.zeros(len(layers), dtype=bool) if held is None else held[layers]
+    fixed = None if held is None else held[layers]
     offsets = _course(space, near, (times[layers], ideal[layers], fixed), seen)
     if offsets is None:
         return still
@@ -132,11 +133,14 @@ def _stride(times: Array) -> int:
 
 
 def _course(
-    space: FreeSpace, near: Sequence[Passing], ideal: tuple[Array, Array, Mask], watched: Watched | None
+    space: FreeSpace,
+    near: Sequence[Passing],
+    ideal: tuple[Array, Array, Mask | None],
+    watched: Watched | None,
 ) -> Array | None:
     """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free.
 
-    ideal : those times (L,), its places then (L, 3), and whether it stays there (L,)
+    ideal : those times (L,), its places then (L, 3), and ``held`` of ``led_round``
     """
     times, at_ideal, held = ideal
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
@@ -146,11 +150,13 @@ def _course(
     price = (shifts**2).sum(axis=1) + np.zeros((len(times), 1))
     if watched is not None:
         far = np.linalg.norm(shifts, axis=1)
-        most = FOR_SIGHT_SHARE * np.linalg.norm(watched.places - at_ideal, axis=1)
-        most[room[:, 0] < 0.0] = np.inf  # it is left in any case
-        price += UNSEEN_M**2 * np.where(far <= most[:, None], watched.hidden(places), watched.filmed[:, None])
+        away = np.linalg.norm(watched.places - at_ideal, axis=1)[:, None]
+        most = np.where(room[:, :1] >= 0.0, FOR_SIGHT_SHARE * away, np.inf)  # what is blocked is left anyway
+        unseen = np.where(far <= most, watched.hidden(places), watched.filmed[:, None])
+        price += (UNSEEN_SHARE * away) ** 2 * unseen
     stay = np.where(room >= 0.0, price * np.gradient(times)[:, None], BLOCKED)
-    stay[held, 1:] = BLOCKED
+    if held is not None:
+        stay[held & (room[:, 0] >= 0.0), 1:] = BLOCKED
     apart = np.linalg.norm(shifts[:, None] - shifts[None], axis=2)
     change = np.where(apart <= FASTEST_M_S * step.max(), (CHANGE_S * apart) ** 2, BLOCKED)
     shut = np.zeros((len(step), len(shifts), len(shifts)), dtype=bool)
@@ -159,6 +165,8 @@ def _course(
         chosen, cost = _cheapest(stay, change, step, shut)
         if cost >= BLOCKED:
             return None
+        if held is not None:
+            return np.asarray(shifts[chosen])
         at = places[np.arange(len(times)), chosen]
         stopped = np.flatnonzero(_stopped(space, at[:-1], at[1:]) & ~tested)
         if not len(stopped):

@@ -22,6 +22,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
+from shotc.ir.tolerances import BOW_SHARE
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, gap
 from shotc.passes.verify.explained import (
@@ -37,9 +38,6 @@ from shotc.passes.verify.shots import ON_TIME_S
 
 UNREPORTED_M = 0.25
 """Metres that a path may leave generated keyframes without a word: planning tells from 0.1 m on, twice."""
-
-BOW_SHARE = 0.25
-"""Share of the way between two generated keyframes that a path may bow out between them."""
 
 SWING_SHARE = 0.5
 """Share of the way between two placed keyframes, or of a longer one beside it, by which it may be left."""

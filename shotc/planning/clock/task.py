@@ -11,6 +11,7 @@ from shotc.ir.allow import HIDDEN
 from shotc.ir.bodies import moved
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.owners import Owner
+from shotc.ir.terrain import surfaces_of
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.bounds import Bound
 from shotc.planning.clock.clock import Clock
@@ -93,16 +94,14 @@ def led(task: Task) -> Task:
 def _watched(task: Task) -> Watched | None:
     """Return whom the camera is to see at the clock's breaks; None where its places are the author's own."""
     mission, camera_task, ideal = task.mission, task.camera_task, task.shot.ideal
-    surfaces = [mesh.surface for mesh in mission.meshes]
-    if mission.terrain is not None:
-        surfaces.append(mission.terrain.ground.surface)
+    surfaces = surfaces_of(mission)
     bound = not surfaces or ideal is None or ideal.placed or camera_task.keyed is not None
     if bound or not camera_task.subjects or HIDDEN in task.shot.allow:
         return None
     times, target = task.clock.breaks, mission.target(camera_task.subjects[0].target)
     filmed = (times >= task.clock.start - ROUNDING_S) & (times <= task.clock.end + ROUNDING_S)
     places = np.array(target.centre) + moved(target, times)
-    return Watched(places, filmed, target.radius, target.height, tuple(surfaces))
+    return Watched(places, filmed, target.radius, target.height, surfaces)
 
 
 def drawn_to(task: Task, times: Array) -> Array:

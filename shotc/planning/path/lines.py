@@ -6,7 +6,7 @@ something it is dropped, its neighbours only pull, and the way leads round.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
@@ -17,11 +17,13 @@ from shotc.geom.solid_arrays.points import FAR_M, support
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.planning.free_space import MARGIN_M, Breach, FreeSpace, blocked, bounds_slack, breaches
+from shotc.planning.layered import Watched, led_round
 from shotc.planning.path.over import over_ground
 from shotc.planning.path.route import NODE_MARGIN_M, find_route
 
 TURN_LENGTH_M_RAD = 2.0  # metres of path parameter for each radian turned on the spot
 SAME_PLACE_M = 1e-3  # metres
+PACE_M_S = 3.0  # metres a second between keyframes, for what it costs to leave them
 RINGS_M = np.geomspace(0.1, 60.0, 33)  # metres about a place beside a mesh, at which a free one is sought
 
 
@@ -32,6 +34,7 @@ class Line:
     corners : shape (M, 3); s : shape (M,), not decreasing
     of      : for each corner, the keyframe that stands there, or -1
     dropped : keyframes that the way leaves out; moved: whether the first, the last stand elsewhere
+    drawn : places that generated keyframes draw the way to, shape (K, 3); None where they are their own
     """
 
     corners: Array
@@ -39,6 +42,12 @@ class Line:
     of: tuple[int, ...]
     dropped: tuple[int, ...] = ()
     moved: tuple[bool, bool] = (False, False)
+    drawn: Array | None = None
+
+    @property
+    def loose(self) -> bool:
+        """Whether generated keyframes only draw the way towards them."""
+        return bool(self.dropped) or self.drawn is not None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,9 +85,16 @@ def straight_line(space: FreeSpace, start: Array, end: Array) -> Line | NoWay | 
     return Line(route, s, tuple([-1] * len(route)))
 
 
-def shot_line(space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...]) -> Line | NoWay | TooNear:
-    """Return the polyline through a shot's keyframes."""
+def shot_line(
+    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], watched: Watched | None = None
+) -> Line | NoWay | TooNear:
+    """Return the polyline through a shot's keyframes.
+
+    watched : the subject that generated keyframes are led for, at the keyframes; None without one
+    """
     points = np.array([k.at for k in keyframes], dtype=np.float64)
+    drawn = None if watched is None else _drawn(space, keyframes, points, watched)
+    points = points if drawn is None else drawn
     kept: list[int] = []
     last = len(keyframes) - 1
     moved = [False, False]
@@ -98,7 +114,25 @@ def shot_line(space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...]) -> Line |
     if isinstance(ways, NoWay):
         return ways
     dropped = tuple(i for i in range(len(keyframes)) if i not in kept)
-    return _joined(keyframes, points, (kept, dropped, (moved[0], moved[1])), ways)
+    line = _joined(keyframes, points, (kept, dropped, (moved[0], moved[1])), ways)
+    return line if drawn is None else replace(line, drawn=drawn)
+
+
+def _drawn(
+    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], points: Array, watched: Watched
+) -> Array | None:
+    """Return keyframes' places (K, 3), those of generated ones led for their subject; None where none is.
+
+    The ends stay, and so does what the author placed.
+    """
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    held = np.array([k.placed for k in keyframes])
+    held[[0, -1]] = True
+    if held.all() or steps.min() < SAME_PLACE_M:
+        return None
+    times = np.concatenate([[0.0], np.cumsum(steps)]) / PACE_M_S
+    course = led_round(space.bounds, (), (times, points), watched, held)
+    return course.places if course.for_sight.any() else None
 
 
 def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoWay:

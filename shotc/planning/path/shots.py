@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
 from shotc.geom.sampling import worst_of_runs
+from shotc.ir.allow import HIDDEN
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
+from shotc.ir.path import SIGHT, FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
+from shotc.ir.terrain import surfaces_of
+from shotc.ir.tolerances import BOW_SHARE
 from shotc.planning.free_space import FreeSpace, breaches
+from shotc.planning.layered import Watched
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, shot_line
@@ -22,6 +27,8 @@ from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 
 NOTICE_M = 0.1  # metres off a generated keyframe that are worth telling
+PLACES_BETWEEN = 65  # places between two keyframes at which a path is compared with the straight way
+BETWEEN = "what lies between its keyframes"
 LEFT_M = 0.02  # metres off that belong to a stretch worth telling
 
 
@@ -66,7 +73,7 @@ def shot_curve(
     mission: MissionIR, drone: Drone, space: FreeSpace, placed: PlacedShot, headings: str = DEFAULT
 ) -> PlannedShot | Failure:
     """Return a shot's geometry, or what stands in its way; ``headings`` is how turns are chosen."""
-    line = shot_line(space, placed.keyframes)
+    line = shot_line(space, placed.keyframes, _watched(mission, placed))
     if not isinstance(line, Line):
         return line
     if line.s[-1] <= 0.0:
@@ -102,7 +109,7 @@ def shot_curve(
     return PlannedShot(
         shot=placed,
         leg=leg,
-        deviations=_deviations(space, placed, keyed),
+        deviations=_deviations(space, placed, keyed, SIGHT if line.drawn is not None else BETWEEN),
         cuts=camera.cuts,
         swing=worst_swing(mission, keyed, camera),
         stats=_stats(placed, solved, camera, whole),
@@ -187,8 +194,8 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
         k = line.of[i]
         if k < 0:
             continue
-        if line.dropped and not placed.keyframes[k].placed:
-            pulled.append(placed.keyframes[k].at)
+        if line.loose and not placed.keyframes[k].placed:
+            pulled.append(placed.keyframes[k].at if line.drawn is None else line.drawn[k])
             pulled_at.append(line.s[i])
         else:
             bound.append(i - first)
@@ -217,7 +224,7 @@ def _keyed(placed: PlacedShot, line: Line, curve: Piecewise) -> KeyedPath:
         if not exact[k]:
             ahead = min(s[j] for j in range(k + 1, last + 1) if exact[j])
             s[k] = _nearest(curve, keyframe, float(s[k - 1]), float(ahead))
-        elif line.dropped and not keyframe.placed:
+        elif line.loose and not keyframe.placed:
             exact[k] = False if k not in {0, last} else not line.moved[int(k == last)]
     for k in (0, last):
         exact[k] = exact[k] and not line.moved[int(k == last)]
@@ -250,19 +257,66 @@ def _marks(placed: PlacedShot, keyed: KeyedPath) -> tuple[Mark, ...]:
     )
 
 
-def _deviations(space: FreeSpace, placed: PlacedShot, keyed: KeyedPath) -> tuple[PathDeviation, ...]:
-    """Return, for each run of keyframes that the path leaves, the worst of it."""
+class _Away(NamedTuple):
+    """How far a curve is from a place of its path, metres, and at which s."""
+
+    distance: float
+    s: float
+    place: Array
+
+
+def _deviations(
+    space: FreeSpace, placed: PlacedShot, keyed: KeyedPath, otherwise: str
+) -> tuple[PathDeviation, ...]:
+    """Return, for each run of keyframes that the path leaves, the worst of it, and the worst way between two.
+
+    Between generated keyframes a path may bow out by a share of their distance.
+
+    otherwise : the cause where nothing stands at the keyframe
+    """
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
     away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
+    found = [
+        _Away(float(away[i]), float(keyed.s[i]), points[i]) for i in worst_of_runs(away, LEFT_M, NOTICE_M)
+    ]
+    if not any(k.placed for k in placed.keyframes):
+        between = [_bowed(keyed, points, k) for k in range(len(points) - 1)]
+        worst = max(between, key=lambda one: one.distance)
+        if worst.distance > max([NOTICE_M, *(one.distance for one in found)]):
+            found = sorted([*found, worst], key=lambda one: one.s)
+    shot = placed.shot.id
     return tuple(
-        PathDeviation(placed.shot.id, float(away[i]), float(keyed.s[i]), _cause(space, points[i]))
-        for i in worst_of_runs(away, LEFT_M, NOTICE_M)
+        PathDeviation(shot, one.distance, one.s, _cause(space, one.place, otherwise)) for one in found
     )
 
 
-def _cause(space: FreeSpace, point: Array) -> str:
+def _bowed(keyed: KeyedPath, points: Array, k: int) -> _Away:
+    """Return where the curve bows out the most from the straight way from keyframe k on, and by how much."""
+    s = np.linspace(keyed.s[k], keyed.s[k + 1], PLACES_BETWEEN)
+    flown, along = keyed.position(s), points[k + 1] - points[k]
+    share = np.clip((flown - points[k]) @ along / max(float(along @ along), 1e-12), 0.0, 1.0)
+    chord = points[k] + share[:, None] * along
+    off = np.linalg.norm(flown - chord, axis=1)
+    i = int(off.argmax())
+    return _Away(float(off[i]) - BOW_SHARE * float(np.linalg.norm(along)), float(s[i]), chord[i])
+
+
+def _cause(space: FreeSpace, point: Array, otherwise: str) -> str:
     near = breaches(space, point)
-    return str(near[0].owner) if near else "what lies between its keyframes"
+    return str(near[0].owner) if near else otherwise
+
+
+def _watched(mission: MissionIR, placed: PlacedShot) -> Watched | None:
+    """Return whom the keyframes of a shot are to see; None where nothing of triangles may hide it."""
+    keyframes, names = placed.keyframes, [k.target for k in placed.keyframes]
+    name = next((name for name in names if name is not None), None)
+    surfaces = surfaces_of(mission)
+    if name is None or not surfaces or HIDDEN in placed.shot.allow:
+        return None
+    target = mission.target(name)
+    places = [k.at if k.target is None else mission.target(k.target).centre for k in keyframes]
+    filmed = np.array([k.target is not None for k in keyframes])
+    return Watched(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
 
 
 def _stats(

@@ -94,3 +94,15 @@ def test_what_belongs_to_its_subject_does_not_hide_it():
     space = space_of(tower)
     itself = watched((0.0, 15.0, 12.0), space.meshes[0].mesh.surface, radius=3.0, height=24.0)
     assert itself.hidden(STRAIGHT[:, None]).max() == 0.0
+
+
+def test_a_course_that_is_held_stays_where_it_is_free():
+    made = turned(house(3.0, 3.0, 9.0, 10.0), 0.0, (0.0, 7.0))
+    space = space_of(made)
+    person = watched((0.0, 14.0, 0.9), space.meshes[0].mesh.surface)
+    held = np.zeros(len(TIMES), dtype=bool)
+    held[[0, 20, -1]] = True
+    course = led_round(space, (), (TIMES, STRAIGHT), person, held)
+    off = np.linalg.norm(course.places - STRAIGHT, axis=1)
+    assert off[held].max() == 0.0
+    assert off.max() > 1.0
