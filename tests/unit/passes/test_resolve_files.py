@@ -56,7 +56,7 @@ def test_a_bad_line_of_a_file_is_named(tmp_path: Path) -> None:
     [
         ("t,x,y,z\n0,0,0,1\n", "two rows"),
         ("t,x,y,z\n0,0,0,1\n1,1,0,1\n1,2,0,1\n", "do not rise"),
-        ("t,x,y\n0,0,0\n", "other columns"),
+        ("t,x\n0,0\n", "other columns"),
         ("t,x,y,z,heading\n0,0,0,1,0\n1,0,0,nan,0\n", "out of bounds"),
     ],
 )
