@@ -25,6 +25,7 @@ from shotc.geom.outline import (
 from shotc.geom.pieces import Mask
 from shotc.geom.shapes import bodies_of
 from shotc.ir.bodies import beside_body, flying, from_body, parts_of_one
+from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
@@ -96,10 +97,8 @@ def _covers(
         if other.name not in one:
             covers = _covered_by_target(rays, other, t)
             yield f"target {other.name}", covers & ~parts_of_one(filmed, other, t)[:, None, None]
-    if mission.terrain is not None:
-        yield f"terrain {mission.terrain.file}", covered_by_surface(rays, mission.terrain.ground.surface)
-    for mesh in mission.meshes:
-        yield f"{mesh.kind} {mesh.file}", covered_by_surface(rays, mesh.surface)
+    for name, surface in surfaces_before(mission, filmed.name):
+        yield name, covered_by_surface(rays, surface)
     for flight in others:
         ball = flying(flight.curve, t)
         yield f"drone {flight.drone}", covered_by_ball(rays, ball, mission.drone(flight.drone).radius)

@@ -17,6 +17,7 @@ from shotc.geom.outline import entering
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.sight import lines_hidden
 from shotc.ir.bodies import beside_body, flying, moved, parts_of_one
+from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
@@ -39,11 +40,9 @@ def hiders(
         if other.name not in one:
             before = hidden(beside_body(other, eyes, t), beside_body(other, centres, t), (other.solid,))
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
-    if mission.terrain is not None:
-        yield f"terrain {mission.terrain.file}", lines_hidden(mission.terrain.ground.surface, eyes, centres)
     met = _met(filmed, eyes, centres, t) if mission.meshes else centres
-    for mesh in mission.meshes:
-        yield f"{mesh.kind} {mesh.file}", lines_hidden(mesh.surface, eyes, met)
+    for name, surface in surfaces_before(mission, target):
+        yield name, lines_hidden(surface, eyes, met)
     for flight in others:
         ball = flying(flight.curve, t)
         yield f"drone {flight.drone}", _behind(eyes, centres, ball, mission.drone(flight.drone).radius)

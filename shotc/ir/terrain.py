@@ -13,7 +13,7 @@ from shotc.geom.pieces import Pieces
 from shotc.geom.surface.ground import Ground, height_at
 from shotc.geom.surface.height import least_where_ground
 from shotc.geom.surface.near import nearest
-from shotc.geom.surface.tree import Surface, in_plan, surface_of
+from shotc.geom.surface.tree import in_plan, surface_of
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
@@ -86,9 +86,3 @@ def ground_heights(mission: MissionIR, xy: Array) -> Array:
     if mission.terrain is None:
         return np.zeros(len(xy))
     return np.nan_to_num(height_at(mission.terrain.ground, xy))
-
-
-def surfaces_of(mission: MissionIR) -> tuple[Surface, ...]:
-    """Return everything of triangles that may hide a target: meshes and terrain."""
-    meshes = tuple(mesh.surface for mesh in mission.meshes)
-    return meshes if mission.terrain is None else (*meshes, mission.terrain.ground.surface)

@@ -9,9 +9,9 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.allow import HIDDEN
 from shotc.ir.bodies import moved
+from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.owners import Owner
-from shotc.ir.terrain import surfaces_of
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.bounds import Bound
 from shotc.planning.clock.clock import Clock
@@ -94,12 +94,17 @@ def led(task: Task) -> Task:
 def _watched(task: Task) -> Watched | None:
     """Return whom the camera is to see at the clock's breaks; None where its places are the author's own."""
     mission, camera_task, ideal = task.mission, task.camera_task, task.shot.ideal
-    surfaces = surfaces_of(mission)
-    bound = not surfaces or ideal is None or ideal.placed or camera_task.keyed is not None
+    bound = (
+        not (mission.meshes or mission.terrain)
+        or ideal is None
+        or ideal.placed
+        or camera_task.keyed is not None
+    )
     if bound or not camera_task.subjects or HIDDEN in task.shot.allow:
         return None
     times, target = task.clock.breaks, mission.target(camera_task.subjects[0].target)
     filmed = (times >= task.clock.start - ROUNDING_S) & (times <= task.clock.end + ROUNDING_S)
+    surfaces = tuple(surface for _, surface in surfaces_before(mission, target.name))
     places = np.array(target.centre) + moved(target, times)
     return Watched(places, filmed, target.radius, target.height, surfaces)
 

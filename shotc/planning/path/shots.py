@@ -11,10 +11,10 @@ from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
 from shotc.geom.sampling import worst_of_runs
 from shotc.ir.allow import HIDDEN
+from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import SIGHT, FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
-from shotc.ir.terrain import surfaces_of
 from shotc.ir.tolerances import BOW_SHARE
 from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.layered import Watched
@@ -310,12 +310,12 @@ def _watched(mission: MissionIR, placed: PlacedShot) -> Watched | None:
     """Return whom the keyframes of a shot are to see; None where nothing of triangles may hide it."""
     keyframes, names = placed.keyframes, [k.target for k in placed.keyframes]
     name = next((name for name in names if name is not None), None)
-    surfaces = surfaces_of(mission)
-    if name is None or not surfaces or HIDDEN in placed.shot.allow:
+    if name is None or not (mission.meshes or mission.terrain) or HIDDEN in placed.shot.allow:
         return None
     target = mission.target(name)
     places = [k.at if k.target is None else mission.target(k.target).centre for k in keyframes]
     filmed = np.array([k.target is not None for k in keyframes])
+    surfaces = tuple(surface for _, surface in surfaces_before(mission, name))
     return Watched(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
 
 
