@@ -6,6 +6,7 @@ from pathlib import Path
 
 from shotc.cli.centred import centred
 from shotc.cli.summary import WIDTH, shot_rows, summary
+from shotc.geom.track import Track
 from shotc.ir.path import PathDeviation
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.spec.compositions import COMPOSITIONS
@@ -41,6 +42,27 @@ def test_a_shot_of_one_target_has_a_row_that_needs_no_name() -> None:
     start = ("half", "keyframes", "0:22.0", "30.00 s")
     assert shot_rows(one) == [head, (*start, "50 %", "0.100", "0.20 to 0.30")]
     assert shot_rows(plan) == [head, (*start, "-", "-", "-")]
+
+
+def test_what_is_covered_is_told_where_anything_is() -> None:
+    plan = orbit_plan()
+    (first, *rest) = claims("tower", 0.5, 0.1, (0.2, 0.3))
+    seen = replace(first, constraint="tower visible", worst=0.62, unit="of its outline")
+    head, row = shot_rows(VerifiedIR(plan.trajectory, (first, *rest, seen)))
+    assert (head[5], row[5]) == ("visible", "62 %")
+    free = replace(seen, worst=1.0)
+    assert "visible" not in shot_rows(VerifiedIR(plan.trajectory, (first, *rest, free)))[0]
+
+
+def test_how_far_smoothing_moves_a_track_is_told() -> None:
+    plan = orbit_plan()
+    keyframes = plan.trajectory.keyframes
+    track = Track((0.0, 1.0), ((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)), smoothed=0.4213)
+    (tower,) = keyframes.mission.targets
+    mission = replace(keyframes.mission, targets=(replace(tower, track=track),))
+    moved = replace(plan, trajectory=replace(plan.trajectory, keyframes=replace(keyframes, mission=mission)))
+    assert facts(plan, "smoothed") == []
+    assert facts(moved, "smoothed") == ["the track of tower lies up to 0.43 m from what is recorded"]
 
 
 def near(drone: str, worst: float) -> Claim:

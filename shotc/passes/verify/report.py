@@ -189,15 +189,14 @@ def _side(claim: Claim) -> str:
 def _on_purpose(mission: MissionIR, claim: Claim, code: str, claims: tuple[Claim, ...]) -> bool:
     """Tell whether the target of a claim is asked to be larger than the frame, or may be hidden.
 
-    What is hidden in most frames is not told a second time, nor what a promise says.
+    What is hidden in most frames is not told a second time.
     """
     shot = _shot(mission, claim.shot)
     if not isinstance(shot, Shot):
         return False
     if code != "V030":
         told = code == "V031" and _mostly_hidden(claim, claims)
-        promised = shot.promise.visible is not None or shot.promise.reveal is not None
-        return told or promised or HIDDEN in shot.allow
+        return told or HIDDEN in shot.allow
     asked = next((s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size)
     return asked is not None and asked > 1.0
 

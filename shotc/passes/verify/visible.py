@@ -32,19 +32,19 @@ def visible(flight: Flight, shot: Shot, target: str, times: Array, covered: Arra
     """
     free = 1.0 - covered
     yield _least(flight, shot, target, times, free)
-    limit = Limit(
-        f"{target}{IN_SIGHT}", HALF_SHARE, "of samples", shot.path, upper=False, hard=False, shot=shot.id
-    )
+    asked = shot.promise.visible is not None or shot.promise.reveal is not None
+    most = -inf if asked else HALF_SHARE  # what is promised is held instead
+    limit = Limit(f"{target}{IN_SIGHT}", most, "of samples", shot.path, upper=False, hard=False, shot=shot.id)
     hidden = free < HALF_SHARE
     yield claim(flight, limit, Worst(float(1.0 - hidden.mean()), float(times[longest(hidden)]), "sampled"))
     if shot.promise.reveal is not None:
         first, last = shot.promise.reveal
-        for name, key, asked, k, upper in (
+        for name, key, wanted, k, upper in (
             (AT_FIRST, "from", first, 0, first < last),
             (AT_LAST, "to", last, -1, first > last),
         ):
             path = (*shot.path, "require", "reveal", key)
-            limit = Limit(f"{target}{name}", asked, OUTLINE, path, upper=upper, shot=shot.id)
+            limit = Limit(f"{target}{name}", wanted, OUTLINE, path, upper=upper, shot=shot.id)
             yield claim(flight, limit, Worst(float(free[k]), float(times[k]), "sampled"))
 
 
