@@ -12,9 +12,9 @@ from shotc.spec.fields import (
     Count,
     Duration,
     NonNegativeLength,
-    Position,
     PositiveLength,
     RelativePath,
+    Stand,
 )
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.quantities import Quantity
@@ -27,14 +27,14 @@ class GridSpec(Model):
     """Drones in a square grid, row by row."""
 
     spacing: PositiveLength = Field(description="distance between neighbours")
-    origin: Position = Field(default=(0.0, 0.0, 0.0), description="south-west corner of the grid")
+    origin: Stand = Field(default=(0.0, 0.0, 0.0), description="south-west corner of the grid")
 
 
 class CircleSpec(Model):
     """Drones on a circle, evenly."""
 
     radius: PositiveLength = Field(description="radius")
-    center: Position = Field(default=(0.0, 0.0, 0.0), description="middle of the circle")
+    center: Stand = Field(default=(0.0, 0.0, 0.0), description="middle of the circle")
 
 
 class LayoutSpec(Model):
