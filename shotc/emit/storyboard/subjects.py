@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from shotc.ir.coverage import HALF_SHARE, coverage
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, Shot
@@ -15,6 +16,9 @@ from shotc.ir.parked import bodies
 from shotc.ir.phases import KeyframeTime, Reference
 from shotc.ir.sampling import SAME_TIME, references, seen
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+
+NOTICE_SHARE = 0.05
+"""Of an outline: less that is covered is not told beside a picture."""
 
 MOVED = 0.02
 """From how far on it is told where the user's own framing had a subject, (u, v) units."""
@@ -26,7 +30,7 @@ class Framed:
 
     reference : (u, v) wanted of it, or None
     asked : (u, v) where the user's own heading and pitch had put it, or None
-    fault : "cropped" or "hidden" where it is not seen as it should be, or ""
+    fault : "cropped", "hidden" or how much of it is covered where it is not seen as it should be, or ""
     """
 
     target: str
@@ -100,7 +104,12 @@ def _composition(shot: Shot, target: str, keyframe: int) -> Composition:
 
 def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str, time: float) -> str:
     others = others_of(bodies(plan.trajectory), flight.drone)
-    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]), others)
+    mission = plan.trajectory.keyframes.mission
+    frames = seen(mission, flight, target, np.array([time]), others)
     if not frames.in_frame[0]:
         return "cropped"
-    return "hidden" if frames.hidden[0] else ""
+    eye = flight.curve(np.array([time]))[:, :3]
+    covered = float(coverage(mission, others, target, eye, np.array([time])).share[0])
+    if covered > 1.0 - HALF_SHARE:
+        return "hidden"
+    return f"{100 * covered:.0f} % covered" if covered >= NOTICE_SHARE else ""
