@@ -309,7 +309,18 @@ def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> P
 
 
 def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:
-    """Say what keeps a checked mission from being planned here: its features, or missing solvers."""
+    """Say what keeps a checked mission from being planned: its boxes, its features or missing solvers."""
+    meant = [keyframe for shot in mission.shots for keyframe in shot.keyframes if keyframe.unidentified]
+    if meant:
+        return (
+            Diagnostic(
+                "N016",
+                "it is not known what the box of a keyframe is drawn about",
+                labels=tuple(mission.origins.value((*k.path, "box")) for k in meant),
+                notes=("the mission checks clean; `shotc identify` finds targets in its scene",),
+                help=f"run `shotc identify {mission.origins.file}`, or name the `target` of the keyframe",
+            ),
+        )
     if mission.deferred:
         first, *others = mission.deferred
         note = tuple(f"neither can {other.feature}" for other in others)

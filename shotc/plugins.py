@@ -1,4 +1,4 @@
-"""Where kinds, refiners and emitters come from: entry points, ours and third parties' by one route.
+"""Where kinds, refiners, emitters and saliency models come from: entry points, by one route for all.
 
 An entry point names an object with ``name``, ``summary`` and ``api`` (the version it was written
 against). Nothing is imported until it is asked for; a clash of names, a failed import or another api
@@ -18,7 +18,12 @@ OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplot
 """Libraries that the base install does without: a plugin that misses one is not broken."""
 OURS = "shotc"
 OUR_REFINER, NO_REFINER = "ours", "none"
-GROUPS = {"kinds": "shotc.kinds", "refiners": "shotc.refiners", "emitters": "shotc.emitters"}
+GROUPS = {
+    "kinds": "shotc.kinds",
+    "refiners": "shotc.refiners",
+    "emitters": "shotc.emitters",
+    "saliency": "shotc.saliency",
+}
 
 
 class Found(NamedTuple):
@@ -83,7 +88,7 @@ class OnDemand(Mapping[str, Any]):
 
 @cache
 def discover(group: str) -> Found:
-    """Load every plugin of ``group`` ("kinds", "refiners" or "emitters")."""
+    """Load every plugin of ``group`` ("kinds", "refiners", "emitters" or "saliency")."""
     return _prove(group, _by_name(group))
 
 

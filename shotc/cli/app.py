@@ -34,6 +34,7 @@ COMMANDS = {
     "explain": _Command("shotc.cli.explain:explain", _LEARN),
     "list": _Command("shotc.cli.inventory:show", _LEARN),
     "schema": _Command("shotc.cli.schema:schema", _LEARN),
+    "identify": _Command("shotc.cli.identify:identify", _LEARN),
     "plan": _Command("shotc.cli.plan:plan", _PLAN),
     "verify": _Command("shotc.cli.verify:verify", _PLAN),
     "emit": _Command("shotc.cli.emit:emit", _PLAN),

@@ -23,6 +23,7 @@ class Group(StrEnum):
     DRONES = "drones"
     REFINERS = "refiners"
     EMITTERS = "emitters"
+    SALIENCY = "saliency"
     COMPOSITIONS = "compositions"
     HEADINGS = "headings"
 
@@ -32,6 +33,7 @@ GROUPS: dict[str, str] = {
     Group.DRONES: "models of drones, with their limits",
     Group.REFINERS: "who refines a path, for `plan --refiner`",
     Group.EMITTERS: "what can be written, for `output: {emit: [...]}` and `emit`",
+    Group.SALIENCY: "who guesses what a picture is about, for `identify --saliency`",
     Group.COMPOSITIONS: "places and sets of places on screen, for `composition` and `frame`",
     Group.HEADINGS: "ways to turn a camera that follows nothing, for `plan --headings`",
 }
@@ -49,7 +51,7 @@ GroupArgument = Annotated[Group | None, typer.Argument(help="What to list; witho
 
 
 def show(group: GroupArgument = None) -> None:
-    """List what a mission can name: kinds, drones, refiners, emitters, compositions or headings.
+    """List what a mission can name: kinds, drones, refiners, emitters, saliency, compositions or headings.
 
     Example: `shotc list kinds`
     """

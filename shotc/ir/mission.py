@@ -6,6 +6,7 @@ the mission file (see ``OriginMap``).
 
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
+from shotc.geom.camera import ScreenBox
 from shotc.geom.solids import Solid
 from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
@@ -134,6 +135,7 @@ class Keyframe(NamedTuple):
     placed : True where the user gave the position (it binds), False where a kind generated it
     heading : compass heading as the user wrote it, rad, whole turns included; None where none is written
     beside : what the place counts from, or None for a place of W
+    box : on screen, as the author framed it, round what is meant; None where none is drawn
     """
 
     at: Vec3
@@ -147,6 +149,12 @@ class Keyframe(NamedTuple):
     path: KeyPath
     heading: float | None = None
     beside: Beside | None = None
+    box: ScreenBox | None = None
+
+    @property
+    def unidentified(self) -> bool:
+        """Whether a box shows what is meant, and nobody has said what that is."""
+        return self.box is not None and self.target is None
 
 
 class Ideal(NamedTuple):

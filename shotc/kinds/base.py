@@ -152,8 +152,12 @@ class Scene(NamedTuple):
             return Stand(place)
         return Stand(place, Beside(name, at.offset, turns=at.turn is not None))
 
-    def aim(self, shot: ShotBase, aimed: "Aimed", *path: str | int) -> Aim | Diagnostic | Deferred:
+    def aim(
+        self, shot: ShotBase, aimed: "Aimed", *path: str | int, own: str | None = None
+    ) -> Aim | Diagnostic | Deferred:
         """Return (aim, target) of a camera that is aimed as ``aimed``, at ``path`` below the shot, says.
+
+        own : the target that is written there, which stands in for the shot's
 
         A target named by `look_at` is framed. A point is looked at, or a heading and pitch are
         taken, and the shot's own target, if it has one, is framed.
@@ -161,15 +165,16 @@ class Scene(NamedTuple):
         if isinstance(aimed.look_at, str):
             found = self.subject(aimed.look_at, *path, "look_at")
             return (None, aimed.look_at) if isinstance(found, Target) else found
-        if shot.target is not None:
-            subject = self.subject(shot.target, "target")
+        framed, where = (shot.target, ()) if own is None else (own, path)
+        if framed is not None:
+            subject = self.subject(framed, *where, "target")
             if not isinstance(subject, Target):
                 return subject
         if aimed.look_at is not None:
-            return (self.place(aimed.look_at), shot.target)
+            return (self.place(aimed.look_at), framed)
         if aimed.heading is None or aimed.pitch is None:
-            return (None, shot.target)
-        return ((yaw_of(aimed.heading), aimed.pitch), shot.target)
+            return (None, framed)
+        return ((yaw_of(aimed.heading), aimed.pitch), framed)
 
     def framed(self, shot: ShotBase, name: str) -> Subject:
         """Return a target as the subject of a shot on its own clock."""

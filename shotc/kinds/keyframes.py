@@ -26,7 +26,7 @@ def expand(shot: KeyframesShot, scene: Scene) -> Expansion:
 
 def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
     spec, path = shot.keyframes[index], ("keyframes", index)
-    aim = scene.aim(shot, spec, *path)
+    aim = scene.aim(shot, spec, *path, own=spec.target)
     if isinstance(aim, Diagnostic | Deferred):
         return aim
     stand = scene.stand(shot, spec.at, *path, "at")
@@ -44,6 +44,7 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
         path=(*scene.path, *path),
         heading=spec.heading,
         beside=stand.beside,
+        box=spec.box,
     )
 
 

@@ -12,7 +12,7 @@ from shotc.spec.fieldtypes import Integer, NamedOr, Text
 from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
 from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, OnMap, Plan, Position, Relative, Stand, Station
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
-from shotc.spec.screen import Aspect, CompositionSet, Frame, ScreenPoint
+from shotc.spec.screen import Aspect, BoxOnScreen, CompositionSet, Frame, ScreenPoint
 from shotc.spec.sizes import SIZES
 from shotc.units import SMALLEST
 
@@ -25,6 +25,7 @@ __all__ = [
     "AngularRate",
     "Aspect",
     "BodySize",
+    "BoxOnScreen",
     "CameraAltitude",
     "CameraAltitudeSpan",
     "CompositionSet",

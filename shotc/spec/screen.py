@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from pydantic.json_schema import JsonSchemaValue
 
+from shotc.geom.camera import ScreenBox
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
@@ -65,6 +66,28 @@ def _named(points: Sequence[Vec2]) -> str:
     return clip(written if len(points) == 1 else f"[{written}]")
 
 
+class ScreenBoxType(FieldType):
+    """A box on the screen by its lower left and its upper right corner."""
+
+    label = "ScreenBox"
+
+    def read(self, value: Any) -> ScreenBox:
+        """Return the box, which has a size."""
+        u0, v0, u1, v1 = _CORNERS.read(value)
+        if u0 < u1 and v0 < v1:
+            return ScreenBox(u0, u1, v0, v1)
+        if u0 == u1 or v0 == v1:
+            raise fault("inverted-range", "the box is empty", "write [u0, v0, u1, v1], u0 < u1 and v0 < v1")
+        right = ", ".join(f"{c:.4g}" for c in (min(u0, u1), min(v0, v1), max(u0, u1), max(v0, v1)))
+        raise fault("inverted-range", "the corners of the box are swapped", f"write [{right}]")
+
+    def schema(self) -> JsonSchemaValue:
+        """Return four coordinates; the order of the corners is not in it."""
+        return _CORNERS.schema()
+
+
+_CORNERS = Tuple("ScreenCorners", (_SCREEN,) * 4, "[u0, v0, u1, v1]")
+BoxOnScreen = Annotated[ScreenBox, ScreenBoxType()]
 Frame = Annotated[Composition, NamedOr("Frame", FRAMES, "frame", OwnPointType())]
 CompositionSet = Annotated[Composition, NamedOr("CompositionSet", FRAMES, "composition", OwnPointsType())]
 

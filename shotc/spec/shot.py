@@ -13,6 +13,7 @@ from pydantic_core import CoreSchema
 from shotc.spec.allow import Allowed
 from shotc.spec.faults import fault, fault_at
 from shotc.spec.fields import (
+    BoxOnScreen,
     CompositionSet,
     FieldOfView,
     Frame,
@@ -167,6 +168,14 @@ class KeyframeSpec(Model):
     )
     pitch: Pitch | None = Field(default=None, description="elevation of the camera, positive up")
     look_at: LookAt | None = Field(default=None, description="target or position to look at")
+    target: Name | None = Field(
+        default=None, description="name of the target in this picture; the shot's if silent"
+    )
+    box: BoxOnScreen | None = Field(
+        default=None,
+        description="[u0, v0, u1, v1], lower left and upper right, round what is meant, in which `shotc "
+        "identify` finds the target",
+    )
     frame: Frame | None = Field(
         default=None, description="where on screen the target goes; overrides composition"
     )
@@ -177,3 +186,14 @@ class KeyframeSpec(Model):
     time: NonNegativeDuration | None = Field(
         default=None, description="when it is here, from the shot's start"
     )
+
+    @model_validator(mode="after")
+    def _one_subject(self) -> Self:
+        if self.target is not None and isinstance(self.look_at, str):
+            raise fault_at(
+                ("target",),
+                "conflicting-fields",
+                "`target` cannot stand beside the name of a target to look at",
+                "leave `target` out",
+            )
+        return self

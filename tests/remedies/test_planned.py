@@ -25,6 +25,7 @@ TOLD_IN_WORDS = {
     **dict.fromkeys(("M011", "M013", "Q009"), "where else a home or a keyframe goes is the author's choice"),
     "V029": "where a shot begins and ends is the author's choice",
     "Q007": "where a keyframe goes is the author's choice",
+    "N016": "a command of its own finds the target, or the author names it",
     "E101": "only the author knows where on earth it is",
     **dict.fromkeys(("E102", "E105", "E107"), "it says what to do with the file, the mission is in order"),
 }

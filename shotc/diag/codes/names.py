@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._identified import IDENTIFIED
 from shotc.diag.codes._obstacles import FILES
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
@@ -131,4 +132,5 @@ CODES: tuple[CodeInfo, ...] = (
         phase="other",
     ),
     *FILES,
+    *IDENTIFIED,
 )

@@ -95,7 +95,7 @@ def hidden(surface: Surface, boards: Billboards, n: int = 8, reach: Array | None
     for start in range(0, len(boards), FRAMES_AT_ONCE):
         which = slice(start, start + FRAMES_AT_ONCE)
         some, short = boards.part(which), ends[which]
-        pairs = _candidates(surface, some)
+        pairs = candidates(surface, some)
         for first in range(0, len(pairs), PAIRS_AT_ONCE):
             part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))
             hits = _hits(surface.triangles[part.triangle], some, (part.item, short[part.item]))
@@ -109,8 +109,11 @@ def lines_hidden(surface: Surface, eyes: Array, points: Array) -> Mask:
     return np.asarray(hidden(surface, billboards(eyes, points, 0.0, 0.0), 1)[:, 0, 0])
 
 
-def _candidates(surface: Surface, boards: Billboards) -> Pairs:
-    """Return the triangles whose boxes meet the boxes that slide from the eye to the billboard, growing."""
+def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: float = 0.0) -> Pairs:
+    """Return the triangles whose boxes meet the boxes that slide from the eye to the billboard, growing.
+
+    far : share of the way to the billboard at which they stop; about : metres by which triangles are grown
+    """
     on = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
     grown = 0.5 * (np.abs(boards.right) + np.abs(boards.up))
     # At share x of the way: x (on + grown) >= low - eye and x (grown - on) >= eye - high, axis by axis.
@@ -120,11 +123,11 @@ def _candidates(surface: Surface, boards: Billboards) -> Pairs:
 
     def meets(frame: IntArray, low: Array, high: Array) -> Mask:
         eye = boards.eye[frame]
-        share = np.concatenate([low - eye, eye - high], axis=1) * per[frame]
+        share = np.concatenate([low - about - eye, eye - high - about], axis=1) * per[frame]
         entering = enters[frame]
         first = np.where(entering, share, 0.0).max(axis=1)
-        last = np.where(entering, 1.0, share).min(axis=1)
-        return np.asarray(np.maximum(first, 0.0) <= np.minimum(last, 1.0))
+        last = np.where(entering, far, share).min(axis=1)
+        return np.asarray(np.maximum(first, 0.0) <= np.minimum(last, far))
 
     return search(surface, len(boards), meets)
 
@@ -141,7 +144,7 @@ def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> M
     volume = dot(corners[:, 0], planes[:, 1])
     planes *= np.sign(volume)[:, None, None]
     sides = np.stack([boards.corner - boards.eye, boards.right, boards.up], axis=1)[frame]
-    products = np.einsum("ksd,kpd->skp", planes, sides) @ _cells(round(sqrt(ends.shape[1])))
+    products = np.einsum("ksd,kpd->skp", planes, sides) @ cells(round(sqrt(ends.shape[1])))
     inside = np.minimum(np.minimum(products[0], products[1]), products[2]) >= 0.0
     # The sum is the product with the triangle's own plane; the volume over it, the share of the way.
     whole = products[0] + products[1] + products[2]
@@ -150,12 +153,12 @@ def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> M
 
 def cells_of(boards: Billboards, n: int) -> Array:
     """Return the middles of all cells, (F n n, 3), metres of W."""
-    one, a, b = _cells(n)[:, None, :, None]
+    one, a, b = cells(n)[:, None, :, None]
     corner, right, up = boards.corner[:, None], boards.right[:, None], boards.up[:, None]
     return np.asarray(one * corner + a * right + b * up).reshape(-1, 3)
 
 
-def _cells(n: int) -> Array:
+def cells(n: int) -> Array:
     """Return 1, a and b of all cells' middles, shape (3, n * n)."""
     middle = (np.arange(n) + 0.5) / n
     a, b = np.meshgrid(middle, middle, indexing="ij")

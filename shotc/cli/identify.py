@@ -1,0 +1,116 @@
+"""``shotc identify``: find the targets that keyframes mean in the mission's scene."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from shotc import plugins
+from shotc.cli import console
+from shotc.cli.console import known, table
+from shotc.cli.inputs import STDIN, read_mission
+from shotc.emit.base import Artifact
+from shotc.output import write
+
+if TYPE_CHECKING:
+    from shotc.identify.mission import Identification
+    from shotc.identify.saliency import Saliency
+
+USUAL = "spectral-residual"
+
+Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
+OutputFile = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="MISSION",
+        help="The mission to write [NAME-identified.yaml beside SPEC].",
+    ),
+]
+Guess = Annotated[
+    bool,
+    typer.Option("--guess", help="Guess a box for each keyframe that has neither a box nor a target."),
+]
+SaliencyName = Annotated[
+    str, typer.Option("--saliency", metavar="NAME", help="Who guesses; see `shotc list saliency`.")
+]
+Force = Annotated[bool, typer.Option("--force", help="Replace the files if they exist.")]
+
+
+def identify(
+    spec: Spec,
+    output: OutputFile = None,
+    guess: Guess = False,
+    saliency: SaliencyName = USUAL,
+    force: Force = False,
+) -> None:
+    """Find the targets that keyframes mean in the mission's scene.
+
+    Draw what you mean as `box: [u0, v0, u1, v1]` in a keyframe of a `keyframes` shot: its lower left and
+    upper right corner on the screen, u to the right and v up, from -1 to 1. Rays through the box find what
+    of `world.scene` and `world.buildings` is in it. What belongs together becomes a target, a cylinder; one
+    that several keyframes mean is one target.
+
+    Written are the mission with the targets, its comments and layout as they were, and beside it a sheet of
+    pictures (PNG) with boxes and cylinders: look at it. How sure each target is stands in both; below 60 % it
+    is a warning with the runner-up. A `--guess` is what is unlike the rest of the picture, seldom what is
+    meant; the box that was guessed is written, too, so that it can be mended.
+
+    Example: `shotc identify church.yaml -o church-identified.yaml`
+    """
+    known("--saliency", saliency, plugins.names("saliency"))
+    source = read_mission(spec)
+    place = output or _beside(spec, source.name)
+    sheet = place.with_suffix(".png")
+    for path in (place, sheet):
+        if path.exists() and not force:
+            raise typer.BadParameter(f"`{path}` exists; add --force to replace it", param_hint="--output")
+    from shotc.identify.mission import Place, identify_source
+    from shotc.identify.sheet import Row, draw_sheet
+
+    of, to = Place(source.name, source.folder), Place(place.as_posix(), place.parent)
+    done = identify_source(source.data, of, to, _guesser(saliency) if guess else None)
+    if done.text is None:
+        console.report(done.diagnostics, done.sources)
+        console.complain("nothing is written")
+        raise typer.Exit(console.EXIT_REJECTED)
+    rows = [Row(t.name, t.cylinder, dict(zip(t.tasks, t.shares, strict=True))) for t in done.targets]
+    picture = draw_sheet(done.title, done.tasks, done.pictures, rows)
+    _, faults = write([Artifact(place.name, done.text), Artifact(sheet.name, picture)], place.parent)
+    console.report([*done.diagnostics, *faults], done.sources)
+    if faults:
+        raise typer.Exit(console.exit_code(faults))
+    console.out("\n".join(table(_rows(done))))
+    console.out(f"wrote {place} and {sheet}")
+    console.note(f"next: look at {sheet}, then shotc plan {place}")
+
+
+def _beside(spec: str, name: str) -> Path:
+    """Return where a mission goes for which no place is said."""
+    path = Path("mission.yaml") if spec == STDIN else Path(name)
+    return path.with_name(f"{path.stem}-identified{path.suffix}")
+
+
+def _guesser(name: str) -> Saliency:
+    """Return who guesses; where that cannot be loaded, say so and exit."""
+    source = plugins.one("saliency", name)
+    if source.plugin is None:
+        console.report(source.diagnostics, {})
+        raise typer.Exit(console.EXIT_REJECTED)
+    guesser: Saliency = source.plugin
+    return guesser
+
+
+def _rows(done: Identification) -> list[tuple[str, ...]]:
+    """Return the table of what was found, a line a target."""
+    from shotc.identify.sheet import described
+
+    rows: list[tuple[str, ...]] = [("target", "where", "sure", "keyframes")]
+    for target in done.targets:
+        shares = ", ".join(f"{100 * share:.0f} %" for share in target.shares)
+        where = "; ".join(done.tasks[i].label for i in target.tasks)
+        rows.append((target.name, described(target.cylinder), shares, where))
+    return rows

@@ -1,0 +1,67 @@
+"""Which cluster each keyframe means: by the rays through its own box, or as the paper prints it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bspline import IntArray
+from shotc.identify.clusters import LOOSE, Points
+from shotc.identify.cylinders import Upright
+from shotc.identify.views import Camera
+
+MIDDLE = 0.5
+"""Standard deviation of the weights of rays about the middle of their box, in its half sides."""
+
+
+class Choice(NamedTuple):
+    """What a keyframe means.
+
+    cluster : its number; share : of the weight of all that its box holds, 0 to 1
+    runner_up : the cluster with the next largest share, None where there is none
+    """
+
+    cluster: int
+    share: float
+    runner_up: int | None = None
+
+
+def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | None:
+    """Return the cluster that most of the rays through a keyframe's box hit, weighted towards its middle.
+
+    cluster : of each point, shape (P,). None where no ray hits a cluster. Of what also reaches out of the
+    box, the weight is less by the share of it that does: a box is drawn about what is meant, not across it.
+    """
+    mine = (points.keyframe == keyframe) & (cluster != LOOSE)
+    within = mine & points.within()
+    if not within.any():
+        return None
+    count = int(cluster.max()) + 1
+    square = (points.place[within] ** 2).sum(axis=1)
+    # The least square is taken off: far from the middle all weights would be 0.
+    weight = np.exp(-(square - square.min()) / (2.0 * MIDDLE**2))
+    weights = np.bincount(cluster[within], weight, count)
+    inside, all_of_it = (np.bincount(cluster[which], minlength=count) for which in (within, mine))
+    total = weights * inside / np.maximum(all_of_it, 1)
+    order = np.argsort(-total, kind="stable")
+    second = int(order[1]) if len(order) > 1 and total[order[1]] > 0.0 else None
+    return Choice(int(order[0]), float(total[order[0]] / total.sum()), second)
+
+
+def as_printed(camera: Camera, cylinders: Mapping[int, Upright] | Sequence[Upright]) -> int | None:
+    """Return the cylinder whose centre is nearest to the line straight ahead (Gebhardt and Hilliges, Sec. 5).
+
+    None where none is in front of the camera.
+    """
+    numbers = list(cylinders) if isinstance(cylinders, Mapping) else list(range(len(cylinders)))
+    centres = np.array([cylinders[n].middle for n in numbers]).reshape(-1, 3)
+    eyes = camera.view
+    ahead = np.array([eyes.cos_pitch * eyes.cos_yaw, eyes.cos_pitch * eyes.sin_yaw, eyes.sin_pitch])
+    away = centres - np.array(camera.eye)
+    along = away @ ahead
+    if not (along > 0.0).any():
+        return None
+    off = np.linalg.norm(away - along[:, None] * ahead, axis=1)
+    return numbers[int(np.where(along > 0.0, off, np.inf).argmin())]

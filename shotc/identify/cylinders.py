@@ -1,0 +1,126 @@
+"""Upright cylinders round points: the least one, and the one of Appendix F as it is printed."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from shotc.geom.bernstein import Array
+from shotc.geom.vec import Vec2
+
+TO_GROUND_M = 3.0
+"""Height above ground below which what is seen is taken to stand on it: its foot may be hidden."""
+ROUNDING = 1.0 + 1e-9
+
+
+class Circle(NamedTuple):
+    """A circle in the plan, metres."""
+
+    centre: Vec2
+    radius: float
+
+    def holds(self, point: Array) -> bool:
+        """Tell whether a point (2,) is inside, to rounding."""
+        return bool(np.hypot(*(point - self.centre)) <= self.radius * ROUNDING + 1e-12)
+
+
+class Upright(NamedTuple):
+    """An upright cylinder, metres of W."""
+
+    centre: Vec2
+    radius: float
+    bottom: float
+    top: float
+
+    @property
+    def height(self) -> float:
+        """How high it is, metres."""
+        return self.top - self.bottom
+
+    @property
+    def middle(self) -> tuple[float, float, float]:
+        """The centre of its axis."""
+        return (*self.centre, 0.5 * (self.bottom + self.top))
+
+
+def enclosing(points: Array, ground: float) -> Upright:
+    """Return the least cylinder about points (P, 3); ground : z of the ground there, metres."""
+    return _upright(least_circle(points[:, :2]), points, ground)
+
+
+def printed(points: Array, ground: float) -> Upright:
+    """Return the cylinder of Gebhardt and Hilliges, Appendix F, about points (P, 3).
+
+    Its circle has the farthest pair as its diameter, and need not hold all points. They print that distance
+    as the radius; it is halved here.
+    """
+    corners = _outermost(points[:, :2])
+    away = np.linalg.norm(corners[:, None] - corners[None], axis=-1)
+    i, j = np.unravel_index(int(away.argmax()), away.shape)
+    middle = 0.5 * (corners[i] + corners[j])
+    circle = Circle((float(middle[0]), float(middle[1])), 0.5 * float(away[i, j]))
+    return _upright(circle, points, ground)
+
+
+def outside(circle: Upright, points: Array) -> float:
+    """Return the share of points (P, 3) that are farther from a cylinder's axis than its radius."""
+    away = np.hypot(points[:, 0] - circle.centre[0], points[:, 1] - circle.centre[1])
+    return float(np.mean(away > circle.radius * ROUNDING + 1e-9))
+
+
+def _upright(circle: Circle, points: Array, ground: float) -> Upright:
+    bottom, top = float(points[:, 2].min()), float(points[:, 2].max())
+    return Upright(circle.centre, circle.radius, ground if bottom < ground + TO_GROUND_M else bottom, top)
+
+
+def least_circle(points: Array) -> Circle:
+    """Return the smallest circle that holds points (P, 2), metres; by Welzl's way, over their hull's corners.
+
+    E. Welzl, Smallest enclosing disks (1991), without recursion; the points go by distance from the middle.
+    """
+    corners = _outermost(points)
+    corners = corners[np.argsort(-np.linalg.norm(corners - corners.mean(axis=0), axis=1), kind="stable")]
+    circle = Circle(_pair(corners[0]), 0.0)
+    for i, p in enumerate(corners):
+        if circle.holds(p):
+            continue
+        circle = Circle(_pair(p), 0.0)
+        for j, q in enumerate(corners[:i]):
+            if circle.holds(q):
+                continue
+            circle = _about(p, q)
+            for r in corners[:j]:
+                if not circle.holds(r):
+                    circle = _through(p, q, r)
+    return circle
+
+
+def _outermost(points: Array) -> Array:
+    """Return the corners of the hull of points (P, 2), or the ends of those that lie on a line."""
+    if len(points) > 3:
+        try:
+            return np.asarray(points[ConvexHull(points).vertices])
+        except QhullError:  # they lie on a line
+            order = np.lexsort((points[:, 1], points[:, 0]))
+            return np.asarray(points[[order[0], order[-1]]])
+    return points
+
+
+def _pair(point: Array) -> Vec2:
+    return (float(point[0]), float(point[1]))
+
+
+def _about(p: Array, q: Array) -> Circle:
+    return Circle(_pair(0.5 * (p + q)), 0.5 * float(np.linalg.norm(p - q)))
+
+
+def _through(p: Array, q: Array, r: Array) -> Circle:
+    """Return the circle through three points; of points on a line, that about the two farthest."""
+    a, b = q - p, r - p
+    twice = 2.0 * float(a[0] * b[1] - a[1] * b[0])
+    if abs(twice) < 1e-12 * max(float(a @ a), float(b @ b), 1e-300):
+        return max((_about(p, q), _about(p, r), _about(q, r)), key=lambda c: c.radius)
+    centre = np.array([b[1] * (a @ a) - a[1] * (b @ b), a[0] * (b @ b) - b[0] * (a @ a)]) / twice
+    return Circle(_pair(p + centre), float(np.linalg.norm(centre)))

@@ -1,0 +1,177 @@
+"""From a mission's text to the same text with the targets that its keyframes mean."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from itertools import chain
+from pathlib import Path
+from typing import NamedTuple
+
+from shotc import plugins
+from shotc.checking import check_source, models_of
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.geom.bernstein import Array
+from shotc.identify.cylinders import Upright
+from shotc.identify.find import Found, find
+from shotc.identify.pictures import picture
+from shotc.identify.rewrite import Named, NotEditable, rewritten
+from shotc.identify.saliency import Saliency
+from shotc.identify.tasks import (
+    Task,
+    doubts,
+    empty,
+    enclosed,
+    nothing_to_do,
+    swallowed,
+    tasks,
+    unguessed,
+)
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.mission import MissionIR
+from shotc.ir.passes import PassContext
+from shotc.pipeline import ASSIGN, FRONT, Setting, passes_of, run
+from shotc.source.file import SourceFile
+from shotc.spec.load import load
+
+UNFIT = re.compile(r"[^A-Za-z0-9_-]+")
+LONGEST = 60
+"""Characters of a target's name, so that a number fits behind it."""
+
+
+class Identified(NamedTuple):
+    """A target that was found.
+
+    tasks : numbers of the keyframes that mean it; shares : of what their boxes hold, 0 to 1
+    """
+
+    name: str
+    cylinder: Upright
+    tasks: tuple[int, ...]
+    shares: tuple[float, ...]
+
+
+class Identification(NamedTuple):
+    """What came of a mission.
+
+    text : the mission with its targets, None where there is an error
+    tasks, pictures : the keyframes that were looked at, and what their cameras see
+    """
+
+    text: bytes | None
+    targets: tuple[Identified, ...]
+    tasks: tuple[Task, ...]
+    pictures: tuple[Array, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    sources: dict[str, SourceFile]
+    title: str = ""
+
+
+class Place(NamedTuple):
+    """Where a text comes from or goes to: its name, and the folder of the files that it names."""
+
+    name: str
+    folder: Path | None
+
+
+def identify_source(data: bytes, of: Place, to: Place, saliency: Saliency | None) -> Identification:
+    """Find the targets that a mission's keyframes mean, and write them into it.
+
+    of, to : the mission, and what is made of it, which has to check clean there
+    saliency : who guesses the boxes of keyframes that have none; None leaves those keyframes alone
+    """
+    kinds = plugins.shot_kinds()
+    loaded = load(data, of.name, of.folder, models_of(kinds.plugins), kinds.unusable)
+    stopped = Identification(None, (), (), (), loaded.diagnostics, {of.name: loaded.file})
+    if loaded.mission is None:
+        return stopped
+    setting = Setting(kinds.plugins, plugins.names("emitters"))
+    front = run(passes_of((ASSIGN, *FRONT), setting), loaded.mission, PassContext())
+    if not isinstance(front.value, KeyframeIR) or has_errors(front.diagnostics):
+        return stopped._replace(diagnostics=(*loaded.diagnostics, *front.diagnostics))
+    mission = front.value.mission
+    stopped = stopped._replace(title=mission.name)
+    asked = tasks(mission, guess=saliency is not None)
+    wrong = nothing_to_do(mission, asked)
+    faults = [wrong] if wrong is not None else enclosed(mission, asked)
+    if faults:
+        return stopped._replace(diagnostics=tuple(faults))
+    pictures = tuple(picture(mission, task.camera) for task in asked)
+    asked, faults = _with_boxes(mission, asked, pictures, saliency)
+    if faults:
+        return stopped._replace(diagnostics=tuple(faults))
+    found = find(mission, [task.glance for task in asked])
+    faults = [*empty(mission, found, asked), *swallowed(mission, found, asked)]
+    if faults:
+        return stopped._replace(diagnostics=tuple(faults))
+    done = stopped._replace(tasks=asked, pictures=pictures)
+    return _written(done, mission, found, (data, to))
+
+
+def _with_boxes(
+    mission: MissionIR, asked: Sequence[Task], pictures: Sequence[Array], saliency: Saliency | None
+) -> tuple[tuple[Task, ...], list[Diagnostic]]:
+    """Return keyframes with the boxes that were guessed, or the faults of those without."""
+    out, faults = [], []
+    for task, seen in zip(asked, pictures, strict=True):
+        if task.box is None and saliency is not None:
+            box = saliency.box(seen)
+            if box is None:
+                faults.append(unguessed(mission, task))
+                continue
+            task = task._replace(box=box)  # noqa: PLW2901
+        out.append(task)
+    return tuple(out), faults
+
+
+def _written(
+    done: Identification, mission: MissionIR, found: Found, text: tuple[bytes, Place]
+) -> Identification:
+    """Return the mission with what was found, if it is one that checks clean."""
+    data, to = text
+    names = _names(mission, found)
+    cylinders = {name: target.cylinder for name, target in zip(names, found.targets, strict=True)}
+    called = {i: name for name, target in zip(names, found.targets, strict=True) for i in target.glances}
+    named = [
+        Named(task.keyframe.path, called[i], task.box if task.guessed else None)
+        for i, task in enumerate(done.tasks)
+    ]
+    doubtful = tuple(doubts(mission, found, done.tasks, names))
+    try:
+        made = rewritten(data, mission.origins.file, cylinders, named)
+    except NotEditable as layout:
+        label = mission.origins.value(layout.path)
+        help_ = "write it out where it stands, without an anchor or alias"
+        fault = Diagnostic(
+            "N017", "no key can be added to what is written elsewhere, too", (label,), help=help_
+        )
+        return done._replace(diagnostics=(fault,))
+    checked = check_source(made, to.name, to.folder)
+    sources = {**done.sources, **checked.sources}
+    if has_errors(checked.diagnostics):
+        errors = tuple(d for d in checked.diagnostics if has_errors([d]))
+        return done._replace(diagnostics=errors, sources=sources)
+    targets = tuple(
+        Identified(name, target.cylinder, target.glances, tuple(_share(found, i) for i in target.glances))
+        for name, target in zip(names, found.targets, strict=True)
+    )
+    return done._replace(text=made, targets=targets, diagnostics=doubtful, sources=sources)
+
+
+def _share(found: Found, number: int) -> float:
+    choice = found.choices[number]
+    return 0.0 if choice is None else choice.share
+
+
+def _names(mission: MissionIR, found: Found) -> list[str]:
+    """Return a name for each target: that of the file, fit for a mission, or a number; none that is taken."""
+    taken = {target.name for target in (*mission.targets, *mission.groups)}
+    names: list[str] = []
+    for target in found.targets:
+        own = UNFIT.sub("-", target.name or "").strip("-_")[:LONGEST].strip("-_")
+        numbered = (f"{own or 'target'}-{n}" for n in range(2 if own else 1, 10_000))
+        name = next(n for n in chain([own] if own else [], numbered) if n not in taken)
+        taken.add(name)
+        names.append(name)
+    return names

@@ -1,0 +1,202 @@
+"""A mission's text with targets added: by places in the text, so that comments and layout stay."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
+from math import ceil, floor
+from typing import Any, NamedTuple
+
+from shotc.geom.camera import ScreenBox
+from shotc.identify.cylinders import Upright
+from shotc.source.file import KeyPath, SourceFile, Span
+from shotc.source.yaml_tree import Document, parse
+
+TARGETS: KeyPath = ("targets",)
+_PROPERTIES = re.compile(r"(?:[&!]\S*\s+)+")
+_BEFORE_DRONES = ("drones", "fleets", "rules", "shots", "output")
+CM = 100.0
+
+
+class Named(NamedTuple):
+    """What a keyframe is given: the target in it, and the box that was guessed, None where one is drawn."""
+
+    path: KeyPath
+    target: str
+    box: ScreenBox | None = None
+
+
+class _Edit(NamedTuple):
+    """Text to put in at an offset."""
+
+    at: int
+    text: str
+
+
+class NotEditable(Exception):
+    """Keys cannot be put in where a mapping is written; ``path`` is of that mapping."""
+
+    def __init__(self, path: KeyPath) -> None:
+        super().__init__(path)
+        self.path = path
+
+
+def rewritten(data: bytes, name: str, targets: Mapping[str, Upright], named: Sequence[Named]) -> bytes:
+    """Return a mission's bytes with targets, and with the keyframes that name them.
+
+    data : of a mission without faults; name : to show it under. NotEditable where its keyframes, or its
+    targets, are written elsewhere, as by an alias.
+    """
+    document = parse(data, name)
+    text = _Text(document)
+    entries = {key: _entry(upright) for key, upright in targets.items()}
+    edits = [*text.added(TARGETS, entries)] if entries else []
+    for keyframe in named:
+        edits += text.given(keyframe.path, _keys(keyframe))
+    made = _applied(document.file.text, edits)
+    mark = b"\xef\xbb\xbf" if data.startswith(b"\xef\xbb\xbf") else b""
+    result = mark + made.encode()
+    _compare(document, parse(result, name), targets, named)
+    return result
+
+
+def _entry(upright: Upright) -> str:
+    bottom, top = floor(upright.bottom * CM) / CM, ceil(upright.top * CM) / CM
+    x, y = (round(c, 2) for c in upright.centre)
+    # Rounded up, the cylinder still holds what it was put about.
+    radius = ceil(upright.radius * CM + 1.0) / CM
+    at = ", ".join(_number(c) for c in (x, y, 0.5 * (bottom + top)))
+    return f"{{at: [{at}], radius: {_number(radius)}, height: {_number(top - bottom)}}}"
+
+
+def _number(value: float) -> str:
+    return f"{round(value, 3) + 0.0:g}" if abs(value) < 1e5 else f"{value:.3f}"
+
+
+def _keys(named: Named) -> dict[str, str]:
+    keys = {"target": named.target}
+    if named.box is not None:
+        b = named.box
+        keys["box"] = f"[{', '.join(f'{c:.3f}' for c in (b.u_min, b.v_min, b.u_max, b.v_max))}]"
+    return keys
+
+
+def _applied(text: str, edits: Sequence[_Edit]) -> str:
+    for edit in sorted(dict.fromkeys(edits), key=lambda e: e.at, reverse=True):
+        text = text[: edit.at] + edit.text + text[edit.at :]
+    return text
+
+
+class _Text:
+    """A mission's text, and where its keys and values stand."""
+
+    def __init__(self, document: Document) -> None:
+        self.file: SourceFile = document.file
+        self.text = document.file.text
+        self.root = document.root
+        self.keys, self.values = document.keys, document.values
+        self.end = "\r\n" if "\r\n" in self.text else "\n"
+        self._lines = [0]
+        for match in re.finditer(r"\r\n|\r|\n", self.text):
+            self._lines.append(match.end())
+
+    def given(self, path: KeyPath, keys: Mapping[str, str]) -> Iterator[_Edit]:
+        """Put keys into a mapping that is there and holds something."""
+        inside = [key for key in self.keys if key[:-1] == path]
+        if not inside or self._offset(self.keys[inside[0]]) < self._offset(self.values[path]):
+            raise NotEditable(path)
+        if self._is_flow(path):
+            last = max(self._offset(self.values[key], end=True) for key in inside)
+            yield _Edit(last, "".join(f", {key}: {value}" for key, value in keys.items()))
+            return
+        plain = [key for key in inside if self._ends_its_line(key)]
+        if not plain:
+            raise NotEditable(path)
+        beside = (*path, "box") if (*path, "box") in plain else plain[-1]
+        indent = " " * (self.keys[beside].column - 1)
+        at = self._line_end(self._offset(self.values[beside], end=True))
+        yield _Edit(at, "".join(f"{self.end}{indent}{key}: {value}" for key, value in keys.items()))
+
+    def added(self, path: KeyPath, entries: Mapping[str, str]) -> Iterator[_Edit]:
+        """Put entries into a mapping at the top of the mission, which may not be there yet."""
+        if path not in self.keys:
+            yield self._new_section(str(path[0]), entries)
+            return
+        inside = [key for key in self.keys if key[:-1] == path]
+        if self._is_flow(path):
+            first = self._after_properties(path) + 1
+            rest = ", " if inside else ""
+            yield _Edit(first, ", ".join(f"{key}: {value}" for key, value in entries.items()) + rest)
+            return
+        if not inside or self._offset(self.keys[inside[0]]) < self._offset(self.values[path]):
+            raise NotEditable(path)
+        indent = " " * (self.keys[inside[0]].column - 1)
+        at = self._line_end(self._offset(self.keys[path], end=True))
+        yield _Edit(at, "".join(f"{self.end}{indent}{key}: {value}" for key, value in entries.items()))
+
+    def _new_section(self, name: str, entries: Mapping[str, str]) -> _Edit:
+        if self._is_flow(()):
+            first = self._after_properties(()) + 1
+            inside = ", ".join(f"{key}: {value}" for key, value in entries.items())
+            return _Edit(first, f"{name}: {{{inside}}}, ")
+        follows = next((key,) for key in _BEFORE_DRONES if (key,) in self.keys)
+        line = self.keys[follows].line
+        # Comments right above a key belong to it.
+        while line > 1 and self.file.line(line - 1).startswith("#"):
+            line -= 1
+        indent = " " * (self.keys[follows].column - 1)
+        lines = [f"{indent}{name}:", *(f"{indent}  {key}: {value}" for key, value in entries.items())]
+        return _Edit(self._lines[line - 1], "".join(f"{each}{self.end}" for each in lines))
+
+    def _is_flow(self, path: KeyPath) -> bool:
+        return self.text[self._after_properties(path)] in "{["
+
+    def _after_properties(self, path: KeyPath) -> int:
+        """Return where a value begins, behind its anchor and tag."""
+        start = self._offset(self.values[path])
+        properties = _PROPERTIES.match(self.text, start)
+        return start if properties is None else properties.end()
+
+    def _ends_its_line(self, path: KeyPath) -> bool:
+        """Tell whether behind a value nothing of the mission stands on its last line."""
+        value = self.values[path]
+        parts = [key for key in self.values if key[:-1] == path]
+        if parts and not self._is_flow(path):
+            return False
+        start = self._after_properties(path)
+        return self.text[start : start + 1] not in ("|", ">") and value.end_line >= value.line
+
+    def _line_end(self, offset: int) -> int:
+        line = self.file.position(offset)[0]
+        return self._lines[line - 1] + len(self.file.line(line))
+
+    def _offset(self, span: Span, *, end: bool = False) -> int:
+        line, column = (span.end_line, span.end_column) if end else (span.line, span.column)
+        return self._lines[line - 1] + column - 1
+
+
+def _compare(
+    before: Document, after: Document, targets: Mapping[str, Upright], named: Sequence[Named]
+) -> None:
+    """Raise NotEditable where the new text says anything else than the old one with what was added."""
+    wanted = _copied(before.root)
+    if targets:
+        held = after.root.get("targets", {}) if isinstance(after.root, dict) else {}
+        wanted["targets"] = {**wanted.get("targets", {}), **{key: held.get(key) for key in targets}}
+    for keyframe in named:
+        mapping: Any = wanted
+        for key in keyframe.path:
+            mapping = mapping[key]
+        mapping["target"] = keyframe.target
+        if keyframe.box is not None:
+            mapping["box"] = [float(c) for c in _keys(keyframe)["box"][1:-1].split(",")]
+    if after.faults or after.root != wanted:
+        raise NotEditable(named[0].path if named else TARGETS)
+
+
+def _copied(root: Any) -> Any:
+    """Return a copy in which no two places share one object, as aliases do."""
+    if isinstance(root, dict):
+        return {key: _copied(value) for key, value in root.items()}
+    return [_copied(item) for item in root] if isinstance(root, list) else deepcopy(root)

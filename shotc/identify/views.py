@@ -1,0 +1,193 @@
+"""What cameras see of the world's triangles through boxes on their screens, ray by ray."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import tan
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.camera import ScreenBox, View, view
+from shotc.geom.pieces import Mask
+from shotc.geom.surface.hits import first_hits
+from shotc.geom.surface.sight import Billboards
+from shotc.geom.surface.tree import Surface
+from shotc.geom.vec import Vec2, Vec3
+from shotc.ir.mission import MissionIR
+from shotc.ir.terrain import ground_heights
+
+TILE_RAYS = 8
+"""Rays along either side of a tile: so many share a search in the tree."""
+SKY, GROUND = -1, -2
+"""Instead of the number of a mesh: nothing is met, or the ground is."""
+ON_GROUND_M = 0.5
+"""Height above ground up to which what is met counts as ground."""
+DISC_SPACINGS = 4.0
+"""Radius of the discs that stand for a cloud's points, in halves of their spacing: few rays slip through."""
+_Kind = TypeVar("_Kind", bound=np.generic)
+FRAME = ScreenBox(-1.0, 1.0, -1.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """A camera pose: eye in metres of W, angles in rad, aspect = width / height."""
+
+    eye: Vec3
+    yaw: float
+    pitch: float
+    hfov: float
+    aspect: float
+
+    @property
+    def view(self) -> View:
+        """Its direction cosines, and half its screen."""
+        return view(self.yaw, self.pitch, self.hfov, self.aspect)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Seen:
+    """What rays through the middles of the cells of a box on screen meet first.
+
+    All of shape (rows, columns), the lowest row and the left column first.
+
+    point     : metres of W, shape (rows, columns, 3); NaN where nothing is met
+    mesh      : the number of the mesh, SKY or GROUND; what is met within ON_GROUND_M of the ground is GROUND
+    triangle  : of those that the mesh was made of; -1 where no mesh is met
+    footprint : how wide a cell is where it is met, metres
+    shade     : cosine of the angle between the ray and what it meets, 0 to 1
+    """
+
+    point: Array
+    mesh: IntArray
+    triangle: IntArray
+    footprint: Array
+    shade: Array
+
+    @property
+    def solid(self) -> Mask:
+        """Where a mesh is met above the ground."""
+        return np.asarray(self.mesh >= 0)
+
+
+def look(mission: MissionIR, camera: Camera, box: ScreenBox, tiles: Vec2 | tuple[int, int]) -> Seen:
+    """Return what a camera sees of a mission's meshes and ground through a box on its screen.
+
+    tiles : of TILE_RAYS x TILE_RAYS rays, across and up
+    """
+    across, up = int(tiles[0]), int(tiles[1])
+    boards = _boards(camera, box, (across, up))
+    ways = _laid(_ways(boards), (across, up))
+    eye = np.array(camera.eye)
+    share, mesh, triangle, normal = _nearest(mission, boards, (across, up), ways)
+    with np.errstate(invalid="ignore"):
+        point = eye + share[..., None] * ways
+    met = np.isfinite(share)
+    point[~met] = np.nan
+    low = met & (mesh >= 0)
+    low[low] = point[low][:, 2] < ground_heights(mission, point[low][:, :2]) + ON_GROUND_M
+    mesh = np.where(low, GROUND, mesh)
+    size = _cell(camera, box, (TILE_RAYS * across, TILE_RAYS * up))
+    length = np.linalg.norm(ways, axis=-1) * np.linalg.norm(normal, axis=-1)
+    shade = np.abs((normal * ways).sum(axis=-1)) / np.where(length > 0.0, length, 1.0)
+    return Seen(point, mesh, triangle, np.where(met, share, 0.0) * size, shade)
+
+
+def _cell(camera: Camera, box: ScreenBox, cells: tuple[int, int]) -> float:
+    """Return how wide a cell of a box is at a depth of one metre: the larger of its sides."""
+    half = tan(camera.hfov / 2)
+    width = half * (box.u_max - box.u_min) / cells[0]
+    return float(max(width, half / camera.aspect * (box.v_max - box.v_min) / cells[1]))
+
+
+def _boards(camera: Camera, box: ScreenBox, tiles: tuple[int, int]) -> Billboards:
+    """Return the tiles of a box at a depth of one metre, row by row, so that shares of the way are depths."""
+    eyes = camera.view
+    right = np.array([eyes.sin_yaw, -eyes.cos_yaw, 0.0])
+    ahead = np.array([eyes.cos_pitch * eyes.cos_yaw, eyes.cos_pitch * eyes.sin_yaw, eyes.sin_pitch])
+    up = np.array([-eyes.sin_pitch * eyes.cos_yaw, -eyes.sin_pitch * eyes.sin_yaw, eyes.cos_pitch])
+    side = right * eyes.half_width * (box.u_max - box.u_min) / tiles[0]
+    rise = up * eyes.half_height * (box.v_max - box.v_min) / tiles[1]
+    eye = np.array(camera.eye)
+    low = eye + ahead + right * eyes.half_width * box.u_min + up * eyes.half_height * box.v_min
+    row, column = (n.ravel() for n in np.meshgrid(np.arange(tiles[1]), np.arange(tiles[0]), indexing="ij"))
+    corner = low + column[:, None] * side + row[:, None] * rise
+    count = len(row)
+    return Billboards(np.tile(eye, (count, 1)), corner, np.tile(side, (count, 1)), np.tile(rise, (count, 1)))
+
+
+def _ways(boards: Billboards) -> Array:
+    """Return the way to the middle of each cell of tiles, shape (F, TILE_RAYS, TILE_RAYS, 3)."""
+    middle = (np.arange(TILE_RAYS) + 0.5) / TILE_RAYS
+    a, b = np.meshgrid(middle, middle, indexing="ij")
+    at = (boards.corner - boards.eye)[:, None, None]
+    right, up = boards.right[:, None, None], boards.up[:, None, None]
+    return np.asarray(at + a[..., None] * right + b[..., None] * up)
+
+
+def _laid(values: NDArray[_Kind], tiles: tuple[int, int]) -> NDArray[_Kind]:
+    """Return values of tiles, (F, along right, along up, ...), as rows and columns of the box."""
+    across, up = tiles
+    n, rest = TILE_RAYS, values.shape[3:]
+    shaped = values.reshape(up, across, n, n, *rest)
+    order = (0, 3, 1, 2, *range(4, 4 + len(rest)))
+    return np.asarray(shaped.transpose(order).reshape(up * n, across * n, *rest))
+
+
+def _nearest(
+    mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array
+) -> tuple[Array, IntArray, IntArray, Array]:
+    """Return depth, mesh, triangle and normal of what is met first, each (rows, columns, ...)."""
+    share, normal = _ground(mission, boards, tiles, ways)
+    mesh = np.where(np.isfinite(share), GROUND, SKY)
+    triangle = np.full(share.shape, -1, dtype=np.intp)
+    for number, each in enumerate(mission.meshes):
+        hits = first_hits(each.surface, boards, TILE_RAYS, DISC_SPACINGS * each.spacing)
+        its_share, its_triangle = _laid(hits.share, tiles), _laid(hits.triangle, tiles)
+        closer = its_share < share
+        share = np.where(closer, its_share, share)
+        mesh = np.where(closer, number, mesh)
+        triangle[closer] = each.surface.source[its_triangle[closer]]
+        normal[closer] = _normals(each.surface, its_triangle[closer], ways[closer])
+    return share, mesh, triangle, normal
+
+
+def _ground(
+    mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array
+) -> tuple[Array, Array]:
+    """Return depth and normal of the ground: the terrain, or the plane z = 0."""
+    if mission.terrain is not None:
+        surface = mission.terrain.ground.surface
+        hits = first_hits(surface, boards, TILE_RAYS)
+        share, triangle = _laid(hits.share, tiles), _laid(hits.triangle, tiles)
+        normal = np.zeros(ways.shape)
+        met = np.isfinite(share)
+        normal[met] = _normals(surface, triangle[met], ways[met])
+        return share, normal
+    height = float(boards.eye[0, 2])
+    down = (ways[..., 2] * height) < 0.0
+    share = np.where(down, -height / np.where(down, ways[..., 2], 1.0), np.inf)
+    return share, np.broadcast_to([0.0, 0.0, 1.0], ways.shape).copy()
+
+
+def _normals(surface: Surface, triangle: IntArray, ways: Array) -> Array:
+    """Return normals (K, 3) of triangles, of any length; a point faces the ray."""
+    corners = surface.triangles[triangle]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    flat = np.linalg.norm(normal, axis=1) == 0.0
+    normal[flat] = ways[flat]
+    return np.asarray(normal)
+
+
+def eyes_inside(mission: MissionIR, cameras: Sequence[Camera]) -> list[str | None]:
+    """Return of each camera the name of what its eye is inside of, None where it is in the open."""
+    eyes = np.array([camera.eye for camera in cameras]).reshape(-1, 3)
+    found: list[str | None] = [None] * len(cameras)
+    for mesh in mission.meshes:
+        for i in np.flatnonzero(mesh.holds(eyes)):
+            found[i] = mesh.file
+    return found
