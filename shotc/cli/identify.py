@@ -106,11 +106,9 @@ def _guesser(name: str) -> Saliency:
 
 def _rows(done: Identification) -> list[tuple[str, ...]]:
     """Return the table of what was found, a line a target."""
-    from shotc.identify.sheet import described
-
     rows: list[tuple[str, ...]] = [("target", "where", "sure", "keyframes")]
     for target in done.targets:
         shares = ", ".join(f"{100 * share:.0f} %" for share in target.shares)
         where = "; ".join(done.tasks[i].label for i in target.tasks)
-        rows.append((target.name, described(target.cylinder), shares, where))
+        rows.append((target.name, target.cylinder.described, shares, where))
     return rows

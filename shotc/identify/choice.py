@@ -14,6 +14,8 @@ from shotc.identify.views import Camera
 
 MIDDLE = 0.5
 """Standard deviation of the weights of rays about the middle of their box, in its half sides."""
+LEAST_LINES = 3
+"""Columns and rows of rays that have to hit what is meant: less is the edge of something beside the box."""
 
 
 class Choice(NamedTuple):
@@ -46,6 +48,9 @@ def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | No
     inside, all_of_it = (np.bincount(cluster[which], minlength=count) for which in (within, mine))
     total = weights * inside / np.maximum(all_of_it, 1)
     order = np.argsort(-total, kind="stable")
+    won = points.place[within & (cluster == order[0])]
+    if min(len(np.unique(won[:, 0])), len(np.unique(won[:, 1]))) < LEAST_LINES:
+        return None
     second = int(order[1]) if len(order) > 1 and total[order[1]] > 0.0 else None
     return Choice(int(order[0]), float(total[order[0]] / total.sum()), second)
 

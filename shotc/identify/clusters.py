@@ -30,6 +30,7 @@ class Points:
     point     : shape (P, 3), metres of W
     footprint : shape (P,), how wide a ray is there, metres
     owner     : shape (P,), the number of the building that each belongs to; NOBODY where that is not known
+    foot      : shape (P,), the lowest z of that building, metres; inf where it is not known
     keyframe  : shape (P,), the number of the keyframe whose ray it is
     place     : shape (P, 2), where in the box the ray goes, across and up: -1 to 1, more beside the box
     """
@@ -37,6 +38,7 @@ class Points:
     point: Array
     footprint: Array
     owner: IntArray
+    foot: Array
     keyframe: IntArray
     place: Array
 

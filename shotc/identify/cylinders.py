@@ -44,6 +44,12 @@ class Upright(NamedTuple):
         """The centre of its axis."""
         return (*self.centre, 0.5 * (self.bottom + self.top))
 
+    @property
+    def described(self) -> str:
+        """Where it is and how large, for people."""
+        x, y, z = self.middle
+        return f"about [{x:.1f}, {y:.1f}, {z:.1f}], radius {self.radius:.1f} m, height {self.height:.1f} m"
+
 
 def enclosing(points: Array, ground: float) -> Upright:
     """Return the least cylinder about points (P, 3); ground : z of the ground there, metres."""

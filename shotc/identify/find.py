@@ -17,10 +17,11 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.camera import ScreenBox
 from shotc.identify.choice import Choice, by_own_rays
 from shotc.identify.clusters import LOOSE, NOBODY, Points, clusters
+from shotc.identify.complete import hidden_corners
 from shotc.identify.cylinders import Upright, enclosing
-from shotc.identify.views import GROUND, ON_GROUND_M, SKY, TILE_RAYS, Camera, Seen, look
+from shotc.identify.owners import owners_of
+from shotc.identify.views import GROUND, SKY, TILE_RAYS, Camera, Seen, look
 from shotc.ir.mission import MissionIR
-from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.terrain import ground_heights
 
 BOX_RAYS, RAYS = 32, 56
@@ -43,13 +44,14 @@ class Glance(NamedTuple):
 class Clustered(NamedTuple):
     """What glances hit: points, and the cluster of each, shape (P,).
 
-    seen : of each glance, its box and what is about it; part : mesh and part of each point, shape (P, 2)
+    seen : of each glance, its box and what is about it
+    hit : mesh and triangle of each point, shape (P,) each
     """
 
     seen: tuple[Seen, ...]
     points: Points
     cluster: IntArray
-    part: IntArray
+    hit: tuple[IntArray, IntArray]
 
     @property
     def size(self) -> int:
@@ -86,14 +88,28 @@ def find(mission: MissionIR, glances: Sequence[Glance]) -> Found:
     made = cluster_glances(mission, glances)
     choices = tuple(by_own_rays(made.points, made.cluster, i) for i in range(len(glances)))
     meant = dict.fromkeys(choice.cluster for choice in choices if choice is not None)
-    return Found(made, choices, tuple(_target(mission, made, choices, cluster) for cluster in meant))
+    return Found(
+        made, choices, tuple(_target(mission, made, glances, (choices, cluster)) for cluster in meant)
+    )
 
 
-def _target(mission: MissionIR, made: Clustered, choices: Sequence[Choice | None], cluster: int) -> Target:
-    glances = tuple(i for i, choice in enumerate(choices) if choice is not None and choice.cluster == cluster)
-    mine = (made.cluster == cluster) & np.isin(made.points.keyframe, glances)
-    cylinder = cylinder_about(mission, made.points.point[mine & made.points.within(SLACK)])
-    return Target(cluster, glances, cylinder, _name(mission, made.part[mine]))
+def _target(
+    mission: MissionIR,
+    made: Clustered,
+    glances: Sequence[Glance],
+    meant: tuple[Sequence[Choice | None], int],
+) -> Target:
+    """Return what some glances mean; meant : the choice of each, and the cluster."""
+    choices, cluster = meant
+    numbers = tuple(i for i, choice in enumerate(choices) if choice is not None and choice.cluster == cluster)
+    mine = (made.cluster == cluster) & np.isin(made.points.keyframe, numbers)
+    shaping = mine & made.points.within(SLACK)
+    hit = (made.hit[0][mine], made.hit[1][mine])
+    behind = hidden_corners(mission, hit, [glances[i] for i in numbers])
+    cylinder = cylinder_about(mission, np.concatenate([made.points.point[shaping], behind]))
+    # What stands before a building hides its foot.
+    cylinder = cylinder._replace(bottom=min(cylinder.bottom, float(made.points.foot[shaping].min())))
+    return Target(cluster, numbers, cylinder, _name(mission, _parts(mission, hit)))
 
 
 def cylinder_about(mission: MissionIR, points: Array) -> Upright:
@@ -106,7 +122,7 @@ def cluster_glances(mission: MissionIR, glances: Sequence[Glance]) -> Clustered:
     tiles = RAYS // TILE_RAYS
     seen = tuple(look(mission, glance.camera, _grown(glance.box), (tiles, tiles)) for glance in glances)
     points = _points(mission, seen)
-    return Clustered(seen, points, clusters(points), _parts(mission, seen))
+    return Clustered(seen, points, clusters(points), _hit(seen))
 
 
 def _grown(box: ScreenBox) -> ScreenBox:
@@ -117,13 +133,15 @@ def _grown(box: ScreenBox) -> ScreenBox:
 
 
 def _points(mission: MissionIR, seen: Sequence[Seen]) -> Points:
+    owner, foot = _owned(mission, seen)
     middle = ((np.arange(RAYS) + 0.5) / RAYS * 2.0 - 1.0) * GROWN
     v, u = np.meshgrid(middle, middle, indexing="ij")
     place = np.stack([u, v], axis=-1)
     return Points(
         point=np.concatenate([np.zeros((0, 3)), *(s.point[s.solid] for s in seen)]),
         footprint=np.concatenate([np.zeros(0), *(s.footprint[s.solid] for s in seen)]),
-        owner=_owners(mission, seen),
+        owner=owner,
+        foot=foot,
         keyframe=np.repeat(np.arange(len(seen)), [int(s.solid.sum()) for s in seen]),
         place=np.concatenate([np.zeros((0, 2)), *(place[s.solid] for s in seen)]),
     )
@@ -138,52 +156,27 @@ def _hit(seen: Sequence[Seen]) -> tuple[IntArray, IntArray]:
     )
 
 
-def _owners(mission: MissionIR, seen: Sequence[Seen]) -> IntArray:
-    """Return the number of the building that each point belongs to, NOBODY where that is not known."""
+def _owned(mission: MissionIR, seen: Sequence[Seen]) -> tuple[IntArray, Array]:
+    """Return the building that each point belongs to, and the lowest z of that; shape (P,) each."""
     mesh, triangle = _hit(seen)
-    owner = np.full(len(mesh), NOBODY)
+    owner, foot = np.full(len(mesh), NOBODY), np.full(len(mesh), np.inf)
     first = 0
-    for number, each in enumerate(mission.meshes):
+    for number in np.unique(mesh):
         mine = mesh == number
-        its = (
-            _of_buildings(each, triangle[mine])
-            if each.kind == "buildings"
-            else _of_bodies(mission, each)[each.body[triangle[mine]]]
-        )
+        owners = owners_of(mission, mission.meshes[number])
+        its = owners.owner[triangle[mine]]
         owner[mine] = np.where(its == NOBODY, NOBODY, first + its)
-        first += max(len(each.names), len(each.closed))
-    return owner
+        foot[mine] = owners.foot[triangle[mine]]
+        first += int(owners.owner.max()) + 1
+    return owner, foot
 
 
-def _of_buildings(mesh: ObstacleMesh, triangle: IntArray) -> IntArray:
-    return np.asarray(mesh.part[triangle])
-
-
-def _of_bodies(mission: MissionIR, mesh: ObstacleMesh) -> IntArray:
-    """Return the number of each body of a scene that is closed and stands on the ground, NOBODY of others.
-
-    What is closed and stands by itself is a building of its own, even where it touches the next one; a roof
-    or a chimney belongs to what it is on.
-    """
-    own = np.where(mesh.closed, np.arange(len(mesh.closed)), NOBODY)
-    if not mesh.closed.any():
-        return own
-    corners = mesh.surface.triangles.reshape(-1, 3)
-    body = np.repeat(mesh.body[mesh.surface.source], 3)
-    order = np.lexsort((corners[:, 2], body))
-    lowest = corners[order[np.flatnonzero(np.diff(body[order], prepend=-1))]]
-    numbers = np.unique(body)
-    floats = lowest[:, 2] > ground_heights(mission, lowest[:, :2]) + ON_GROUND_M
-    own[numbers[floats]] = NOBODY
-    return own
-
-
-def _parts(mission: MissionIR, seen: Sequence[Seen]) -> IntArray:
-    """Return mesh and part of every point, shape (P, 2)."""
-    mesh, triangle = _hit(seen)
+def _parts(mission: MissionIR, hit: tuple[IntArray, IntArray]) -> IntArray:
+    """Return mesh and part of what is hit, shape (K, 2)."""
+    mesh, triangle = hit
     part = np.zeros(len(mesh), dtype=np.intp)
-    for number, each in enumerate(mission.meshes):
-        part[mesh == number] = each.part[triangle[mesh == number]]
+    for number in np.unique(mesh):
+        part[mesh == number] = mission.meshes[number].part[triangle[mesh == number]]
     return np.column_stack([mesh, part])
 
 

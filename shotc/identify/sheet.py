@@ -53,16 +53,10 @@ def _sheet(title: str, tasks: Sequence[Task], pictures: Sequence[Array], rows: S
         box = Box(MARGIN + column * (CELL + GAP), top - tall, CELL, tall)
         _picture(canvas, box, (task, picture), number, rows)
     for number, each in enumerate(rows):
-        text = f"{each.name}: {described(each.cylinder)}"
+        text = f"{each.name}: {each.cylinder.described}"
         y = FOOTING + (len(rows) - number - 1) * LINE
         canvas.write(MARGIN, y, text, Type(10, INK), WIDTH - 2 * MARGIN)
     return canvas.png()
-
-
-def described(c: Upright) -> str:
-    """Say where a cylinder is and how large."""
-    x, y, z = c.middle
-    return f"about [{x:.1f}, {y:.1f}, {z:.1f}], radius {c.radius:.1f} m, height {c.height:.1f} m"
 
 
 def _picture(canvas: Canvas, box: Box, seen: tuple[Task, Array], number: int, rows: Sequence[Row]) -> None:

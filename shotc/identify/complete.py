@@ -1,0 +1,54 @@
+"""What of a target no keyframe sees: the far side of the bodies whose near side is in the boxes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.camera import ScreenBox
+from shotc.identify.views import Camera
+from shotc.ir.mission import MissionIR
+
+MARGIN = 1.5
+"""Half sides of a box within which a body has to lie on screen: then it is what the box is drawn about."""
+LEAST_SHARE = 0.02
+"""Share of a target's points that have to be of a body, so that the body belongs to it."""
+
+
+def hidden_corners(
+    mission: MissionIR, hit: tuple[IntArray, IntArray], views: Sequence[tuple[Camera, ScreenBox]]
+) -> Array:
+    """Return the corners of the bodies that a target is made of, shape (K, 3), metres of W.
+
+    hit : mesh and triangle of each of its points; views : cameras, and the boxes that mean it
+    A body counts whose outline lies in every box, or close about it. To what reaches farther, such as a
+    church of which the tower is meant, nothing is added.
+    """
+    mesh, triangle = hit
+    body = np.zeros(len(mesh), dtype=np.intp)
+    for number in np.unique(mesh):
+        mine = mesh == number
+        body[mine] = mission.meshes[number].body[triangle[mine]]
+    pairs, counts = np.unique(np.column_stack([mesh, body]), axis=0, return_counts=True)
+    found = [np.zeros((0, 3))]
+    for (number, which), count in zip(pairs.tolist(), counts.tolist(), strict=True):
+        each = mission.meshes[number]
+        corners = each.surface.triangles[each.body[each.surface.source] == which].reshape(-1, 3)
+        if count >= LEAST_SHARE * len(mesh) and all(_within(corners, *view) for view in views):
+            found.append(corners)
+    return np.concatenate(found)
+
+
+def _within(corners: Array, camera: Camera, box: ScreenBox) -> bool:
+    """Tell whether all corners (K, 3) show in a box, or close about it."""
+    u, v, depth = camera.view.project(tuple((corners - np.array(camera.eye)).T))
+    if (depth <= 0.0).any():
+        return False
+    across, up = 0.5 * (box.u_max - box.u_min), 0.5 * (box.v_max - box.v_min)
+    off = np.maximum(
+        np.abs(u - 0.5 * (box.u_min + box.u_max)) / across, np.abs(v - 0.5 * (box.v_min + box.v_max)) / up
+    )
+    return bool((off <= MARGIN).all())
