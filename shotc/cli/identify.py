@@ -16,7 +16,6 @@ from shotc.output import write
 
 if TYPE_CHECKING:
     from shotc.identify.mission import Identification
-    from shotc.identify.saliency import Saliency
 
 USUAL = "spectral-residual"
 
@@ -69,10 +68,13 @@ def identify(
         if path.exists() and not force:
             raise typer.BadParameter(f"`{path}` exists; add --force to replace it", param_hint="--output")
     from shotc.identify.mission import Place, identify_source
+    from shotc.identify.saliency import Guesser
     from shotc.identify.sheet import Row, draw_sheet
 
+    seat = _seat(saliency) if guess else None
+    guesser = None if seat is None else Guesser(seat.plugin, seat.package)
     of, to = Place(source.name, source.folder), Place(place.as_posix(), place.parent)
-    done = identify_source(source.data, of, to, _guesser(saliency) if guess else None)
+    done = identify_source(source.data, of, to, guesser)
     if done.text is None:
         console.report(done.diagnostics, done.sources)
         console.complain("nothing is written")
@@ -94,14 +96,13 @@ def _beside(spec: str, name: str) -> Path:
     return path.with_name(f"{path.stem}-identified{path.suffix}")
 
 
-def _guesser(name: str) -> Saliency:
+def _seat(name: str) -> plugins.Source:
     """Return who guesses; where that cannot be loaded, say so and exit."""
     source = plugins.one("saliency", name)
     if source.plugin is None:
         console.report(source.diagnostics, {})
         raise typer.Exit(console.EXIT_REJECTED)
-    guesser: Saliency = source.plugin
-    return guesser
+    return source
 
 
 def _rows(done: Identification) -> list[tuple[str, ...]]:

@@ -13,16 +13,16 @@ from shotc.checking import check_source, models_of
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Array
+from shotc.geom.camera import ScreenBox
 from shotc.identify.cylinders import Upright
 from shotc.identify.find import Found, find
 from shotc.identify.pictures import picture
 from shotc.identify.rewrite import Named, NotEditable, rewritten
-from shotc.identify.saliency import Saliency
+from shotc.identify.saliency import Guesser
 from shotc.identify.tasks import (
     Task,
     doubts,
     empty,
-    enclosed,
     nothing_to_do,
     swallowed,
     tasks,
@@ -75,7 +75,7 @@ class Place(NamedTuple):
     folder: Path | None
 
 
-def identify_source(data: bytes, of: Place, to: Place, saliency: Saliency | None) -> Identification:
+def identify_source(data: bytes, of: Place, to: Place, saliency: Guesser | None) -> Identification:
     """Find the targets that a mission's keyframes mean, and write them into it.
 
     of, to : the mission, and what is made of it, which has to check clean there
@@ -94,9 +94,8 @@ def identify_source(data: bytes, of: Place, to: Place, saliency: Saliency | None
     stopped = stopped._replace(title=mission.name)
     asked = tasks(mission, guess=saliency is not None)
     wrong = nothing_to_do(mission, asked)
-    faults = [wrong] if wrong is not None else enclosed(mission, asked)
-    if faults:
-        return stopped._replace(diagnostics=tuple(faults))
+    if wrong is not None:
+        return stopped._replace(diagnostics=(wrong,))
     pictures = tuple(picture(mission, task.camera) for task in asked)
     asked, faults = _with_boxes(mission, asked, pictures, saliency)
     if faults:
@@ -110,15 +109,15 @@ def identify_source(data: bytes, of: Place, to: Place, saliency: Saliency | None
 
 
 def _with_boxes(
-    mission: MissionIR, asked: Sequence[Task], pictures: Sequence[Array], saliency: Saliency | None
+    mission: MissionIR, asked: Sequence[Task], pictures: Sequence[Array], saliency: Guesser | None
 ) -> tuple[tuple[Task, ...], list[Diagnostic]]:
     """Return keyframes with the boxes that were guessed, or the faults of those without."""
     out, faults = [], []
     for task, seen in zip(asked, pictures, strict=True):
         if task.box is None and saliency is not None:
             box = saliency.box(seen)
-            if box is None:
-                faults.append(unguessed(mission, task))
+            if not isinstance(box, ScreenBox):
+                faults.append(box or unguessed(mission, task))
                 continue
             task = task._replace(box=box)  # noqa: PLW2901
         out.append(task)

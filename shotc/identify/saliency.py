@@ -6,13 +6,16 @@ of the picture does (Sec. 5): what comes from here is a guess that its author ha
 
 from __future__ import annotations
 
-from typing import ClassVar, Protocol
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from scipy.ndimage import gaussian_filter, label, uniform_filter
 
+from shotc.diag.model import Diagnostic
+from shotc.diag.plugin_faults import plugin_failed
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import ScreenBox
+from shotc.plugins import OURS
 
 WIDTH = 80
 """Columns of the picture that is looked at: what is smaller is no subject."""
@@ -36,6 +39,34 @@ class Saliency(Protocol):
 
         picture : shape (rows, columns, 3), the upper left pixel first, red, green and blue of 0 to 1
         """
+
+
+class Guesser(NamedTuple):
+    """A saliency model, and the package that it comes from."""
+
+    model: Saliency
+    package: str
+
+    def box(self, picture: Array) -> ScreenBox | Diagnostic | None:
+        """Return the box that the model gives, None where it gives none, or why that cannot be used.
+
+        picture : as of ``Saliency.box``
+        """
+        what = f"saliency model `{self.model.name}`"
+        try:
+            given = self.model.box(picture)
+            box = None if given is None else ScreenBox(*(float(c) for c in given))
+        except Exception as fault:
+            if self.package == OURS:
+                raise
+            return plugin_failed(what, self.package, fault)
+        if box is None or _is_box(box):
+            return box
+        return plugin_failed(what, self.package, f"it gives {tuple(box)}, which is no box on the screen")
+
+
+def _is_box(box: ScreenBox) -> bool:
+    return bool(-1.0 <= box.u_min < box.u_max <= 1.0 and -1.0 <= box.v_min < box.v_max <= 1.0)
 
 
 class SpectralResidual:

@@ -11,7 +11,7 @@ from shotc.geom.camera import ScreenBox
 from shotc.identify.choice import Choice
 from shotc.identify.cylinders import Upright
 from shotc.identify.find import Found, Glance, held
-from shotc.identify.views import Camera, eyes_inside
+from shotc.identify.views import Camera
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.framing.placing import explicit_aim
 
@@ -83,21 +83,6 @@ def nothing_to_do(mission: MissionIR, found: Sequence[Task]) -> Diagnostic | Non
         (_box_label(mission, found[0]),),
         help="name a mesh or a cloud as `world: {scene: {file: ...}}`, or footprints as `buildings`",
     )
-
-
-def enclosed(mission: MissionIR, found: Sequence[Task]) -> list[Diagnostic]:
-    """Return the faults of keyframes that stand inside of a mesh."""
-    inside = eyes_inside(mission, [task.camera for task in found])
-    return [
-        Diagnostic(
-            "N018",
-            f"the camera of the keyframe is inside of `{name}`: it sees nothing but walls",
-            (mission.origins.value((*task.keyframe.path, "at")),),
-            help="move the keyframe out of it",
-        )
-        for task, name in zip(found, inside, strict=True)
-        if name is not None
-    ]
 
 
 def unguessed(mission: MissionIR, task: Task) -> Diagnostic:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import tan
 from typing import TypeVar
@@ -181,13 +180,3 @@ def _normals(surface: Surface, triangle: IntArray, ways: Array) -> Array:
     flat = np.linalg.norm(normal, axis=1) == 0.0
     normal[flat] = ways[flat]
     return np.asarray(normal)
-
-
-def eyes_inside(mission: MissionIR, cameras: Sequence[Camera]) -> list[str | None]:
-    """Return of each camera the name of what its eye is inside of, None where it is in the open."""
-    eyes = np.array([camera.eye for camera in cameras]).reshape(-1, 3)
-    found: list[str | None] = [None] * len(cameras)
-    for mesh in mission.meshes:
-        for i in np.flatnonzero(mesh.holds(eyes)):
-            found[i] = mesh.file
-    return found

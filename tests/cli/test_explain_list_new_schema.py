@@ -58,6 +58,7 @@ def test_all_codes_by_family(run: Run) -> None:
         ("drones", "x500"),
         ("refiners", "none"),
         ("emitters", "csv"),
+        ("saliency", "spectral-residual"),
         ("compositions", "thirds"),
     ],
 )
@@ -76,6 +77,7 @@ def test_without_a_group_the_groups_are_listed(run: Run) -> None:
         "drones",
         "refiners",
         "emitters",
+        "saliency",
         "compositions",
         "headings",
     ]

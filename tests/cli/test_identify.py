@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
+from shotc import plugins
 from tests.cli.conftest import Run
 from tests.support.cities import tube
 from tests.support.meshes import box_mesh, ply
@@ -110,22 +111,37 @@ def test_a_guess_has_its_box_written(run: Run, towers: Path) -> None:
         assert -1 <= v0 < v1 <= 1
 
 
-def test_another_saliency_takes_the_seat(run: Run, towers: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from shotc import plugins
-    from shotc.identify.saliency import SpectralResidual
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        (None, "error[N018]: nothing in the picture of the keyframe stands out"),
+        ((0.5, 0.2, 0.0, 0.3), "error[P008]: saliency model `mine` of package there"),
+        ("box", "error[P008]: saliency model `mine` of package there"),
+    ],
+)
+def test_another_saliency_takes_the_seat(
+    run: Run, towers: Path, monkeypatch: pytest.MonkeyPatch, given: object, text: str
+) -> None:
+    class Mine:
+        name, summary, api = "mine", "a model", 1
 
-    class Nothing(SpectralResidual):
-        def box(self, picture):
+        def box(self, picture: np.ndarray) -> object:
             assert picture.shape[2] == 3
+            assert 0.0 <= picture.min() <= picture.max() <= 1.0
+            return given
 
-    monkeypatch.setattr(
-        plugins, "one", lambda _group, name: plugins.Source(Nothing(), "shotc", f"there:{name}")
-    )
+    seat = plugins.Source(Mine(), "there", "there:Mine")
+    monkeypatch.setattr(plugins, "one", lambda _group, _name: seat)
     done = run("identify", str(towers), "--guess")
     assert done.code == 1
-    assert "error[N018]: nothing in the picture of the keyframe stands out" in done.err
+    assert text in done.err
     assert left_alone(towers.parent)
-    assert run("identify", str(towers), "--saliency", "deep").code == 2
+
+
+def test_an_unknown_saliency_is_a_slip_of_the_command(run: Run, towers: Path) -> None:
+    done = run("identify", str(towers), "--guess", "--saliency", "spectral")
+    assert done.code == 2
+    assert "spectral-residual" in done.err
 
 
 BAD = {
@@ -142,7 +158,7 @@ BAD = {
         FIRST,
         "no scene",
     ),
-    "inside": (("at: [-20, -70, 15]", "at: [60, 2, 20]"), "N018", FIRST, "inside of `towers.ply`"),
+    "inside": (("at: [-20, -70, 15]", "at: [60, 2, 20]"), "G028", FIRST, "inside of `towers`"),
     "a target that is none": ((BOX, f"{BOX}, target: tower"), "N001", FIRST, "unknown target"),
     "two targets": (
         ("heading: 0 deg, pitch: 0 deg, box", "look_at: a, target: b, box"),
@@ -211,7 +227,8 @@ def test_a_camera_inside_of_what_it_means_is_told(run: Run, towers: Path) -> Non
 
 
 def test_a_mission_whose_targets_cannot_be_filmed_is_not_written(run: Run, towers: Path) -> None:
-    path = changed(towers, ("at: [30, -60, 15]", "at: [0, -7, 10]"))
+    (towers.parent / "towers.ply").write_bytes(ply(box_mesh((0, 0, 10), (24, 6, 20))))
+    path = changed(towers, ("at: [30, -60, 15]", "at: [0, -9, 10]"))
     done = run("identify", path)
     assert done.code == 1
     assert "error[G004]" in done.err

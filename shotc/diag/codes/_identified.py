@@ -52,8 +52,8 @@ IDENTIFIED: tuple[CodeInfo, ...] = (
         "no-target-in-box",
         Severity.ERROR,
         "what the box of a keyframe holds cannot be a target",
-        "Rays through the box meet nothing but sky, or ground, or too little of the scene; or the camera stands inside of "
-        "the scene, or inside of the cylinder about what was found, as in a courtyard: it could not be flown. Draw the box "
+        "Rays through the box meet nothing but sky, or ground, or too little of the scene; or the camera stands inside of the "
+        "cylinder about what was found, as in a courtyard: it could not be flown. Draw the box "
         "round what is meant, or move the camera. Where ground that is part of the scene rises, give it as "
         "`world.terrain`, too: what is within 0.5 m of the ground is no target.",
         "",
