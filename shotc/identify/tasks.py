@@ -51,7 +51,7 @@ def tasks(mission: MissionIR, *, guess: bool) -> tuple[Task, ...]:
         for number, keyframe in enumerate(shot.keyframes):
             written = keyframe.path[-2:] == ("keyframes", number)
             if written and (keyframe.unidentified or (guess and keyframe.target is None)):
-                box = keyframe.box
+                box = None if keyframe.box is None else ScreenBox(*keyframe.box)
                 found.append(
                     Task(shot.id, number, keyframe, _camera(mission, shot, keyframe), box, box is None)
                 )

@@ -6,7 +6,6 @@ the mission file (see ``OriginMap``).
 
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
-from shotc.geom.camera import ScreenBox
 from shotc.geom.solids import Solid
 from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
@@ -123,6 +122,15 @@ class Beside(NamedTuple):
     above: Above = "target"
 
 
+class DrawnBox(NamedTuple):
+    """A box that an author drew on the screen, half frames: u to the right, v up."""
+
+    u_min: float
+    u_max: float
+    v_min: float
+    v_max: float
+
+
 class Keyframe(NamedTuple):
     """Where the camera is to be and what it looks at, before composition.
 
@@ -149,7 +157,7 @@ class Keyframe(NamedTuple):
     path: KeyPath
     heading: float | None = None
     beside: Beside | None = None
-    box: ScreenBox | None = None
+    box: DrawnBox | None = None
 
     @property
     def unidentified(self) -> bool:

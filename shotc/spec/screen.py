@@ -9,9 +9,8 @@ from typing import Annotated, Any
 
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.geom.camera import ScreenBox
 from shotc.ir.limits import Vec2
-from shotc.ir.mission import Composition
+from shotc.ir.mission import Composition, DrawnBox
 from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
 from shotc.spec.faults import fault, read_each
 from shotc.spec.fieldtypes import FieldType, NamedOr
@@ -71,11 +70,11 @@ class ScreenBoxType(FieldType):
 
     label = "ScreenBox"
 
-    def read(self, value: Any) -> ScreenBox:
+    def read(self, value: Any) -> DrawnBox:
         """Return the box, which has a size."""
         u0, v0, u1, v1 = _CORNERS.read(value)
         if u0 < u1 and v0 < v1:
-            return ScreenBox(u0, u1, v0, v1)
+            return DrawnBox(u0, u1, v0, v1)
         if u0 == u1 or v0 == v1:
             raise fault("inverted-range", "the box is empty", "write [u0, v0, u1, v1], u0 < u1 and v0 < v1")
         right = ", ".join(f"{c:.4g}" for c in (min(u0, u1), min(v0, v1), max(u0, u1), max(v0, v1)))
@@ -87,7 +86,7 @@ class ScreenBoxType(FieldType):
 
 
 _CORNERS = Tuple("ScreenCorners", (_SCREEN,) * 4, "[u0, v0, u1, v1]")
-BoxOnScreen = Annotated[ScreenBox, ScreenBoxType()]
+BoxOnScreen = Annotated[DrawnBox, ScreenBoxType()]
 Frame = Annotated[Composition, NamedOr("Frame", FRAMES, "frame", OwnPointType())]
 CompositionSet = Annotated[Composition, NamedOr("CompositionSet", FRAMES, "composition", OwnPointsType())]
 

@@ -233,3 +233,23 @@ def test_a_mission_whose_targets_cannot_be_filmed_is_not_written(run: Run, tower
     assert done.code == 1
     assert "error[G004]" in done.err
     assert left_alone(towers.parent)
+
+
+@pytest.mark.slow
+def test_what_was_identified_is_planned_and_its_plan_holds(run: Run, towers: Path) -> None:
+    towers.write_text(MISSION.partition("  - id: front")[0])
+    assert run("identify", str(towers)).code == 0
+    made = str(towers.with_name("towers-identified.yaml"))
+    done = run("plan", made, "-o", "out", "--refiner", "none", "--emit", "csv")
+    assert done.code == 0, done.err
+    assert "target-1" in done.out
+    verified = run("verify", "out/plan.json", "--against", made)
+    assert verified.code == 0, verified.err
+
+
+def test_a_mission_is_not_planned_while_a_box_has_no_target(run: Run, towers: Path) -> None:
+    done = run("plan", str(towers), "-o", "out")
+    assert done.code == 1
+    assert "error[N016]" in done.err
+    assert "run `shotc identify" in done.err
+    assert not (towers.parent / "out").exists()
