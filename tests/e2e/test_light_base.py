@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -65,3 +67,15 @@ def test_nothing_is_planned(place: Path, name: str) -> None:
     assert done.code == 1
     assert "P004" in done.err
     assert not (place / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["scene", "buildings"])
+def test_check_of_what_stands_there_loads_numpy_and_nothing_larger(place: Path, name: str) -> None:
+    code = (
+        "import sys; from shotc.cli.app import run\n"
+        f"code = run(['check', {str(place / f'{name}.yaml')!r}])\n"
+        "large = {'scipy', 'trimesh', 'matplotlib', 'PIL', 'pymap3d', 'cvxpy', 'numpy'}\n"
+        "print(code, sorted(large & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "0 ['numpy']\n"

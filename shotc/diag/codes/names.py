@@ -114,7 +114,7 @@ CODES: tuple[CodeInfo, ...] = (
         "A track is a CSV file with the columns t,x,y,z or t,lat,lon,height and maybe heading (rad) or "
         "heading_deg, its times rising, or a GPX file with elevations and times; a route is a CSV file with "
         "x,y,z or lat,lon,height, or a GPX file with elevations. All numbers are finite. XML with a "
-        "document type declaration is refused, and so is a file of more than 4 MB. The note names the line of "
+        "document type declaration is refused, and so is a file of more than 4 MB (terrain, scenes and buildings: 400 MB). The note names the line of "
         "the file. Mend that line.",
         _BY_FILE.replace("points: [[0, -50, 15], [40, -50, 15]]", "file: route.csv"),
         _BY_FILE,

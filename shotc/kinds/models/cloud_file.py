@@ -16,6 +16,18 @@ NOISE = (7, 18)
 """Classes of the LAS format, low and high noise: points that nothing stands at."""
 NONE = "?"
 """Instead of a separator, of a line that is no row."""
+RECORD, EXTENDED = 54, 60
+"""Bytes of the header of a variable length record, and of an extended one (LAS 1.4)."""
+EXTENDED_END = 247
+"""Where the number of extended records ends in the header of LAS 1.4."""
+COMPRESSED = b"\x80"
+"""Point formats from this on are those of LAZ, whose points begin with the place of a table of chunks."""
+NO_TABLE = 2**64 - 1
+"""Instead of that place, of files whose last eight bytes say it."""
+LEAST_CHUNK = 20
+"""Bytes of a chunk: its first point is not compressed."""
+MOST_BYTES = 4_000_000_000
+"""Bytes of all points, not compressed."""
 _THIN = "thin it, or cut it to the mission"
 
 
@@ -68,14 +80,36 @@ def _read_las(data: bytes) -> list[Part] | ModelFault:
         )
     if data[:4] != b"LASF":
         return ModelFault("it is no LAS or LAZ file", "export it as LAZ")
+    if _promised(data) > len(data):
+        return ModelFault(f"its header promises more than its {len(data)} bytes", "copy it anew")
     try:
         with np.errstate(all="ignore"):
             return _points(data)
     except (KeyboardInterrupt, SystemExit):
         raise
-    except BaseException as error:  # noqa: BLE001  the reader's faults of foreign bytes; lazrs panics beside Exception
+    except BaseException as error:  # noqa: BLE001  faults of foreign bytes; lazrs panics beside Exception
         reason = (str(error).splitlines() or [type(error).__name__])[0][:200]
         return ModelFault(f"laspy says: {reason or type(error).__name__}", "export it anew as LAZ")
+
+
+def _promised(data: bytes) -> int:
+    """Return how many bytes the records of a header take at least.
+
+    The readers believe these numbers, and take the time, or the memory, that they say.
+    """
+
+    def number(at: int, size: int) -> int:
+        return int.from_bytes(data[at : at + size], "little")
+
+    header, points = number(94, 2), number(96, 4)
+    least = [points, header + RECORD * number(100, 4)]
+    if data[25:26] >= b"\x04" and header >= EXTENDED_END:
+        least.append(header + EXTENDED * number(EXTENDED_END - 4, 4))
+    if data[104:105] >= COMPRESSED:
+        table = number(points, 8)
+        table = number(len(data) - 8, 8) if table == NO_TABLE else table
+        least.append(max(table + 8, LEAST_CHUNK * number(table + 4, 4)))
+    return max(least)
 
 
 def _points(data: bytes) -> list[Part] | ModelFault:
@@ -83,7 +117,7 @@ def _points(data: bytes) -> list[Part] | ModelFault:
 
     with laspy.open(io.BytesIO(data), laz_backend=laspy.LazBackend.Lazrs) as reader:
         count = int(reader.header.point_count)
-        if count > MOST_POINTS:
+        if count > MOST_POINTS or count * reader.header.point_format.size > MOST_BYTES:
             return ModelFault(f"it has {count} points; {MOST_POINTS} are the most", _THIN)
         if not reader.header.are_points_compressed and count * reader.header.point_format.size > len(data):
             return ModelFault(f"its header promises {count} points in {len(data)} bytes", "copy it anew")

@@ -58,9 +58,10 @@ def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] |
     """Return every shot as a task; None where one is wrong by itself.
 
     Each is resolved alone, flown by the first drone where that is open: where it is filmed from does not
-    depend on who does.
+    depend on who does, nor on what stands in the way: scenes and buildings are not read for it.
     """
     spec = ir.spec
+    world = spec.world.model_copy(update={"scene": None, "buildings": None})
     some = next(iter(spec.drones))
     tasks: list[Task] = []
     for i, written in enumerate(spec.shots):
@@ -68,7 +69,7 @@ def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] |
         alone = written.model_copy(update={"drone": some}) if open_ else written
         timing = alone.timing.model_copy(update={"after": None})
         shots = (alone.model_copy(update={"timing": timing}),)
-        one = ir._replace(spec=spec.model_copy(update={"shots": shots}))
+        one = ir._replace(spec=spec.model_copy(update={"shots": shots, "world": world}))
         mission = Resolve(kinds).run(one, PassContext()).value
         if mission is None or not mission.shots:
             return None

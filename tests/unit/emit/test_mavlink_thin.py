@@ -13,6 +13,7 @@ from shotc.emit.mavlink.track import track_of
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Zone
+from shotc.ir.obstacle_mesh import obstacle_mesh
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.film_plans import orbit_mission, orbit_plan
 from tests.support.mavlink_flights import flight, plan, retold, straight
@@ -104,6 +105,32 @@ def test_legs_do_not_cut_a_clearance_that_the_curve_keeps() -> None:
 
     free = replace(work, obstacles=(), planned_shortfall=())
     assert deepest(free.legs(loose)) > 0.5
+    assert deepest(work.legs(loose)) < 0.05
+
+
+def test_legs_do_not_cut_the_clearance_of_a_building_either() -> None:
+    turn = np.linspace(0, 2 * np.pi, 121)
+    ring = 38.0 * np.column_stack([np.cos(turn), np.sin(turn)])
+    low, high = np.zeros((120, 1)), np.full((120, 1), 40.0)
+    a0, b0, b1 = (np.hstack(part) for part in ((ring[:-1], low), (ring[1:], low), (ring[1:], high)))
+    walls = np.concatenate(
+        [np.stack([a0, b0, b1], axis=1), np.stack([a0, b1, np.hstack([ring[:-1], high])], axis=1)]
+    )
+    tank = obstacle_mesh("buildings", "tank.geojson", walls, (np.zeros(len(walls), dtype=int), ("tank",)))
+    mission = orbit_mission()
+    radius = mission.drones[0].radius
+    rules = mission.rules._replace(obstacle_clearance=1.9 - radius)
+    source = plan(SAMPLE.trajectory.drones[0], mission=replace(mission, meshes=(tank,), rules=rules))
+    work, loose = thinner(source), Tolerance(1.0, inf, inf)
+    (beside,) = [o for o in work.obstacles if o.owner.kind == "buildings"]
+
+    def deepest(legs: list[Leg]) -> float:
+        points = work.track.poses.position
+        ends = [(points[leg.first], points[leg.last]) for leg in filmed(legs)]
+        line = [a + s * (b - a) for a, b in ends for s in np.linspace(0, 1, 50)]
+        return float(shortfall(beside, np.array(line)).max())
+
+    assert deepest(replace(work, obstacles=(), planned_shortfall=()).legs(loose)) > 0.5
     assert deepest(work.legs(loose)) < 0.05
 
 

@@ -202,6 +202,17 @@ def test_a_cloud_without_its_reader_names_the_extra(tmp_path, monkeypatch):
     assert "[geo]" in told.help
 
 
+@pytest.mark.parametrize("at", [100, 96, 107, "table"])
+def test_a_survey_that_promises_more_than_it_holds_is_refused_at_once(tmp_path, at):
+    data = bytearray(laz(house().reshape(-1, 3)))
+    if at == "table":  # of chunks, of which the reader believes how many there are
+        points = int.from_bytes(data[96:100], "little")
+        at = 4 + int.from_bytes(data[points : points + 8], "little")
+    data[at : at + 4] = b"\xff\xff\xff\x7f"  # records, where points begin, and how many there are
+    (tmp_path / "cloud.laz").write_bytes(data)
+    assert fault("scene: {file: cloud.laz, units: m}", tmp_path).code == "N009"
+
+
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     ending=st.sampled_from(ENDINGS),

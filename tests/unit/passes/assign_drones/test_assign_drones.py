@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -10,9 +11,11 @@ from hypothesis import strategies as st
 
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
+from shotc.kinds.models import mesh_file
 from shotc.passes.assign_drones.choice import LEAST_WAY, choose
 from shotc.passes.assign_drones.tasks import Task
 from tests.support.front_passes import clean
+from tests.support.meshes import box_mesh, ply
 from tests.unit.planning.clock.test_several_drones import HEAD, PASS, SIDE, TAIL
 
 DRONES = {d.name: d for d in clean(HEAD + SIDE + PASS + TAIL).mission.drones}
@@ -68,6 +71,20 @@ def test_the_nearest_drone_films_and_one_drone_is_never_in_two_places() -> None:
     assert done.plan is not None, done.diagnostics
     shots = {s.id: s.drone for s in done.plan.trajectory.keyframes.mission.shots}
     assert sorted(shots.values()) == ["cam1", "cam2", "cam3"]
+
+
+def test_scenes_are_not_read_for_every_shot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "house.ply").write_bytes(ply(box_mesh((300.0, 300.0, 3.0), (10.0, 8.0, 6.0))))
+    read: list[str] = []
+    one = mesh_file.read_ply
+    monkeypatch.setattr(mesh_file, "read_ply", lambda data: read.append("house") or one(data))
+    text = HEAD + (SIDE + PASS + TAIL).replace("cam1", "auto")
+    text = text.replace("targets:", "world: {scene: {file: house.ply, units: m}}\ntargets:", 1)
+    done = compile_source(
+        text.encode(), "m.yaml", tmp_path, PlanOptions(refiner="none", stop_after="resolve")
+    )
+    assert "N009" not in {d.code for d in done.diagnostics}
+    assert read == ["house"]
 
 
 def test_a_mission_without_drones_is_told_by_check_and_by_plan_alike() -> None:
