@@ -12,7 +12,7 @@ from tests.support.second_opinion.picture import Camera
 from tests.support.second_opinion.targets import touch
 
 LINE = 400  # points of a line of sight
-AROUND, UPWARD = 16, 4  # places on a target's sides, and on its lid
+RAYS = 300  # to a target's outline and about it
 PER_SECOND = 50.0
 MISSED = 0.3  # metres by which a body may move between two looks
 LOOSE = 0.02  # of a claimed value: a bound is closed to a part of it
@@ -37,32 +37,33 @@ def hidden(case: Case, drone: str, target: str, t: Array) -> tuple[Array, Array]
 def covered(case: Case, drone: str, target: str, t: Array) -> tuple[Array, Array]:
     """Return between which shares of the target's outline something stands before it, shapes (M,).
 
-    Places on its sides and its lid count as large as they are seen: by area, slant and distance.
+    Rays are even over a plane across the line of sight; of each it is looked, step by step, where it comes
+    to the target, and whether it comes to anything else before.
     """
-    camera, body = case.place(drone, t), case.mission.targets[target].solid(t)
-    turns = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
-    rises, rings = (np.arange(UPWARD) + 0.5) / UPWARD, np.sqrt((np.arange(UPWARD) + 0.5) / UPWARD)
-    low, high = (np.broadcast_to(z, t.shape) for z in (body.bottom, body.top))
-    tall, weight = high - low, np.zeros(len(t))
-    surely, maybe = np.zeros(len(t)), np.zeros(len(t))
-    for angle in turns:
-        out = np.array([np.cos(angle), np.sin(angle)])
-        for rise, ring in zip(rises, rings, strict=True):
-            side = np.column_stack([body.centre + body.radius * out, low + rise * tall])
-            lid = np.column_stack([body.centre + ring * body.radius * out, high])
-            areas = 2.0 * np.pi * body.radius * tall, np.full(len(t), np.pi * body.radius**2)
-            for place, normal, area in ((side, [*out, 0.0], areas[0]), (lid, [0.0, 0.0, 1.0], areas[1])):
-                sight = camera - place
-                far = np.linalg.norm(sight, axis=1)
-                seen = area * np.maximum(sight @ np.array(normal), 0.0) / far**3
-                line = camera[:, None] - np.linspace(0.0, 1.0, LINE)[:, None] * sight[:, None]
-                depths = np.array([np.full(len(t), np.inf), *_depths(case, drone, target, t, line)]).min(
-                    axis=0
-                )
-                weight += seen
-                surely += seen * (depths < -1e-6)
-                maybe += seen * (depths < far / (LINE - 1) + 1e-6)
-    return surely / weight, maybe / weight
+    camera, mine = case.place(drone, t), case.mission.targets[target]
+    outline, centre = mine.outline(t), mine.at(t)
+    away = centre - camera
+    far = np.linalg.norm(away, axis=1)
+    wide = np.linalg.norm(outline - centre[:, None], axis=2).max(axis=1)
+    side = np.column_stack([away[:, 1], -away[:, 0], np.zeros(len(t))])
+    side /= np.maximum(np.linalg.norm(side, axis=1), 1e-9)[:, None]
+    up = np.cross(side, away / far[:, None])
+    grown = wide * far / np.maximum(far - wide, 0.2 * far)  # as large as its nearest part can be seen
+    steps = np.linspace(0.0, 1.0, LINE)
+    own, surely, maybe = np.zeros(len(t)), np.zeros(len(t)), np.zeros(len(t))
+    for a, b in np.random.default_rng(1).uniform(-1.0, 1.0, (RAYS, 2)):
+        way = away + (grown * a)[:, None] * side + (grown * b)[:, None] * up
+        line = camera[:, None] + steps[:, None] * (way * (1.0 + wide / far)[:, None])[:, None]
+        bodies = mine.parts or (mine,)
+        met = np.min([body.distance(line, t) for body in bodies], axis=0) < 0.0
+        first = np.where(met.any(axis=1), met.argmax(axis=1), 0)
+        line = np.where((np.arange(LINE) < first[:, None])[..., None], line, camera[:, None])
+        depths = np.min([np.full(len(t), np.inf), *_depths(case, drone, target, t, line)], axis=0)
+        step = np.linalg.norm(way, axis=1) * (1.0 + wide / far) / (LINE - 1)
+        own += met.any(axis=1)
+        surely += met.any(axis=1) & (depths < -1e-6)
+        maybe += met.any(axis=1) & (depths < step + 1e-6)
+    return surely / np.maximum(own, 1.0), maybe / np.maximum(own, 1.0)
 
 
 def _depths(case: Case, drone: str, target: str, t: Array, line: Array) -> Any:
