@@ -7,7 +7,7 @@ _DEGREES = (
     r"([+-]?\d{1,3}(?:\.\d+)?)\s*°?\s*"
     r"(?:(\d{1,2}(?:\.\d+)?)\s*['′’]\s*(?:(\d{1,2}(?:\.\d+)?)\s*(?:\"|″|”|'')\s*)?)?"
 )
-_PASTED = re.compile(
+_PASTED = (  # compiled where a text is met: few missions have one
     rf"\s*\(?\s*{_DEGREES}([NSns])?\s*[,;\s]\s*{_DEGREES}([EWew])?\s*"
     r"(?:[,;\s]\s*([+-]?\d{1,5}(?:\.\d+)?)\s*(?:m|metres|meters)?)?\s*\)?\s*"
 )
@@ -26,7 +26,7 @@ def pasted(value: object) -> Pasted | None:
     """Return the place that a text such as `46.68, 7.68` or `46°40'48"N 7°40'48"E` gives, if it is one."""
     if not isinstance(value, str) or len(value) > LONGEST:
         return None
-    match = _PASTED.fullmatch(value)
+    match = re.fullmatch(_PASTED, value)
     if match is None:
         return None
     lat, lon = _angle(match.groups()[:4], "S"), _angle(match.groups()[4:8], "W")

@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import PydanticCustomError
 
 from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.degrees import instead_of
@@ -208,9 +209,15 @@ class LookAtType(PlaceType):
 
     def read(self, value: Any) -> str | Spot | Geodetic:
         """Return a target's name or a position."""
-        if help_ := instead_of(value):
-            raise fault("wrong-type", f"expected a target or a position, got {describe(value)}", help_)
-        return NAME.read(value) if isinstance(value, str) else STAND.read(value)
+        if not isinstance(value, str):
+            return STAND.read(value)
+        try:
+            return NAME.read(value)
+        except PydanticCustomError:
+            help_ = instead_of(value)
+            if not help_:
+                raise
+        raise fault("wrong-type", f"expected a target or a position, got {describe(value)}", help_)
 
     def schema(self) -> JsonSchemaValue:
         """Return the two ways to write it."""
