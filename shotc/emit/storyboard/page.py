@@ -298,5 +298,5 @@ def not_promised(certificate: tuple[Claim, ...], most: int = 3) -> list[str]:
         target, _, what = claim.constraint.rpartition(" in frame")
         value = percent(claim.worst) if claim.unit in SHARES else f"{claim.worst:.3g} {claim.unit}"
         name = f"whole {target} in frame" if target and not what else claim.constraint
-        words.append(f"{name} {value.strip()} ({claim.shot})")
+        words.append(f"{name} {value.strip()} ({claim.shot or claim.subject})")
     return words if len(words) <= most else [*words[:most], f"{len(words) - most} more"]

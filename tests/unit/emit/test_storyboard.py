@@ -262,6 +262,10 @@ def test_what_is_not_promised_is_named() -> None:
     ]
     assert not_promised(framing_claims(), most=1) == ["whole tower in frame 72.8 % (half)", "1 more"]
     assert not_promised(orbit_plan().certificate) == []
+    way = replace(framing_claims()[0], constraint="target tower on transits", unit="m", worst=1.84, shot=None)
+    assert not_promised((replace(way, subject="cam1", hard=False, holds=False),)) == [
+        "target tower on transits 1.84 m (cam1)"
+    ]
 
 
 def test_generated_shots_are_shown_evenly_in_time() -> None:
