@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -92,6 +93,13 @@ def mission_of(
 
 
 _EMPTY = MissionIR("city", None, 0.0, (), (), (), None, (), 50.0, (), "", (), None)
+
+
+def one_surface(mission: MissionIR) -> MissionIR:
+    """Return a mission whose scene is one open surface: nothing in it tells where a building ends."""
+    (mesh,) = mission.meshes
+    whole = replace(mesh, body=np.zeros_like(mesh.body), closed=np.zeros(1, dtype=bool))
+    return mission._replace(meshes=(whole,))
 
 
 def random_city(random: np.random.Generator, count: int = 25) -> City:

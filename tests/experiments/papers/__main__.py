@@ -19,7 +19,7 @@ from tests.support.multidrone_originals import ORIGINALS
 ROOT = Path(__file__).resolve().parents[3]
 OUT = ROOT / "out" / "papers"
 PAGE = ROOT / "shotc" / "docs" / "papers.md"
-PARTS = ("framing", "yaw", "retiming", "multidrone", "fleets", "viewpoint", "display")
+PARTS = ("framing", "identification", "yaw", "retiming", "multidrone", "fleets", "viewpoint", "display")
 MISSIONS = 60
 
 
@@ -51,6 +51,10 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
         found.append(lenses.section(drafts, conditions, say))
         if "ours" in installed:
             found.append(solvers.section(drafts, say))
+    if "identification" in parts:
+        from tests.experiments.papers import identification
+
+        found.append(identification.section(say))
     if "yaw" in parts:
         from tests.experiments.papers import yaw
 
