@@ -330,7 +330,7 @@ def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:
                 f"{first.feature} cannot be planned by this version",
                 labels=tuple(mission.origins.key(d.path, d.feature) for d in mission.deferred),
                 notes=("the mission checks clean; only planning has to wait for a later version", *note),
-                help="leave it out, or give it a mission of its own",
+                help=first.help,
             ),
         )
     return _missing_libraries("planning", SOLVERS)

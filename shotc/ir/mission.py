@@ -255,10 +255,14 @@ class Shot(NamedTuple):
 
 
 class Deferred(NamedTuple):
-    """A part of the language that is checked but that this version cannot plan yet."""
+    """A part of the language that is checked but cannot be planned yet.
+
+    help : what the author does instead
+    """
 
     feature: str
     path: KeyPath
+    help: str
 
 
 class MissionIR(NamedTuple):

@@ -121,7 +121,7 @@ class Scene(NamedTuple):
         where = (*self.path, *path)
         if name not in self.targets:
             return unknown_target(self.origins, where, name, self.targets)
-        return self.targets[name] or Deferred("a target whose track cannot be used", where)
+        return self.targets[name] or Deferred("a target whose track cannot be used", where, "mend its track")
 
     def stand(
         self, shot: ShotBase, at: "Place | Relative", *path: str | int

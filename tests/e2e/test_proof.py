@@ -96,7 +96,7 @@ EDITS: dict[str, Edit] = {
         points=[[-200, -200], [200, -200], [200, 200], [-200, 200]]
     ),
     "target moved": plus("mission.targets.0.centre.0", 3),
-    "target grown": times("mission.targets.0.height", 2),
+    "target grown": times("mission.targets.0.shape.height", 2),
     "promise raised": lambda d: d["mission"]["shots"][0]["promise"].update(in_frame=1.0),
     "duration asked": lambda d: d["mission"]["shots"][0]["timing"].update(duration=20.0),
     "start asked": lambda d: d["mission"]["shots"][0]["timing"].update(start=20.0),

@@ -91,8 +91,8 @@ CODES: tuple[CodeInfo, ...] = (
         "not-planned-yet",
         Severity.ERROR,
         "the mission uses a part of the language that this version checks but cannot plan",
-        "The whole language is parsed and validated, so that missions can be written and reviewed today. Scenes, "
-        "and missions that both film and show, are planned by later versions; until then `shotc plan` refuses the mission instead of "
+        "The whole language is parsed and validated, so that missions can be written and reviewed today. Shows "
+        "over terrain or beside scenes, and missions that both film and show, are planned by later versions; until then `shotc plan` refuses the mission instead of "
         "flying a part of it.",
         _BOTH,
         _PASSING,

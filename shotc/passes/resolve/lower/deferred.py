@@ -18,12 +18,16 @@ def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[D
 
 
 def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
-    if spec.world.terrain is not None and spec.fleets:
-        yield Deferred("a show over terrain (`world.terrain`)", ("world", "terrain"))
-    if spec.world.scene is not None and spec.fleets:
-        yield Deferred("a show beside a scene (`world.scene`)", ("world", "scene"))
-    if spec.world.buildings is not None and spec.fleets:
-        yield Deferred("a show beside buildings (`world.buildings`)", ("world", "buildings"))
+    places = {
+        "over terrain": ("terrain", spec.world.terrain),
+        "beside a scene": ("scene", spec.world.scene),
+        "beside buildings": ("buildings", spec.world.buildings),
+    }
+    for how, (key, place) in places.items():
+        if place is not None and spec.fleets:
+            help_ = f"remove `{key}`, and keep the show above all that stands there"
+            yield Deferred(f"a show {how} (`world.{key}`)", ("world", key), help_)
     drawn = [i for i, shot in enumerate(spec.shots) if shot.drone == NO_DRONE]
     if 0 < len(drawn) < len(spec.shots):
-        yield Deferred("a mission with both cameras and displays", ("shots", drawn[0], "kind"))
+        help_ = "write the shots of the cameras and the displays as two missions"
+        yield Deferred("a mission with both cameras and displays", ("shots", drawn[0], "kind"), help_)
