@@ -11,6 +11,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
+from shotc.geom.enclosing import Block
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Prism, convex_hull
 from shotc.geom.surface.inside import bodies, inside
@@ -62,6 +63,13 @@ class ObstacleMesh:
         """
         distance = nearest(self.surface, p, limit).distance
         return np.where(self.holds(p), -np.minimum(distance, limit), distance)
+
+    def block(self, part: int) -> Block:
+        """Return the upright prism about a part: over the hull of its corners, as high as they are."""
+        corners = self.surface.triangles[self.part[self.surface.source] == part].reshape(-1, 3)
+        plan = np.unique(corners[:, :2], axis=0).tolist()
+        low, high = float(corners[:, 2].min()), float(corners[:, 2].max())
+        return Block(convex_hull(tuple((x, y) for x, y in plan)), low, high)
 
     def name_at(self, triangle: int) -> str:
         """Return the name of what a triangle belongs to; triangle : of those that the surface was made of."""

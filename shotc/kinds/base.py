@@ -121,7 +121,9 @@ class Scene(NamedTuple):
         where = (*self.path, *path)
         if name not in self.targets:
             return unknown_target(self.origins, where, name, self.targets)
-        return self.targets[name] or Deferred("a target whose track cannot be used", where, "mend its track")
+        return self.targets[name] or Deferred(
+            "a target that cannot be used", where, "mend what is wrong with it"
+        )
 
     def stand(
         self, shot: ShotBase, at: "Place | Relative", *path: str | int

@@ -8,7 +8,7 @@ from typing import Annotated
 from pydantic import StrictBool
 
 from shotc.ir.limits import Vec2, Vec3
-from shotc.spec.fieldtypes import Integer, NamedOr, Text
+from shotc.spec.fieldtypes import Integer, NamedOr, Text, TextOrNumber
 from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
 from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, OnMap, Plan, Position, Relative, Stand, Station
 from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
@@ -26,6 +26,7 @@ __all__ = [
     "Aspect",
     "BodySize",
     "BoxOnScreen",
+    "BuildingName",
     "CameraAltitude",
     "CameraAltitudeSpan",
     "CompositionSet",
@@ -135,6 +136,16 @@ RelativePath = Annotated[
         r"^(?!/)(?!(.*/)?[.][.](/|$))[^\\:\x00-\x1f]{1,255}$",
         "unsafe-path",
         "give a path inside the mission's folder, with `/` between folders and without `..`",
+    ),
+]
+
+BuildingName = Annotated[
+    str,
+    TextOrNumber(
+        "BuildingName",
+        r"^(?! *$)[^\x00-\x1f]{1,80}$",
+        "wrong-type",
+        "give the `name` or the id of a building, as its file has it, such as way/310002",
     ),
 ]
 

@@ -105,6 +105,18 @@ class Text(FieldType):
         return {"type": "string", "pattern": self.pattern, "description": self.rule}
 
 
+class TextOrNumber(Text):
+    """Text that may be a whole number, such as an id; kept as text."""
+
+    def read(self, value: Any) -> str:
+        """Return the text."""
+        return super().read(_digits(value) if type(value) is int else value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it."""
+        return {"anyOf": [super().schema(), {"type": "integer"}]}
+
+
 class Hinted(FieldType):
     """Another field type that has a help of its own for a text which people write there by mistake.
 

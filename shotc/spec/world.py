@@ -8,6 +8,7 @@ from shotc.spec.faults import fault
 from shotc.spec.fields import (
     Angle,
     BodySize,
+    BuildingName,
     Duration,
     Heading,
     Heights,
@@ -128,8 +129,8 @@ class TargetSpec(Model):
     """Something to film."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (
-        OneOf((("at",), ("track",), ("parts",))),
-        OneOf((("radius", "height"), ("size",), ("size", "heading"), ("parts",))),
+        OneOf((("at",), ("track",), ("parts",), ("building",))),
+        OneOf((("radius", "height"), ("size",), ("size", "heading"), ("parts",), ("building",))),
         OneOf(
             (("heading",), ("track",)),
             required=False,
@@ -157,6 +158,11 @@ class TargetSpec(Model):
         max_length=8,
         description="names of targets that stand and make one picture, framed as one",
     )
+    building: BuildingName | None = Field(
+        default=None,
+        description="name or id of a building of `world.buildings`, or name of a part of `world.scene`; the "
+        "target is the boxes or cylinders about it",
+    )
     top_speed: Speed | None = Field(
         default=None,
         description="speed that it never exceeds: a track that does is a fault; 70 m/s if silent",
@@ -164,7 +170,7 @@ class TargetSpec(Model):
 
     @property
     def tall(self) -> float:
-        """How high its body is, metres; 0 of a group."""
+        """How high its body is, metres; 0 of a group and of a building."""
         return self.size[2] if self.size is not None else self.height or 0.0
 
 

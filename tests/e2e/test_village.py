@@ -11,21 +11,28 @@ import pytest
 from shotc import api
 from shotc.geom.surface.triangles import closest
 from shotc.planfile.write import plan_bytes
+from tests.support.compiled import compiled
 from tests.support.records import replace
+from tests.support.second_opinion.compiled import case_of
+from tests.support.second_opinion.judge import judge
 
 VILLAGE = Path(__file__).parents[2] / "specs" / "village"
+MISSION = VILLAGE / "church-tower.yaml"
 
 pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
 def planned():
-    path = VILLAGE / "church-tower.yaml"
-    done = api.compile_source(
-        path.read_bytes(), path.as_posix(), path.parent, api.PlanOptions(refiner="none")
-    )
+    done = compiled(MISSION, "none")
     assert done.plan is not None, done.diagnostics
     return done.plan
+
+
+def test_the_church_is_the_boxes_about_its_parts_and_other_eyes_see_it(planned):
+    mission = planned.trajectory.keyframes.mission
+    assert mission.target("church").parts == ("church.nave", "church.choir", "church.tower")
+    assert judge(case_of(MISSION, "none")) == []
 
 
 def test_the_village_is_of_houses_and_of_the_parts_of_a_church(planned):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
-from shotc.diag.codes._slips import LOOK
+from shotc.diag.codes._slips import LOOK, slip
 from shotc.diag.model import Severity
 
 
@@ -119,6 +119,33 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "some of the file of the buildings does not become an obstacle",
         "Points, lines, polygons that are no buildings beside some that are, and buildings that are out of reach are "
         "left out: drones do not keep clear of them. An outline whose parts do not cover it is told as well.",
+    ),
+    _of_a_file(
+        "G048",
+        "unknown-building",
+        _ERROR,
+        "a target is a building that is not there",
+        "`building` is the `name` of a building in the file of `world.buildings`, or its id (`id`, `@id`), as written "
+        "there, or the name of a part of `world.scene`. A part of a building has its own. What was left out of the file "
+        "(G037) is no building; one beyond the terrain has no ground.",
+    ),
+    _of_a_file(
+        "G049",
+        "two-buildings-of-one-name",
+        _ERROR,
+        "a target is a building whose name another has, too",
+        "The notes have the other names of each, and where they stand. Write the id of the one that is meant, or several "
+        "targets, and a group of them: `parts: [barn-1, barn-2]`. A part of a building that is called as the whole is "
+        "no second one: the whole is meant.",
+    ),
+    slip(
+        "G050",
+        "no-file-of-buildings",
+        "a target is a building, and the mission has no buildings",
+        "`building` names one of `world.buildings: {file: ...}` or a part of `world.scene`. Without such a file a target "
+        "is written with its place and its size.",
+        LOOK,
+        ("tower: {at: [0, 0, 12], radius: 4, height: 24}", "tower: {building: St. Mary}"),
     ),
 )
 

@@ -30,12 +30,14 @@ class Footprint(NamedTuple):
     ring   : (longitude, latitude), degrees, the last one not the first again
     tags   : the properties of its feature
     name   : of its feature, else its id; number : of the feature in the file, from 1
+    called : its name and its ids, those that it has
     """
 
     ring: tuple[Vec2, ...]
     tags: Tags
     name: str
     number: int
+    called: tuple[str, ...] = ()
 
 
 class Collection(NamedTuple):
@@ -65,8 +67,9 @@ def read_geojson(data: bytes) -> Collection | FileFault:
             if rings is None:
                 others[_type_of(feature)] += 1
                 continue
-            tags, name = _tags(feature), _name(feature, number)
-            found += [Footprint(ring, tags, name, number) for ring in map(_ring, rings)]
+            tags, called = _tags(feature), _called(feature)
+            name = next(iter(called), f"feature {number}")
+            found += [Footprint(ring, tags, name, number, called) for ring in map(_ring, rings)]
         except _Wrong as wrong:
             return FileFault(f"feature {number}: {wrong}", None, _EXPORT)
     return Collection(tuple(found), others)
@@ -179,10 +182,11 @@ def _tags(feature: Mapping[str, Any]) -> Tags:
     return {**below, **properties} if isinstance(below, dict) else properties
 
 
-def _name(feature: Mapping[str, Any], number: int) -> str:
+def _called(feature: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the name of a feature and its ids, each once."""
     tags = _tags(feature)
     known = (tags.get("name"), feature.get("id"), tags.get("@id"), tags.get("id"))
-    return next(filter(None, map(name_of, known)), f"feature {number}")
+    return tuple(dict.fromkeys(filter(None, map(name_of, known))))
 
 
 def described(others: Mapping[str, int]) -> Iterator[str]:

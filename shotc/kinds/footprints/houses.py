@@ -25,12 +25,20 @@ Project = Callable[[Vec2], Vec2]
 Triangle2 = tuple[Vec2, Vec2, Vec2]
 
 
+class Feature(NamedTuple):
+    """What a building is called by one feature of the file: its name, its ids."""
+
+    number: int
+    called: tuple[str, ...]
+
+
 class House(NamedTuple):
     """A building, or a part of one.
 
     ring : corners of W, counter-clockwise, metres; lid : the triangles that it is cut into
     bottom, top : metres over the lowest ground under the ring
     number : of its feature in the file
+    features : what it is called by: its own feature, and that of the outline that a part lies in
     """
 
     name: str
@@ -39,6 +47,7 @@ class House(NamedTuple):
     bottom: float
     top: float
     number: int
+    features: tuple[Feature, ...] = ()
 
 
 class Fault(NamedTuple):
@@ -68,7 +77,10 @@ class Houses(NamedTuple):
 
 
 class _Shape(NamedTuple):
-    """A footprint whose ring can be built on; low, high : of the box round it."""
+    """A footprint whose ring can be built on; low, high : of the box round it.
+
+    outline : in whose place a part stands
+    """
 
     footprint: Footprint
     ring: tuple[Vec2, ...]
@@ -78,6 +90,7 @@ class _Shape(NamedTuple):
     high: Vec2
     extent: Extent
     part: bool
+    outline: Footprint | None = None
 
 
 def houses_of(
@@ -176,7 +189,7 @@ def _inheriting(part: _Shape, outline: _Shape) -> _Shape:
         footprint = footprint._replace(name=outline.footprint.name)
     if extent.top is None:
         extent = extent._replace(top=outline.extent.top)
-    return part._replace(footprint=footprint, extent=extent)
+    return part._replace(footprint=footprint, extent=extent, outline=outline.footprint)
 
 
 def _made(shapes: Iterable[_Shape], height: float | None) -> Houses:
@@ -196,6 +209,12 @@ def _made(shapes: Iterable[_Shape], height: float | None) -> Houses:
         if extent.bottom >= top:
             wrong.append(Fault(name, number, f"it begins at {extent.bottom:g} m and ends at {top:g} m"))
         else:
-            houses.append(House(name, shape.ring, shape.lid, extent.bottom, top, number))
+            features = _features(shape)
+            houses.append(House(name, shape.ring, shape.lid, extent.bottom, top, number, features))
     left = () if height is None else tuple(unknown)
     return Houses(tuple(houses), tuple(wrong), () if left else tuple(unknown), left)
+
+
+def _features(shape: _Shape) -> tuple[Feature, ...]:
+    footprints = (shape.footprint, *(() if shape.outline is None else (shape.outline,)))
+    return tuple(Feature(f.number, f.called) for f in footprints)

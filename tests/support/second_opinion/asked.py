@@ -174,6 +174,9 @@ def _line(case: Case, shot: dict[str, Any], flight: Flight, phase: Phase) -> Fin
 
 
 def _both(value: Any) -> tuple[float, float]:
+    if isinstance(value, dict):  # what an altitude above the target is, it is without saying so
+        assert value["above"] == "target"
+        return _both(value["height"])
     if isinstance(value, list):
         return number(value[0]), number(value[1])
     return number(value), number(value)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import yaml
 
+from tests.support.second_opinion.buildings import building
 from tests.support.second_opinion.flight import Array
 from tests.support.second_opinion.quantities import number, place
 from tests.support.second_opinion.solids import Cylinder, Prism, Solid
@@ -91,6 +92,10 @@ class Mission:
             return group(
                 name, [self._target(part, self.written["targets"][part]) for part in target["parts"]]
             )
+        if "building" in target:
+            assert self.origin is not None
+            data = self.read(self.world["buildings"]["file"])
+            return building(name, str(target["building"]), data, self.origin)
         size = Size.written(target)
         if "at" in target:
             # The length of a box that stands lies along its heading, clockwise from North.

@@ -62,7 +62,7 @@ def _beyond(terrain: Terrain, places: Iterable[Vec2]) -> Iterator[tuple[float, V
 
 def _targets(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[_Counted]:
     for target in mission.targets:
-        written, words = spec.targets[target.name], f"target `{target.name}`"
+        written, words = spec.targets[str(target.path[1])], f"target `{target.name}`"
         for key, place in _written(written):
             if counts_from_ground(place):
                 x, y, _ = placed(mission.origin, flat, place)

@@ -31,7 +31,7 @@ def check_underground(mission: MissionIR, spec: MissionSpec, level: frozenset[st
     level : names of targets whose tracks are of files without heights
     """
     for target in mission.targets:
-        written = spec.targets[target.name].track
+        written = spec.targets[str(target.path[1])].track
         if target.track is None or written is None:
             yield from _standing(mission, target)
         else:

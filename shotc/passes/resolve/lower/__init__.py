@@ -11,7 +11,6 @@ from shotc.ir.ground import GroundHeight, flat
 from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Zone
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
-from shotc.ir.target import Target
 from shotc.kinds.base import Kind, placed
 from shotc.passes.resolve.lower.deferred import deferred_features
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
@@ -22,7 +21,7 @@ from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
 from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.lower.show import Show, shown
 from shotc.passes.resolve.lower.slips import check_slips
-from shotc.passes.resolve.lower.targets import targets
+from shotc.passes.resolve.lower.targets import Targets, targets
 from shotc.passes.resolve.lower.terrain import read_terrain
 from shotc.passes.resolve.lower.tracks import read_tracks
 from shotc.passes.resolve.lower.world import Put, drones, resolve_drone, zones
@@ -88,7 +87,7 @@ class _World(NamedTuple):
     read: Reader
     zones: tuple[Zone, ...]
     drones: Mapping[str, Drone]
-    targets: Mapping[str, Target | None]
+    targets: Targets
     rules: Rules
     faults: tuple[Diagnostic, ...]
     astray: bool
@@ -103,7 +102,7 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots
     cast = Cast(
         kinds,
         world.drones,
-        world.targets,
+        world.targets.found,
         world.rules,
         world.files.origin or (ANYWHERE if world.astray else None),
         ir.origins,
@@ -125,18 +124,18 @@ def _world(ir: LoadedMission) -> _World:
     relief = None if isinstance(terrain, Diagnostic) else terrain
     heights = flat if relief is None else relief.z
     put = partial(placed, origin or ANYWHERE, heights)
-    standing = Obstacles() if astray else read_obstacles(spec, put, relief, files)
+    standing = Obstacles(unread=True) if astray else read_obstacles(spec, put, relief, files)
     found_zones, zone_faults = zones(spec, put, relief, origins)
     found_drones, drone_faults = drones(spec, put, origins)
     tracks = read_tracks(spec, put, files)
-    found_targets = targets(spec, put, tracks.tracks, origins)
+    found_targets = targets(spec, put, tracks.tracks, standing, origins)
     return _World(
         put,
         files,
         read,
         found_zones,
         found_drones,
-        found_targets.found,
+        found_targets,
         _rules(spec.rules),
         (*astray, *standing.faults, *zone_faults, *drone_faults, *tracks.diagnostics, *found_targets.faults),
         astray=bool(astray),
@@ -155,7 +154,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         origin=world.files.origin,
         wind=spec.world.wind,
         zones=world.zones,
-        targets=tuple(t for t in world.targets.values() if t is not None and not t.parts),
+        targets=world.targets.bodies,
         drones=tuple(world.drones.values()),
         rules=world.rules,
         shots=shots.shots,
@@ -169,7 +168,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         files=show.files,
         terrain=world.terrain,
         meshes=world.standing.meshes,
-        groups=tuple(t for t in world.targets.values() if t is not None and t.parts),
+        groups=world.targets.groups,
         source=_source(ir, world.read, show),
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.geodetic import onto_plane
@@ -18,6 +19,13 @@ from shotc.spec.world import BuildingsSpec
 
 BUILDINGS = ("world", "buildings", "file")
 _NAMED = 3  # buildings that a diagnostic names
+
+
+class Standing(NamedTuple):
+    """A building on its ground; z : of the lowest ground under it, None beyond the terrain."""
+
+    house: House
+    z: float | None
 
 
 def read_buildings(

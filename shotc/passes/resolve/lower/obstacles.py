@@ -7,11 +7,12 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
 from shotc.ir.limits import Vec3
 from shotc.kinds.base import Place, bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.models.endings import ENDINGS, METRES, ending_of
-from shotc.passes.resolve.lower.buildings import BUILDINGS, read_buildings
+from shotc.passes.resolve.lower.buildings import BUILDINGS, Standing, read_buildings
 from shotc.passes.resolve.lower.files import Files
 from shotc.requirements import remedy
 from shotc.spec.mission import MissionSpec
@@ -25,10 +26,15 @@ SCENE = ("world", "scene", "file")
 
 
 class Obstacles(NamedTuple):
-    """The scene and the buildings of a mission, and what is wrong with them."""
+    """The scene and the buildings of a mission, and what is wrong with them.
+
+    standing : the buildings, one by one; unread : whether a file cannot be used, or not by this installation
+    """
 
     meshes: tuple[ObstacleMesh, ...] = ()
     faults: tuple[Diagnostic, ...] = ()
+    standing: tuple[Standing, ...] = ()
+    unread: bool = False
 
 
 def read_obstacles(
@@ -38,7 +44,9 @@ def read_obstacles(
     world = spec.world
     scene = Obstacles() if world.scene is None else _scene(world.scene, put, terrain, files)
     buildings = Obstacles() if world.buildings is None else _buildings(world.buildings, terrain, files)
-    return Obstacles((*scene.meshes, *buildings.meshes), (*scene.faults, *buildings.faults))
+    faults = (*scene.faults, *buildings.faults)
+    unread = has_errors(faults) or scene.unread
+    return Obstacles((*scene.meshes, *buildings.meshes), faults, buildings.standing, unread)
 
 
 def _scene(
@@ -55,7 +63,7 @@ def _scene(
     if isinstance(data, Diagnostic):
         return Obstacles(faults=(data,))
     if find_spec("numpy") is None:
-        return Obstacles(faults=(not_judged("scene", name, SCENE, files),))
+        return Obstacles(faults=(not_judged("scene", name, SCENE, files),), unread=True)
     from shotc.passes.resolve.lower.scene import Placed, scene_mesh
 
     placed = Placed(
@@ -72,11 +80,12 @@ def _buildings(written: BuildingsSpec, terrain: Terrain | None, files: Files) ->
     if not houses:
         return Obstacles(faults=tuple(faults))
     if find_spec("numpy") is None:
-        return Obstacles(faults=(*faults, not_judged("buildings", written.file, BUILDINGS, files)))
+        told = not_judged("buildings", written.file, BUILDINGS, files)
+        return Obstacles((), (*faults, told), tuple(Standing(house, 0.0) for house in houses))
     from shotc.passes.resolve.lower.prisms import buildings_mesh
 
     made = buildings_mesh(houses, written.file, terrain, files)
-    return Obstacles(made.meshes, (*faults, *made.faults))
+    return made._replace(faults=(*faults, *made.faults))
 
 
 def not_judged(what: str, name: str, path: tuple[str, ...], files: Files) -> Diagnostic:

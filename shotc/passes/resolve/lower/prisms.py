@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from shotc.ir.terrain import Terrain
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.footprints.houses import House
-from shotc.passes.resolve.lower.buildings import BUILDINGS
+from shotc.passes.resolve.lower.buildings import BUILDINGS, Standing
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.obstacles import Obstacles
 
@@ -28,8 +29,9 @@ def buildings_mesh(houses: Sequence[House], name: str, terrain: Terrain | None, 
         message = f"its buildings have {count} triangles; {MOST_TRIANGLES} are the most"
         wrong = FileFault(message, None, "cut it to where the mission is flown")
         return Obstacles(faults=(bad_file(files.origins, BUILDINGS, name, wrong),))
-    ground = _ground(terrain, houses)
-    standing = [(house, float(z)) for house, z in zip(houses, ground, strict=True) if np.isfinite(z)]
+    ground = _ground(terrain, houses).tolist()
+    stand = tuple(Standing(h, z if isfinite(z) else None) for h, z in zip(houses, ground, strict=True))
+    standing = [(house, z) for house, z in stand if z is not None]
     faults: tuple[Diagnostic, ...] = ()
     if len(standing) < len(houses):
         label = (files.origins.value(BUILDINGS), files.origins.value(("world", "terrain"), "the terrain"))
@@ -37,8 +39,8 @@ def buildings_mesh(houses: Sequence[House], name: str, terrain: Terrain | None, 
         message = f"{count} buildings of `{name}` stand beyond the terrain, and are left out"
         faults = (Diagnostic("G037", message, label, help="take an elevation model that covers them"),)
     if not standing:
-        return Obstacles(faults=faults)
-    return Obstacles((_prisms(name, standing),), faults)
+        return Obstacles((), faults, stand)
+    return Obstacles((_prisms(name, standing),), faults, stand)
 
 
 def _ground(terrain: Terrain | None, houses: Sequence[House]) -> Array:

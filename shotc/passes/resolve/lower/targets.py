@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
+from itertools import count
 from math import cos, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.enclosing import Body
 from shotc.geom.shapes import BodyShape, BoxShape, CylinderShape, GroupShape, Part
 from shotc.geom.vec import Vec3, minus
 from shotc.ir.origin import OriginMap
 from shotc.ir.target import Target
 from shotc.kinds.base import stands, unknown_target
+from shotc.passes.resolve.lower.built_targets import bodies_of_building
+from shotc.passes.resolve.lower.obstacles import Obstacles
 from shotc.passes.resolve.lower.world import Put
 from shotc.spec.mission import MissionSpec
 from shotc.spec.world import TargetSpec
@@ -21,28 +27,85 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 
 
 class Targets(NamedTuple):
-    """The targets by name, None for one whose track or whose parts cannot be used, and what is wrong."""
+    """The targets, and what is wrong with them.
+
+    found : by name, None for one whose track, parts or building cannot be used
+    boxes : bodies of buildings that are several, which have no names of their own in the mission
+    """
 
     found: Mapping[str, Target | None]
+    boxes: tuple[Target, ...]
     faults: tuple[Diagnostic, ...]
 
+    @property
+    def bodies(self) -> tuple[Target, ...]:
+        """Those that stand or move."""
+        return (*(t for t in self.found.values() if t is not None and not t.parts), *self.boxes)
 
-def targets(spec: MissionSpec, put: Put, tracks: Mapping[str, Track], origins: OriginMap) -> Targets:
-    """Return the bodies, then the groups."""
-    found: dict[str, Target | None] = {}
-    faults: list[Diagnostic] = []
+    @property
+    def groups(self) -> tuple[Target, ...]:
+        """Those that are several bodies."""
+        return tuple(t for t in self.found.values() if t is not None and t.parts)
+
+
+def targets(
+    spec: MissionSpec, put: Put, tracks: Mapping[str, Track], standing: Obstacles, origins: OriginMap
+) -> Targets:
+    """Return the bodies, then the groups; standing : the buildings and the scene."""
+    made = Targets(dict.fromkeys(spec.targets), (), ())
     for name, target in spec.targets.items():
-        if target.parts is None:
-            found[name] = _body(name, target, put, tracks.get(name))
-            faults += _sideways(name, target, origins)
+        if target.building is not None:
+            made = _with_building(made, name, bodies_of_building(spec, name, standing, origins), spec)
+        elif target.parts is None:
+            body = {name: _body(name, target, put, tracks.get(name))}
+            made = made._replace(
+                found={**made.found, **body}, faults=(*made.faults, *_sideways(name, target, origins))
+            )
     for name, target in spec.targets.items():
         if target.parts is not None:
-            wrong = list(_wrong_parts(spec, name, target.parts, origins))
-            parts = [found.get(part) for part in target.parts]
-            bodies = [part for part in parts if part is not None]
-            found[name] = _group(name, bodies) if len(bodies) == len(parts) and not wrong else None
-            faults += wrong
-    return Targets(found, tuple(faults))
+            wrong = tuple(_wrong_parts(spec, name, target.parts, origins))
+            parts = [made.found.get(part) for part in target.parts]
+            whole = [part for part in parts if part is not None]
+            group = None
+            if len(whole) == len(parts) and not wrong:
+                group = _group(name, [body for part in whole for body in _its(part, made.boxes)])
+            made = made._replace(found={**made.found, name: group}, faults=(*made.faults, *wrong))
+    return made
+
+
+def _with_building(
+    made: Targets, name: str, found: tuple[Body, ...] | Diagnostic | None, spec: MissionSpec
+) -> Targets:
+    """Return targets with a building; one of several bodies is a group of them."""
+    if found is None or isinstance(found, Diagnostic):
+        return made._replace(faults=made.faults if found is None else (*made.faults, found))
+    path = ("targets", name)
+    if len(found) == 1:
+        own = Target(name, found[0].centre, found[0].shape, path)
+        return made._replace(found={**made.found, name: own})
+    boxes = [
+        Target(own, body.centre, body.shape, path)
+        for own, body in zip(_box_names(name, found, spec), found, strict=True)
+    ]
+    return made._replace(found={**made.found, name: _group(name, boxes)}, boxes=(*made.boxes, *boxes))
+
+
+def _box_names(name: str, found: tuple[Body, ...], spec: MissionSpec) -> Iterator[str]:
+    """Yield names for the bodies of a building: those of its parts where they can be used, else numbers."""
+    parts = Counter(body.name for body in found)
+    numbers = (own for own in (f"{name}.{i}" for i in count(1)) if own not in spec.targets)
+    for body in found:
+        own = f"{name}.{body.name}"
+        usable = _PART.fullmatch(body.name) and parts[body.name] == 1 and own not in spec.targets
+        yield own if usable else next(numbers)
+
+
+_PART = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,30}")
+
+
+def _its(target: Target, boxes: tuple[Target, ...]) -> list[Target]:
+    """Return the bodies of a target."""
+    return [box for box in boxes if box.name in target.parts] if target.parts else [target]
 
 
 def _body(name: str, target: TargetSpec, put: Put, track: Track | None) -> Target | None:

@@ -1,0 +1,124 @@
+"""Targets that are buildings: found by a name or an id, and held by few boxes and cylinders. Plain Python."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.enclosing import Block, Body, bodies_about
+from shotc.ir.origin import OriginMap
+from shotc.passes.resolve.lower.obstacles import Obstacles
+from shotc.spec.mission import MissionSpec
+from shotc.spec.words import closest
+
+if TYPE_CHECKING:  # a mission without any loads no numpy
+    from shotc.ir.obstacle_mesh import ObstacleMesh
+
+MOST_BODIES = 8
+"""Of one target, as a group has parts at most."""
+_LISTED = 5  # names that a diagnostic lists
+
+
+class _Named(NamedTuple):
+    """What a target can be: a building, a part of one, or a part of a scene.
+
+    called : its name and its ids; own : the numbers of its prisms, or of the part of its mesh
+    mesh : the scene that it is a part of
+    """
+
+    called: tuple[str, ...]
+    own: frozenset[int]
+    mesh: ObstacleMesh | None = None
+
+    def blocks(self, standing: Obstacles) -> tuple[Block, ...]:
+        """Return its prisms in W, without those that stand beyond the terrain."""
+        if self.mesh is not None:
+            return tuple(self.mesh.block(part) for part in self.own)
+        its = [standing.standing[i] for i in sorted(self.own)]
+        return tuple(Block(h.ring, z + h.bottom, z + h.top, h.name) for h, z in its if z is not None)
+
+    def described(self, wanted: str, standing: Obstacles) -> str:
+        """Return what it is else called, and where it stands."""
+        sort = "a building" if self.mesh is None else "a part of the scene"
+        blocks = self.blocks(standing)
+        x, y = blocks[0].ring[0] if blocks else (0.0, 0.0)
+        where = f"at [{x:.0f}, {y:.0f}]" if blocks else "beyond the terrain"
+        return f"{sort}{''.join(f' `{name}`' for name in self.called if name != wanted)} {where}"
+
+
+def bodies_of_building(
+    spec: MissionSpec, name: str, standing: Obstacles, origins: OriginMap
+) -> tuple[Body, ...] | Diagnostic | None:
+    """Return the bodies of the target ``name``, which is a building, or what is wrong with that.
+
+    None where the files that have it cannot be used, which is told of them.
+    """
+    wanted = (spec.targets[name].building or "").strip()
+    label = (origins.value(("targets", name, "building")),)
+    if spec.world.buildings is None and spec.world.scene is None:
+        message = f"target `{name}` is a building, and the mission names no file of buildings"
+        help_ = "write `world: {buildings: {file: houses.geojson}}`, or where it stands: `at` and `size`"
+        return Diagnostic("G050", message, label, help=help_)
+    found = _meant(wanted, standing)
+    if len(found) > 1:
+        return _ambiguous(wanted, found, standing)._replace(labels=label)
+    if found:
+        blocks = found[0].blocks(standing)
+        beyond = Diagnostic("G048", f"`{wanted}` stands beyond the terrain", label, help=_COVER)
+        return bodies_about(blocks, MOST_BODIES) if blocks else beyond
+    if standing.unread:
+        return None
+    return _unknown(spec, wanted, standing)._replace(labels=label)
+
+
+_COVER = "take an elevation model that covers it"
+
+
+def _meant(wanted: str, standing: Obstacles) -> list[_Named]:
+    """Return what is called so; of a building and a part of it, both called so, the building alone."""
+    found = [named for named in _all(standing) if wanted in named.called]
+    largest: list[_Named] = []
+    for named in sorted(found, key=lambda n: -len(n.own)):
+        if not any(named.mesh is other.mesh and named.own <= other.own for other in largest):
+            largest.append(named)
+    return largest
+
+
+def _all(standing: Obstacles) -> Iterator[_Named]:
+    """Yield all that can be a target."""
+    called: dict[int, tuple[str, ...]] = {}
+    own: dict[int, list[int]] = {}
+    for i, (house, _) in enumerate(standing.standing):
+        for feature in house.features:
+            called[feature.number] = feature.called
+            own.setdefault(feature.number, []).append(i)
+    yield from (_Named(called[number], frozenset(houses)) for number, houses in own.items())
+    for mesh in standing.meshes:
+        if mesh.kind == "scene":
+            yield from (_Named((name,), frozenset([i]), mesh) for i, name in enumerate(mesh.names))
+
+
+def _ambiguous(wanted: str, found: list[_Named], standing: Obstacles) -> Diagnostic:
+    notes = tuple(named.described(wanted, standing) for named in found[:_LISTED])
+    others = [name for named in found for name in named.called if name != wanted]
+    help_ = f"write `building: {others[0]}` if that one is meant" if others else "give each a name of its own"
+    return Diagnostic("G049", f"{len(found)} buildings are called `{wanted}`", (), notes, help_)
+
+
+def _unknown(spec: MissionSpec, wanted: str, standing: Obstacles) -> Diagnostic:
+    files = [place.file for place in (spec.world.buildings, spec.world.scene) if place is not None]
+    names = [named.called[0] for named in _all(standing) if named.called]
+    every = {name: None for named in _all(standing) for name in named.called}
+    close = closest(wanted, every)
+    listed = ", ".join(f"`{name}`" for name in sorted(dict.fromkeys(names), key=_words_first)[:_LISTED])
+    more = len(set(names)) - _LISTED
+    note = f"there are {listed}" + (f" and {more} more" if more > 0 else "")
+    help_ = f"did you mean `{close}`?" if close else "write the `name` or the id that the file gives it"
+    message = f"{' and '.join(f'`{file}`' for file in files)} has no building `{wanted}`"
+    return Diagnostic("G048", message, (), (note,) if listed else ("none of them has a name",), help_)
+
+
+def _words_first(name: str) -> tuple[bool, str]:
+    """Sort names before ids, which have figures."""
+    return any(c.isdigit() for c in name), name
