@@ -58,7 +58,9 @@ def bodies_of_building(
     label = (origins.value(("targets", name, "building")),)
     if spec.world.buildings is None and spec.world.scene is None:
         message = f"target `{name}` is a building, and the mission names no file of buildings"
-        help_ = "write `world: {buildings: {file: houses.geojson}}`, or where it stands: `at` and `size`"
+        help_ = (
+            "give the file under `world` as `buildings: {file: ...}`, or say where it stands: `at` and `size`"
+        )
         return Diagnostic("G050", message, label, help=help_)
     found = _meant(wanted, standing)
     if len(found) > 1:
