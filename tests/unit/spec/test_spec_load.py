@@ -191,7 +191,7 @@ def test_a_key_of_what_has_names_belongs_under_a_name(loads):
 def test_conflicting_keys_are_both_shown(loads):
     (found,) = loads(BASE.replace("radius: 4", "radius: 4, track: {file: a.csv}")).diagnostics
     assert [label.span.column for label in found.labels] == [38, 11]
-    assert found.help == "give `at` or `track` or `parts`"
+    assert found.help == "give `at` or `track` or `parts` or `building`"
 
 
 def test_another_version_silences_everything_else(loads):
