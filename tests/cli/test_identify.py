@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,9 @@ import yaml
 from shotc import plugins
 from tests.cli.conftest import Run
 from tests.support.cities import tube
+from tests.support.compiled import compiled
 from tests.support.meshes import box_mesh, ply
+from tests.support.quay_scene import text
 
 MISSION = """\
 shotc: 1
@@ -47,6 +50,25 @@ def towers(tmp_path: Path) -> Path:
     path = tmp_path / "towers.yaml"
     path.write_text(MISSION)
     return path
+
+
+QUAY = Path(__file__).parents[2] / "specs" / "identified"
+
+
+def test_the_mission_in_specs_is_what_is_made_of_the_one_with_boxes(run: Run, tmp_path: Path) -> None:
+    assert (QUAY / "quay.obj").read_text() == text()
+    for name in ("quay.obj", "quay.yaml"):
+        shutil.copy(QUAY / name, tmp_path)
+    done = run("identify", str(tmp_path / "quay.yaml"))
+    assert done.code == 0, done.err
+    assert (tmp_path / "quay-identified.yaml").read_bytes() == (QUAY / "quay-identified.yaml").read_bytes()
+
+
+@pytest.mark.slow
+def test_the_mission_in_specs_plans_without_a_warning() -> None:
+    done = compiled(QUAY / "quay-identified.yaml")
+    assert done.diagnostics == ()
+    assert done.plan is not None
 
 
 def changed(path: Path, *changes: tuple[str, str]) -> str:

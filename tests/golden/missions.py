@@ -11,11 +11,19 @@ HERE = Path(__file__).parent
 SPECS = Path(__file__).parents[2] / "specs"
 DRAWN = HERE / "drawn"
 SHOW = "fleets:"
+BESIDE_FILES = (
+    "shapes/delivery-van",
+    "village/church-tower",
+    "identified/quay-identified",
+    "terrain/jacksboro-ridge",
+)
+"""Missions in folders of their own, with what they need, that are planned in seconds."""
 
 
 def missions() -> dict[str, Path]:
     """Return the files of all missions that film, by name."""
     films = [path for path in sorted(SPECS.glob("*.yaml")) if SHOW not in path.read_text(encoding="utf-8")]
+    films += [SPECS / f"{name}.yaml" for name in BESIDE_FILES]
     return {p.stem: p for p in films} | {p.parent.name: p for p in sorted(DRAWN.glob("*/mission.yaml"))}
 
 
