@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from math import inf
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -17,10 +17,19 @@ from shotc.geom.solids import Prism, convex_hull
 from shotc.geom.surface.inside import bodies, inside
 from shotc.geom.surface.near import nearest
 from shotc.geom.surface.tree import Surface, surface_of
+from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath
 
 LEAST_M = 0.5
 """Metres that a body is wide and high at least, to be looked past."""
+
+
+class NearPart(NamedTuple):
+    """What of a mesh is nearest to a place: the name of its part, how far it is, metres, and its place."""
+
+    name: str
+    distance: float
+    place: Vec3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,6 +72,13 @@ class ObstacleMesh:
         """
         distance = nearest(self.surface, p, limit).distance
         return np.where(self.holds(p), -np.minimum(distance, limit), distance)
+
+    def nearest_part(self, place: Vec3) -> NearPart:
+        """Return what is nearest to a place of W."""
+        found = nearest(self.surface, np.array([place]))
+        x, y, z = found.point[0]
+        name = self.name_at(int(self.surface.source[found.triangle[0]]))
+        return NearPart(name, float(found.distance[0]), (float(x), float(y), float(z)))
 
     def block(self, part: int) -> Block:
         """Return the upright prism about a part: over the hull of its corners, as high as they are."""

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from shotc.geom.vec import Vec3
 from shotc.ir.mission import Drone, MissionIR, Zone
 from shotc.ir.origin import KeyPath
 from shotc.ir.target import Target
@@ -16,8 +17,9 @@ class Owner(NamedTuple):
     """What an obstacle, a half-space or a moving body belongs to: a zone, a target, a drone, the ground, or
     the greatest height above it.
 
+    name : of a scene or of buildings that of the part which is meant, empty for all of them
     path : of its key in the mission; of the ground and the ceiling it is that of the rule for it
-    As text it is how plans name it: `zone tree`, `ground`.
+    As text it is how plans name it: `zone tree`, `ground`, `building Town hall`.
     """
 
     kind: OwnerKind
@@ -25,12 +27,20 @@ class Owner(NamedTuple):
     path: KeyPath
 
     def __str__(self) -> str:
-        return f"{self.kind} {self.name}" if self.name else self.kind
+        return f"{self._one} {self.name}" if self.name else self.kind
 
     @property
     def words(self) -> str:
         """How diagnostics name it."""
-        return f"{self.kind} `{self.name}`" if self.name else f"the {self.kind}"
+        if not self.name:
+            return f"the {self.kind}"
+        if self.kind == "scene":
+            return f"`{self.name}` of the scene"
+        return f"{self._one} `{self.name}`"
+
+    @property
+    def _one(self) -> str:
+        return self.kind.removesuffix("s")
 
 
 GROUND = Owner("ground", "", ("rules", "ground_clearance"))
@@ -57,6 +67,11 @@ def mesh_owner(mesh: "ObstacleMesh") -> Owner:
     return Owner(mesh.kind, "", mesh.path)
 
 
+def part_owner(mesh: "ObstacleMesh", place: Vec3) -> Owner:
+    """Return the owner of what is nearest to a place of W, by the name of its part."""
+    return mesh_owner(mesh)._replace(name=mesh.nearest_part(place).name)
+
+
 def owner_of(mission: MissionIR, text: str) -> Owner | None:
     """Return the owner that a plan names by a text; None for a text that names none."""
     known = (
@@ -67,4 +82,14 @@ def owner_of(mission: MissionIR, text: str) -> Owner | None:
         *map(drone_owner, mission.drones),
         *map(mesh_owner, mission.meshes),
     )
-    return next((owner for owner in known if str(owner) == text), None)
+    return next((owner for owner in known if str(owner) == text), None) or _part_called(mission, text)
+
+
+def _part_called(mission: MissionIR, text: str) -> Owner | None:
+    """Return the owner of a part of a scene or of buildings by its text."""
+    for mesh in mission.meshes:
+        parts = (mesh_owner(mesh)._replace(name=name) for name in mesh.names)
+        found = next((part for part in parts if str(part) == text), None)
+        if found is not None:
+            return found
+    return None

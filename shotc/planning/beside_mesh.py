@@ -12,7 +12,7 @@ from shotc.geom.surface.distance import inf_distance
 from shotc.geom.surface.near import comes_within, within
 from shotc.geom.surface.planes import Kept, Planes, half_spaces, separate
 from shotc.ir.obstacle_mesh import ObstacleMesh
-from shotc.ir.owners import Owner
+from shotc.ir.owners import Owner, part_owner
 
 FAR_M = 4.0  # metres beyond the clearance to which distances are told: what is farther is infinitely far
 CLOSED_M = 5e-7  # metres: gap to which distances of pieces are proved
@@ -28,6 +28,11 @@ class BesideMesh:
     owner: Owner
     mesh: ObstacleMesh
     clearance: float
+
+    def owner_at(self, p: Array) -> Owner:
+        """Return the owner of what is nearest to a point (3,): a building, a part of a scene."""
+        x, y, z = map(float, p)
+        return part_owner(self.mesh, (x, y, z))
 
     def lowered(self, metres: float) -> BesideMesh:
         """Return the same with a clearance that much smaller, 0 at least."""

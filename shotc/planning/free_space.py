@@ -164,7 +164,9 @@ def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach
         lack = float(np.linalg.norm(p[:2] - np.array(d.centre))) - d.radius
         found.append(Breach(d.owner, lack, 0.0))
     for surface in space.surfaces:
-        found.append(Breach(surface.owner, -float(surface.slack(p[None])[0]), max(0.0, surface.clearance)))
+        lack = -float(surface.slack(p[None])[0])
+        owner = surface.owner_at(p) if lack > tolerance else surface.owner
+        found.append(Breach(owner, lack, max(0.0, surface.clearance)))
     return sorted((b for b in found if b.lack > tolerance), key=lambda b: -b.lack)
 
 

@@ -42,6 +42,10 @@ class OverGround:
     clearance: float
     flipped: bool = False
 
+    def owner_at(self, _: Array) -> Owner:
+        """Return the owner: ground is one thing everywhere."""
+        return self.owner
+
     def lowered(self, metres: float) -> OverGround:
         """Return the same with a clearance that much smaller."""
         return replace(self, clearance=self.clearance - metres)

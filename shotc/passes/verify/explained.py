@@ -38,7 +38,7 @@ NEAR_M = 1.0
 PICTURE_SHARE = 0.5
 """Share of the distance to its target by which a shot may be left for its picture."""
 
-THINGS = ("zone ", "target ", "drone ", "ground", "scene", "buildings")
+THINGS = ("zone ", "target ", "drone ", "ground", "scene", "building")
 """What causes begin with that name something."""
 
 
@@ -61,8 +61,16 @@ def in_the_way(flight: Flight, way: Way, *, placed: bool = False) -> dict[str, f
 
 def believed(deviations: Iterable[Deviation], blocks: dict[str, float]) -> list[float]:
     """Return the distances that are told with a cause that can be one, the largest first."""
-    distances = (d.distance for d in deviations if d.cause in blocks or not d.cause.startswith(THINGS))
+    distances = (
+        d.distance for d in deviations if _thing(d.cause) in blocks or not d.cause.startswith(THINGS)
+    )
     return sorted(distances, reverse=True)
+
+
+def _thing(cause: str) -> str:
+    """Return a cause without the name of the building, or of the part of a scene, that it names."""
+    kind, named, _ = cause.partition(" ")
+    return {"building": "buildings", "scene": "scene"}.get(kind, cause) if named else cause
 
 
 def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> float:

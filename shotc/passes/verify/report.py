@@ -16,6 +16,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
+from shotc.passes.verify.nearby import file_labels, nearest_part
 from shotc.passes.verify.passing import told_passes
 from shotc.passes.verify.promises import OUTLINES, PROMISES, bends, broken_promise, promise_help, target_of
 from shotc.passes.verify.sight import OUT_OF_PICTURE
@@ -169,10 +170,11 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
         help_ = promise_help(claim, rule.code, shot, certificate)
     else:
         message = f"{_who(claim)}: {_state(claim, rule.code)}"
-        notes += filter(None, [wind_note(mission, claim)])
+        notes += filter(None, [wind_note(mission, claim), *nearest_part(mission, claim)])
         help_ = advice(mission, claim, rule, phase)
     limit = f"{_side(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
-    return Diagnostic(rule.code, message, _labels(mission, claim, phase, limit), tuple(notes), help_)
+    labels = (*_labels(mission, claim, phase, limit), *file_labels(mission, claim))
+    return Diagnostic(rule.code, message, labels, tuple(notes), help_)
 
 
 def _state(claim: Claim, code: str) -> str:

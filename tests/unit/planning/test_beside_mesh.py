@@ -7,11 +7,13 @@ import pytest
 from scipy.interpolate import BPoly
 
 from shotc.geom.bernstein import Array
+from shotc.ir.owners import owner_of
 from shotc.planning.beside_mesh import FAR_M
 from shotc.planning.free_space import blocked, bounds_slack, breaches, corridor, shortfall
 from tests.support.mesh_spaces import CLEARANCE, space_of
 from tests.support.scenes import arch_wall, cone, house, turned
 from tests.support.surfaces import distances
+from tests.support.tampered_plans import MISSION
 
 HOUSE = house(8.0, 6.0, 4.0, 6.0)
 
@@ -48,7 +50,7 @@ def test_room_is_the_distance_from_the_nearest_triangle(village):
 def test_a_place_inside_of_a_house_is_as_far_from_free_as_its_wall_and_the_clearance():
     space = space_of(HOUSE)
     (breach,) = breaches(space, np.array([0.0, 0.0, 2.5]))
-    assert str(breach.owner) == "scene"
+    assert breach.owner.kind == "scene"
     assert breach.lack == pytest.approx(CLEARANCE + 2.5)  # the floor is the nearest
     assert bounds_slack(space, np.array([[0.0, 0.0, 9.0]]))[0] == pytest.approx(3.0 - CLEARANCE)
 
@@ -104,3 +106,14 @@ def test_a_mesh_that_gives_way_lets_more_pass():
     assert bounds_slack(space, p)[0] < 0.0
     assert bounds_slack(space.giving({owner: 1.0}), p)[0] > 0.0
     assert not space.without(owner).meshes
+
+
+def test_what_a_place_is_too_near_to_has_the_name_of_its_part():
+    at = np.array([0.0, 20.0])
+    space = space_of(turned(HOUSE, 0.3, at), turned(HOUSE, 0.3, -at))
+    (breach,) = breaches(space, np.array([0.0, -20.0, 3.0]))
+    assert (breach.owner.name, breach.owner.words) == ("part 1", "`part 1` of the scene")
+    assert str(breach.owner) == "scene part 1"
+    mesh = space.meshes[0].mesh
+    assert owner_of(MISSION._replace(meshes=(mesh,)), "scene part 1") == breach.owner
+    assert owner_of(MISSION._replace(meshes=(mesh,)), "scene part 7") is None

@@ -21,6 +21,7 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.origin import KeyPath
+from shotc.ir.owners import mesh_owner
 from shotc.passes.resolve.checks.heights import Way, raised, way_of
 from shotc.passes.resolve.checks.home import stands_free
 from shotc.passes.resolve.checks.places import by_line
@@ -119,9 +120,7 @@ def _blocked(
 
 
 def _words(near: Near) -> str:
-    if near.mesh.kind == "buildings":
-        return f"building `{near.name}`"
-    return f"`{near.name}` of the scene"
+    return mesh_owner(near.mesh)._replace(name=near.name).words
 
 
 def _needed(mesh: ObstacleMesh, radius: float, clearance: float) -> str:

@@ -32,7 +32,8 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
     for cause in dict.fromkeys(d.cause for d in (worst, *stretches)):
         owner = owner_of(mission, cause)
         if owner is not None:
-            labels.append(mission.origins.key(owner.path, "what stands there"))
+            label = mission.origins.key(owner.path, "what stands there")
+            labels += [] if label in labels else [label]
         causes.append(cause if owner is None else owner.words)
     notes = [f"what stands against it: {', '.join(causes)}, and that it is flown smoothly"]
     if len(stretches) > 1:

@@ -63,6 +63,16 @@ def test_a_cause_that_is_not_there_is_not_believed() -> None:
     assert believed(told, {"zone mast": 5.0}) == [4.0, 2.0]
 
 
+@pytest.mark.parametrize(
+    ("cause", "thing"),
+    [("building Town hall", "buildings"), ("scene arch", "scene"), ("buildings", "buildings")],
+)
+def test_a_building_is_one_of_the_buildings(cause: str, thing: str) -> None:
+    told = [PathDeviation("a", 9.0, 0.0, cause)]
+    assert believed(told, {thing: 20.0}) == [9.0]
+    assert believed(told, {"zone mast": 20.0}) == []
+
+
 def test_pictures_move_a_placed_camera_only_for_other_drones() -> None:
     alone = flight().mission
     both = replace(alone, drones=alone.drones * 2)

@@ -52,7 +52,9 @@ def test_a_flight_too_near_to_a_house_is_refused_at_the_rule():
     assert found.worst < 2.0
     outcome = Verify().run(ir, CONTEXT)
     assert outcome.value is None
-    assert "V052" in {d.code for d in outcome.diagnostics}
+    (told,) = (d for d in outcome.diagnostics if d.code == "V052")
+    assert any(note.startswith("nearest is `part 0` of the scene, at (") for note in told.notes)
+    assert told.labels[-1].text == "`part 0` of the scene stands there"
     assert distances(made, middle[None])[0] < 2.0 + DRONE.radius
 
 
