@@ -11,7 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.mission import Composition
-from shotc.ir.sampling import clock, framed, references, seen
+from shotc.ir.sampling import clock, framed, projected, references
 from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 from shotc.rounding import down
 
@@ -76,7 +76,7 @@ def screen_track(
 ) -> ScreenTrack:
     """Sample one subject, given as (shot, target), at some times."""
     shot, target = subject
-    frames = seen(plan.trajectory.keyframes.mission, flight, target, t)
+    frames = projected(plan.trajectory.keyframes.mission, flight, target, t)
     wanted = references(flight, shot, target, t)
     error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
     return ScreenTrack(flight.drone, shot, target, t, error, frames.in_frame)

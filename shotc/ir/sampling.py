@@ -75,6 +75,13 @@ def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Arra
     return wanted
 
 
+def projected(mission: MissionIR, drone: DroneTrajectory, target: str, t: Array) -> Frames:
+    """Look through the drone's camera at a target at times t, shape (M,), as if nothing hid it."""
+    filmed = mission.target(target)
+    still = beside_cameras(cameras(mission, drone, t), filmed, t)
+    return frames(still, filmed.centre, shapes(filmed, t))
+
+
 def seen(
     mission: MissionIR,
     drone: DroneTrajectory,
@@ -82,16 +89,14 @@ def seen(
     t: Array,
     others: Sequence[DroneTrajectory] = (),
 ) -> Frames:
-    """Look through the drone's camera at a target at the given times, shape (M,).
+    """Look through the drone's camera at a target at times t, shape (M,), and tell when it is hidden.
 
     others : flights of the other drones, which may hide it
     """
-    filmed, eyes = mission.target(target), cameras(mission, drone, t)
-    covered = np.zeros(len(t), dtype=bool)
-    for _, hides in hiders(mission, others, target, eyes.position, t):
+    eyes, covered = drone.curve(t)[:, :3], np.zeros(len(t), dtype=bool)
+    for _, hides in hiders(mission, others, target, eyes, t):
         covered |= hides
-    still = beside_cameras(eyes, filmed, t)
-    return replace(frames(still, filmed.centre, shapes(filmed, t)), hidden=covered)
+    return replace(projected(mission, drone, target, t), hidden=covered)
 
 
 def beside_cameras(eyes: Cameras, target: Target, t: Array) -> Cameras:

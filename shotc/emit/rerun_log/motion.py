@@ -21,7 +21,7 @@ from shotc.ir.bodies import moved, shapes
 from shotc.ir.mission import Composition, Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase, Reference
-from shotc.ir.sampling import framed, seen
+from shotc.ir.sampling import framed, projected
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 WIDTH = 1280
@@ -171,7 +171,7 @@ def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Refer
     counts = [sum(len(loop) > 0 for loop in loops) for loops in polygons]
     _strips(stream, f"{entity}/outline", ticks, outlines, counts)
     _style(stream, f"{entity}/outline", rgba8(shade(SUBJECT, 1.75)), 1.2)
-    _centre(stream, f"{entity}/centre", ticks, seen(mission, flight, target.name, ticks))
+    _centre(stream, f"{entity}/centre", ticks, projected(mission, flight, target.name, ticks))
     if span.reference is not None:
         cross = _cross(drone.aspect)
         wanted = [part + point for point in span.reference(ticks) for part in cross]

@@ -8,7 +8,7 @@ from math import isfinite
 import numpy as np
 
 from shotc.emit.screen import IN_FRAME, SCREEN_ERROR
-from shotc.ir.sampling import seen
+from shotc.ir.sampling import projected
 from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 from shotc.rounding import at_least, at_most
 
@@ -58,5 +58,5 @@ def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> Worst
 
 def _edge(plan: VerifiedIR, flight: DroneTrajectory, claim: Claim) -> _Edge:
     target, time = claim.constraint.removesuffix(IN_FRAME), claim.time or 0.0
-    frames = seen(plan.trajectory.keyframes.mission, flight, target, np.array([time]))
+    frames = projected(plan.trajectory.keyframes.mission, flight, target, np.array([time]))
     return _Edge(float(frames.margin[0]), time, target)

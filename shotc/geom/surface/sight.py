@@ -117,16 +117,16 @@ def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: fl
     on = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
     grown = 0.5 * (np.abs(boards.right) + np.abs(boards.up))
     # At share x of the way: x (on + grown) >= low - eye and x (grown - on) >= eye - high, axis by axis.
-    speed = np.concatenate([on + grown, grown - on], axis=1)
+    speed = np.concatenate([on + grown, grown - on], axis=1).T
     speed = np.where(speed == 0.0, _NONE, speed)
-    per, enters = 1.0 / speed, speed > 0.0
+    per, enters, eyes = 1.0 / speed, speed > 0.0, np.ascontiguousarray(boards.eye.T)
 
     def meets(frame: IntArray, low: Array, high: Array) -> Mask:
-        eye = boards.eye[frame]
-        share = np.concatenate([low - about - eye, eye - high - about], axis=1) * per[frame]
-        entering = enters[frame]
-        first = np.where(entering, share, 0.0).max(axis=1)
-        last = np.where(entering, far, share).min(axis=1)
+        eye = eyes[:, frame]
+        share = np.concatenate([low.T - about - eye, eye - high.T - about]) * per[:, frame]
+        entering = enters[:, frame]
+        first = np.where(entering, share, 0.0).max(axis=0)
+        last = np.where(entering, far, share).min(axis=0)
         return np.asarray(np.maximum(first, 0.0) <= np.minimum(last, far))
 
     return search(surface, len(boards), meets)
@@ -153,9 +153,8 @@ def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> M
 
 def cells_of(boards: Billboards, n: int) -> Array:
     """Return the middles of all cells, (F n n, 3), metres of W."""
-    one, a, b = cells(n)[:, None, :, None]
-    corner, right, up = boards.corner[:, None], boards.right[:, None], boards.up[:, None]
-    return np.asarray(one * corner + a * right + b * up).reshape(-1, 3)
+    sides = np.stack([boards.corner, boards.right, boards.up], axis=1)
+    return np.asarray(cells(n).T @ sides).reshape(-1, 3)
 
 
 def cells(n: int) -> Array:

@@ -18,7 +18,7 @@ from shotc.geom.pieces import Mask, Pieces, cut
 from shotc.geom.proof import inf_channel, norm, sup_convex, sup_norm
 from shotc.geom.turning import turning
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
-from shotc.ir.sampling import beside, rate_beside, references, seen
+from shotc.ir.sampling import beside, projected, rate_beside, references
 from shotc.ir.target import Target
 from shotc.passes.verify.claims import Flight
 
@@ -73,7 +73,7 @@ def margins_close(flight: Flight, target: str, times: Array) -> bool:
     turned = _turned(solid, float(times[0]), float(times[-1]))
 
     def sample(t: Array) -> Array:
-        return np.column_stack([seen(flight.mission, flight.track, target, t).margin, *turned(t)])
+        return np.column_stack([projected(flight.mission, flight.track, target, t).margin, *turned(t)])
 
     def closed(a: Array, b: Array, dt: Array) -> Mask:
         drift = fastest * dt + solid.radius * (b[:, 2] - a[:, 1])
@@ -109,7 +109,7 @@ def errors_close(flight: Flight, shot: str, target: str, times: Array, limit: fl
     )
 
     def sample(t: Array) -> Array:
-        frames = seen(flight.mission, flight.track, target, t)
+        frames = projected(flight.mission, flight.track, target, t)
         wanted = references(flight.track, shot, target, t)
         half = np.tan(flight.track.curve(t)[:, HFOV] / 2)
         error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])

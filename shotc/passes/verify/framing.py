@@ -14,7 +14,7 @@ from shotc.ir.coverage import coverage
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import clock, framed, references, seen, subjects
+from shotc.ir.sampling import clock, framed, projected, references, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 from shotc.passes.verify.close import errors_close, margins_close
@@ -68,7 +68,7 @@ def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> Vi
     times = times[held(flight, placed, phase, target, times)]
     if not len(times):
         return None
-    frames = seen(flight.mission, flight.track, target, times, flight.others)
+    frames = projected(flight.mission, flight.track, target, times)
     wanted = references(flight.track, shot.id, target, times)
     error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
     error = np.where(np.isnan(frames.u) & ~np.isnan(wanted[:, 0]), inf, error)
