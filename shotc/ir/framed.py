@@ -15,7 +15,7 @@ knot after knot, each begun where the last one ended. What is silent is free, an
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import permutations
-from math import atan2, ceil, cos, dist, hypot, inf, pi, sin
+from math import atan2, cos, dist, hypot, inf, pi, sin
 from typing import NamedTuple
 
 from shotc.geom.camera import aim_at
@@ -24,7 +24,6 @@ from shotc.geom.viewpoint import (
     WHOLE_SIZE,
     Lens,
     Pose,
-    Room,
     Since,
     Wanted,
     first_pose,
@@ -34,20 +33,14 @@ from shotc.geom.viewpoint import (
     viewpoint,
     whole,
 )
-from shotc.ir.begins import first_start
-from shotc.ir.hidden import hides, lacks, standing_before
-from shotc.ir.ideal import ideal_place
+from shotc.ir.framed_scene import Scene, wanted_at
 from shotc.ir.keyed import is_keyed, settled
-from shotc.ir.mission import Composition, Drone, MissionIR, Shot, Subject
+from shotc.ir.mission import Composition, MissionIR, Shot, Subject
 from shotc.ir.target import Target
 
-KNOT = 0.5  # seconds between the knots of a course
-FEWEST, MOST = 8, 240  # stretches of a course
-LOOKS = 24  # stretches at which a bearing is looked at
 TURN = pi / 36  # between bearings that are tried for one subject
 WIDE = pi / 6  # and for several
 NEARLY = 0.02  # of cost by which another bearing is as good
-LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
 BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects do not go faster themselves
 BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed if one is clear
 RAISED = 4  # times that a camera over terrain is put over the ground that is below it
@@ -61,7 +54,7 @@ class Course(NamedTuple):
     """A framing as it begins at one time.
 
     shot : with its ideal and its subjects' places on screen; times, poses : along it
-    blocked, hidden : shares of it at which the camera has no room, or something stands before a subject
+    blocked, hidden : the share of it at which the camera has no room, and how much of a subject is hidden
     """
 
     shot: Shot
@@ -84,27 +77,8 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
 
 def course_of(mission: MissionIR, shot: Shot, start: float) -> Course:
     """Return the course of a framing whose first frame is at ``start``."""
-    scene = _Scene(mission, shot, start)
+    scene = Scene(mission, shot, start)
     return _alone(scene) if len(shot.subjects) == 1 else _several(scene)
-
-
-def wanted_at(mission: MissionIR, subject: Subject, t: float) -> Wanted:
-    """Return a subject and how it is to appear, at a mission time."""
-    target = mission.target(subject.target)
-    azimuth, elevation = subject.view or (None, None)
-    uv = subject.composition.points[0] if len(subject.composition.points) == 1 else None
-    return Wanted(target.at(t), target.shape_at(t), uv, subject.size, azimuth, elevation)
-
-
-def lens_of(drone: Drone) -> Lens:
-    """Return the lens of a drone's camera."""
-    return Lens(drone.hfov, drone.aspect, drone.gimbal.pitch)
-
-
-def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> Room:
-    """Return where a drone's camera may be; ground : its height there, metres of W."""
-    rules = mission.rules
-    return Room(ground + rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
 
 
 def places_of(composition: Composition) -> list[Vec2]:
@@ -114,83 +88,7 @@ def places_of(composition: Composition) -> list[Vec2]:
     return sorted(points, key=lambda p: hypot(*p)) or [(0.0, 0.0)]
 
 
-class _Scene:
-    """What the course of one framing is made of."""
-
-    def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
-        duration = shot.timing.duration or 0.0
-        pieces = int(min(MOST, max(FEWEST, ceil(duration / KNOT))))
-        self.mission, self.shot, self.start = mission, shot, start
-        self.drone = mission.drone(shot.drone)
-        self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
-        self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
-        self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone, self._ground())
-
-    def _ground(self) -> float:
-        """Return the highest ground below the subjects, metres of W."""
-        if self.mission.terrain is None:
-            return 0.0
-        places = (self.mission.target(s.target).at(t) for s in self.shot.subjects for t in self.looks)
-        return max(self.mission.ground(x, y) for x, y, _ in places)
-
-    def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> Room:
-        """Return where a camera may be that goes along beside a target, for where that is lowest.
-
-        The camera is over the ground at every place that it comes to, by the height of the target there.
-        """
-        need = []
-        for t in self.looks:
-            x, y, z = plus(target.at(t), offset)
-            need.append(self.mission.ground(x, y) - z + offset[2])
-        return room_of(self.mission, self.drone, max(need) + lowest[2])
-
-    def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[Wanted, ...]:
-        """Return all subjects as they are wanted at a time."""
-        return tuple(wanted_at(self.mission, s, t) for s in subjects)
-
-    def comes_from(self, subject: Vec3) -> float:
-        """Return the bearing from a subject to where the drone was before the shot."""
-        x, y, _ = _before(self.mission, self.shot)
-        return atan2(x - subject[0], y - subject[1]) if hypot(x - subject[0], y - subject[1]) > 1e-3 else 0.0
-
-    def shares(self, eyes: Sequence[tuple[float, Vec3]]) -> tuple[float, float]:
-        """Return the shares of places at which there is no room, and from which a subject is hidden."""
-        return self.blocked(eyes), sum(self._hidden(eye, t) for t, eye in eyes) / len(eyes)
-
-    def blocked(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
-        """Return the share of places at which there is no room."""
-        return sum(any(True for _ in lacks(self.mission, self.drone, eye, t)) for t, eye in eyes) / len(eyes)
-
-    def covered(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
-        """Return how much of the subjects is hidden from places, 0 to 1: half of that by their middles."""
-        parts = [
-            standing_before(self.mission, s.target, eye, t) for t, eye in eyes for s in self.shot.subjects
-        ]
-        weights = (0.5, 0.25, 0.25)
-        hidden = sum(w for part in parts for w, found in zip(weights, part, strict=True) if found is not None)
-        return hidden / len(parts)
-
-    def _hidden(self, eye: Vec3, t: float) -> bool:
-        return any(hides(self.mission, s.target, eye, t) is not None for s in self.shot.subjects)
-
-
-def _before(mission: MissionIR, shot: Shot) -> Vec3:
-    """Return where a drone is before a shot: at the end of its shot before, as written, or at home."""
-    last: Shot | None = None
-    for other in mission.shots:
-        if other.id == shot.id:
-            break
-        if other.drone == shot.drone:
-            last = other
-    if last is None:
-        return mission.drone(shot.drone).home
-    if last.ideal is None:
-        return last.keyframes[-1].at
-    start = first_start(mission, last)
-    return ideal_place(mission, last, start, start + (last.timing.duration or 0.0))
-
-
-def _alone(scene: _Scene) -> Course:
+def _alone(scene: Scene) -> Course:
     """Return the course of one subject: an offset from it that stays."""
     subject = scene.shot.subjects[0]
     target = scene.mission.target(subject.target)
@@ -219,7 +117,7 @@ def _alone(scene: _Scene) -> Course:
     return Course(shot, scene.times, poses, blocked, hidden)
 
 
-def _stood(scene: _Scene, wanted: Wanted, uv: Vec2, size: float) -> Vec3:
+def _stood(scene: Scene, wanted: Wanted, uv: Vec2, size: float) -> Vec3:
     """Return the camera's offset from a subject that it shows at a place on screen in a size."""
     azimuth, wanted = wanted.azimuth or 0.0, wanted._replace(uv=uv)
     offset = stand(wanted, scene.lens, scene.room, azimuth, size)
@@ -232,7 +130,7 @@ def _stood(scene: _Scene, wanted: Wanted, uv: Vec2, size: float) -> Vec3:
     return offset
 
 
-def _turned(scene: _Scene, wanted: Wanted, offset: Vec3, shown: tuple[Vec2, float], azimuth: float) -> Vec3:
+def _turned(scene: Scene, wanted: Wanted, offset: Vec3, shown: tuple[Vec2, float], azimuth: float) -> Vec3:
     """Return an offset, given to the North, on another bearing; shown : place on screen and size."""
     if scene.mission.terrain is not None:
         return _stood(scene, wanted._replace(azimuth=azimuth), *shown)
@@ -240,7 +138,7 @@ def _turned(scene: _Scene, wanted: Wanted, offset: Vec3, shown: tuple[Vec2, floa
     return (away * sin(azimuth), away * cos(azimuth), offset[2])
 
 
-def _clear_bearing(scene: _Scene, target: Target, stood: Callable[[float], Vec3]) -> Vec3:
+def _clear_bearing(scene: Scene, target: Target, stood: Callable[[float], Vec3]) -> Vec3:
     """Return the offset on the bearing nearest to the drone's that is clear; stood : offsets by bearing."""
     first = scene.comes_from(target.at(scene.start))
     best, least = stood(0.0), (2.0, 2.0)
@@ -254,7 +152,7 @@ def _clear_bearing(scene: _Scene, target: Target, stood: Callable[[float], Vec3]
     return best
 
 
-def _several(scene: _Scene) -> Course:
+def _several(scene: Scene) -> Course:
     """Return the course of several subjects."""
     shot, ideal = scene.shot, scene.shot.ideal
     assert ideal is not None
@@ -271,7 +169,7 @@ def _several(scene: _Scene) -> Course:
     return Course(made, scene.times, poses, blocked, hidden)
 
 
-def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
+def _opening(scene: Scene) -> tuple[Pose, tuple[Subject, ...]]:
     """Return the first pose of several subjects, and the subjects with their places on screen.
 
     Bearings all round are tried; of those that serve as well, the one that is clear, then the nearest to
@@ -294,20 +192,26 @@ def _opening(scene: _Scene) -> tuple[Pose, tuple[Subject, ...]]:
     good = [f for f in found if f[0] <= least + NEARLY]
     if len(good) == 1:
         return _polished(scene, good[0])
-    every = max(1, len(scene.times) // 6)
-    times = scene.times[::every]
     scores: list[tuple[float, float, int]] = []
     for i, (_, pose, settled) in enumerate(good):
-        poses = _follow(scene, settled, pose, times)
-        eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
-        scores.append((scene.blocked(eyes), scene.covered(eyes), i))
+        scores.append((*_score(scene, pose, settled), i))
         if i + 1 >= BEST and min(scores)[:2] == (0.0, 0.0):
             break
-    return _polished(scene, good[min(scores)[2]])
+    *least_hidden, i = min(scores)
+    opening = _polished(scene, good[i])
+    return opening if _score(scene, *opening) <= tuple(least_hidden) else good[i][1:]
+
+
+def _score(scene: Scene, first: Pose, subjects: tuple[Subject, ...]) -> tuple[float, float]:
+    """Return the share of a course at which there is no room, and how much of its subjects is hidden."""
+    times = scene.times[:: max(1, len(scene.times) // 6)]
+    poses = _follow(scene, subjects, first, times)
+    eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
+    return scene.blocked(eyes), scene.covered(eyes)
 
 
 def _polished(
-    scene: _Scene, found: tuple[float, Pose, tuple[Subject, ...]]
+    scene: Scene, found: tuple[float, Pose, tuple[Subject, ...]]
 ) -> tuple[Pose, tuple[Subject, ...]]:
     """Return an opening, begun again from where it ended until that changes nothing."""
     cost, pose, subjects = found
@@ -321,7 +225,7 @@ def _polished(
 
 
 def _follow(
-    scene: _Scene, subjects: Sequence[Subject], first: Pose, times: Sequence[float]
+    scene: Scene, subjects: Sequence[Subject], first: Pose, times: Sequence[float]
 ) -> tuple[Pose, ...]:
     """Return the poses at times, each found from the one before, carried along with the subjects."""
     poses = [first]

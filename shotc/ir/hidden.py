@@ -1,6 +1,8 @@
-"""What stands in a camera's place, and between it and what it films."""
+"""What stands in a camera's place, and between it and what it films. Plain Python, but for missions with
+terrain, scenes or buildings.
+"""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import hypot
 
 from shotc.geom.line_of_sight import crosses
@@ -8,14 +10,39 @@ from shotc.geom.shapes import bodies_of, touch
 from shotc.geom.solids import depth, distance
 from shotc.geom.vec import Vec3, minus, plus
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.owners import Owner, target_owner, zone_owner
+from shotc.ir.owners import GROUND, Owner, mesh_owner, target_owner, zone_owner
 from shotc.ir.target import Target
 
 ROUNDING_M = 1e-6
 
 
 def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
-    """Yield the owner of every zone and target that a drone is too near to, and by how much."""
+    """Yield the owner of everything that a drone is too near to, and by how much, metres."""
+    yield from _lacks_of_solids(mission, drone, p, t)
+    if mission.terrain is not None:
+        lack = mission.lowest(p, drone.radius) - p[2]
+        if lack > ROUNDING_M:
+            yield GROUND, lack
+    for mesh in mission.meshes:
+        (lack,) = mesh.lacks((p,), mission.rules.beside_obstacle(drone.radius))
+        if lack > ROUNDING_M:
+            yield mesh_owner(mesh), lack
+
+
+def without_room(mission: MissionIR, drone: Drone, eyes: Sequence[tuple[float, Vec3]]) -> list[bool]:
+    """Tell at which times and places a drone is too near to anything."""
+    found = [any(True for _ in _lacks_of_solids(mission, drone, eye, t)) for t, eye in eyes]
+    places = [eye for _, eye in eyes]
+    if mission.terrain is not None:
+        low = [mission.lowest(p, drone.radius) - p[2] > ROUNDING_M for p in places]
+        found = [a or b for a, b in zip(found, low, strict=True)]
+    for mesh in mission.meshes:
+        lack = mesh.lacks(places, mission.rules.beside_obstacle(drone.radius))
+        found = [a or by > ROUNDING_M for a, by in zip(found, lack, strict=True)]
+    return found
+
+
+def _lacks_of_solids(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
     for zone in mission.zones:
         if zone.keep == "out":
             lack = drone.radius - distance(zone.solid, p)
@@ -31,12 +58,40 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
 
 
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
-    """Return what stands between a camera and a target's middle or one of its sides, or None."""
-    return next((found for found in standing_before(mission, name, eye, t) if found is not None), None)
+    """Return what stands between a camera and a target's middle or one of its sides, or None.
+
+    Of terrain, scenes and buildings it is what hides any of the places that ``hidden_by_surfaces`` counts.
+    """
+    solid = next((found for found in standing_before(mission, name, eye, t) if found is not None), None)
+    if solid is not None:
+        return solid
+    return next((by for by, shares in _by_surfaces(mission, name, ((t, eye),)) if any(shares)), None)
+
+
+def hidden_by_surfaces(mission: MissionIR, name: str, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
+    """Return the share of a target that terrain, scenes and buildings hide from places at times.
+
+    It is the most that one of them hides of the upright rectangle that planning leads shots by.
+    """
+    most = [0.0] * len(eyes)
+    for _, shares in _by_surfaces(mission, name, eyes):
+        most = list(map(max, most, shares))
+    return most
+
+
+def _by_surfaces(
+    mission: MissionIR, name: str, eyes: Sequence[tuple[float, Vec3]]
+) -> Iterator[tuple[str, Sequence[float]]]:
+    """Yield what may hide a target, by sort and name, and the share of it that is hidden from each place."""
+    if not (mission.meshes or mission.terrain):
+        return
+    from shotc.ir.hiding_surfaces import shares_hidden_by
+
+    yield from shares_hidden_by(mission, name, eyes)
 
 
 def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
-    """Yield what stands between a camera and a target's middle, its left and its right side, or None.
+    """Yield the solid between a camera and a target's middle, its left and its right side, or None.
 
     What overlaps or touches the target is a part of the same thing, and hides nothing of it.
     """

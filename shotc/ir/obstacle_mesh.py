@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import inf
@@ -86,6 +87,15 @@ class ObstacleMesh:
         plan = np.unique(corners[:, :2], axis=0).tolist()
         low, high = float(corners[:, 2].min()), float(corners[:, 2].max())
         return Block(convex_hull(tuple((x, y) for x, y in plan)), low, high)
+
+    def lacks(self, places: Sequence[Vec3], clearance: float) -> list[float]:
+        """Return by how much places lack the distance that a body's centre keeps from surfaces, metres.
+
+        clearance : that distance, without the spacing; what is farther than it lacks minus infinity
+        """
+        need = clearance + self.spacing
+        found: list[float] = (need - self.signed_distance(np.array(places), need)).tolist()
+        return found
 
     def name_at(self, triangle: int) -> str:
         """Return the name of what a triangle belongs to; triangle : of those that the surface was made of."""

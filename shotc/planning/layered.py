@@ -22,8 +22,8 @@ from shotc.geom.pieces import Mask
 from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Solid
-from shotc.geom.surface.sight import hidden, upright
 from shotc.geom.surface.tree import Surface
+from shotc.ir.hiding_surfaces import share_hidden
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 
 RINGS_M = (1.0, 2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0)  # metres of places from their ideal
@@ -33,7 +33,6 @@ FASTEST_M_S = 12.0  # by which a distance from the ideal may change
 BLOCKED = 1e9  # cost of what is not free
 UNSEEN_SHARE = 0.7  # of the distance to its subject, off the ideal, that costs as much as to hide it
 FOR_SIGHT_SHARE = 0.4  # of that distance by which a shot is led for its subject to be seen
-RAYS = 3  # along each side of what stands in for a subject
 SPREAD_S = 1.0  # seconds about a time at which a subject is hidden, in which a course is led for it
 LEAST_S = 0.4  # seconds between layers at least
 
@@ -73,12 +72,9 @@ class Watched:
 
         What stands within its own radius belongs to it.
         """
-        eyes_flat, centres = (
-            eyes.reshape(-1, 3),
-            np.broadcast_to(self.places[:, None], eyes.shape).reshape(-1, 3),
-        )
-        boards = upright(eyes_flat, centres, self.radius, self.height)
-        shares = [hidden(surface, boards, RAYS).mean(axis=(1, 2)) for surface in self.surfaces]
+        centres = np.broadcast_to(self.places[:, None], eyes.shape).reshape(-1, 3)
+        at, size = (eyes.reshape(-1, 3), centres), (self.radius, self.height)
+        shares = [share_hidden(surface, *at, *size) for surface in self.surfaces]
         most: Array = np.max(shares, axis=0).reshape(eyes.shape[:2])
         return most * self.filmed[:, None]
 

@@ -76,21 +76,26 @@ def arch_wall(length: float, height: float, gate: float, tall: float) -> Array:
     return np.concatenate([box(-y, -g, 0, height), box(g, y, 0, height), box(-g, g, tall, height)])
 
 
-def some_scene(random: np.random.Generator) -> Scene:
-    """A village of 80 m, one in four of them with a wall between the ends of the way."""
+def some_scene(random: np.random.Generator, square: float = 0.0) -> Scene:
+    """A village of 80 m, one in four of them with a wall between the ends of the way.
+
+    square : metres about its middle in which no house or tree stands; the wall is beside it
+    """
     parts = []
     for _ in range(int(random.integers(8, 22))):
         at, turn = random.uniform(-0.5, 0.5, 2) * SIZE_M, random.uniform(0.0, np.pi)
         eaves = random.uniform(3.0, 9.0)
         made = house(random.uniform(6, 14), random.uniform(6, 12), eaves, eaves + random.uniform(1.5, 4.0))
-        parts.append(turned(fine(made, 2), turn, at))
+        if np.hypot(*at) >= square:
+            parts.append(turned(fine(made, 2), turn, at))
     for _ in range(int(random.integers(5, 25))):
         at, bottom = random.uniform(-0.5, 0.5, 2) * SIZE_M, random.uniform(1.0, 3.0)
         made = cone(random.uniform(1.5, 4.0), bottom, bottom + random.uniform(5.0, 14.0))
-        parts.append(turned(fine(made, 1), 0.0, at))
+        if np.hypot(*at) >= square:
+            parts.append(turned(fine(made, 1), 0.0, at))
     if random.uniform() < 0.25:
         wall = arch_wall(random.uniform(60, 120), random.uniform(12, 25), random.uniform(6, 10), 9.0)
-        parts.append(turned(fine(wall, 2), random.uniform(-0.3, 0.3), (0.0, random.uniform(-5, 5))))
+        parts.append(turned(fine(wall, 2), random.uniform(-0.3, 0.3), (square, random.uniform(-5, 5))))
     start = np.array([-52.0, random.uniform(-30, 30), random.uniform(3.5, 12.0)])
     end = np.array([52.0, random.uniform(-30, 30), random.uniform(3.5, 12.0)])
     return Scene(np.concatenate(parts), start, end)

@@ -20,7 +20,7 @@ from shotc_casadi.clock.shown import no_less, shown
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom import viewpoint
 from shotc.geom.shapes import CylinderShape
-from shotc.ir.framed import lens_of
+from shotc.ir.framed_scene import lens_of
 from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg, PathIR
 from shotc.plugin_api.refiner import restrict, surroundings

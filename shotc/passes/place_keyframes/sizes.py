@@ -11,7 +11,7 @@ from shotc.geom.camera import aim_at, view
 from shotc.geom.vec import Vec2, Vec3
 from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
 from shotc.ir.begins import first_start
-from shotc.ir.framed import lens_of
+from shotc.ir.framed_scene import lens_of
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot

@@ -7,7 +7,7 @@ from math import degrees, radians
 
 from shotc.geom.vec import Vec3
 from shotc.geom.viewpoint import Wanted, lens_for
-from shotc.ir.framed import lens_of
+from shotc.ir.framed_scene import lens_of
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.rounding import away, down
 

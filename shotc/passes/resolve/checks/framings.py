@@ -10,12 +10,8 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.geom.viewpoint import Seen, Wanted, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
-from shotc.ir.framed import (
-    Course,
-    course_of,
-    lens_of,
-    wanted_at,
-)
+from shotc.ir.framed import Course, course_of
+from shotc.ir.framed_scene import lens_of, wanted_at
 from shotc.ir.hidden import lacks
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath

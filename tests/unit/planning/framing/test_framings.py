@@ -13,7 +13,8 @@ from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.viewpoint import judged, viewpoint
-from shotc.ir.framed import at_start, course_of, lens_of, wanted_at
+from shotc.ir.framed import at_start, course_of
+from shotc.ir.framed_scene import lens_of, wanted_at
 from shotc.ir.hidden import hides
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import KeyframeIR

@@ -1,0 +1,129 @@
+"""What the course of a framing is made of: times, lens, room, and what is hidden. Plain Python."""
+
+from collections.abc import Sequence
+from math import atan2, ceil, hypot
+
+from shotc.geom.vec import Vec3, plus
+from shotc.geom.viewpoint import Lens, Room, Wanted
+from shotc.ir.begins import first_start
+from shotc.ir.hidden import hidden_by_surfaces, standing_before, without_room
+from shotc.ir.ideal import ideal_place
+from shotc.ir.mission import Drone, MissionIR, Shot, Subject
+from shotc.ir.target import Target
+
+KNOT = 0.5  # seconds between the knots of a course
+FEWEST, MOST = 8, 240  # stretches of a course
+LOOKS = 24  # stretches at which a bearing is looked at
+LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
+
+
+def wanted_at(mission: MissionIR, subject: Subject, t: float) -> Wanted:
+    """Return a subject and how it is to appear, at a mission time."""
+    target = mission.target(subject.target)
+    azimuth, elevation = subject.view or (None, None)
+    uv = subject.composition.points[0] if len(subject.composition.points) == 1 else None
+    return Wanted(target.at(t), target.shape_at(t), uv, subject.size, azimuth, elevation)
+
+
+def lens_of(drone: Drone) -> Lens:
+    """Return the lens of a drone's camera."""
+    return Lens(drone.hfov, drone.aspect, drone.gimbal.pitch)
+
+
+def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> Room:
+    """Return where a drone's camera may be; ground : its height there, metres of W."""
+    rules = mission.rules
+    return Room(ground + rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
+
+
+class Scene:
+    """What the course of one framing is made of."""
+
+    def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
+        duration = shot.timing.duration or 0.0
+        pieces = int(min(MOST, max(FEWEST, ceil(duration / KNOT))))
+        self.mission, self.shot, self.start = mission, shot, start
+        self.drone = mission.drone(shot.drone)
+        self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
+        self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
+        self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone, self._ground())
+
+    def _ground(self) -> float:
+        """Return the highest ground below the subjects, metres of W."""
+        if self.mission.terrain is None:
+            return 0.0
+        places = (self.mission.target(s.target).at(t) for s in self.shot.subjects for t in self.looks)
+        return max(self.mission.ground(x, y) for x, y, _ in places)
+
+    def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> Room:
+        """Return where a camera may be that goes along beside a target, for where that is lowest.
+
+        The camera is over the ground at every place that it comes to, by the height of the target there.
+        """
+        need = []
+        for t in self.looks:
+            x, y, z = plus(target.at(t), offset)
+            need.append(self.mission.ground(x, y) - z + offset[2])
+        return room_of(self.mission, self.drone, max(need) + lowest[2])
+
+    def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[Wanted, ...]:
+        """Return all subjects as they are wanted at a time."""
+        return tuple(wanted_at(self.mission, s, t) for s in subjects)
+
+    def comes_from(self, subject: Vec3) -> float:
+        """Return the bearing from a subject to where the drone was before the shot."""
+        x, y, _ = _before(self.mission, self.shot)
+        return atan2(x - subject[0], y - subject[1]) if hypot(x - subject[0], y - subject[1]) > 1e-3 else 0.0
+
+    def shares(self, eyes: Sequence[tuple[float, Vec3]]) -> tuple[float, float]:
+        """Return the share of places at which there is no room, and how much is hidden from them, 0 to 1.
+
+        A solid before a subject's middle or one of its sides counts as all of it, a surface by its share.
+        """
+        hidden = [float(self._stands_before(eye)) for eye in eyes]
+        return self.blocked(eyes), sum(map(max, hidden, self._by_surfaces(eyes))) / len(eyes)
+
+    def blocked(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
+        """Return the share of places at which there is no room."""
+        return sum(without_room(self.mission, self.drone, eyes)) / len(eyes)
+
+    def covered(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
+        """Return how much of the subjects is hidden from places, 0 to 1: half of that by their middles."""
+        weights = (0.5, 0.25, 0.25)
+        hidden = 0.0
+        for s in self.shot.subjects:
+            surfaces = hidden_by_surfaces(self.mission, s.target, eyes)
+            for (t, eye), share in zip(eyes, surfaces, strict=True):
+                before = standing_before(self.mission, s.target, eye, t)
+                solids = sum(w for w, found in zip(weights, before, strict=True) if found is not None)
+                hidden += max(solids, share)
+        return hidden / (len(eyes) * len(self.shot.subjects))
+
+    def _stands_before(self, eye: tuple[float, Vec3]) -> bool:
+        """Tell whether a solid is before the middle or a side of a subject."""
+        return any(
+            found is not None
+            for s in self.shot.subjects
+            for found in standing_before(self.mission, s.target, eye[1], eye[0])
+        )
+
+    def _by_surfaces(self, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
+        """Return the most that surfaces hide of a subject from each place."""
+        found = (hidden_by_surfaces(self.mission, s.target, eyes) for s in self.shot.subjects)
+        return [max(shares) for shares in zip(*found, strict=True)]
+
+
+def _before(mission: MissionIR, shot: Shot) -> Vec3:
+    """Return where a drone is before a shot: at the end of its shot before, as written, or at home."""
+    last: Shot | None = None
+    for other in mission.shots:
+        if other.id == shot.id:
+            break
+        if other.drone == shot.drone:
+            last = other
+    if last is None:
+        return mission.drone(shot.drone).home
+    if last.ideal is None:
+        return last.keyframes[-1].at
+    start = first_start(mission, last)
+    return ideal_place(mission, last, start, start + (last.timing.duration or 0.0))
