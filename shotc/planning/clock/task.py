@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.ir.allow import HIDDEN
+from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import moved
 from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.mission import Drone, MissionIR, Shot
@@ -100,7 +100,7 @@ def _watched(task: Task) -> Watched | None:
         or ideal.placed
         or camera_task.keyed is not None
     )
-    if bound or not camera_task.subjects or HIDDEN in task.shot.allow:
+    if bound or not camera_task.subjects or hidden_on_purpose(task.shot):
         return None
     times, target = task.clock.breaks, mission.target(camera_task.subjects[0].target)
     filmed = (times >= task.clock.start - ROUNDING_S) & (times <= task.clock.end + ROUNDING_S)

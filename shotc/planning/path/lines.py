@@ -6,7 +6,9 @@ something it is dropped, its neighbours only pull, and the way leads round.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import pi
 
 import numpy as np
@@ -35,6 +37,7 @@ class Line:
     of      : for each corner, the keyframe that stands there, or -1
     dropped : keyframes that the way leaves out; moved: whether the first, the last stand elsewhere
     drawn : places that generated keyframes draw the way to, shape (K, 3); None where they are their own
+    aside : corners that draw ways between placed keyframes
     """
 
     corners: Array
@@ -43,6 +46,7 @@ class Line:
     dropped: tuple[int, ...] = ()
     moved: tuple[bool, bool] = (False, False)
     drawn: Array | None = None
+    aside: tuple[int, ...] = ()
 
     @property
     def loose(self) -> bool:
@@ -114,8 +118,28 @@ def shot_line(
     if isinstance(ways, NoWay):
         return ways
     dropped = tuple(i for i in range(len(keyframes)) if i not in kept)
-    line = _joined(keyframes, points, (kept, dropped, (moved[0], moved[1])), ways)
-    return line if drawn is None else replace(line, drawn=drawn)
+    line = _joined(keyframes, points[kept[0]], kept, ways)
+    return replace(line, dropped=dropped, moved=(moved[0], moved[1]), drawn=drawn)
+
+
+def line_beside(
+    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], aside: Sequence[Array]
+) -> Line | NoWay:
+    """Return the polyline through placed keyframes and places between them.
+
+    aside : for each keyframe but the last, places on the way to the next one, (N, 3)
+    """
+    points = np.array([k.at for k in keyframes], dtype=np.float64)
+    places, of = [points[:1]], [0]
+    for k, between in enumerate(aside):
+        places += [between, points[k + 1 : k + 2]]
+        of += [-1] * len(between) + [k + 1]
+    ways = _ways(space, np.concatenate(places), list(range(len(of))))
+    if isinstance(ways, NoWay):
+        return ways
+    ends = np.cumsum([len(way) - 1 for way in ways])
+    drawing = tuple(int(end) for end, k in zip(ends, of[1:], strict=True) if k < 0)
+    return replace(_joined(keyframes, points[0], of, ways), aside=drawing)
 
 
 def _drawn(
@@ -148,16 +172,10 @@ def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoW
     return ways
 
 
-def _joined(
-    keyframes: tuple[PlacedKeyframe, ...],
-    points: Array,
-    found: tuple[list[int], tuple[int, ...], tuple[bool, bool]],
-    ways: list[Array],
-) -> Line:
-    kept, dropped, moved = found
-    corners, s, of = [points[kept[0]]], [0.0], [kept[0]]
-    for k, way in enumerate(ways):
-        i, j = kept[k], kept[k + 1]
+def _joined(keyframes: tuple[PlacedKeyframe, ...], start: Array, nodes: list[int], ways: list[Array]) -> Line:
+    """Return the polyline of the ways from node to node; nodes : the keyframe that each is, or -1."""
+    corners, s, of = [start], [0.0], [nodes[0]]
+    for (i, j), way in zip(pairwise(nodes), ways, strict=True):
         if len(way) == 2 and np.linalg.norm(way[1] - way[0]) < SAME_PLACE_M:
             steps = np.array([_turn_length(keyframes[i], keyframes[j])])
             corners.append(corners[-1])
@@ -166,7 +184,7 @@ def _joined(
             corners += list(way[1:])
         s += list(s[-1] + np.cumsum(steps))
         of += [-1] * (len(way) - 2) + [j]
-    return Line(np.array(corners), np.array(s), tuple(of), dropped, moved)
+    return Line(np.array(corners), np.array(s), tuple(of))
 
 
 def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:

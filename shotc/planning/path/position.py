@@ -35,6 +35,7 @@ from shotc.solvers.spline_relax import Relaxation, relax
 
 PIECES_PER_CHORD = 3  # per straight stretch of the polyline
 PULL_WEIGHT = 100.0  # weight of a generated keyframe that does not bind, against the energy in m^2
+SIGHT_WEIGHT = 1e4  # of a place that draws a way to where its target is seen
 EXCESS_PRICE = 10.0  # of speed and acceleration above nominal, against the energy in m^2
 ROUNDS = 4
 FIRST_SHARE = 0.5  # of its distance from an obstacle a chord may give up half
@@ -52,6 +53,7 @@ class Stretch:
     bound   : indices of corners the curve must pass, ends included
     pulled  : points it should pass near, with their parameters, shapes (G, 3) and (G,)
     pace    : share of the limits at which it is to be smooth
+    pull    : weight of a pulled point, against the energy in m^2
     """
 
     corners: Array
@@ -60,6 +62,7 @@ class Stretch:
     pulled: Array
     pulled_at: Array
     pace: float
+    pull: float = PULL_WEIGHT
 
     @property
     def straight(self) -> bool:
@@ -177,8 +180,8 @@ def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProb
         unit = slope.apply(greville(breaks)[:, None])
         goals.append(Goal(slope, unit * direction[slope.piece]))
     if len(stretch.pulled_at):
-        rows = _scaled(value_rows(breaks, stretch.pulled_at), PULL_WEIGHT**0.5)
-        goals.append(Goal(rows, PULL_WEIGHT**0.5 * stretch.pulled))
+        rows = _scaled(value_rows(breaks, stretch.pulled_at), stretch.pull**0.5)
+        goals.append(Goal(rows, stretch.pull**0.5 * stretch.pulled))
     bound = list(stretch.bound)
     equalities = Equalities(value_rows(breaks, s[bound]), corners[bound])
     cones = _soft_limits(breaks, speed, limits, scale)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -10,18 +11,20 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
 from shotc.geom.sampling import worst_of_runs
-from shotc.ir.allow import HIDDEN
+from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import Drone, MissionIR, Shot
 from shotc.ir.path import SIGHT, FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
 from shotc.ir.tolerances import BOW_SHARE
 from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.layered import Watched
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
-from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, shot_line
-from shotc.planning.path.position import Solved, Stretch, solve_stretch
+from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, line_beside, shot_line
+from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, Solved, Stretch, solve_stretch
+from shotc.planning.path.seeing import ROUNDS, FilmedCurve
 from shotc.planning.path.swings import Swing, worst_swing
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
@@ -81,7 +84,7 @@ def shot_curve(
     position = _position(space, drone, placed, line)
     if isinstance(position, Stuck):
         return position
-    curve, solved = position
+    line, (curve, solved) = _led_to_see(mission, (drone, space), placed, line, position)
     keyed = replace(_keyed(placed, line, curve), pace=placed.shot.pace, headings=headings)
     camera = camera_line(mission, drone, keyed)
     if camera.status not in {Status.SOLVED, Status.INACCURATE}:
@@ -174,6 +177,38 @@ def _position(
     return concatenate(curves), solved
 
 
+def _led_to_see(
+    mission: MissionIR,
+    who: tuple[Drone, FreeSpace],
+    placed: PlacedShot,
+    line: Line,
+    position: tuple[Piecewise, list[Solved]],
+) -> tuple[Line, tuple[Piecewise, list[Solved]]]:
+    """Return a line through placed keyframes and its curve, led to where less of their targets is hidden."""
+    drone, space = who
+    named = dict.fromkeys(k.target for k in placed.keyframes if k.target is not None)
+    # The points of a path that its author drew are the way itself.
+    if placed.shot.kind != "keyframes" or not _is_led(mission, placed.shot):
+        return line, position
+    watched = {name: _at(mission, name, [mission.target(name).centre]) for name in named}
+
+    def filmed(on: Line, curve: Piecewise) -> FilmedCurve:
+        at = on.s[[k >= 0 for k in on.of]]
+        return FilmedCurve(placed.keyframes, at, curve, watched, drone.limits, placed.shot.pace)
+
+    plain = now = best = filmed(line, position[0])
+    for _ in range(ROUNDS):
+        aside = now.beside(space)
+        beside = line_beside(space, placed.keyframes, aside) if any(map(len, aside)) else None
+        found = _position(space, drone, placed, beside) if isinstance(beside, Line) else None
+        if not isinstance(beside, Line) or found is None or isinstance(found, Stuck):
+            break
+        now = filmed(beside, found[0])
+        if now.serves(plain) and now.seconds[1] < best.seconds[1]:
+            best, line, position = now, beside, found
+    return line, position
+
+
 def _sections(line: Line) -> list[tuple[int, int]]:
     """Cut the polyline where the camera turns on the spot; repeated keyframes fall out."""
     moving = np.linalg.norm(np.diff(line.corners, axis=0), axis=1) >= SAME_PLACE_M
@@ -192,6 +227,9 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
     bound, pulled, pulled_at = [0], [], []
     for i in range(first + 1, last):
         k = line.of[i]
+        if i in line.aside:
+            pulled.append(line.corners[i])
+            pulled_at.append(line.s[i])
         if k < 0:
             continue
         if line.loose and not placed.keyframes[k].placed:
@@ -208,6 +246,7 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
         pulled=np.array(pulled).reshape(-1, 3),
         pulled_at=np.array(pulled_at),
         pace=placed.shot.pace,
+        pull=SIGHT_WEIGHT if line.aside else PULL_WEIGHT,
     )
 
 
@@ -310,12 +349,22 @@ def _watched(mission: MissionIR, placed: PlacedShot) -> Watched | None:
     """Return whom the keyframes of a shot are to see; None where nothing of triangles may hide it."""
     keyframes, names = placed.keyframes, [k.target for k in placed.keyframes]
     name = next((name for name in names if name is not None), None)
-    if name is None or not (mission.meshes or mission.terrain) or HIDDEN in placed.shot.allow:
+    if name is None or not _is_led(mission, placed.shot):
         return None
-    target = mission.target(name)
     places = [k.at if k.target is None else mission.target(k.target).centre for k in keyframes]
     filmed = np.array([k.target is not None for k in keyframes])
-    surfaces = tuple(surface for _, surface in surfaces_before(mission, name))
+    return replace(_at(mission, name, places), filmed=filmed)
+
+
+def _is_led(mission: MissionIR, shot: Shot) -> bool:
+    """Tell whether a shot is led to where its targets are not hidden by anything of triangles."""
+    return bool(mission.meshes or mission.terrain) and not hidden_on_purpose(shot)
+
+
+def _at(mission: MissionIR, name: str, places: Sequence[Vec3]) -> Watched:
+    """Return a target as it is watched at places, metres of W."""
+    target, surfaces = mission.target(name), tuple(s for _, s in surfaces_before(mission, name))
+    filmed = np.ones(len(places), dtype=bool)
     return Watched(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
 
 
