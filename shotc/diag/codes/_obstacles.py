@@ -147,6 +147,24 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         LOOK,
         ("tower: {at: [0, 0, 12], radius: 4, height: 24}", "tower: {building: St. Mary}"),
     ),
+    _of_a_file(
+        "G051",
+        "scene-below-ground",
+        _ERROR,
+        "the whole of a scene lies below the ground",
+        "Nothing of it is seen, and no drone comes near it. Most often the axis that points up is turned round, so that the "
+        "scene hangs down from its floor; or its origin is high up in it. Turn it in the program that made it, say which axis "
+        "points `up`, or raise it by `at`.",
+    ),
+    _of_a_file(
+        "G052",
+        "heights-disagree",
+        _ERROR,
+        "terrain and the origin of the mission do not agree on how high the place lies",
+        "`world.origin.alt` is the height of the ground above the sea, and most elevation models count from there. Geoid and "
+        "ellipsoid differ by 100 m at most. The note says whether one of the two numbers is in feet. Terrain is always in "
+        "metres, unless a GeoTIFF says otherwise; `alt` takes a unit: `alt: 1640 ft`.",
+    ),
 )
 
 FILES: tuple[CodeInfo, ...] = (

@@ -23,6 +23,7 @@ from shotc.passes.resolve.checks.passers import passers_of
 from shotc.passes.resolve.checks.places import check_places
 from shotc.passes.resolve.checks.shake import check_shake
 from shotc.passes.resolve.checks.show import check_show
+from shotc.passes.resolve.checks.terrain_level import check_level
 from shotc.passes.resolve.checks.timing import check_timing
 from shotc.passes.resolve.checks.underground import check_underground
 from shotc.passes.resolve.lower import Lowered
@@ -48,6 +49,7 @@ def _judged(ir: LoadedMission, what: Lowered, *, order: bool) -> list[Diagnostic
     if unknown := list(check_counted(mission, ir.spec, what.level)):
         return unknown
     faults = [
+        *check_level(mission, ir.spec.world),
         *check_underground(mission, ir.spec, what.level),
         *_static_faults(mission, timing=what.sound, order=order),
         *check_parked(ir.spec, mission),

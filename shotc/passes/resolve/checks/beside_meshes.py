@@ -32,6 +32,7 @@ PAD = 1.5
 TURNS = 24  # ways in the plan in which a free place is looked for
 REACHES_M = tuple(0.25 * 1.12**k for k in range(52))  # and how far on each of them: up to 81 m
 LIFTS_M = tuple(float(k) for k in range(1, 61))  # by which a path is raised to be free
+LARGE_M = 1_000.0  # of a scene that may be in another unit
 
 
 class Near(NamedTuple):
@@ -68,7 +69,7 @@ def check_homes_beside(mission: MissionIR) -> Iterator[Diagnostic]:
             else f"the take-off comes within {near.away:.2f} m"
         )
         note = f"{how}; {_needed(near.mesh, drone.radius, 0.0)} must be free"
-        yield Diagnostic("G027", message, labels, (note,), _other_home(mission, drone))
+        yield Diagnostic("G027", message, labels, (note, *_large(near.mesh)), _other_home(mission, drone))
 
 
 def check_shot_beside(mission: MissionIR, shot: Shot, way: Way) -> Iterator[tuple[KeyPath, Diagnostic]]:
@@ -97,7 +98,7 @@ def _blocked(
     relation = f"is {'inside of' if near.away < 0.0 else 'too close to'} {_words(near)}"
     where = f"{-near.away:.2f} m deep in it" if near.away < 0.0 else f"{near.away:.2f} m away from it"
     need = _needed(near.mesh, drone.radius, mission.rules.obstacle_clearance)
-    notes: tuple[str, ...] = (f"it is {where}; {need} must be free",)
+    notes: tuple[str, ...] = (f"it is {where}; {need} must be free", *_large(near.mesh))
     if len(places) > 1:
         worst = ", ".join(f"{c:.1f}" for c in at)
         notes = (*notes, f"{len(lacking)} of {len(places)} points are so; the worst is [{worst}]")
@@ -121,6 +122,13 @@ def _blocked(
 
 def _words(near: Near) -> str:
     return mesh_owner(near.mesh)._replace(name=near.name).words
+
+
+def _large(mesh: ObstacleMesh) -> Iterator[str]:
+    """Yield how large a scene is that may be in another unit than is written."""
+    size = float(np.ptp(mesh.surface.triangles.reshape(-1, 3), axis=0).max())
+    if mesh.kind == "scene" and size > LARGE_M:
+        yield f"the scene measures {size:.0f} m: in millimetres (`units: mm`) it is {size / 1000:.2g} m large"
 
 
 def _needed(mesh: ObstacleMesh, radius: float, clearance: float) -> str:

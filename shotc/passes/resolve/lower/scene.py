@@ -171,8 +171,16 @@ class _Scene(NamedTuple):
             yield Diagnostic("G030", message, self._label, (self._unit_says(),), help_)
         some = corners[:: max(1, len(corners) // _LOOKED_AT)]
         ground = np.zeros(len(some)) if terrain is None else height_at(terrain.ground, some[:, :2])
-        under = float(np.mean(some[:, 2] < np.nan_to_num(ground) - BELOW_M))
-        if under > UNDER:
+        over = some[:, 2] - np.nan_to_num(ground)
+        under = float(np.mean(over < -BELOW_M))
+        top = float(corners[:, 2].max() if terrain is None else over.max())
+        if under > UNDER and top < BELOW_M:
+            message = f"the scene `{self.written.file}` lies below the ground"
+            low, high = float(over.min()), max(0.0, top)
+            note = f"it reaches from {-low:.1f} m below the ground to {high:.1f} m above it"
+            help_ = f"turn it over in the program that made it, or raise it by {-low:.1f} m in `at`"
+            yield Diagnostic("G051", message, self._label, (note,), help_)
+        elif under > UNDER:
             other = "z" if self.placed.up == "y" else "y"
             low, high = float(some[:, 2].min()), float(some[:, 2].max())
             yield Diagnostic(

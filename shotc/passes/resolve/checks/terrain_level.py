@@ -1,0 +1,52 @@
+"""Whether terrain and the origin agree on how high the place lies: feet for metres, or another height."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR
+from shotc.spec.world import WorldSpec
+
+OFF_M = 150.0
+"""Metres that a height counted from the ellipsoid, and one on a slope, may be off together."""
+FAR_OFF_M = 500.0
+FOOT_M = 0.3048
+ALIKE = 0.04  # share by which a height in feet may be off
+ALT = ("world", "origin", "alt")
+
+
+def check_level(mission: MissionIR, world: WorldSpec) -> Iterator[Diagnostic]:
+    """Yield the fault of terrain whose ground at the origin lies far off the altitude that is written there.
+
+    Terrain that is moved to where the mission is (`datum`) says nothing of it.
+    """
+    origin, terrain = mission.origin, mission.terrain
+    if origin is None or terrain is None or ALT not in mission.origins.values:
+        return
+    over = terrain.height(0.0, 0.0)
+    if over is None or world.terrain is None or world.terrain.datum != "sea":
+        return
+    here, alt = origin.alt + over, origin.alt
+    if abs(over) <= OFF_M:
+        return
+    if abs(here * FOOT_M - alt) <= ALIKE * abs(alt):
+        note = f"{here:.0f} ft are {here * FOOT_M:.0f} m"
+        help_ = f"export `{terrain.file}` with heights in metres"
+    elif abs(alt * FOOT_M - here) <= ALIKE * abs(here):
+        note, help_ = f"{alt:.0f} ft are {alt * FOOT_M:.0f} m", f"write `alt: {here:.0f}`"
+    elif abs(over) > FAR_OFF_M:
+        note = "no datum makes heights differ by so much"
+        help_ = (
+            f"write `alt: {here:.0f}` if the terrain is right, or `datum: home` beside its file if `alt` is"
+        )
+    else:
+        return
+    labels = (
+        mission.origins.value(("world", "terrain", "file"), f"{here:.0f} m at the origin"),
+        mission.origins.value(ALT, f"{alt:.0f} m"),
+    )
+    message = (
+        f"the ground of `{terrain.file}` lies {abs(over):.0f} m {'above' if over > 0 else 'below'} the origin"
+    )
+    yield Diagnostic("G052", message, labels, (note,), help_)
