@@ -14,12 +14,16 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
-from shotc.geom.surface.tree import Pairs, Surface, search
-from shotc.geom.surface.triangles import cross, dot
+from shotc.geom.surface.tree import Meets, Pairs, Surface, search
+from shotc.geom.surface.triangles import cross, dot, highest, lowest
 
 FRAMES_AT_ONCE = 256
 """Frames whose pairs with triangles fit the cache."""
 PAIRS_AT_ONCE = 16_384
+TOGETHER = 16
+"""Frames that follow one another are nearly alike: the tree is searched for them together."""
+ALIKE_RATIO = 0.5
+"""Of the way to a billboard: how wide the boxes of frames together are at most, all axes summed."""
 SHORT_OF = 1.0 - 1e-6
 """Share of the way to a cell at which rays end: what a target stands on, or touches, does not hide it."""
 _NONE = 1e-300  # instead of a length that is none, so that what is divided by it is far beyond any share
@@ -116,20 +120,60 @@ def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: fl
     """
     on = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
     grown = 0.5 * (np.abs(boards.right) + np.abs(boards.up))
-    # At share x of the way: x (on + grown) >= low - eye and x (grown - on) >= eye - high, axis by axis.
-    speed = np.concatenate([on + grown, grown - on], axis=1).T
-    speed = np.where(speed == 0.0, _NONE, speed)
-    per, enters, eyes = 1.0 / speed, speed > 0.0, np.ascontiguousarray(boards.eye.T)
+    each = _Sliding(boards.eye.T, boards.eye.T, np.concatenate([on + grown, grown - on], axis=1).T)
+    starts = np.arange(0, len(boards), TOGETHER)
+    several = each.together(starts)
+    if len(boards) <= TOGETHER or not several.alike(on[starts].T):
+        return search(surface, len(boards), each.meets(far, about))
+    found = search(surface, len(starts), several.meets(far, about))
+    lasts = np.minimum(starts + TOGETHER, len(boards))[found.item]
+    frame = starts[found.item][:, None] + np.arange(TOGETHER)
+    inside = frame < lasts[:, None]
+    item, triangle = frame[inside], np.repeat(found.triangle, inside.sum(axis=1))
+    corners = surface.triangles[triangle]
+    keep = each.meets(far, about)(item, lowest(corners), highest(corners))
+    item, triangle = item[keep], triangle[keep]
+    order = np.argsort(item, kind="stable")
+    return Pairs(item[order], triangle[order])
 
-    def meets(frame: IntArray, low: Array, high: Array) -> Mask:
-        eye = eyes[:, frame]
-        share = np.concatenate([low.T - about - eye, eye - high.T - about]) * per[:, frame]
-        entering = enters[:, frame]
-        first = np.where(entering, share, 0.0).max(axis=0)
-        last = np.where(entering, far, share).min(axis=0)
-        return np.asarray(np.maximum(first, 0.0) <= np.minimum(last, far))
 
-    return search(surface, len(boards), meets)
+@dataclass(frozen=True, slots=True, eq=False)
+class _Sliding:
+    """Boxes that slide from about an eye, and grow: columns are frames, or several frames together.
+
+    low, high : of the eye, (3, F); speed : of the upper sides, and of the lower ones downwards, (6, F)
+    """
+
+    low: Array
+    high: Array
+    speed: Array
+
+    def together(self, starts: IntArray) -> _Sliding:
+        """Return the boxes that hold those of all frames from each start to the next."""
+        low = np.minimum.reduceat(self.low, starts, axis=1)
+        high, speed = (np.maximum.reduceat(rows, starts, axis=1) for rows in (self.high, self.speed))
+        return _Sliding(low, high, speed)
+
+    def alike(self, on: Array) -> bool:
+        """Tell whether frames that are together look nearly the same way; on : to their boards, (3, F)."""
+        wide = (self.high - self.low) + self.speed[:3] + self.speed[3:]
+        return bool((wide.sum(axis=0) <= ALIKE_RATIO * np.abs(on).sum(axis=0)).all())
+
+    def meets(self, far: float, about: float) -> Meets:
+        """Return what tells whether boxes of the tree are met, as ``search`` asks."""
+        # At share x of the way: x speed >= low - eye, and x speed >= eye - high, axis by axis.
+        speed = np.where(self.speed == 0.0, _NONE, self.speed)
+        per, enters = 1.0 / speed, speed > 0.0
+        first_eye, last_eye = np.ascontiguousarray(self.high), np.ascontiguousarray(self.low)
+
+        def meet(frame: IntArray, low: Array, high: Array) -> Mask:
+            away = np.concatenate([low.T - first_eye[:, frame], last_eye[:, frame] - high.T])
+            share, entering = (away - about) * per[:, frame], enters[:, frame]
+            first = np.where(entering, share, 0.0).max(axis=0)
+            last = np.where(entering, far, share).min(axis=0)
+            return np.asarray(np.maximum(first, 0.0) <= np.minimum(last, far))
+
+        return meet
 
 
 def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> Mask:
