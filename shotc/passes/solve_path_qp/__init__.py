@@ -34,6 +34,7 @@ from shotc.passes.solve_path_qp.explain.schedule import outside_track, too_late,
 from shotc.planning.clock.itinerary import Itinerary
 from shotc.planning.clock.moving import moving_targets
 from shotc.planning.clock.others import other_drones
+from shotc.planning.clock.remedy import beside_meshes
 from shotc.planning.clock.shot import NoMotion, OtherVehicles
 from shotc.planning.clock.starts import ClockFailure, Meets, OutsideTrack, TooLate
 from shotc.planning.clock.visibility import visibility_of
@@ -214,16 +215,16 @@ def _on_clock(
     ctx: PassContext,
 ) -> _Planned:
     """Plan the legs of a drone in a mission where something is filmed on its own clock."""
-    mission, flight = itinerary.mission, itinerary.flight
+    mission = itinerary.mission
     for shot in shots:
         placed = shot.shot if isinstance(shot, PlannedShot) else shot
         ctx.progress(f"way to and through shot {placed.shot.id}")
         trouble = itinerary.film(shot)
         if trouble is not None:
-            return _stopped(*warnings, _told(mission, flight, placed, trouble))
+            return _stopped(*warnings, _told(itinerary, placed, trouble))
     trouble = itinerary.home()
     if trouble is not None:
-        return _stopped(*warnings, _told(mission, flight, None, trouble))
+        return _stopped(*warnings, _told(itinerary, None, trouble))
     curved = [s for s in shots if isinstance(s, PlannedShot)]
     left = left_places(mission, itinerary.deviations)
     deviations: list[Deviation] = [d for s in curved for d in s.deviations]
@@ -232,8 +233,9 @@ def _on_clock(
     return _Planned(tuple(itinerary.legs), tuple(deviations), stats, (*warnings, *left))
 
 
-def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble: ClockFailure) -> Diagnostic:
+def _told(itinerary: Itinerary, placed: PlacedShot | None, trouble: ClockFailure) -> Diagnostic:
     """Return the error for what stands in the way of a shot on the clock, or of the way home."""
+    mission, flight = itinerary.mission, itinerary.flight
     if isinstance(trouble, Meets):
         return way_met(mission, flight.drone, None if placed is None else placed.shot, trouble)
     if placed is not None:
@@ -242,7 +244,7 @@ def _told(mission: MissionIR, flight: Flight, placed: PlacedShot | None, trouble
         if isinstance(trouble, TooLate):
             return too_late(mission, placed.shot, trouble)
         if isinstance(trouble, NoMotion):
-            return stopped_on_clock(mission, placed.shot, trouble)
+            return stopped_on_clock(mission, placed.shot, trouble, beside_meshes(itinerary, placed, trouble))
     assert not isinstance(trouble, NoMotion | OutsideTrack | TooLate)
     return failure(mission, flight.drone, flight.space, placed, trouble)
 

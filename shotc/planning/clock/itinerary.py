@@ -112,6 +112,11 @@ class Itinerary:
         """Who flies."""
         return self.flight.drone
 
+    def copied(self, mission: MissionIR, flight: Flight) -> Itinerary:
+        """Return the same for another mission with the same shots so far, to try out what follows."""
+        lists = list(self.legs), self.clock, list(self.deviations), list(self.stats)
+        return Itinerary(mission, flight, self.others, dict(self.ends), *lists, self.last, self.slack)
+
     def film(self, shot: PlannedShot | PlacedShot) -> ClockFailure | None:
         """Add a shot and the way to it."""
         add = partial(self._path, shot) if isinstance(shot, PlannedShot) else partial(self._timed, shot)

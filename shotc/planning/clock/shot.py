@@ -131,12 +131,14 @@ class NoMotion:
     """Why a shot has no motion: the solver's word, and by how much each owner would have to give way.
 
     missed : which keyframes are out of reach, where that is why
+    start : mission time of the first frame for which it has none
     """
 
     status: Status
     lacks: tuple[tuple[Owner, float], ...]
     what: str = "position"
     missed: Missed | None = None
+    start: float = 0.0
 
 
 def timed_shot(
@@ -157,7 +159,7 @@ def timed_shot(
     shot, camera_task, clock = task.shot, task.camera_task, task.clock
     if flown.curve is None:
         missed = _missed(task, around, placed, start) if task.bound else None
-        return NoMotion(flown.status, _lacks(task, flown), missed=missed)
+        return NoMotion(flown.status, _lacks(task, flown), missed=missed, start=start)
     kept = None if shot.ideal is None else shot.ideal.aim
     turned = turn(AngleTask(camera_task, kept), clock, flown.curve)
     if turned.curve is None:

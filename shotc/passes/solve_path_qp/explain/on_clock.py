@@ -8,6 +8,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.owners import owner_of
 from shotc.ir.path import ClockDeviation, from_what_was_asked
+from shotc.planning.clock.remedy import BesideMeshes
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
 from shotc.rounding import at_least, up
 
@@ -50,8 +51,10 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
     )
 
 
-def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagnostic:
-    """Say why a shot on its own clock has no motion."""
+def stopped_on_clock(
+    mission: MissionIR, shot: Shot, trouble: NoMotion, beside: BesideMeshes | None = None
+) -> Diagnostic:
+    """Say why a shot on its own clock has no motion; beside : what is known of a mesh in its way."""
     label = mission.origins.value((*shot.path, "kind"))
     if trouble.missed is not None:
         return _out_of_reach(mission, shot, trouble.missed)
@@ -59,6 +62,8 @@ def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagn
         message = f"no motion was found for the {trouble.what} of shot `{shot.id}`"
         notes: tuple[str, ...] = (f"the solver says: {trouble.status}",)
         return Diagnostic("M009", message, (label,), notes, "give the shot more room or more time")
+    if beside is not None:
+        return _by_a_mesh(mission, shot, trouble, beside)
     most = max(trouble.lacks, key=lambda pair: pair[1])
     labels = (label, mission.origins.key(most[0].path, "what is most in the way"))
     notes = tuple(
@@ -71,6 +76,27 @@ def stopped_on_clock(mission: MissionIR, shot: Shot, trouble: NoMotion) -> Diagn
         notes,
         "move the shot or what is in its way by so much",
     )
+
+
+def _by_a_mesh(mission: MissionIR, shot: Shot, trouble: NoMotion, beside: BesideMeshes) -> Diagnostic:
+    """Say which building, or part of a scene, a shot cannot be flown clear of, and what was found to help."""
+    blocked, remedy = beside
+    owner = max(trouble.lacks, key=lambda pair: pair[1])[0] if blocked is None else blocked.owner
+    labels = (
+        mission.origins.value((*shot.path, "kind")),
+        mission.origins.key(owner.path, "what is most in the way"),
+    )
+    notes: tuple[str, ...] = ()
+    if blocked is not None:
+        lack = at_least(blocked.lack)
+        notes = (f"at t = {blocked.t:.1f} s its place is {lack} m too near to {owner.words}",)
+    help_ = "no other altitude and no smaller clearance was found: film it from another side, or elsewhere"
+    if remedy is not None and remedy.clearance is not None:
+        help_ = f"write `rules: {{obstacle_clearance: {remedy.clearance:g}}}`, with which it is flown"
+    elif remedy is not None and remedy.higher is not None:
+        help_ = f"raise its `altitude` by {remedy.higher:g} m, with which it is flown"
+    message = f"shot `{shot.id}` cannot be flown clear of {owner.words}"
+    return Diagnostic("M009", message, labels, notes, help_)
 
 
 def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:

@@ -1,0 +1,122 @@
+"""What would let a shot on its own clock past a scene or buildings, tried out before it is said.
+
+How far a mesh would have to give way is no help: what a programme lacks is counted from the half-spaces that
+it was given, and a wall is not moved. A smaller clearance and a higher path can be written, and planned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.keyframes import PlacedShot
+from shotc.ir.mission import MissionIR
+from shotc.ir.owners import Owner
+from shotc.planning.clock.aims import CameraTask
+from shotc.planning.clock.ideals import ideal_places
+from shotc.planning.clock.itinerary import Itinerary
+from shotc.planning.clock.shot import ASKED, NoMotion, timed_shot
+from shotc.planning.free_space import FreeSpace, bounds_slack
+from shotc.planning.obstacles import free_spaces_of
+
+STEP_S = 0.25  # between places of a shot that are looked at
+FINE_M = 0.1  # of a clearance that is told
+SHARES = (1, 2, 4)  # of what is lacked, by which the clearance is lowered
+LIFTS_M = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50)
+"""By which a shot is raised."""
+
+
+class Blocked(NamedTuple):
+    """Where a shot's place lacks the most room beside a mesh: when, how much, metres, and beside what."""
+
+    t: float
+    lack: float
+    owner: Owner
+
+
+class Remedy(NamedTuple):
+    """A change with which a shot was planned: another clearance from meshes, or so much higher, metres."""
+
+    clearance: float | None = None
+    higher: float | None = None
+
+
+class BesideMeshes(NamedTuple):
+    """What is said of a shot that is not flown clear of meshes; remedy : None where none was found."""
+
+    blocked: Blocked | None
+    remedy: Remedy | None
+
+
+def beside_meshes(itinerary: Itinerary, placed: PlacedShot, trouble: NoMotion) -> BesideMeshes | None:
+    """Return what stands in a shot's way and what helps; None where no mesh does."""
+    mission, space = itinerary.mission, itinerary.flight.space
+    lacks = {owner: lack for owner, lack in trouble.lacks if any(m.owner == owner for m in space.meshes)}
+    if not lacks or placed.shot.ideal is None:
+        return None
+    places = _places(mission, placed, trouble.start)
+    blocked, lack = _blocked(space, *places), max(lacks.values())
+    drops = [share * lack for share in SHARES] + ([] if blocked is None else [blocked.lack + FINE_M])
+    found = _closer(itinerary, placed, trouble.start, drops)
+    return BesideMeshes(blocked, found or _higher(itinerary, placed, trouble.start, places[1]))
+
+
+def _places(mission: MissionIR, placed: PlacedShot, start: float) -> tuple[Array, Array]:
+    """Return times of a shot's film, (M,), and where its camera would be then, (M, 3)."""
+    lasts = placed.shot.timing.duration or 0.0
+    times = start + np.linspace(0.0, lasts, max(2, int(lasts / STEP_S)))
+    return times, ideal_places(mission, placed.shot, start, times)
+
+
+def _blocked(space: FreeSpace, times: Array, places: Array) -> Blocked | None:
+    worst: Blocked | None = None
+    for mesh in space.meshes:
+        lacks = -mesh.slack(places)
+        i = int(lacks.argmax())
+        if lacks[i] > 0.0 and (worst is None or lacks[i] > worst.lack):
+            worst = Blocked(float(times[i]), float(lacks[i]), mesh.owner_at(places[i]))
+    return worst
+
+
+def _closer(itinerary: Itinerary, placed: PlacedShot, start: float, drops: list[float]) -> Remedy | None:
+    """Return a smaller clearance with which the shot is flown; drops : by how much, what is tried, metres."""
+    mission = itinerary.mission
+    for drop in sorted(drops):
+        steps = np.floor((mission.rules.obstacle_clearance - drop) / FINE_M)
+        if steps < 0:
+            return None
+        clearance = round(float(steps) * FINE_M, 1)
+        lower = mission._replace(rules=mission.rules._replace(obstacle_clearance=clearance))
+        if _flown(itinerary, lower, placed, start):
+            return Remedy(clearance=clearance)
+    return None
+
+
+def _higher(itinerary: Itinerary, placed: PlacedShot, start: float, places: Array) -> Remedy | None:
+    """Return by how much higher the shot is flown; it is tried where its places are free."""
+    mission, shot = itinerary.mission, placed.shot
+    ideal, space = shot.ideal, itinerary.flight.space
+    if ideal is None or (*shot.path, "altitude") not in mission.origins.values:
+        return None
+    for lift in LIFTS_M:
+        if float(bounds_slack(space, places + np.array([0.0, 0.0, lift])).min()) < 0.0:
+            continue
+        points = tuple((share, (x, y, z + lift)) for share, (x, y, z) in ideal.points)
+        raised = shot._replace(ideal=ideal._replace(points=points))
+        shots = tuple(raised if s.id == shot.id else s for s in mission.shots)
+        if _flown(itinerary, mission._replace(shots=shots), placed._replace(shot=raised), start):
+            return Remedy(higher=float(lift))
+    return None
+
+
+def _flown(itinerary: Itinerary, mission: MissionIR, placed: PlacedShot, start: float) -> bool:
+    """Tell whether a shot has a motion in another mission, and a way to it."""
+    spaces = free_spaces_of(mission, itinerary.drone)
+    task = CameraTask(mission, itinerary.drone, placed.subjects)
+    if isinstance(timed_shot(task, (spaces, itinerary.others), placed, start, ASKED), NoMotion):
+        return False
+    flight = replace(itinerary.flight, spaces=spaces)
+    return itinerary.copied(mission, flight).film(placed) is None
