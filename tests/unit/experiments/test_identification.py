@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.experiments.papers.identification import hand_drawn, right, run, towns, within
+from tests.experiments.papers.identification import filmed, hand_drawn, right, run, towns, within
+from tests.experiments.papers.identified_films import films
 
 
 @pytest.fixture(scope="module")
@@ -25,3 +26,8 @@ def test_the_rule_as_printed_finds_less_in_one_open_surface(made):
     assert right(ours) >= 0.95
     assert within(ours, 1, 0.15) >= 0.8
     assert right(run(made, hand_drawn, paper=True, surface=True).trials) < 0.8
+
+
+def test_a_building_that_was_drawn_by_hand_is_whole_in_its_film(made):
+    takes = filmed(made[:1], run(made[:1], hand_drawn).trials)[:1]
+    assert [frames is not None and frames.all() for frames in films(takes)] == [True]
