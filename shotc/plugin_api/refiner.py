@@ -16,7 +16,9 @@ from shotc.geom.solid_arrays.points import bounded, distances
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 from shotc.geom.track_array import places
 from shotc.geom.vec import wrapped
+from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import flying, moved, parts_of_one, shapes
+from shotc.ir.coverage import HALF_SHARE, coverage
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.needs import with_need
@@ -67,6 +69,7 @@ __all__ = [
     "CALM",
     "CAM_PITCH",
     "CAM_YAW",
+    "HALF_SHARE",
     "HFOV",
     "MOST_MOVED",
     "NO_HALF_SPACES",
@@ -118,6 +121,7 @@ __all__ = [
     "camera_task_of",
     "convex_parts",
     "corridor",
+    "coverage",
     "distances",
     "fit",
     "flight_space",
@@ -127,6 +131,7 @@ __all__ = [
     "flying_times",
     "frustum_margins",
     "given_up",
+    "hidden_on_purpose",
     "ideal_places",
     "kept",
     "lateness",

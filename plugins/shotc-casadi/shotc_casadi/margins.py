@@ -19,11 +19,13 @@ class Check(NamedTuple):
 
     lack : metres by which clearance is not proved for all s (Bernstein hulls); 0 is proved
     late : share of a time asked for by which the fastest flight is too slow
+    hidden : share by which targets are free less than from the convex path (``covered.lost``)
     cropped : the most that the target sticks out of the frame, half frames
     """
 
     lack: float
     late: float
+    hidden: float
     cropped: float
 
     @property
@@ -63,5 +65,5 @@ def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
         reach=FAR_M if lacks else margins.reach,
         limits=margins.limits / (1.0 + LIMIT_STEP_RATIO * check.late),
         comfort=LITTLE_SHARE if check.cropped > 0 else margins.comfort,
-        hold=HOLD_WEIGHT if hold and lacks else margins.hold,
+        hold=HOLD_WEIGHT if hold and (lacks or check.hidden > 0) else margins.hold,
     )

@@ -10,6 +10,7 @@ from shotc.plugin_api.refiner import (
     with_camera,
 )
 from shotc_casadi.conditions import Condition
+from shotc_casadi.covered import lost_on_path
 from shotc_casadi.due import due
 from shotc_casadi.frames import cropped
 from shotc_casadi.margins import Check
@@ -23,8 +24,10 @@ AMPLE_SHARE = 0.8  # of what is asked: a rough profile that takes no longer need
 def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
     """Prove a camera's clearances, time it, and look at its frame between the nodes."""
     lack = float(shortfall(subject.space, camera.ctrl[:, :, :3]).max())
-    out = cropped(subject, camera) if condition.visibility == "silhouette" else 0.0
-    return Check(max(lack, 0.0), _late(subject, camera), out)
+    looks = condition.visibility == "silhouette"
+    hidden = lost_on_path(subject, camera) if looks else 0.0
+    out = cropped(subject, camera) if looks else 0.0
+    return Check(max(lack, 0.0), _late(subject, camera), hidden, out)
 
 
 def hopeless(subject: Subject) -> bool:

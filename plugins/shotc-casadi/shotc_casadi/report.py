@@ -6,7 +6,7 @@ from math import isfinite, isnan, nan
 
 import numpy as np
 
-from shotc.plugin_api import Diagnostic, PathIR, SolverState
+from shotc.plugin_api import Diagnostic, PathIR, SolverState, unrefined
 from shotc.plugin_api.refiner import PathDeviation, leg_of
 from shotc_casadi.messages import UNITS, fallen_back, unsolved
 from shotc_casadi.rounds import Gap, Refined
@@ -14,6 +14,7 @@ from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME
 
 NOTICE_M = 0.1  # metres off the convex path that are worth telling
+SHOWS_LESS = "its convex path shows more of its targets"
 
 
 def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
@@ -21,6 +22,8 @@ def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
     solution = refined.solution
     if refined.camera is not None:
         return fallen_back(path, refined.shot, refined.first, solution)
+    if refined.shows_less:
+        return unrefined(path, refined.shot, SHOWS_LESS)
     if refined.gap is not None:
         return unsolved(path, _between(refined, refined.gap, name), solution)
     return unsolved(path, state_of(refined, solution.constraint, name), solution)

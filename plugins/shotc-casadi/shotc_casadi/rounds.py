@@ -50,6 +50,7 @@ class Refined:
     problem, solution : those of the camera, or the last ones; first : the solver that failed before
     seconds : of all solves
     gap : what stands against the camera of a problem that was solved
+    shows_less : whether its camera is clear and shows less of its targets than the convex path
     """
 
     shot: str
@@ -61,6 +62,7 @@ class Refined:
     seconds: float
     first: Solution | None
     gap: Gap | None
+    shows_less: bool = False
 
 
 def refine_shot(subject: Subject, condition: Condition, count: int | None = None) -> Refined:
@@ -139,7 +141,7 @@ def _tried(
     attempt: Attempt,
     given: Given,
 ) -> _Tried:
-    nothing = _Tried(None, Check(inf, inf, inf), task, attempt)
+    nothing = _Tried(None, Check(inf, inf, inf, inf), task, attempt)
     if attempt.solution.status != "solved":
         return nothing
     try:
@@ -168,13 +170,18 @@ def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -
     """Return the best camera if it is clear, or else where the last round ended."""
     leg = subject.leg
     assert leg.shot is not None
-    kept = best if best.check.lack <= 0 else done[-1]._replace(camera=None)
+    clear = best.check.lack <= 0
+    shows_less = clear and best.check.hidden > 0
+    kept = best if clear else done[-1]
+    if not clear or shows_less:
+        kept = kept._replace(camera=None)
     solution, failed = kept.attempt
     seconds = sum(t.attempt.seconds for t in done)
     gap = None
-    if kept.camera is None and solution.status == "solved":
+    if kept.camera is None and solution.status == "solved" and not shows_less:
         gap = Gap(float(nodes.s[0]), nan) if best.camera is None else _widest(subject, best.camera)
-    return Refined(leg.shot, kept.camera, nodes, len(done), kept.problem, solution, seconds, failed, gap)
+    of = (leg.shot, kept.camera, nodes, len(done), kept.problem, solution, seconds, failed, gap)
+    return Refined(*of, shows_less)
 
 
 def _widest(subject: Subject, found: Piecewise) -> Gap:

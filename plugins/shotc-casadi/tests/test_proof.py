@@ -73,16 +73,16 @@ def test_a_duration_that_the_fastest_flight_misses_is_late():
 
 
 def test_margins_make_up_for_what_was_open():
-    margins = tighter(Margins(), Check(0.1, 0.05, 0.01), hold=True)
+    margins = tighter(Margins(), Check(0.1, 0.05, 0.0, 0.01), hold=True)
     assert margins.clearance > 0.1
     assert margins.limits < 1 / 1.05
     assert margins.hold > 1.0
     # What lacks a metre has met an obstacle that the nodes did not know: it counts before more room is kept.
-    unseen = tighter(Margins(), Check(1.0, 0.0, 0.0), hold=False)
+    unseen = tighter(Margins(), Check(1.0, 0.0, 0.0, 0.0), hold=False)
     assert (unseen.reach, unseen.clearance) == (FAR_M, 0.0)
-    assert tighter(unseen, Check(1.0, 0.0, 0.0), hold=False).clearance > 1.0
-    assert tighter(Margins(), Check(0.0, 0.0, 0.0), hold=True) == Margins()
-    assert Check(0, 0, 0).holds
-    assert not Check(0, 1e-9, 0).holds
-    assert Check(0.5, 0, 0).helped(Check(1.0, 0, 0))
-    assert not Check(0.95, 0, 0).helped(Check(1.0, 0, 0))
+    assert tighter(unseen, Check(1.0, 0.0, 0.0, 0.0), hold=False).clearance > 1.0
+    assert tighter(Margins(), Check(0.0, 0.0, 0.0, 0.0), hold=True) == Margins()
+    assert Check(0, 0, 0, 0).holds
+    assert not Check(0, 1e-9, 0, 0).holds
+    assert Check(0.5, 0, 0, 0).helped(Check(1.0, 0, 0, 0))
+    assert not Check(0.95, 0, 0, 0).helped(Check(1.0, 0, 0, 0))

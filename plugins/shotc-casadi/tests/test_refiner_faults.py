@@ -155,7 +155,7 @@ def test_a_camera_that_is_never_clear_is_told_by_its_clearance(monkeypatch):
 
     def never(subject, condition, camera):
         seen.append(camera)
-        return Check(1.0 / len(seen), 0.0, 0.0)
+        return Check(1.0 / len(seen), 0.0, 0.0, 0.0)
 
     monkeypatch.setattr(rounds, "checked", never)
     outcome = refined()
@@ -186,7 +186,7 @@ def test_the_best_round_is_kept_with_the_solver_that_made_it(monkeypatch):
 
     def cropped(subject, condition, camera):
         seen.append(camera)
-        return Check(0.0, 0.0, 0.01)
+        return Check(0.0, 0.0, 0.0, 0.01)
 
     def solve(task, solver):
         return failing(*SOLVERS)(task, solver) if seen else REAL(task, solver)

@@ -233,7 +233,7 @@ def test_what_is_flown_never_costs_more_than_its_guide(seed: int) -> None:
 
 
 def shown_hidden(of: ClockSubject, leg: ClockLeg) -> float:
-    return sum(shown(of, leg, which).hidden for which in range(len(of.framed)))
+    return sum(1.0 - shown(of, leg, which).free.mean for which in range(len(of.framed)))
 
 
 def test_where_the_guide_is_better_by_its_own_cost_it_is_flown(monkeypatch: pytest.MonkeyPatch) -> None:

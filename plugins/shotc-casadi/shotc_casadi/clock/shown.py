@@ -7,23 +7,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api.refiner import ClockLeg, DroneTrajectory, flights, others_of, seen
+from shotc.plugin_api.refiner import ClockLeg, DroneTrajectory, coverage, flights, others_of, seen
 from shotc_casadi.clock.occluders import occluders_of
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
+from shotc_casadi.covered import GAIN_SHARE, Free, broken, free_of, lost
 
 RATE_HZ = 25.0  # frames a second that are looked at
-GAIN_SHARE = 0.005  # of the frames: showing less more than that is not worth going aside for
 SLACK_SHARE = 1e-4  # of a size, of half a frame, of the frames: as good
 
 
 class Shown(NamedTuple):
-    """Shares of the frames in which the subject is hidden, and is not whole; its least and largest size.
+    """How much of the subject stays free, the share of the frames in which it is not whole, and its sizes.
 
     off : its largest distance from its place on screen, half frames
     """
 
-    hidden: float
+    free: Free
     cropped: float
     smallest: float
     largest: float
@@ -41,12 +41,12 @@ def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool =
     if failed or subject.watched is None or ideal is None or ideal.placed:
         return None
     before = plain.leg or subject.leg
-    if _hidden(subject, before) <= GAIN_SHARE:
+    if _covered(subject, before) <= GAIN_SHARE:
         return None
     freed = refine_clock(subject, occluders_of(subject, plain.breaks), unseen=unseen)
     if freed.leg is None:
         return None
-    better = _hidden(subject, freed.leg) < _hidden(subject, before) - GAIN_SHARE
+    better = _covered(subject, freed.leg) < _covered(subject, before) - GAIN_SHARE
     return freed if better and as_whole(subject, before, freed.leg) else None
 
 
@@ -77,23 +77,28 @@ def _cropped_on_purpose(subject: ClockSubject) -> bool:
 
 def no_less(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     """Tell whether a leg shows as much of all subjects as another, and breaks no promise that that keeps."""
-    return _hidden(subject, after) <= _hidden(subject, before) + GAIN_SHARE and as_whole(
-        subject, before, after
-    )
+    gained = _covered(subject, after) <= _covered(subject, before) + GAIN_SHARE
+    return gained and as_whole(subject, before, after)
 
 
 def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
-    """Tell whether no subject is cropped in more frames than it was, and promises are kept as they were."""
+    """Tell whether no subject is cropped in more frames than it was, and promises are kept as they were.
+
+    Nor is one subject alone hidden more than is told of it. Of several, one may give way to another.
+    """
+    against = lost if len(subject.framed) == 1 else broken
     for which in range(len(subject.framed)):
         old, new = shown(subject, before, which), shown(subject, after, which)
         if new.cropped > old.cropped + SLACK_SHARE or not _promised(subject, old, new):
             return False
+        if against(subject.placed, old.free, new.free) > 0.0:
+            return False
     return True
 
 
-def _hidden(subject: ClockSubject, leg: ClockLeg) -> float:
-    """Return the share of the frames in which a subject is hidden, added up over all of them."""
-    return sum(shown(subject, leg, which).hidden for which in range(len(subject.framed)))
+def _covered(subject: ClockSubject, leg: ClockLeg) -> float:
+    """Return the share of a subject that is covered, over the frames, added up over all subjects."""
+    return sum(1.0 - shown(subject, leg, which).free.mean for which in range(len(subject.framed)))
 
 
 def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
@@ -102,11 +107,12 @@ def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     t = np.linspace(leg.start, leg.end, max(2, int(RATE_HZ * (leg.end - leg.start))))
     flight = DroneTrajectory(subject.drone.name, leg.curve, (), (), ())
     others = others_of(tuple(flights(subject.path).values()), subject.drone.name)
-    frames = seen(subject.mission, flight, one.target, t, others)
+    frames = seen(subject.mission, flight, one.target, t)
+    covered = coverage(subject.mission, others, one.target, leg.curve(t)[:, :3], t).share
     u, v = one.reference or (0.0, 0.0)
     off = np.nan_to_num(np.hypot(frames.u - u, frames.v - v), nan=np.inf)
     return Shown(
-        float(frames.hidden.mean()),
+        free_of(covered),
         float(1.0 - frames.in_frame.mean()),
         float(np.nan_to_num(frames.size, nan=np.inf).min()),
         float(np.nan_to_num(frames.size, nan=np.inf).max()),

@@ -1,0 +1,88 @@
+"""How much of a target stays free of what covers it, which refined cameras are taken by."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.plugin_api import Piecewise
+from shotc.plugin_api.refiner import HALF_SHARE, Array, PlacedShot, coverage, hidden_on_purpose
+from shotc_casadi.references import Subject
+
+GAIN_SHARE = 0.005  # of an outline, or of the frames: less than that is as good
+LEAST_SHARE = 0.02  # of an outline: the same in the one frame that shows least of it
+SAMPLES = 240  # of a path
+
+
+class Free(NamedTuple):
+    """How much of a target's outline nothing covers, shares from 0 to 1.
+
+    mean, least, first, last : over the frames, in that which shows least of it, and in both ends
+    sighted : share of the frames that show half of it or more
+    """
+
+    mean: float = 1.0
+    least: float = 1.0
+    first: float = 1.0
+    last: float = 1.0
+    sighted: float = 1.0
+
+
+def free_of(covered: Array) -> Free:
+    """Return what frames, one at least, leave free; covered : share of the outline in each, (M,)."""
+    free = 1.0 - covered
+    in_sight = (free >= HALF_SHARE).mean()
+    return Free(float(free.mean()), float(free.min()), float(free[0]), float(free[-1]), float(in_sight))
+
+
+def lost(placed: PlacedShot, before: Free, after: Free) -> float:
+    """Return by how much a target is free less than before in what is promised or told of it; 0 for not.
+
+    Where it may be hidden nothing is told; else the mean counts, and half of the outline in every frame.
+    """
+    if hidden_on_purpose(placed.shot):
+        return broken(placed, before, after)
+    losses = [before.mean - after.mean - GAIN_SHARE, before.sighted - after.sighted - GAIN_SHARE]
+    if placed.shot.promise.visible is None:
+        losses.append(_short(HALF_SHARE, before.least, after.least))
+    return max(*losses, broken(placed, before, after))
+
+
+def broken(placed: PlacedShot, before: Free, after: Free) -> float:
+    """Return by how much a promise is broken that was kept before, or is broken further; 0 for none."""
+    promise, losses = placed.shot.promise, [0.0]
+    if promise.visible is not None:
+        losses.append(_short(promise.visible, before.least, after.least))
+    if promise.reveal is not None:
+        first, last = promise.reveal
+        side = 1.0 if first < last else -1.0
+        losses.append(_short(-side * first, -side * before.first, -side * after.first))
+        losses.append(_short(side * last, side * before.last, side * after.last))
+    return max(losses)
+
+
+def _short(asked: float, before: float, after: float) -> float:
+    """Return by how much a value lacks of what is asked, or of the value before where that lacks too."""
+    return asked - after if before >= asked else before - after - LEAST_SHARE
+
+
+def lost_on_path(subject: Subject, camera: Piecewise) -> float:
+    """Return by how much a camera over s shows less of its targets than the convex path, as ``lost`` does.
+
+    What moves is left out: when the camera is where is not known yet.
+    """
+    after = _on_path(subject, camera)
+    return 0.0 if after == Free() else lost(subject.placed, _on_path(subject, subject.leg.curve), after)
+
+
+def _on_path(subject: Subject, camera: Piecewise) -> Free:
+    mission, covered = subject.mission, [np.zeros(0)]
+    standing = mission._replace(targets=tuple(t for t in mission.targets if t.track is None))
+    s = np.linspace(camera.start, camera.end, SAMPLES)
+    for span in subject.leg.framing:
+        inside = s[(s >= span.start) & (s <= span.end)]
+        eyes = camera(inside)[:, :3]
+        covered.append(coverage(standing, (), span.target, eyes, np.zeros(len(inside))).share)
+    shares = np.concatenate(covered)
+    return free_of(shares) if len(shares) else Free()
