@@ -208,7 +208,7 @@ from dataclasses import replace
 from shotc_casadi import solving
 from shotc_casadi.program import solve
 from tests.support.refiner_scenes import arc, task
-solving.TIMEOUT = 1.0
+solving.TIMEOUT_S = 1.0
 short = task(arc()._replace(leg=replace(arc().leg, duration=0.5)))
 print(solve(short, "fatrop").status, solve(task(arc()), "fatrop").status)
 """

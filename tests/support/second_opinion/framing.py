@@ -68,9 +68,7 @@ def framing_table(case: Case) -> Findings:
     """Every row of framing.csv says what our own projection finds."""
     expected = 0
     for drone, phase, target in subjects(case):
-        mine = [
-            r for r in case.framing if (r["drone"], r["shot"], r["target"]) == (drone, phase.shot, target)
-        ]
+        mine = _rows_of(case, drone, phase, target)
         t = column(mine, "t_s")
         expected += len(mine)
         first, last = (
@@ -81,10 +79,22 @@ def framing_table(case: Case) -> Findings:
             yield Finding(f"rows of {target}", str(phase.shot), len(mine), float(last - first))
         if mine:
             yield from _rows(case, seen(case, drone, phase, target, t), mine, f"{phase.shot} {target}")
-            yield from _hidden(case, mine, drone, target, t, str(phase.shot))
-            yield from _covered(case, mine, drone, target, t, str(phase.shot))
     if expected != len(case.framing):
         yield Finding("rows of framing.csv", "mission", len(case.framing), expected)
+
+
+def hiding(case: Case) -> Findings:
+    """Every row of framing.csv says what hides its subject."""
+    for drone, phase, target in subjects(case):
+        mine = _rows_of(case, drone, phase, target)
+        if mine:
+            t = column(mine, "t_s")
+            yield from _hidden(case, mine, drone, target, t, str(phase.shot))
+            yield from _covered(case, mine, drone, target, t, str(phase.shot))
+
+
+def _rows_of(case: Case, drone: str, phase: Phase, target: str) -> list[dict[str, str]]:
+    return [r for r in case.framing if (r["drone"], r["shot"], r["target"]) == (drone, phase.shot, target)]
 
 
 def _rows(case: Case, found: Seen, rows: list[dict[str, str]], subject: str) -> Findings:

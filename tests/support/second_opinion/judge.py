@@ -32,6 +32,7 @@ def findings(case: Case) -> Findings:
         framing.frames_asked(case),
         rules.claimed(case, claimed),
         reflight.reflights(case),
+        framing.hiding(case),
     ]
     for check in checks:
         yield from check

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,7 +11,11 @@ import numpy as np
 from tests.support.second_opinion.case import Case, Finding, Findings
 from tests.support.second_opinion.flight import Array, Phase
 from tests.support.second_opinion.picture import Camera
-from tests.support.second_opinion.targets import touch
+from tests.support.second_opinion.solids import Solid
+from tests.support.second_opinion.targets import Target, touch
+
+Nearness = Callable[[Array], Array]
+"""How near lines of sight (M, K, 3) come to a body, metres, shape (M,): negative where they go through."""
 
 LINE = 400  # points of a line of sight
 RAYS = 300  # to a target's outline and about it
@@ -28,7 +34,7 @@ def hidden(case: Case, drone: str, target: str, t: Array) -> tuple[Array, Array]
     line = camera[:, None] + share[:, None] * (centre - camera)[:, None]
     step = np.linalg.norm(centre - camera, axis=1) / (LINE - 1)
     surely, maybe = np.zeros(len(t), dtype=bool), np.zeros(len(t), dtype=bool)
-    for depth in _depths(case, drone, target, t, line):
+    for depth in (near(line) for near in _others(case, drone, target, t)):
         surely |= depth < -1e-6
         maybe |= depth < step + 1e-6
     return surely, maybe
@@ -50,15 +56,15 @@ def covered(case: Case, drone: str, target: str, t: Array) -> tuple[Array, Array
     up = np.cross(side, away / far[:, None])
     grown = wide * far / np.maximum(far - wide, 0.2 * far)  # as large as its nearest part can be seen
     steps = np.linspace(0.0, 1.0, LINE)
+    bodies, others = mine.parts or (mine,), _others(case, drone, target, t)
     own, surely, maybe = np.zeros(len(t)), np.zeros(len(t)), np.zeros(len(t))
     for a, b in np.random.default_rng(1).uniform(-1.0, 1.0, (RAYS, 2)):
         way = away + (grown * a)[:, None] * side + (grown * b)[:, None] * up
         line = camera[:, None] + steps[:, None] * (way * (1.0 + wide / far)[:, None])[:, None]
-        bodies = mine.parts or (mine,)
         met = np.min([body.distance(line, t) for body in bodies], axis=0) < 0.0
         first = np.where(met.any(axis=1), met.argmax(axis=1), 0)
         line = np.where((np.arange(LINE) < first[:, None])[..., None], line, camera[:, None])
-        depths = np.min([np.full(len(t), np.inf), *_depths(case, drone, target, t, line)], axis=0)
+        depths = np.min([np.full(len(t), np.inf), *(near(line) for near in others)], axis=0)
         step = np.linalg.norm(way, axis=1) * (1.0 + wide / far) / (LINE - 1)
         own += met.any(axis=1)
         surely += met.any(axis=1) & (depths < -1e-6)
@@ -66,25 +72,37 @@ def covered(case: Case, drone: str, target: str, t: Array) -> tuple[Array, Array
     return surely / np.maximum(own, 1.0), maybe / np.maximum(own, 1.0)
 
 
-def _depths(case: Case, drone: str, target: str, t: Array, line: Array) -> Any:
-    """Yield how near the line of sight comes to each body, shape (M,), negative where it goes through."""
-    flat = line.reshape(-1, 3)
-    for zone in case.mission.zones:
-        if not zone.keeps_in:
-            yield zone.solid.distance(flat).reshape(line.shape[:2]).min(axis=1)
+def _others(case: Case, drone: str, target: str, t: Array) -> list[Nearness]:
+    """Return what may stand before a target: how near lines of sight (M, K, 3) at times (M,) come to each.
+
+    A body that overlaps the target does not hide it; nor does a part of the same group.
+    """
     mine = case.mission.targets[target]
     bodies = mine.parts or (mine,)
     groups = [{part.name for part in other.parts} for other in case.mission.targets.values()]
     one = {body.name for body in bodies}.union(*(g for g in groups if g & {body.name for body in bodies}))
-    for other in case.mission.targets.values():
-        if not other.parts and other.name not in one:
-            near = other.distance(line, t).min(axis=1)
-            parts = np.any([touch(body, other, t) for body in bodies], axis=0)
-            yield np.where(parts, np.inf, near)
-    for name, found in case.drones.items():
-        if name != drone:
-            away = np.linalg.norm(line - case.place(name, t)[:, None], axis=2).min(axis=1)
-            yield away - found["radius"]
+    targets = [o for o in case.mission.targets.values() if not o.parts and o.name not in one]
+    return [
+        *(partial(_near_solid, zone.solid) for zone in case.mission.zones if not zone.keeps_in),
+        *(partial(_near_body, o, t, np.any([touch(b, o, t) for b in bodies], axis=0)) for o in targets),
+        *(
+            partial(_near_ball, case.place(name, t), found["radius"])
+            for name, found in case.drones.items()
+            if name != drone
+        ),
+    ]
+
+
+def _near_solid(solid: Solid, line: Array) -> Array:
+    return solid.distance(line.reshape(-1, 3)).reshape(line.shape[:2]).min(axis=1)
+
+
+def _near_body(other: Target, t: Array, touched: Array, line: Array) -> Array:
+    return np.where(touched, np.inf, other.distance(line, t).min(axis=1))
+
+
+def _near_ball(centre: Array, radius: float, line: Array) -> Array:
+    return np.asarray(np.linalg.norm(line - centre[:, None], axis=2).min(axis=1) - radius)
 
 
 def company(case: Case) -> Findings:

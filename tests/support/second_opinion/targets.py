@@ -147,9 +147,18 @@ def group(name: str, parts: list[Target]) -> Target:
 
 def touch(a: Target, b: Target, t: Array) -> Array:
     """Tell when two bodies overlap or touch at times (M,): no direction parts them."""
+    away = a.at(t) - b.at(t)
+    upright = np.abs(away[:, 2]) - 0.5 * (a.size.height + b.size.height)
+    near = np.hypot(away[:, 0], away[:, 1]) <= a.size.radius + b.size.radius + 1e-3
+    found = near & (upright <= 1e-9)
+    found[found] = _overlap(a, b, t[found])
+    return np.asarray(found)
+
+
+def _overlap(a: Target, b: Target, t: Array) -> Array:
+    """Tell when the floor plans of two bodies overlap or touch."""
     level = np.linspace(0.0, np.pi, 721)
     axes = np.stack([np.cos(level), np.sin(level)])
     one, other = (body.outline(t)[..., :2] @ axes for body in (a, b))
     apart = np.maximum(one.min(axis=1) - other.max(axis=1), other.min(axis=1) - one.max(axis=1)).max(axis=1)
-    upright = np.abs(a.at(t)[:, 2] - b.at(t)[:, 2]) - 0.5 * (a.size.height + b.size.height)
-    return np.asarray((apart <= 1e-3) & (upright <= 1e-9))
+    return np.asarray(apart <= 1e-3)
