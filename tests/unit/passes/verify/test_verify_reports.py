@@ -23,6 +23,8 @@ from tests.support.tampered_plans import (
     with_track,
 )
 
+SPEED = claim(PLAN, "speed")
+
 
 def test_a_diagnostic_points_at_the_limit_and_the_shot() -> None:
     limit, shot = Span(12, 20, 12, 25), Span(30, 5, 30, 20)
@@ -50,11 +52,9 @@ def test_missing_values_are_told_without_numbers() -> None:
     assert claim(ir, "distance from keyframes").worst == inf
 
 
-@pytest.mark.slow
 @given(st.floats(1e-9, 1e6), st.booleans(), st.sampled_from(["m/s", "rad", "of samples", "m"]))
 def test_a_proposed_limit_is_one_that_holds(worst: float, upper: bool, unit: str) -> None:
-    some = claim(PLAN, "speed")
-    proposed = float(enough(replace(some, worst=worst, upper=upper, unit=unit)).split()[0])
+    proposed = float(enough(replace(SPEED, worst=worst, upper=upper, unit=unit)).split()[0])
     read = worst * {"rad": 180 / pi, "of samples": 100.0}.get(unit, 1.0)
     assert proposed >= read * (1 - 1e-9) if upper else proposed <= read * (1 + 1e-9)
     assert proposed == pytest.approx(read, rel=2e-3)
