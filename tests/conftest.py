@@ -36,8 +36,12 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: item.get_closest_marker("slow") is None)
 
 
-def pytest_collection_finish():
-    """Spare the collector what stays for the whole run: modules and tests."""
+def pytest_collection_finish(session):
+    """Refuse a run whose groups are not kept together; spare the collector modules and tests, which stay."""
+    if session.config.getoption("loadgroup", False):
+        names = (item.nodeid for item in session.items)
+        if loose := [name for name in names if name.rfind("@") <= name.rfind("]")]:
+            raise pytest.UsageError(f"pytest-xdist does not see the group of {loose[0]}")
     gc.collect()
     gc.freeze()
 

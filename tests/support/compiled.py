@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.planning.timing.leg import timed_once
 
 Autopilot = Literal["px4", "ardupilot"]
 
@@ -19,12 +20,17 @@ def compiled(path: Path, refiner: str | None = None, autopilot: Autopilot | None
 def freshly_compiled(
     path: Path, refiner: str | None = None, autopilot: Autopilot | None = None
 ) -> Compilation:
-    """Compile a file anew, for a test of two runs."""
+    """Compile a file anew, no move at hand from before: for a test of two runs."""
+    timed_once.cache_clear()
+    return _compiled(path, refiner, autopilot)
+
+
+def _compiled(path: Path, refiner: str | None, autopilot: Autopilot | None) -> Compilation:
     options = PlanOptions(refiner=refiner, autopilot=autopilot)
     return compile_source(path.read_bytes(), path.name, path.parent, options)
 
 
-_kept = cache(freshly_compiled)
+_kept = cache(_compiled)
 
 
 @lru_cache(maxsize=64)

@@ -16,7 +16,7 @@ from shotc.diag.registry import has_errors
 from shotc.ir.owners import owner_of
 from shotc.ir.path import MovingLeg
 from shotc.planning.free_space import shortfall
-from shotc.planning.timing.leg import fastest_moves, plan_of
+from shotc.planning.timing.leg import fastest_moves, plan_of, timed_once
 from shotc.planning.timing.limits import ceiling_of
 from tests.support.few import few
 from tests.support.path_scenes import assert_continuous, least_room
@@ -281,6 +281,7 @@ def test_a_gimbal_that_cannot_pitch_is_planned_with():
 
 
 def test_the_same_mission_gives_the_same_bytes():
+    timed_once.cache_clear()
     fresh = compiled(HEAD + MISSIONS["arc"])
     one, two = (
         next(a.data for a in emit_plan(done.plan, ["csv"]).artifacts if a.name == "plan.json")

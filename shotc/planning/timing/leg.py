@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -88,12 +88,33 @@ def fastest_moves(leg: PathLeg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...
     if isinstance(leg, HoldLeg):
         return ()
     keyframes = tuple(mark.s for mark in leg.marks)
-    return tuple(_timed(leg.curve, span, ceiling, keyframes) for span in plan.spans)
+    path = SamePath.of(leg.curve)
+    return tuple(timed_once(path, span, ceiling, keyframes) for span in plan.spans)
 
 
-# Where shots have their own clock, the legs between them are timed when they are laid out, and again
-# when they are flown.
-_timed = lru_cache(maxsize=256)(time_move)
+@dataclass(frozen=True, slots=True)
+class SamePath:
+    """A path that equals every other of the same numbers."""
+
+    numbers: bytes
+    path: Piecewise = field(compare=False)
+
+    @staticmethod
+    def of(path: Piecewise) -> SamePath:
+        """Return a path by its shape, breaks and control points."""
+        shape = np.array(path.ctrl.shape).tobytes()
+        return SamePath(shape + path.breaks.tobytes() + path.ctrl.tobytes(), path)
+
+
+@lru_cache(maxsize=256)
+def timed_once(
+    path: SamePath, span: tuple[float, float], ceiling: Ceiling, through: tuple[float, ...]
+) -> Move:
+    """Return ``time_move`` of a path; arguments as there.
+
+    A leg is timed when it is laid out, again where other ways are tried, and when it is flown.
+    """
+    return time_move(path.path, span, ceiling, through)
 
 
 def assemble(leg: PathLeg, plan: Plan, moves: tuple[Move, ...], duration: float | None) -> LegMotion | None:

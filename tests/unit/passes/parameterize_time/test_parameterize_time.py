@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import pi, radians
 
 import numpy as np
@@ -13,6 +14,7 @@ from shotc.ir.passes import PassContext
 from shotc.ir.path import Stop
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.planning.timing import move as move_module
+from shotc.planning.timing.leg import fastest_moves, plan_of, timed_once
 from shotc.solvers.conic import Status
 from tests.support.records import replace
 from tests.support.timed_flights import (
@@ -41,6 +43,14 @@ from tests.support.timing_paths import (
 )
 
 pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def anew() -> Iterator[None]:
+    """No move is at hand from before, and none is left for others."""
+    timed_once.cache_clear()
+    yield
+    timed_once.cache_clear()
 
 
 class TestFlight:
@@ -81,12 +91,27 @@ class TestFlight:
         assert {"cam1 takeoff 0 move 0 cells", "cam1 transit 1 move 0 steps"} <= stats.keys()
 
     def test_runs_are_equal_to_the_last_bit(self) -> None:
-        a, b = (timed(flight(mission(), straight(duration=11.0))).drones[0].curve for _ in range(2))
+        curves = []
+        for _ in range(2):
+            timed_once.cache_clear()
+            curves.append(timed(flight(mission(), straight(duration=11.0))).drones[0].curve)
+        a, b = curves
         assert a.ctrl.tobytes() == b.ctrl.tobytes()
         assert a.breaks.tobytes() == b.breaks.tobytes()
 
+    def test_paths_of_the_same_numbers_are_timed_once(self) -> None:
+        curve = circle(20, pi)
+        leg, again, other = (
+            shot_leg(path)
+            for path in (curve, Piecewise(curve.breaks.copy(), curve.ctrl.copy()), circle(21, pi))
+        )
+        (first,), (same,), (another,) = (fastest_moves(x, plan_of(x), CEILING) for x in (leg, again, other))
+        assert same is first
+        assert another.duration != first.duration
+
 
 class TestRough:
+    @pytest.mark.usefixtures("anew")
     def test_where_the_solver_gives_up_the_flight_is_slower_and_says_so(
         self, monkeypatch: pytest.MonkeyPatch
     ) -> None:
