@@ -38,7 +38,7 @@ class Rows:
 
 
 def count(breaks: Array) -> int:
-    """Return the number of coefficients of a spline on these breaks."""
+    """Return the number of coefficients of a spline on breaks of shape (P + 1,)."""
     return len(breaks) - 1 + DEGREE
 
 
@@ -97,7 +97,7 @@ def value_rows(breaks: Array, at: Array, order: int = 0) -> Rows:
 def control_rows(breaks: Array, order: int = 0) -> Rows:
     """Return rows for the Bernstein points of the derivative of that order, piece by piece.
 
-    There are 6 - order of them a piece.
+    breaks : shape (P + 1,); there are 6 - order rows a piece
     """
     maps = _points(breaks, order)
     pieces, points, _ = maps.shape
@@ -116,6 +116,7 @@ def _points(breaks: Array, order: int) -> Array:
 def hull_rows(breaks: Array, order: int) -> Rows:
     """Return the rows of ``control_rows``, without those that a piece shares with the one before it.
 
+    breaks : shape (P + 1,)
     order : at most 4, up to which the derivatives of two pieces meet
     """
     rows = control_rows(breaks, order)
@@ -128,6 +129,7 @@ def hull_rows(breaks: Array, order: int) -> Rows:
 def energy_rows(breaks: Array, order: int) -> Rows:
     """Return rows whose sum of squares is the integral of the squared derivative of that order.
 
+    breaks : shape (P + 1,)
     The Gram matrix of Bernstein polynomials of degree m is C(m,i) C(m,j) / (C(2m,i+j) (2m+1)) on
     [0, 1]; its Cholesky factor turns the integral into a sum of squares, exactly.
     """
@@ -146,7 +148,7 @@ def energy_rows(breaks: Array, order: int) -> Rows:
 
 
 def restrict(curve: Piecewise, breaks: Array) -> Piecewise:
-    """Return the same curve on finer breaks, exactly.
+    """Return the same curve on finer breaks, shape (P + 1,), exactly.
 
     Every break of the curve inside the range of ``breaks`` must be among them (to 1e-9 of the
     range); ``breaks`` may cover a part of the curve only.
@@ -168,7 +170,10 @@ def restrict(curve: Piecewise, breaks: Array) -> Piecewise:
 
 
 def subdivide(breaks: Array, parts: int) -> Array:
-    """Return breaks with every piece cut into ``parts`` equal ones; the old breaks are kept exactly."""
+    """Return breaks with every piece cut into ``parts`` equal ones; the old breaks are kept exactly.
+
+    breaks : shape (P + 1,); result (P parts + 1,)
+    """
     fractions = np.arange(parts) / parts
     inner = breaks[:-1, None] + np.diff(breaks)[:, None] * fractions
     return np.append(inner.ravel(), breaks[-1])

@@ -76,7 +76,10 @@ def rates(breaks: Array, coef: Array, order: int) -> Array:
 
 
 def velocity(breaks: Array, coef: Array) -> FleetPieces:
-    """Return the velocity of a fleet in Bernstein form, three control points a piece."""
+    """Return the velocity of a fleet in Bernstein form, three control points a piece.
+
+    Arguments and their shapes as of ``rates``.
+    """
     control, width = rates(breaks, coef, 1), np.diff(knots(breaks)[DEGREE - 1 : 1 - DEGREE])
     # At a break the velocity divides its two control points as the break divides their knots.
     share = (width[:-1] / (width[:-1] + width[1:]))[:, None]

@@ -91,7 +91,7 @@ def sup_channel(pieces: Pieces, channel: int, gap: Callable[[float], float]) -> 
 
 
 def norm(vectors: Array) -> Array:
-    """Return the Euclidean norm over the last axis; convex."""
+    """Return the Euclidean norm (...) of vectors (..., D); convex."""
     return np.asarray(np.sqrt(np.einsum("...d,...d->...", vectors, vectors)))
 
 

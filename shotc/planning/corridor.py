@@ -43,7 +43,7 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
 
 
 def rows_of(breaks: Array, planes: HalfSpaces) -> HalfSpaceRows:
-    """Return half-spaces as rows of a programme, whose owners they index."""
+    """Return half-spaces as rows of a programme, whose owners they index; breaks : shape (P + 1,)."""
     rows, owner = points_of(breaks, planes.piece), np.repeat(planes.owner, 6)
     return HalfSpaceRows(rows, np.repeat(planes.normal, 6, axis=0), planes.offset.ravel(), owner)
 

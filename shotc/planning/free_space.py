@@ -270,6 +270,7 @@ def beside_surface(
 ) -> HalfSpaces:
     """Return half-spaces for a height above terrain, or beside a mesh.
 
+    hulls : shape (P, m, 3), points whose hull holds each piece
     room : reach and share, as of ``corridor``; owner : their index
     """
     reach, share = room
@@ -293,7 +294,7 @@ def six(hulls: Array) -> Array:
 
 
 def kept(slack: Array, share: float) -> Array:
-    """Return the margin to keep, metres, where there is ``slack`` beyond the clearance."""
+    """Return the margin to keep (...), metres, where there is ``slack`` (...) beyond the clearance."""
     return np.minimum(COMFORT_M, share * np.maximum(slack, 0.0))
 
 

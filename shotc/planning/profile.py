@@ -53,7 +53,7 @@ def taut(section: Section) -> Array:
 def fewer(section: Section, corners: Array, apart: float) -> Array:
     """Return a way with one corner in place of two that are nearer than so many metres, where there is room.
 
-    The one is where the legs beside the two meet.
+    corners : shape (K, 2), as of the section; the one is where the legs beside the two meet
     """
     way = [(float(x), float(z)) for x, z in corners]
     k = 1
@@ -68,7 +68,10 @@ def fewer(section: Section, corners: Array, apart: float) -> Array:
 
 
 def cut(corners: Array, most: float) -> Array:
-    """Return a way with corners put in, so that they are at most so many metres apart along it."""
+    """Return a way with corners put in, so that they are at most so many metres apart along it.
+
+    corners : shape (K, 2), as of a section
+    """
     parts = [
         np.linspace(a, b, int(np.ceil((b[0] - a[0]) / most)) + 1)[:-1] if b[0] - a[0] > most else a[None]
         for a, b in pairwise(corners)

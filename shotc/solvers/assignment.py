@@ -26,7 +26,7 @@ class Programme:
 
 
 def least_cost(programme: Programme) -> Array | None:
-    """Return the optimal x, or None where nothing satisfies the programme."""
+    """Return the optimal x, of the shape of its cost, or None where nothing satisfies the programme."""
     from scipy.optimize import Bounds, LinearConstraint, milp
 
     number = len(programme.cost)

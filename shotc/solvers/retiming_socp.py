@@ -87,7 +87,10 @@ def cell_times(widths: Array, b: Array, a: Array) -> Array:
 
 
 def start_from(widths: Array, b: Array) -> Iterate:
-    """Return an iterate with the given b, positive inside, and accelerations that fit it."""
+    """Return an iterate with the given b, positive inside, and accelerations that fit it.
+
+    widths : shape (N,); b : shape (N + 1,)
+    """
     slope = np.diff(b) / (2.0 * widths)
     a = np.zeros_like(b)
     a[1:-1] = (slope[:-1] * widths[1:] + slope[1:] * widths[:-1]) / (widths[:-1] + widths[1:])

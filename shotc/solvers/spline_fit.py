@@ -60,6 +60,7 @@ def fit(task: Fit) -> tuple[Status, Array]:
 def within(points: Array, low: Array | float, high: Array | float) -> Array:
     """Return Bernstein points moved into their bounds, where more than rounding took them out.
 
+    points, low, high : of one shape, or shapes that broadcast
     Every point that is moved costs the curve its smoothness at the breaks around it, and verification
     allows for more than rounding.
     """

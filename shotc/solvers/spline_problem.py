@@ -108,6 +108,9 @@ def scalar_map(rows: Rows, size: int) -> Any:
 
 
 def terms(rows: Rows, factor: Array | float = 1.0, first: int = 0) -> list[Term]:
-    """Return rows of one component, times a factor, as terms of ``ConeRows``; ``first`` : of its columns."""
+    """Return rows of one component, times a factor, as terms of ``ConeRows``.
+
+    factor : one, or one a row, shape (R,); first : of its columns
+    """
     columns = rows.piece + first
     return [(columns + k, rows.weight[:, k] * factor) for k in range(DEGREE + 1)]

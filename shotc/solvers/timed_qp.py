@@ -56,7 +56,7 @@ def time_law(
 ) -> TimeLaw:
     """Return the smoothest law through the places.
 
-    t : knots, seconds; places : (knot, s), the first and the last knot among them
+    t : shape (N + 1,), knots, seconds; places : (knot, s), the first and the last knot among them
     limits, last : what binds, and the iterate it was taken at; None for a law without limits
     """
     model = _Model(t, places)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
 from shotc.passes.verify.claims import slack
+from tests.support.few import examples
 from tests.support.sight_plans import at, claims, film, mission, through, unfilmed
 
 pytestmark = pytest.mark.slow
@@ -61,7 +62,7 @@ def pose_of(drawn: tuple) -> np.ndarray:
 
 
 @pytest.mark.timeout(240)
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(8, 20), deadline=None)
 @given(
     st.lists(POSE, min_size=2, max_size=3),
     st.lists(PLACE, min_size=2, max_size=4),

@@ -196,7 +196,7 @@ def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> M
 
 
 def cells_of(boards: Billboards, n: int) -> Array:
-    """Return the middles of all cells, (F n n, 3), metres of W."""
+    """Return the middles of all cells, shape (F n n, 3), metres of W."""
     sides = np.stack([boards.corner, boards.right, boards.up], axis=1)
     return np.asarray(cells(n).T @ sides).reshape(-1, 3)
 

@@ -18,7 +18,7 @@ _NEXT = [1, 2, 0]
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Return the scalar products over the last axis."""
+    """Return the scalar products (...) of vectors (..., D)."""
     return np.asarray(np.einsum("...d,...d->...", a, b))
 
 
@@ -116,7 +116,7 @@ class Halved:
 
 
 def halved(triangles: Array, longest: float) -> Halved:
-    """Cut triangles at the middle of their longest edge until no edge is longer, metres."""
+    """Cut triangles (T, 3, 3) at the middle of their longest edge until no edge is longer, metres."""
     done: list[Halved] = []
     rest, source = triangles, np.arange(len(triangles))
     while len(rest):

@@ -96,6 +96,7 @@ def _by_pyproj(code: int) -> System | TerrainFault:
 def utm_of_degrees(lat: Array, lon: Array, zone: int, north: bool) -> Both:
     """Return eastings and northings, metres (Krueger 1912, by Karney 2011, Eqs. 7 to 13, to n^4).
 
+    lat, lon : degrees, of one shape, which is that of both results
     Good to a few micrometres within a zone.
     """
     tau, away = np.tan(np.radians(lat)), np.radians(_turned(lon - _meridian(zone)))
@@ -111,7 +112,7 @@ def utm_of_degrees(lat: Array, lon: Array, zone: int, north: bool) -> Both:
 
 
 def degrees_of_utm(x: Array, y: Array, zone: int, north: bool) -> Both:
-    """Return latitudes and longitudes, degrees, of eastings and northings (as ``utm_of_degrees``)."""
+    """Return latitudes and longitudes, degrees, of eastings and northings of one shape."""
     xi = (y - (0.0 if north else _FALSE_NORTH)) / (_SCALE * _RADIUS)
     eta = (x - _FALSE_EAST) / (_SCALE * _RADIUS)
     xi, eta = _bent(xi, eta, _BETA, -1.0)

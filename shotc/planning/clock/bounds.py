@@ -52,7 +52,10 @@ def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]
 
 
 def at_rest(breaks: Array) -> Rows:
-    """Return the rows of a spline's first and second derivative at both ends, by mission time in seconds."""
+    """Return the rows of a spline's first and second derivative at both ends.
+
+    breaks : shape (P + 1,), mission times in seconds
+    """
     parts = []
     for order in (1, 2):
         rows = control_rows(breaks, order)
@@ -61,7 +64,10 @@ def at_rest(breaks: Array) -> Rows:
 
 
 def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
-    """Return the norms that a drone's motion keeps, at the control points of its derivatives."""
+    """Return the norms that a drone's motion keeps, at the control points of its derivatives.
+
+    breaks : shape (P + 1,), mission times in seconds
+    """
     cones = []
     for order, axes, bound in (
         (1, (0, 1), limits.speed),

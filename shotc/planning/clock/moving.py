@@ -100,7 +100,7 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
 
 
 def linearised(what: Moving, breaks: Array) -> LinearMotion:
-    """Linearise a motion on the pieces between breaks."""
+    """Linearise a motion on the pieces between breaks, shape (P + 1,), mission times in seconds."""
     share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
     times = breaks[:-1, None] + np.diff(breaks)[:, None] * share
     at = what.at(times.ravel()).reshape(*times.shape, 3)
@@ -141,7 +141,10 @@ def sides(motions: Sequence[LinearMotion], hulls: Array) -> HalfSpaces:
 
 
 def motion_rows(breaks: Array, planes: HalfSpaces, first: int) -> HalfSpaceRows:
-    """Return the half-spaces as rows of a programme; first : index of the first motion among the owners."""
+    """Return the half-spaces as rows of a programme.
+
+    breaks : shape (P + 1,); first : index of the first motion among the owners
+    """
     return rows_of(breaks, replace(planes, owner=first + planes.owner))
 
 

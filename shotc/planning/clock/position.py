@@ -277,7 +277,10 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
 def standing_by(
     motions: Sequence[Moving], breaks: Array, seconds: float
 ) -> tuple[tuple[LinearMotion, ...], tuple[LinearMotion, ...]]:
-    """Return what passes while the drone stands so long where a motion begins, and where it ends."""
+    """Return what passes while the drone stands so long where a motion begins, and where it ends.
+
+    breaks : shape (P + 1,), mission times of the motion, seconds
+    """
     begin, end = breaks[0], breaks[-1]
     windows = np.array([[begin - seconds, begin], [end, end + seconds]])
     before, after = (tuple(linearised(m, window) for m in motions) for window in windows)

@@ -117,6 +117,7 @@ class Surroundings:
 def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: bool = True) -> Surroundings:
     """Return what a drone of a path keeps clear of on pieces of mission time.
 
+    breaks : shape (P + 1,), seconds
     standing_too : whether what stands counts, or only what moves: a shot on a path is proved clear of what
         stands whatever its time
     """

@@ -75,7 +75,10 @@ class Task:
 
 
 def ideal_of(task: Task, times: Array) -> Array:
-    """Return where the camera would be: at its ideal in the film, on straight ways before and after it."""
+    """Return where the camera would be: at its ideal in the film, on straight ways before and after it.
+
+    times : shape (M,), mission time; result (M, 3)
+    """
     clock, (before, after) = task.clock, task.ways
     inside = np.clip(times, clock.start, clock.end)
     filmed = ideal_places(task.mission, task.shot, clock.start, inside)
@@ -110,7 +113,10 @@ def _watched(task: Task) -> Watched | None:
 
 
 def drawn_to(task: Task, times: Array) -> Array:
-    """Return where the camera is drawn to: its ideal, or its course where that is led to see the subject."""
+    """Return where the camera is drawn to: its ideal, or its course where that is led to see the subject.
+
+    times : shape (M,), mission time; result (M, 3)
+    """
     ideal, course, breaks = ideal_of(task, times), task.course, task.clock.breaks
     if course is None or not course.for_sight.any():
         return ideal

@@ -113,7 +113,8 @@ def keep_free(
 ) -> Kept:
     """Return what keeps a course out of others' pictures, and others out of its own.
 
-    span : of the film; course : places at times, about which all is linearised
+    span : of the film; breaks : shape (P + 1,), mission times
+    course : places (M, 3) at times (M,), about which all is linearised
     """
     middle = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * middle).ravel()
@@ -135,7 +136,10 @@ def keep_free(
 
 
 def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -> float:
-    """Return how far a drone on its way is out of others' pictures at worst, metres; negative inside."""
+    """Return how far a drone on its way is out of others' pictures at worst, metres; negative inside.
+
+    times : shape (M,), mission time; places : shape (M, 3)
+    """
     least = np.inf
     for watcher in visibility.watchers:
         films = (times > watcher.start) & (times < watcher.end)

@@ -172,7 +172,7 @@ def framing_spans(keyed: KeyedPath) -> tuple[FramingSpan, ...]:
 
 
 def smoother(x: Array) -> Array:
-    """Return the C2 step 10 x^3 - 15 x^4 + 6 x^5 from 0 to 1."""
+    """Return the C2 step 10 x^3 - 15 x^4 + 6 x^5 from 0 to 1, of the shape of x."""
     return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
 
 

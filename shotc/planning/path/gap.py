@@ -29,13 +29,19 @@ class Gap:
 
 
 def opening(space: FreeSpace, start: Array, end: Array) -> tuple[Owner, ...]:
-    """Return the owners each of which, taken away alone, leaves a way; the ground cannot be taken away."""
+    """Return the owners each of which, taken away alone, leaves a way; the ground cannot be taken away.
+
+    start, end : shape (3,)
+    """
     names = (name for name in space.owners if name != GROUND)
     return tuple(name for name in names if find_route(space.without(name), start, end) is not None)
 
 
 def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) -> float | None:
-    """Return the ground clearance, metres, rounded down, that leaves a way; None if none does."""
+    """Return the ground clearance, metres, rounded down, that leaves a way; None if none does.
+
+    start, end : shape (3,)
+    """
 
     def opens(clearance: float) -> bool:
         rules = mission.rules._replace(ground_clearance=clearance)
@@ -51,7 +57,10 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
 
 
 def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner, ...]) -> Gap | None:
-    """Return the narrowest place that closes the way and what would have to change; None if nothing fits."""
+    """Return the narrowest place that closes the way and what would have to change; None if nothing fits.
+
+    start, end : shape (3,)
+    """
     lent = _least_loan(space, start, end)
     if lent is None:
         return None

@@ -76,7 +76,7 @@ class TooNear:
 
 
 def straight_line(space: FreeSpace, start: Array, end: Array) -> Line | NoWay | TooNear:
-    """Return the way between two points that are not filmed."""
+    """Return the way between two points of shape (3,) that are not filmed."""
     for p in (start, end):
         near = breaches(space, p)
         if near:

@@ -38,7 +38,7 @@ class PadBlocked:
 
 
 def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | PadBlocked:
-    """Return the point over the pad where flight's rules hold and that is reached straight up.
+    """Return the point (3,) over the pad where flight's rules hold and that is reached straight up.
 
     It is the lowest from the customary height on, or failing that the lowest of all.
     """

@@ -47,7 +47,7 @@ ROUNDING_M = 1e-6  # metres
 def transit_curve(
     spaces: FreeSpaces, drone: Drone, a: Array, b: Array
 ) -> Piecewise | NoWay | TooNear | Stuck:
-    """Return the position curve from one place to another that are not the same."""
+    """Return the position curve from one place to another, shapes (3,), that are not the same."""
     near = straight_line(spaces.flight, a, b)
     if not isinstance(near, Line):
         return near

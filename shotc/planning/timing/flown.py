@@ -54,7 +54,7 @@ def usages(curve: Piecewise, limits: tuple[Axis, ...]) -> tuple[Usage, ...]:
 
 
 def needed_scale(usage: tuple[Usage, ...]) -> Array:
-    """Return the slowdown per piece that keeps every limit with a little to spare; may be below 1."""
+    """Return the slowdown of each piece (P,) that keeps every limit, a little to spare; may be below 1."""
     return np.asarray(np.max([u.slowdown for u in usage], axis=0) / SHARE)
 
 

@@ -61,7 +61,10 @@ class Samples:
 
 
 def sample(curve: Piecewise, grid: Array) -> Samples:
-    """Return the derivatives inside each cell; where a cell ends at a break, those of its own side."""
+    """Return the derivatives inside each cell; where a cell ends at a break, those of its own side.
+
+    grid : shape (N + 1,)
+    """
     middle = 0.5 * (grid[1:] + grid[:-1])
     s = np.stack([grid[:-1], middle, grid[1:]], axis=1)
     last = len(curve.ctrl) - 1
@@ -77,7 +80,7 @@ def sample(curve: Piecewise, grid: Array) -> Samples:
 
 
 def kinks(curve: Piecewise) -> Array:
-    """Return the breaks where the third derivative jumps: no cell may cross them."""
+    """Return the breaks, shape (K,), where the third derivative jumps: no cell may cross them."""
     third = curve.derivative(3).ctrl[:, :, :HFOV]
     jump = np.abs(third[1:, 0] - third[:-1, -1]).max(axis=1)
     return np.asarray(curve.breaks[1:-1][jump > KINK * max(float(np.abs(third).max()), 1e-12)])
@@ -131,7 +134,7 @@ def rough_profile(curve: Piecewise, s0: float, s1: float, limits: tuple[Axis, ..
 
 
 def evened(b: Array) -> Array:
-    """Return the guess without sharp tops, where the acceleration would change over at once; never higher."""
+    """Return the guess (N + 1,) without sharp tops, where the acceleration changes at once; never higher."""
     for _ in range(EVENINGS):
         b = np.concatenate([b[:1], np.minimum(b[1:-1], (b[:-2] + 2 * b[1:-1] + b[2:]) / 4), b[-1:]])
     return b
@@ -140,7 +143,7 @@ def evened(b: Array) -> Array:
 def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
     """Return gridpoints about even in time under the guess (s, b), with every kink and given node among them.
 
-    nodes : places that have to be gridpoints, any order, may lie outside
+    s, b : shape (M,); nodes : shape (K,), places that have to be gridpoints, any order, may lie outside
     """
     sd = np.sqrt(b)
     step = 2.0 * np.diff(s) / np.maximum(sd[1:] + sd[:-1], 1e-9)
@@ -167,6 +170,6 @@ def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
 
 
 def split_cells(grid: Array, which: NDArray[np.bool_]) -> Array:
-    """Return the grid with the chosen cells halved."""
+    """Return the grid, shape (N + 1,), with the chosen cells halved; which : shape (N,)."""
     middle = 0.5 * (grid[1:] + grid[:-1])
     return np.sort(np.concatenate([grid, middle[which]]))

@@ -80,6 +80,7 @@ class Profile:
 def profile_of(s: Array, b: Array, a: Array) -> Profile:
     """Return the profile with b = sdot^2 and a = sddot at s, both zero at the ends.
 
+    s, b, a : shape (N + 1,)
     Each cell takes as long as it does at a constant jerk; where the numbers fit one, the quintic of
     s(t) is that cubic.
     """

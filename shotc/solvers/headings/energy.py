@@ -90,7 +90,7 @@ def energy(at: Array, weight: float, pinned: tuple[float, float]) -> Energy:
 
 
 def cubic(at: Array, value: Array, slope: Array) -> Piecewise:
-    """Return the C1 cubic with values and slopes at its breaks, one channel."""
+    """Return the C1 cubic with values and slopes at its breaks, all of shape (N + 1,), one channel."""
     third = np.diff(at) / 3.0
     left, right = value[:-1], value[1:]
     ctrl = np.stack([left, left + third * slope[:-1], right - third * slope[1:], right], axis=1)

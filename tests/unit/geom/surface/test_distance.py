@@ -15,6 +15,7 @@ from shotc.geom.surface.distance import inf_distance
 from shotc.geom.surface.near import comes_within, nearest, within
 from shotc.geom.surface.tree import FAN, TooMany, search, surface_of
 from shotc.geom.surface.triangles import closest, halved, segment_distances
+from tests.support.few import examples
 from tests.support.surfaces import distances, grid, line, orbit, samples, some_curve, some_triangles
 
 GAP = 5e-7
@@ -30,7 +31,7 @@ def sphere(radius: float, depth: int = 4) -> np.ndarray:
 
 
 @pytest.mark.slow
-@settings(max_examples=300)
+@settings(max_examples=examples(80, 300))
 @given(seeds, st.integers(1, 40))
 def test_the_proven_distance_is_never_above_brute_force_and_within_a_millimetre(seed: int, count: int):
     random = np.random.default_rng(seed)

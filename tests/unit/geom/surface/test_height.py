@@ -13,6 +13,7 @@ from shotc.geom.pieces import Pieces, join, pieces
 from shotc.geom.surface.distance import SurfaceBound, inf_distance
 from shotc.geom.surface.ground import Ground, NoGround, ground_of, height_at, leaves
 from shotc.geom.surface.height import inf_height, sup_height
+from tests.support.few import examples
 from tests.support.surfaces import Grid, grid, line, samples
 
 GAP = 5e-7
@@ -42,7 +43,7 @@ def cliff(height: float = 40.0, size: int = 41) -> Grid:
 
 
 @pytest.mark.slow
-@settings(max_examples=300)
+@settings(max_examples=examples(80, 300))
 @given(seeds, st.integers(2, 14), st.integers(2, 14), st.sampled_from(["any", "column", "diagonal"]))
 def test_heights_enclose_every_sample_and_are_tight(seed: int, rows: int, columns: int, way: str):
     random = np.random.default_rng(seed)

@@ -14,6 +14,7 @@ from shotc.planning.free_space import Obstacle, blocked
 from shotc.planning.path.lines import Line, NoWay, straight_line
 from shotc.planning.path.route import find_route, length
 from shotc.planning.path.transit import smooth
+from tests.support.few import few
 from tests.support.mesh_spaces import CLEARANCE, space_of
 from tests.support.path_scenes import mission
 from tests.support.scenes import arch_wall, house, quad, some_scene
@@ -22,7 +23,7 @@ from tests.support.surfaces import distances, samples
 A, B = np.array([-12.0, 0.0, 5.0]), np.array([12.0, 0.0, 5.0])
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", few([1, 2, 3], [1]))
 def test_ways_through_villages_are_flown_clear_of_every_triangle(seed):
     scene = some_scene(np.random.default_rng(seed))
     space = space_of(scene.triangles)
