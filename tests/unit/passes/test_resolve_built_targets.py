@@ -159,6 +159,17 @@ def test_a_building_beyond_the_terrain_is_told(tmp_path):
     assert sorted(codes) == ["G037", "G048"]
 
 
+def test_on_terrain_it_stands_where_the_building_does(tmp_path):
+    rows = "".join(f"{x},{y},{0.1 * x + 20}\n" for y in (-200, 0, 200) for x in (-200, 0, 200))
+    (tmp_path / "dem.csv").write_text("x,y,z\n" + rows)
+    (tmp_path / "houses.geojson").write_bytes(VILLAGE)
+    read, _ = loaded(mission("{building: tower}", WORLD + "\n  terrain: {file: dem.csv}"), tmp_path)
+    made = lowered(read, KINDS, EMITTERS, PassContext().progress).mission
+    assert made.target("statue").foot == pytest.approx((-3, 0, 20 - 0.6), abs=1e-3)
+    (mesh,) = made.meshes
+    assert mesh.block(mesh.names.index("tower")).bottom == pytest.approx(20 - 0.6, abs=1e-3)
+
+
 def test_a_file_that_cannot_be_used_is_told_once(tmp_path):
     data = geojson(feature(L, name="barn", building="yes"))
     assert told(tmp_path, "{building: barn}", data).code == "G035"
