@@ -25,8 +25,8 @@ from shotc.planning.path.lines import PACE_M_S, SAME_PLACE_M
 STEP_M = 1.0  # metres of path between the places that are led, at least
 MOST = 80  # of such places between two keyframes
 FINER = 2  # times as many, at which curves are compared
-ABOUT_M = 1.0  # metres by which a target that a way is led for is larger than it is
-SMOOTHINGS = 2  # times that the places that draw a way are smoothed
+ABOUT_M = 1.5  # metres by which a target that a way is led for is larger than it is
+SMOOTHINGS = 6  # times that the places that draw a way are smoothed
 ROUNDS = 4  # curves that are drawn, each from the one before
 MOST_SHARE = 1 / 3  # of a target that may be hidden somewhere on a way that is not led
 LESS_SHARE = 0.9  # of the time for which a plain curve's targets are hidden, with which a led one serves

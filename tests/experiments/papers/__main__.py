@@ -11,15 +11,25 @@ from collections.abc import Callable
 from pathlib import Path
 
 from shotc import __version__, plugins
-from tests.experiments.papers import framing, lenses, page, retiming, solvers, tower
-from tests.experiments.papers.missions import missions
+from tests.experiments.papers import framing, houses, lenses, page, retiming, solvers, tower
+from tests.experiments.papers.missions import Draft, missions
 from tests.experiments.papers.report import Section, html, markdown, text
 from tests.support.multidrone_originals import ORIGINALS
 
 ROOT = Path(__file__).resolve().parents[3]
 OUT = ROOT / "out" / "papers"
 PAGE = ROOT / "shotc" / "docs" / "papers.md"
-PARTS = ("framing", "identification", "yaw", "retiming", "multidrone", "fleets", "viewpoint", "display")
+PARTS = (
+    "framing",
+    "houses",
+    "identification",
+    "yaw",
+    "retiming",
+    "multidrone",
+    "fleets",
+    "viewpoint",
+    "display",
+)
 MISSIONS = 60
 
 
@@ -45,12 +55,7 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
     conditions = tuple(name for name in framing.CONDITIONS if name in installed)
     found: list[Section] = []
     drafts = missions(count)
-    if "framing" in parts:
-        found.append(framing.section(drafts, conditions, say))
-        found.append(tower.section(conditions, say))
-        found.append(lenses.section(drafts, conditions, say))
-        if "ours" in installed:
-            found.append(solvers.section(drafts, say))
+    found += _films(parts, drafts, conditions, say)
     if "identification" in parts:
         from tests.experiments.papers import identification
 
@@ -79,6 +84,22 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
         from tests.experiments.papers import display
 
         found.append(display.section(say))
+    return found
+
+
+def _films(
+    parts: tuple[str, ...], drafts: list[Draft], conditions: tuple[str, ...], say: Callable[[str], None]
+) -> list[Section]:
+    """Run the parts of the framing missions that are asked for."""
+    found: list[Section] = []
+    if "framing" in parts:
+        found.append(framing.section(drafts, conditions, say))
+        found.append(tower.section(conditions, say))
+        found.append(lenses.section(drafts, conditions, say))
+        if "ours" in conditions:
+            found.append(solvers.section(drafts, say))
+    if "houses" in parts:
+        found.append(houses.section(drafts, conditions, say))
     return found
 
 

@@ -13,7 +13,7 @@ from shotc import plugins
 from shotc.diag.registry import has_errors
 from shotc.ir.passes import PassContext
 from shotc.ir.path import MovingLeg, PathIR
-from shotc.ir.trajectory import VerifiedIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.refine_path import RefinePath, Seat
 from shotc.passes.verify import Verify
@@ -77,20 +77,38 @@ def compare(
 
 def one(mission: str, condition: str, path: PathIR) -> Result:
     """Refine, time, verify and measure one mission under one condition."""
+    flown = fly(condition, path)
+    if isinstance(flown, tuple):
+        return Result(mission, condition, None, None, flown)
+    refiner = plugins.one("refiners", condition).plugin
+    return Result(mission, condition, flown.shown, _solved_again(refiner, path), ())
+
+
+@dataclass(frozen=True, eq=False)
+class Flown:
+    """One mission refined, timed and verified, and what its film shows."""
+
+    plan: VerifiedIR
+    flight: DroneTrajectory
+    shown: Shown
+
+
+def fly(condition: str, path: PathIR) -> Flown | tuple[str, ...]:
+    """Refine, time and verify one mission under one condition; codes of faults where that fails."""
     found = plugins.one("refiners", condition)
     assert found.plugin is not None
     seat = Seat(found.plugin, found.package, found.reference)
     done = run((RefinePath(seat), ParameterizeTime(), Verify()), path, PassContext())
     faults = tuple(d.code for d in done.diagnostics if has_errors([d]) or d.code == KEPT_CONVEX)
     if not isinstance(done.value, VerifiedIR) or faults:
-        return Result(mission, condition, None, None, faults)
+        return faults
     refined, trajectory = done.reports[0].output, done.value.trajectory
     paths = (*refined.drones, *refined.timed)
     (leg,) = (leg for path in paths for leg in path.legs if isinstance(leg, MovingLeg) and leg.shot == FILMED)
     (placed,) = (placed for placed in trajectory.keyframes.shots if placed.shot.id == FILMED)
     (flight,) = (flight for flight in trajectory.drones if flight.drone == placed.shot.drone)
     seen = shown(trajectory.keyframes.mission, placed.keyframes, leg, flight)
-    return Result(mission, condition, seen, _solved_again(found.plugin, path), ())
+    return Flown(done.value, flight, seen)
 
 
 def _solved_again(refiner: object, path: PathIR) -> Solve | None:
