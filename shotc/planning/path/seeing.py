@@ -6,7 +6,7 @@ that see more draw a second curve, which is taken where less is hidden from it. 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -16,8 +16,12 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Cylinder, Solid
-from shotc.ir.keyframes import PlacedKeyframe
+from shotc.geom.vec import Vec3
+from shotc.ir.allow import hidden_on_purpose
+from shotc.ir.hiding_surfaces import surfaces_before
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Limits
+from shotc.ir.mission import MissionIR, Shot
 from shotc.planning.free_space import MARGIN_M, FreeSpace, breaches
 from shotc.planning.layered import Watched, led_round
 from shotc.planning.path.lines import PACE_M_S, SAME_PLACE_M
@@ -126,6 +130,29 @@ class FilmedCurve:
         led = places + _smooth(course.places - places)
         free = np.array([not breaches(space.lent(-MARGIN_M), p) for p in led])
         return np.asarray(led[free & ~held])
+
+
+def watched_at_keyframes(mission: MissionIR, placed: PlacedShot) -> Watched | None:
+    """Return whom the keyframes of a shot are to see; None where nothing of triangles may hide it."""
+    keyframes, names = placed.keyframes, [k.target for k in placed.keyframes]
+    name = next((name for name in names if name is not None), None)
+    if name is None or not is_led(mission, placed.shot):
+        return None
+    places = [k.at if k.target is None else mission.target(k.target).centre for k in keyframes]
+    filmed = np.array([k.target is not None for k in keyframes])
+    return replace(watched_at(mission, name, places), filmed=filmed)
+
+
+def is_led(mission: MissionIR, shot: Shot) -> bool:
+    """Tell whether a shot is led to where its targets are not hidden by anything of triangles."""
+    return bool(mission.meshes or mission.terrain) and not hidden_on_purpose(shot)
+
+
+def watched_at(mission: MissionIR, name: str, places: Sequence[Vec3]) -> Watched:
+    """Return a target as it is watched at places, metres of W."""
+    target, surfaces = mission.target(name), tuple(s for _, s in surfaces_before(mission, name))
+    filmed = np.ones(len(places), dtype=bool)
+    return Watched(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -11,21 +10,19 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
 from shotc.geom.sampling import worst_of_runs
-from shotc.ir.allow import hidden_on_purpose
-from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.limits import Vec3
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import SIGHT, FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
 from shotc.ir.tolerances import BOW_SHARE
 from shotc.planning.free_space import FreeSpace, breaches
-from shotc.planning.layered import Watched
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, line_beside, shot_line
 from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, Solved, Stretch, solve_stretch
-from shotc.planning.path.seeing import ROUNDS, FilmedCurve
+from shotc.planning.path.seeing import ROUNDS, FilmedCurve, is_led, watched_at, watched_at_keyframes
 from shotc.planning.path.swings import Swing, worst_swing
+from shotc.planning.timing.deadlines import has_times
+from shotc.planning.timing.estimate import lateness
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 
@@ -76,7 +73,7 @@ def shot_curve(
     mission: MissionIR, drone: Drone, space: FreeSpace, placed: PlacedShot, headings: str = DEFAULT
 ) -> PlannedShot | Failure:
     """Return a shot's geometry, or what stands in its way; ``headings`` is how turns are chosen."""
-    line = shot_line(space, placed.keyframes, _watched(mission, placed))
+    line = shot_line(space, placed.keyframes, watched_at_keyframes(mission, placed))
     if not isinstance(line, Line):
         return line
     if line.s[-1] <= 0.0:
@@ -84,7 +81,27 @@ def shot_curve(
     position = _position(space, drone, placed, line)
     if isinstance(position, Stuck):
         return position
-    line, (curve, solved) = _led_to_see(mission, (drone, space), placed, line, position)
+    drawn = _Drawn(placed, line, position, headings)
+    led = _led_to_see(mission, (drone, space), placed, line, position)
+    if led is None:
+        return _along(mission, drone, space, drawn)
+    plain = _along(mission, drone, space, drawn)
+    seeing = _along(mission, drone, space, drawn._replace(line=led[0], position=led[1]))
+    return seeing if _serves(drone, plain, seeing) else plain
+
+
+class _Drawn(NamedTuple):
+    """A shot's line and its curve; headings : how turns are chosen."""
+
+    placed: PlacedShot
+    line: Line
+    position: tuple[Piecewise, list[Solved]]
+    headings: str
+
+
+def _along(mission: MissionIR, drone: Drone, space: FreeSpace, drawn: _Drawn) -> PlannedShot | AngleFailure:
+    """Return a shot along a curve: its camera, its body, and its marks."""
+    placed, line, (curve, solved), headings = drawn
     keyed = replace(_keyed(placed, line, curve), pace=placed.shot.pace, headings=headings)
     camera = camera_line(mission, drone, keyed)
     if camera.status not in {Status.SOLVED, Status.INACCURATE}:
@@ -117,6 +134,15 @@ def shot_curve(
         swing=worst_swing(mission, keyed, camera),
         stats=_stats(placed, solved, camera, whole),
     )
+
+
+def _serves(drone: Drone, plain: PlannedShot | AngleFailure, led: PlannedShot | AngleFailure) -> bool:
+    """Tell whether a shot that is led aside is in time, and its camera shows what the plain one's does."""
+    if not isinstance(led, PlannedShot) or not isinstance(plain, PlannedShot):
+        return isinstance(led, PlannedShot)
+    legs = [one.leg for one in (led, plain)]
+    in_time = not has_times(legs[0]) or lateness(drone, legs[0]) <= lateness(drone, legs[1])
+    return in_time and len(led.cuts) <= len(plain.cuts)
 
 
 def stack(*curves: Piecewise) -> Piecewise:
@@ -183,20 +209,24 @@ def _led_to_see(
     placed: PlacedShot,
     line: Line,
     position: tuple[Piecewise, list[Solved]],
-) -> tuple[Line, tuple[Piecewise, list[Solved]]]:
-    """Return a line through placed keyframes and its curve, led to where less of their targets is hidden."""
+) -> tuple[Line, tuple[Piecewise, list[Solved]]] | None:
+    """Return a line through placed keyframes and its curve, led to where less of their targets is hidden.
+
+    None where that is not asked for, or not found; line, position : those that are not led
+    """
     drone, space = who
     named = dict.fromkeys(k.target for k in placed.keyframes if k.target is not None)
     # The points of a path that its author drew are the way itself.
-    if placed.shot.kind != "keyframes" or not _is_led(mission, placed.shot):
-        return line, position
-    watched = {name: _at(mission, name, [mission.target(name).centre]) for name in named}
+    if placed.shot.kind != "keyframes" or not is_led(mission, placed.shot):
+        return None
+    watched = {name: watched_at(mission, name, [mission.target(name).centre]) for name in named}
 
     def filmed(on: Line, curve: Piecewise) -> FilmedCurve:
         at = on.s[[k >= 0 for k in on.of]]
         return FilmedCurve(placed.keyframes, at, curve, watched, drone.limits, placed.shot.pace)
 
     plain = now = best = filmed(line, position[0])
+    led: tuple[Line, tuple[Piecewise, list[Solved]]] | None = None
     for _ in range(ROUNDS):
         aside = now.beside(space)
         beside = line_beside(space, placed.keyframes, aside) if any(map(len, aside)) else None
@@ -205,8 +235,8 @@ def _led_to_see(
             break
         now = filmed(beside, found[0])
         if now.serves(plain) and now.seconds[1] < best.seconds[1]:
-            best, line, position = now, beside, found
-    return line, position
+            best, led = now, (beside, found)
+    return led
 
 
 def _sections(line: Line) -> list[tuple[int, int]]:
@@ -343,29 +373,6 @@ def _bowed(keyed: KeyedPath, points: Array, k: int) -> _Away:
 def _cause(space: FreeSpace, point: Array, otherwise: str) -> str:
     near = breaches(space, point)
     return str(near[0].owner) if near else otherwise
-
-
-def _watched(mission: MissionIR, placed: PlacedShot) -> Watched | None:
-    """Return whom the keyframes of a shot are to see; None where nothing of triangles may hide it."""
-    keyframes, names = placed.keyframes, [k.target for k in placed.keyframes]
-    name = next((name for name in names if name is not None), None)
-    if name is None or not _is_led(mission, placed.shot):
-        return None
-    places = [k.at if k.target is None else mission.target(k.target).centre for k in keyframes]
-    filmed = np.array([k.target is not None for k in keyframes])
-    return replace(_at(mission, name, places), filmed=filmed)
-
-
-def _is_led(mission: MissionIR, shot: Shot) -> bool:
-    """Tell whether a shot is led to where its targets are not hidden by anything of triangles."""
-    return bool(mission.meshes or mission.terrain) and not hidden_on_purpose(shot)
-
-
-def _at(mission: MissionIR, name: str, places: Sequence[Vec3]) -> Watched:
-    """Return a target as it is watched at places, metres of W."""
-    target, surfaces = mission.target(name), tuple(s for _, s in surfaces_before(mission, name))
-    filmed = np.ones(len(places), dtype=bool)
-    return Watched(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
 
 
 def _stats(

@@ -9,6 +9,7 @@ from shotc.geom.shapes import CylinderShape
 from shotc.ir.allow import HIDDEN
 from shotc.ir.coverage import coverage
 from shotc.ir.keyframes import PlacedShot
+from shotc.ir.limits import Timing
 from shotc.ir.mission import MissionIR, Promise
 from shotc.ir.path import MovingLeg
 from shotc.ir.target import Target
@@ -85,6 +86,13 @@ def test_a_way_stays_as_it_is_where_its_target_may_be_hidden(plain, meant):
     placed = pair()
     placed = placed._replace(shot=replace(placed.shot, **meant))
     assert same(film(with_meshes(square(), TREE), placed), plain)
+
+
+def test_a_way_stays_as_it_is_where_the_time_asked_for_leaves_none_to_go_aside():
+    placed = shot(pair().keyframes, timing=Timing(duration=7.0))
+    assert same(film(with_meshes(square(), TREE), placed), film(square(), placed))
+    free = shot(pair().keyframes, timing=Timing(duration=30.0))
+    assert not same(film(with_meshes(square(), TREE), free), film(square(), free))
 
 
 def test_a_way_from_one_target_to_another_stays_as_it_is():
