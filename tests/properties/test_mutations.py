@@ -21,6 +21,7 @@ from shotc.diag.registry import has_errors, registry, severity_of
 from shotc.diag.render import json as json_report
 from shotc.diag.render import text as text_report
 from tests.support.damaged_missions import bent_trees, damaged_bytes, damaged_trees
+from tests.support.few import examples
 
 pytestmark = pytest.mark.slow
 
@@ -70,7 +71,9 @@ def test_the_command_accepts_or_rejects_and_writes_json(damaged: tuple[bytes, Pa
 
 
 @pytest.mark.timeout(240)
-@settings(max_examples=6, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+@settings(
+    max_examples=examples(3, 6), suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]
+)
 @given(bent_trees())
 def test_a_bent_mission_is_planned_or_refused_with_a_reason(bent: tuple[bytes, Path]) -> None:
     data, folder = bent
